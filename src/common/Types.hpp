@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The numeric types shared by all rooms. Dense and sparse storage is Eigen's; solvers turn it into Tpetra
+/// objects behind one .cpp each (src/linalg), so that Trilinos headers stay out of the physics.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace tooljoint {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+using Triplet = Eigen::Triplet<double, int>;
+using Triplets = std::vector<Triplet>;
+
+}  // namespace tooljoint

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Description of one deck list: its parameters with type, unit, range, default and a sentence, and its sublists.
+/// The strict reader, the manual (`tooljoint doc`) and the templates all walk these objects, so they cannot drift apart.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tooljoint::deck {
+
+enum class Kind { Real, Integer, Boolean, Text, Choice, RealArray, IntegerArray, TextArray };
+
+/// Interval of allowed numbers; an open end excludes the bound itself.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool openMin = false;
+  bool openMax = false;
+  static Range any() { return {}; }
+  static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
+  static Range nonNegative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range between(double lo, double hi) { return {lo, hi, false, false}; }
+  static Range atLeast(double lo) { return {lo, std::numeric_limits<double>::infinity(), false, false}; }
+};
+
+/// What stands in the tree when the deck gives nothing.
+struct Required {};  ///< an error when absent
+struct Optional {};  ///< absent stays absent: ask with isParameter()
+using Default = std::variant<Required, Optional, bool, int, double, std::string, std::vector<int>, std::vector<double>,
+                             std::vector<std::string>>;
+
+struct ParameterSpec {
+  std::string name;
+  Kind kind = Kind::Real;
+  std::string unit;  ///< SI unit of a Real or RealArray, "" when it has none; also decides which unit strings are accepted
+  Default value = Required{};
+  Range range;                       ///< numbers, and every entry of number arrays
+  std::vector<std::string> choices;  ///< Choice, and every entry of a TextArray when not empty
+  std::string doc;                   ///< one sentence
+};
+
+/// Builder and description of a list. Order of declaration is the order of the manual.
+class ListSpec {
+ public:
+  ListSpec() = default;
+  ListSpec(std::string name, std::string doc) : name_(std::move(name)), doc_(std::move(doc)) {}
+
+  ListSpec& real(std::string name, std::string unit, Default value, Range range, std::string doc);
+  ListSpec& integer(std::string name, Default value, Range range, std::string doc);
+  ListSpec& boolean(std::string name, Default value, std::string doc);
+  ListSpec& text(std::string name, Default value, std::string doc);
+  ListSpec& choice(std::string name, Default value, std::vector<std::string> choices, std::string doc);
+  ListSpec& realArray(std::string name, std::string unit, Default value, Range range, std::string doc);
+  ListSpec& integerArray(std::string name, Default value, Range range, std::string doc);
+  ListSpec& textArray(std::string name, Default value, std::vector<std::string> choices, std::string doc);
+
+  /// A sublist that may be absent; an absent list is not built, stored or evaluated.
+  ListSpec& list(ListSpec sublist);
+  /// A sublist that must be there.
+  ListSpec& requiredList(ListSpec sublist);
+  /// Sublists whose names the user chooses, all described by `pattern` (component definitions, depth intervals, ...).
+  ListSpec& namedLists(ListSpec pattern);
+  /// A sublist handed on to a Trilinos package as it is (names and types are checked there).
+  ListSpec& passThrough(std::string name, std::string doc);
+  /// Add everything `other` declares (a registered variant extends the common parameters).
+  ListSpec& merge(const ListSpec& other);
+
+  const std::string& name() const { return name_; }
+  const std::string& doc() const { return doc_; }
+  const std::vector<ParameterSpec>& parameters() const { return parameters_; }
+  const std::vector<ListSpec>& lists() const { return lists_; }
+  const ListSpec* pattern() const { return pattern_.empty() ? nullptr : &pattern_.front(); }
+  bool required() const { return required_; }
+  bool passesThrough() const { return passThrough_; }
+  const ParameterSpec* findParameter(const std::string& name) const;
+  const ListSpec* findList(const std::string& name) const;  ///< declared sublist, or the pattern if there is one
+
+ private:
+  std::string name_;
+  std::string doc_;
+  std::vector<ParameterSpec> parameters_;
+  std::vector<ListSpec> lists_;
+  std::vector<ListSpec> pattern_;  ///< none or one
+  bool required_ = false;
+  bool passThrough_ = false;
+};
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// r(x) = 0 with an analytic Jacobian, as handed to the NOX drivers of src/statics.
+#pragma once
+
+#include <string>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::model {
+
+/// A square nonlinear problem. Implementations are evaluated on every rank alike.
+class NonlinearProblem {
+ public:
+  virtual ~NonlinearProblem() = default;
+  virtual int size() const = 0;
+  /// r = residual(x); r has size() rows.
+  virtual void residual(const Vector& x, Vector& r) const = 0;
+  /// J = dr/dx. The pattern may not change between calls.
+  virtual void jacobian(const Vector& x, Sparse& J) const = 0;
+  /// Positive weight per row that makes forces and moments comparable: solvers measure |scale .* r|.
+  virtual Vector residualScale() const = 0;
+  /// Largest factor in (0, 1] by which the step dx may be taken from x (a cap on lateral motion, say). 1 by default.
+  virtual double stepLimit(const Vector& /*x*/, const Vector& /*dx*/) const { return 1.0; }
+  /// Name of an unknown for messages ("theta_z of node 17").
+  virtual std::string unknownName(int i) const = 0;
+};
+
+}  // namespace tooljoint::model

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A named scalar function of time that multiplies a constant matrix or load vector.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace tooljoint::model {
+
+/// Named scalar law of time. Two laws with one name are the same law: coupling merges them by name.
+struct ScalarLaw {
+  std::string name;                     ///< "1", "Omega", "sqrt|Omega|", "dOmega/dt", ...
+  std::function<double(double)> value;  ///< value at time t [s]
+
+  /// The law that is 1 at all times; every model has it at index 0.
+  static ScalarLaw one() {
+    return {"1", [](double) { return 1.0; }};
+  }
+};
+
+}  // namespace tooljoint::model
