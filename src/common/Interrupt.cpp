@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/Interrupt.hpp"
+
+#include <csignal>
+
+namespace tooljoint {
+namespace {
+
+volatile std::sig_atomic_t requested_ = 0;
+
+extern "C" void onSignal(int number) {
+  if (requested_ != 0 && number == SIGINT) {
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+    return;
+  }
+  requested_ = 1;
+}
+
+}  // namespace
+
+void installInterruptHandlers() {
+  struct sigaction action = {};
+  action.sa_handler = onSignal;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interruptRequested() { return requested_ != 0; }
+
+void requestInterrupt(bool requested) { requested_ = requested ? 1 : 0; }
+
+}  // namespace tooljoint

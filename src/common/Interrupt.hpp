@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// SIGINT and SIGTERM set a flag that loops look at each step, so that an interrupted run closes its files.
+/// (Open MPI turns Ctrl-C into SIGTERM, and SIGKILL a second later: react within half a second.)
+#pragma once
+
+namespace tooljoint {
+
+/// Install handlers for SIGINT and SIGTERM; call it after MPI_Init. A second SIGINT ends the program at once.
+void installInterruptHandlers();
+
+/// True once a signal has come. Local to this rank.
+bool interruptRequested();
+
+/// Set or clear the flag as a signal would (tests, embedding programs).
+void requestInterrupt(bool requested = true);
+
+}  // namespace tooljoint

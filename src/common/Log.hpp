@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a run says while it works: plain lines on rank 0 only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tooljoint::log {
+
+/// Suppress info() lines; warnings are still printed and collected.
+void setQuiet(bool quiet);
+bool quiet();
+
+/// One line on standard output, rank 0 only. Not collective: any rank may call it, only rank 0 prints.
+void info(const std::string& line);
+
+/// "warning: line" on standard error, rank 0 only. Collected on every rank that calls it, for the summary; a sentence
+/// that was said before is neither printed nor collected again.
+void warn(const std::string& line);
+
+/// The distinct warnings of this rank so far, in the order they came.
+const std::vector<std::string>& warnings();
+void clearWarnings();
+
+}  // namespace tooljoint::log

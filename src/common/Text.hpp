@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Small text helpers: did-you-mean, numbers as text, splitting and joining.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tooljoint {
+
+/// Edit distance (insertions, deletions, substitutions, swaps of neighbours), case matters.
+std::size_t editDistance(std::string_view a, std::string_view b);
+
+/// The candidate a person most probably meant by `name`, or "" when none is close. Differences of case, blanks, "_" and "-"
+/// weigh little; of equal ones the first wins.
+std::string closest(std::string_view name, const std::vector<std::string>& candidates);
+
+/// Shortest text that reads back as the same double ("0.1", "2.1e+11"); "inf", "-inf", "nan" for the others.
+std::string formatNumber(double value);
+std::string formatNumber(int value);
+
+/// Without leading and trailing white space.
+std::string trim(std::string_view text);
+std::string lower(std::string_view text);
+std::vector<std::string> split(std::string_view text, char separator);
+std::string join(const std::vector<std::string>& parts, const std::string& separator);
+
+/// `"a", "b", "c"`
+std::string quotedList(const std::vector<std::string>& parts);
+
+}  // namespace tooljoint

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/Version.hpp"
+
+#include <Trilinos_version.h>
+#include <hdf5.h>
+#include <mpi.h>
+
+#include <array>
+
+#include "common/Text.hpp"
+
+// The build defines both for this one file.
+#ifndef TOOLJOINT_VERSION
+#define TOOLJOINT_VERSION "0.1.0"
+#endif
+#ifndef TOOLJOINT_GIT_HASH
+#define TOOLJOINT_GIT_HASH "unknown"
+#endif
+
+namespace tooljoint {
+
+std::string programVersion() { return TOOLJOINT_VERSION; }
+
+std::string gitHash() { return TOOLJOINT_GIT_HASH; }
+
+std::string trilinosVersion() {
+  // TRILINOS_MAJOR_MINOR_VERSION is xxyyzz, read as one decimal number.
+  const int number = TRILINOS_MAJOR_MINOR_VERSION;
+  return std::to_string(number / 10000) + "." + std::to_string(number / 100 % 100) + "." + std::to_string(number % 100);
+}
+
+std::string mpiVersion() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string whole(text.data(), static_cast<std::size_t>(length));
+  // Open MPI: "Open MPI v4.1.4, package: ..., ident: ..."; others give several lines.
+  return trim(whole.substr(0, whole.find_first_of(",\n")));
+}
+
+std::string hdf5Version() {
+  return std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
+}
+
+std::string versionText() {
+  return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " + trilinosVersion() + "\nMPI       " + mpiVersion() +
+         "\nHDF5      " + hdf5Version() + "\n";
+}
+
+}  // namespace tooljoint
