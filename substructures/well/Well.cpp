@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/well/Well.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace tooljoint::well {
+
+Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius, std::vector<BoreInterval> intervals)
+    : trajectory_(std::move(trajectory)), boreRadius_(boreRadius), intervals_(std::move(intervals)) {
+  std::sort(intervals_.begin(), intervals_.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    const BoreInterval& now = intervals_[i];
+    std::ostringstream text;
+    if (!(now.to > now.from)) text << "The bore interval \"" << now.name << "\" ends at " << now.to << " m, above its start at " << now.from << " m.";
+    else if (!(now.radius > 0.0)) text << "The bore interval \"" << now.name << "\" has the radius " << now.radius << " m; it must be above 0.";
+    else if (i > 0 && now.from < intervals_[i - 1].to - 1e-9)
+      text << "The bore intervals \"" << intervals_[i - 1].name << "\" and \"" << now.name << "\" overlap between " << now.from
+           << " m and " << std::min(now.to, intervals_[i - 1].to) << " m.";
+    if (!text.str().empty()) throw DeckError(text.str());
+  }
+}
+
+double Well::boreRadius(double s) const {
+  // an interval is closed and 1e-9 m wider, so that a node on its end sees both neighbours
+  const double slack = 1e-9;
+  double inside = std::numeric_limits<double>::infinity();
+  bool covered = false;  // an interval reaches over s on both sides
+  double reach = -std::numeric_limits<double>::infinity();
+  for (const BoreInterval& interval : intervals_) {
+    if (interval.from - slack > s) break;
+    if (interval.to + slack < s) continue;
+    inside = std::min(inside, interval.radius);
+    if (interval.from < s - slack && interval.to > s + slack) covered = true;
+    if (std::abs(interval.from - s) <= slack && std::abs(reach - s) <= slack) covered = true;
+    reach = interval.to;
+  }
+  return covered ? inside : std::min(inside, boreRadius_);
+}
+
+double Well::inclination(double s) const {
+  const Vector3 tangent = trajectory_->at(s).tangent;
+  return std::atan2(std::hypot(tangent.x(), tangent.y()), tangent.z());
+}
+
+deck::ListSpec parameters() {
+  deck::ListSpec spec("Well", "The hole: centre line and bore radius.");
+  const auto& registry = TrajectoryRegistry::instance();
+  spec.choice("Trajectory", deck::Required{}, registry.names(), "Shape of the centre line; its parameters stand in the sublist of that name.");
+  spec.real("Bore Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole outside the intervals of the list Bore.");
+  for (const auto& [name, entry] : registry.entries()) spec.list(entry.parameters);
+  spec.list(deck::ListSpec("Bore", "Stretches of the hole with their own radius; where two meet the smaller radius counts.")
+                .namedLists(deck::ListSpec("Interval", "A stretch of the hole.")
+                                .real("From", "m", deck::Required{}, deck::Range::nonNegative(), "Measured depth of its upper end.")
+                                .real("To", "m", deck::Required{}, deck::Range::positive(), "Measured depth of its lower end.")
+                                .real("Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
+  return spec;
+}
+
+Well readWell(const Teuchos::ParameterList& list, const std::string& folder) {
+  const auto& name = list.get<std::string>("Trajectory");
+  if (!list.isSublist(name))
+    throw DeckError("The trajectory is \"" + name + "\", but the list Well has no sublist \"" + name + "\" with its parameters.");
+  std::shared_ptr<const Trajectory> trajectory = TrajectoryRegistry::instance().make(name, list.sublist(name), folder);
+  std::vector<BoreInterval> intervals;
+  if (list.isSublist("Bore")) {
+    const Teuchos::ParameterList& bore = list.sublist("Bore");
+    for (auto it = bore.begin(); it != bore.end(); ++it) {
+      const std::string& key = bore.name(it);
+      const Teuchos::ParameterList& interval = bore.sublist(key);
+      intervals.push_back({key, interval.get<double>("From"), interval.get<double>("To"), interval.get<double>("Radius")});
+    }
+  }
+  return Well(std::move(trajectory), list.get<double>("Bore Radius"), std::move(intervals));
+}
+
+}  // namespace tooljoint::well
