@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The string at rest in the well: displacements, contact, element forces, and how well the result balances.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "substructures/beam/Element.hpp"
+
+namespace tooljoint::equilibrium {
+
+/// One solve of the recipe that led to the state.
+struct StageReport {
+  std::string name;
+  int iterations = 0;
+  double residual = 0.0;
+};
+
+struct StaticReport {
+  bool converged = false;
+  int iterations = 0;     ///< Newton iterations of all stages
+  double residual = 0.0;  ///< scaled residual norm of the last stage
+  std::vector<StageReport> stages;
+};
+
+/// Solution of (K_pa + K_gpo(D)) D = F_s + F_cs(D) + R_ipa (Nguyen et al. 2020, equation 19).
+struct StaticState {
+  Vector displacement;     ///< D_s, 6 per node, nodal frames [m, rad]
+  Vector normalForce;      ///< K_c(G) G per node, positive in contact, 0 where there is no contact node [N]
+  Vector tangentialForce;  ///< friction force along the direction of rotation per node, negative against Omega > 0 [N]
+  Vector frictionTorque;   ///< per node about z [N m]
+  Vector gap;              ///< G per node, positive in contact; NaN-free: -infinity where there is no contact node [m]
+  Vector axialForce;       ///< F_apo per element, element frames, equation (20) [N]
+  Vector torque;           ///< T_apo per element [N m]
+  /// K_gpo(D_s) of each element in nodal frames; zero matrices when geometric stiffness is off.
+  std::vector<beam::Matrix12> geometricStiffness;
+
+  int contactNodes = 0;        ///< laterally free nodes with G > 0
+  int compressedElements = 0;  ///< elements with F_apo < 0
+  double topAxialForce = 0.0;  ///< F_apo of the first element [N]
+  double lastElementAxialForce = 0.0;
+  double lastElementTorque = 0.0;
+  double maxNormalForce = 0.0;
+  int maxNormalForceNode = 0;  ///< 1-based, 0 when nothing touches
+  double totalNormalForce = 0.0;
+  double topTorque = 0.0;            ///< T_apo of the first element [N m]
+  double appliedTorque = 0.0;        ///< sum of the theta_z entries of F_s below the first node (TOB, usually) [N m]
+  double totalFrictionTorque = 0.0;  ///< [N m]
+  /// topTorque - appliedTorque - totalFrictionTorque [N m]: zero for a shaft that turns freely about its curved axis.
+  double torqueBalanceDefect = 0.0;
+  StaticReport report;
+};
+
+}  // namespace tooljoint::equilibrium

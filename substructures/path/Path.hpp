@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Bends the straight string into the well (Nguyen et al. 2020, section 3.1) with corotational beams.
+#pragma once
+
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "model/NonlinearSolve.hpp"
+#include "substructures/beam/Section.hpp"
+#include "substructures/path/PathState.hpp"
+#include "substructures/well/Trajectory.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::path {
+
+/// The string as the path sees it: elements from the surface down.
+struct PathInput {
+  std::vector<beam::Section> sections;           ///< per element
+  std::vector<double> lengths;                   ///< l0 per element [m]
+  const well::Trajectory* trajectory = nullptr;  ///< must outlive the call
+};
+
+enum class Mode { CentreLine, ImposedNodes };
+enum class Prestress { AxialAndTorque, FullTangent };
+enum class Imposition { Elimination, Penalty };
+
+/// The deck's `Path` list as a plain value.
+struct PathOptions {
+  Mode mode = Mode::CentreLine;
+  Prestress prestress = Prestress::FullTangent;
+  int increments = 10;     ///< of `Imposed nodes`
+  int nodeCount = 9;       ///< imposed nodes, equally spaced in arc length, both ends included, when `nodes` is empty
+  std::vector<int> nodes;  ///< imposed nodes, 1-based, increasing
+  Imposition imposition = Imposition::Elimination;
+  double penaltyFactor = 1e6;  ///< times the largest stiffness entry, equation (13)
+  double tolerance = 1e-9;     ///< on the scaled residual
+  int maxIterations = 50;      ///< per load step
+};
+
+/// Description of the deck list `Path`.
+deck::ListSpec parameters();
+
+/// Reads a validated `Path` list.
+PathOptions optionsFrom(const Teuchos::ParameterList& path);
+
+/// The path state. Throws ConvergenceError when a load step fails even after it was halved repeatedly, and ModelError
+/// for an empty string or imposed nodes that do not exist.
+PathState computePath(const PathInput& input, const PathOptions& options, const model::NonlinearSolver& solve);
+PathState computePath(const PathInput& input, const Teuchos::ParameterList& path, const model::NonlinearSolver& solve);
+
+}  // namespace tooljoint::path
