@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The spellings of Trilinos 13.2 that newer versions changed, and the one set of template arguments this build of
+/// Trilinos was instantiated for (double / int / long long / Serial). A port to another Trilinos edits this file.
+#pragma once
+
+#include <Teuchos_DefaultSerialComm.hpp>
+#include <Teuchos_RCP.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Map.hpp>
+#include <Tpetra_MultiVector.hpp>
+#include <Tpetra_Operator.hpp>
+#include <Tpetra_Vector.hpp>
+
+namespace tooljoint::linalg::tpetra {
+
+using Map = Tpetra::Map<>;
+using LocalOrdinal = Map::local_ordinal_type;
+using GlobalOrdinal = Map::global_ordinal_type;
+using Node = Map::node_type;
+using Operator = Tpetra::Operator<double, LocalOrdinal, GlobalOrdinal, Node>;
+using CrsMatrix = Tpetra::CrsMatrix<double, LocalOrdinal, GlobalOrdinal, Node>;
+using MultiVector = Tpetra::MultiVector<double, LocalOrdinal, GlobalOrdinal, Node>;
+using Vector = Tpetra::Vector<double, LocalOrdinal, GlobalOrdinal, Node>;
+
+/// Rows stored on this rank (13.2: getNodeNumElements; 14 and later: getLocalNumElements).
+inline std::size_t localSize(const Map& map) { return map.getNodeNumElements(); }
+
+/// Host access to a multivector; the view must be gone before anybody else touches the data.
+inline auto readHost(const MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::ReadOnly); }
+inline auto overwriteHost(MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::OverwriteAll); }
+
+}  // namespace tooljoint::linalg::tpetra
