@@ -68,6 +68,8 @@ class ListSpec {
   ListSpec& passThrough(std::string name, std::string doc);
   /// Add everything `other` declares (a registered variant extends the common parameters).
   ListSpec& merge(const ListSpec& other);
+  /// The same list under another name (a variant's parameters, under the variant's name).
+  ListSpec named(std::string name) const;
 
   const std::string& name() const { return name_; }
   const std::string& doc() const { return doc_; }
@@ -78,6 +80,10 @@ class ListSpec {
   bool passesThrough() const { return passThrough_; }
   const ParameterSpec* findParameter(const std::string& name) const;
   const ListSpec* findList(const std::string& name) const;  ///< declared sublist, or the pattern if there is one
+
+  /// Faults of the description itself, for developers: names declared twice, defaults of another type, outside the range or not
+  /// among the choices, parameters without a sentence. Empty when all is well; Deck::read refuses a description with faults.
+  std::vector<std::string> inconsistencies() const;
 
  private:
   std::string name_;
