@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The interface of a reduction basis. A variant is one file that adds itself to deck::Registry<Basis, const Teuchos::ParameterList&>.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/Registry.hpp"
+#include "model/Substructure.hpp"
+#include "reduction/BasisReport.hpp"
+#include "reduction/ModeChoice.hpp"
+#include "reduction/Partition.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::reduction {
+
+/// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the kept dofs are the identity and
+/// zero, so that interface dofs stay what they are and parts are joined by equal labels.
+struct BasisResult {
+  Partition partition;
+  Sparse vectors;                     ///< Phi: dofs x (kept + modes), structural zeros absent
+  std::vector<std::string> modeKind;  ///< one per modal column
+  Vector eigenvalues;                 ///< omega^2 of the modal columns [rad^2/s^2], increasing
+  Vector candidates;                  ///< omega^2 of all modes computed, kept ones first
+  bool complete = false;              ///< `candidates` are all modes the part has
+  bool orthonormal = false;           ///< the modal columns are meant to be mass-orthonormal and to diagonalise sym(K)
+  std::vector<BasisRow> rows;
+  double orthogonality = 0;
+  std::string method;
+  std::vector<std::string> remarks;
+
+  int modes() const { return static_cast<int>(eigenvalues.size()); }
+};
+
+/// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped with the reason `why`.
+void truncate(BasisResult& basis, int modes, const std::string& why);
+
+/// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on several ranks.
+class Basis {
+ public:
+  virtual ~Basis() = default;
+
+  /// Basis of one part. Throws ModelError (the interior is a mechanism, the mass is indefinite) or ConvergenceError.
+  virtual BasisResult build(const model::Substructure& part, const ModeRequest& request) const = 0;
+
+  /// Second hook, for families that need the assembled interface: improve the bases of all parts given the coupled reduced model,
+  /// `positions[p][i]` being the coupled dof of reduced coordinate i of part p. True when a basis was changed, and parts are then
+  /// projected and coupled again. The default has nothing to improve.
+  virtual bool improve(const model::SecondOrderModel& coupled, const std::vector<std::vector<int>>& positions,
+                       const std::vector<model::Substructure>& parts, std::vector<BasisResult>& bases) const;
+};
+
+using BasisRegistry = deck::Registry<Basis, const Teuchos::ParameterList&>;
+
+}  // namespace tooljoint::reduction

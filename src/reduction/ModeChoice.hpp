@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, or all. No choice cuts a close
+/// pair (the u and v mode of a shaft): it rounds up.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+struct EigenOptions;
+}
+
+namespace tooljoint::reduction {
+
+/// Two neighbouring modes closer than this (relative, in frequency) may be a pair.
+constexpr double defaultPairTolerance = 0.01;
+/// Neighbours closer than this (relative, in frequency) are the same frequency: a cluster is never cut.
+constexpr double clusterTolerance = 1e-6;
+
+/// The user's choice for a list of parts.
+struct ModeRule {
+  enum class Kind { PerPart, Total, CutOff, All };
+  Kind kind = Kind::All;
+  std::vector<int> counts;  ///< PerPart: one entry for every part, or a single one for all
+  int total = 0;            ///< Total: the lowest `total` over all parts
+  double cutOffHz = 0;      ///< CutOff: all modes at or below
+  double pairTolerance = defaultPairTolerance;
+};
+
+/// What is asked of the basis of one part.
+struct ModeRequest {
+  enum class Kind { Count, Below, All };
+  Kind kind = Kind::All;
+  int count = 0;
+  double omegaMax = 0;  ///< Below [rad/s]
+  double pairTolerance = defaultPairTolerance;
+  std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
+  bool operator==(const ModeRequest& other) const {
+    return kind == other.kind && count == other.count && omegaMax == other.omegaMax && pairTolerance == other.pairTolerance;
+  }
+};
+
+/// sign(omega^2) sqrt(|omega^2|): negative for a buckled part, so that the order is that of omega^2.
+double signedOmega(double eigenvalue);
+
+/// Number of modes kept when `count` are wanted of the increasing `eigenvalues` (omega^2): `count`, rounded up when the cut would
+/// part a cluster (neighbours equal to clusterTolerance) or a pair (two modes closer than pairTolerance to each other and
+/// nearer to each other than to their other neighbours). At most eigenvalues.size().
+int roundUp(const Vector& eigenvalues, int count, double pairTolerance);
+
+/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest eigenvalues of part p in increasing
+/// order, complete[p] says that these are all. Equal ones go to the first part. Rounds up within each part.
+/// An entry is -1 where spectra[p] is too short to decide.
+std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total, double pairTolerance);
+
+}  // namespace tooljoint::reduction

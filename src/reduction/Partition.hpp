@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// How the dofs of one part are sorted for reduction: interface, retained, interior; and which interior dofs hang together.
+#pragma once
+
+#include <vector>
+
+#include "model/Substructure.hpp"
+
+namespace tooljoint::reduction {
+
+/// Positions of the dofs of a part. Kept dofs (C) are the interface followed by the retained ones; interior dofs (I) fall into
+/// links: sets that neither mass nor stiffness couples with each other. Every link is a small problem of its own, and where a
+/// link does not touch a kept dof, the basis is structurally zero.
+struct Partition {
+  int size = 0;
+  std::vector<int> interface;           ///< increasing
+  std::vector<int> retained;            ///< increasing, disjoint from interface
+  std::vector<int> kept;                ///< interface, then retained: the first reduced coordinates
+  std::vector<int> interior;            ///< increasing
+  std::vector<std::vector<int>> links;  ///< indices into `interior`, each increasing, ordered by their first index
+  std::vector<std::vector<int>> ends;   ///< per link: indices into `kept` of the dofs it touches, increasing
+};
+
+/// Sorts the dofs of `part`. Throws ModelError when positions are out of range, not increasing or in two sets.
+Partition partition(const model::Substructure& part);
+
+/// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and unsymmetric.
+Sparse constantStiffness(const model::SecondOrderModel& model);
+
+/// (A + A') / 2.
+Sparse symmetricPart(const Sparse& A);
+
+/// True when |a_ij - a_ji| <= tolerance sqrt(|a_ii a_jj|) for all entries (rows without diagonal: measured by the largest entry).
+bool nearlySymmetric(const Sparse& A, double tolerance);
+
+/// A(rows, columns) as a new sparse matrix; both lists without repetition.
+Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns);
+
+}  // namespace tooljoint::reduction

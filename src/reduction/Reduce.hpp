@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Reduction of parts: basis, projection, checks; distributed over the MPI ranks.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/Substructure.hpp"
+#include "reduction/ModeChoice.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::reduction {
+
+/// How the state at t = 0 is put into reduced coordinates.
+enum class InitialState {
+  KeepStatic,    ///< D = D_s + Phi q: the part is reduced about its reference state; q(0) is 0 when it starts there
+  LeastSquares,  ///< D = Phi q, q_C(0) = D_C(0), q_D(0) by least squares: Nguyen et al. 2020, (38)-(42)
+};
+
+/// All choices of the deck list "Reduction" that do not belong to one basis.
+struct ReductionOptions {
+  std::string basis = "Craig-Bampton";
+  ModeRule modes;
+  InitialState initialState = InitialState::KeepStatic;
+  bool checks = true;
+  std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
+};
+
+/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number of
+/// entries of "Modes by Substructure" is not `parts`.
+ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
+
+/// The basis named in the list, made from the sublist of its name.
+std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::ParameterList& reduction);
+
+/// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices are projected full, unsymmetric
+/// parts included (Nguyen et al. 2020, (43)); stiffness terms that are constant in time become one term, every other one stays a
+/// term with its own law. `index` numbers the part in the labels of its modes.
+ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index);
+
+/// Reduces all parts. Every rank passes the same parts and gets the same result; each part is reduced by one rank and sent to the
+/// others. Parts that are identical (matrices and partition, to 1e-13 relative) are reduced once. Collective over MPI_COMM_WORLD.
+/// An error on one rank is thrown on all. Throws ModelError, ConvergenceError.
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
+                                           const ReductionOptions& options);
+
+/// The same from a deck list.
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction);
+
+/// summaryTable of the reports.
+std::string summaryTable(const std::vector<ReducedSubstructure>& parts);
+
+}  // namespace tooljoint::reduction
