@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Targets for developers: `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, without precompiled headers).
+find_program(CLANG_FORMAT clang-format)
+if(CLANG_FORMAT)
+  file(GLOB_RECURSE formatted CONFIGURE_DEPENDS src/*.[ch]pp substructures/*.[ch]pp tests/*.[ch]pp examples/*.[ch]pp benchmarks/*.[ch]pp)
+  add_custom_target(format COMMAND ${CLANG_FORMAT} -i ${formatted} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
+endif()
+
+find_program(RUN_CLANG_TIDY run-clang-tidy)
+if(RUN_CLANG_TIDY)
+  add_custom_target(tidy
+    COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${PROJECT_BINARY_DIR}/tidy -G Ninja -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}/tidy --target tooljoint_git_hash
+    COMMAND ${RUN_CLANG_TIDY} -quiet -j 2 -p ${PROJECT_BINARY_DIR}/tidy "${PROJECT_SOURCE_DIR}/(src|substructures)/.*"
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} USES_TERMINAL VERBATIM)
+endif()
