@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The nodes that can touch the wall, with their parameters, as a structure of arrays.
+#pragma once
+
+#include <vector>
+
+namespace tooljoint::contact {
+
+/// Parameters of one point.
+struct ContactPoint {
+  int node = 0;                          ///< 1-based
+  double clearance = 0.0;                ///< j0 [m]
+  double contactRadius = 0.0;            ///< R_c, lever arm of the friction torque [m]
+  double stiffness = 0.0;                ///< k_c [N/m]
+  double damping = 0.0;                  ///< c_c [N s/m]
+  double lambdaK = 1e6;                  ///< regularisation of the stiffness [1/m]
+  double lambdaC = 1e6;                  ///< regularisation of the damping [1/m]
+  double muStatic = 0.0;                 ///< 0 = frictionless
+  double muDynamic = 0.0;                ///< not above muStatic
+  double regularisationVelocity = 0.1;   ///< v_r [m/s]
+};
+
+/// Batch of points, one array per parameter.
+struct ContactPoints {
+  std::vector<int> node;
+  std::vector<double> clearance;
+  std::vector<double> contactRadius;
+  std::vector<double> stiffness;
+  std::vector<double> damping;
+  std::vector<double> lambdaK;
+  std::vector<double> lambdaC;
+  std::vector<double> muStatic;
+  std::vector<double> muDynamic;
+  std::vector<double> regularisationVelocity;
+
+  int size() const { return static_cast<int>(node.size()); }
+  /// Append a point. Throws DeckError when a parameter makes no sense (muDynamic above muStatic, a negative stiffness ...).
+  void add(const ContactPoint& point);
+  ContactPoint at(int i) const;
+  /// The points at these 0-based positions.
+  ContactPoints subset(const std::vector<int>& positions) const;
+  /// No point has friction.
+  bool frictionless() const;
+};
+
+}  // namespace tooljoint::contact
