@@ -22,16 +22,18 @@ class FailureCollector : public ::testing::EmptyTestEventListener {
   const std::string& text() const { return text_; }
 
  private:
+  void OnTestStart(const ::testing::TestInfo& test) override { test_ = std::string(test.test_suite_name()) + "." + test.name(); }
+  void OnTestEnd(const ::testing::TestInfo& /*test*/) override { test_ = "outside of a test"; }
+  // GoogleTest holds its lock here: asking it for the current test would wait for ever.
   void OnTestPartResult(const ::testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::ostringstream line;
-    line << (result.file_name() ? result.file_name() : "unknown file") << ":" << result.line_number() << ": "
-         << (test ? std::string(test->test_suite_name()) + "." + test->name() : "outside of a test") << "\n"
-         << result.message() << "\n";
-    text_ += line.str();
+    std::ostringstream entry;
+    entry << (result.file_name() ? result.file_name() : "unknown file") << ":" << result.line_number() << ": " << test_ << "\n"
+          << result.message() << "\n";
+    text_ += entry.str();
   }
 
+  std::string test_ = "outside of a test";
   std::string text_;
 };
 
