@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/path/PathProblem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "substructures/beam/Rotation.hpp"
+
+namespace tooljoint::path {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+PathProblem::PathProblem(const PathInput& input, int translations, Vector state, std::vector<Matrix3> reference,
+                         const std::vector<int>& held)
+    : translations_(translations), state_(std::move(state)), reference_(std::move(reference)) {
+  const int perNode = dofsPerNode();
+  index_.assign(at(nodes() * perNode), 0);
+  for (const int dof : held) index_[at(dof)] = -1;
+  for (int& index : index_)
+    if (index >= 0) index = unknowns_++;
+
+  std::vector<std::vector<int>> lists;
+  double rigidity = 0.0;
+  double stretch = 0.0;
+  double length = 0.0;
+  for (std::size_t e = 0; e < input.sections.size(); ++e) {
+    const beam::Section& section = input.sections[e];
+    elements_.emplace_back(section, input.lengths[e]);
+    rigidity = std::max(rigidity, section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()));
+    stretch = std::max(stretch, section.axialRigidity() / input.lengths[e]);
+    length += input.lengths[e];
+    const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * perNode;
+    lists.emplace_back(first, first + 2 * perNode);
+  }
+  assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
+  // Forces are measured against E I/l^2 and, since positions carry the rounding of the whole depth L, against a millionth
+  // of (E S/l) L; moments against E I/l.
+  const double mean = length / static_cast<double>(elements_.size());
+  forceScale_ = rigidity / (mean * mean) + 1e-6 * stretch * length;
+  momentScale_ = rigidity / mean;
+}
+
+Vector PathProblem::start() const {
+  Vector x(unknowns_);
+  for (std::size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0) x(index_[i]) = state_(static_cast<int>(i));
+  return x;
+}
+
+Vector PathProblem::expand(const Vector& x) const {
+  Vector state = state_;
+  for (std::size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0) state(static_cast<int>(i)) = x(index_[i]);
+  return state;
+}
+
+void PathProblem::moveReference(const Vector& x) {
+  const Vector state = expand(x);
+  for (int n = 0; n < nodes(); ++n) reference_[at(n)] = pose(n, state).triad;
+  state_ = state;
+  for (int n = 0; n < nodes(); ++n) state_.segment<3>(n * dofsPerNode() + translations_).setZero();
+}
+
+Vector3 PathProblem::positionCurvature(const double* /*translations*/) const { return Vector3::Zero(); }
+
+NodePose PathProblem::pose(int node, const Vector& state) const {
+  const double* dofs = state.data() + node * dofsPerNode();
+  const Eigen::Map<const Vector3> theta(dofs + translations_);
+  return {position(dofs), reference_[at(node)] * beam::rotationExponential(theta)};
+}
+
+std::vector<NodePose> PathProblem::poses(const Vector& x) const {
+  const Vector state = expand(x);
+  std::vector<NodePose> out;
+  for (int n = 0; n < nodes(); ++n) out.push_back(pose(n, state));
+  return out;
+}
+
+Matrix PathProblem::testMotion(int node, const Vector& state) const {
+  // delta X = X' delta y, delta omega = Q_ref delta theta
+  Matrix motion = Matrix::Zero(6, dofsPerNode());
+  motion.topLeftCorner(3, translations_) = positionDerivative(state.data() + node * dofsPerNode());
+  motion.bottomRightCorner<3, 3>() = reference_[at(node)];
+  return motion;
+}
+
+Matrix PathProblem::trialMotion(int node, const Vector& state) const {
+  // d omega = Q_ref T_s(theta) d theta
+  Matrix motion = testMotion(node, state);
+  const Eigen::Map<const Vector3> theta(state.data() + node * dofsPerNode() + translations_);
+  motion.bottomRightCorner<3, 3>() = (reference_[at(node)] * beam::spinFromRotationVector(theta)).eval();
+  return motion;
+}
+
+std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& state, bool withTangent) const {
+  std::vector<beam::CorotationalResponse> out;
+  out.reserve(elements_.size());
+  NodePose first = pose(0, state);
+  for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
+    const NodePose second = pose(e + 1, state);
+    out.push_back(elements_[at(e)].evaluate({first.position, second.position, first.triad, second.triad}, withTangent));
+    first = second;
+  }
+  return out;
+}
+
+std::vector<beam::CorotationalResponse> PathProblem::responses(const Vector& x, bool withTangent) const {
+  return evaluate(expand(x), withTangent);
+}
+
+Matrix PathProblem::nodalForces(const Vector& x) const {
+  Matrix f = Matrix::Zero(6, nodes());
+  const auto elementResponses = responses(x, false);
+  for (int e = 0; e < static_cast<int>(elementResponses.size()); ++e) {
+    f.col(e) += elementResponses[at(e)].force.head<6>();
+    f.col(e + 1) += elementResponses[at(e)].force.tail<6>();
+  }
+  return f;
+}
+
+void PathProblem::residual(const Vector& x, Vector& r) const {
+  const Vector state = expand(x);
+  const auto elementResponses = evaluate(state, false);
+  r = Vector::Zero(unknowns_);
+  const int perNode = dofsPerNode();
+  Vector local(2 * perNode);
+  for (int e = 0; e < static_cast<int>(elementResponses.size()); ++e) {
+    const beam::Vector12& f = elementResponses[at(e)].force;
+    local.head(perNode) = testMotion(e, state).transpose() * f.head<6>();
+    local.tail(perNode) = testMotion(e + 1, state).transpose() * f.tail<6>();
+    assembler_.add(e, local, r);
+  }
+  constrain(state, r);
+}
+
+void PathProblem::jacobian(const Vector& x, Sparse& jacobian) const {
+  const Vector state = expand(x);
+  const auto elementResponses = evaluate(state, true);
+  assembler_.clear(jacobian);
+  const int perNode = dofsPerNode();
+  Matrix test = Matrix::Zero(12, 2 * perNode);
+  Matrix trial = Matrix::Zero(12, 2 * perNode);
+  for (int e = 0; e < static_cast<int>(elementResponses.size()); ++e) {
+    const beam::CorotationalResponse& response = elementResponses[at(e)];
+    test.topLeftCorner(6, perNode) = testMotion(e, state);
+    test.bottomRightCorner(6, perNode) = testMotion(e + 1, state);
+    trial.topLeftCorner(6, perNode) = trialMotion(e, state);
+    trial.bottomRightCorner(6, perNode) = trialMotion(e + 1, state);
+    Matrix local = test.transpose() * response.tangent * trial;
+    // the direction of the translation turns: X'' . f
+    if (translations_ == 1) {
+      local(0, 0) += positionCurvature(state.data() + e * perNode).dot(response.force.segment<3>(0));
+      local(perNode, perNode) += positionCurvature(state.data() + (e + 1) * perNode).dot(response.force.segment<3>(6));
+    }
+    assembler_.add(e, local, jacobian);
+  }
+  constrain(jacobian);
+}
+
+Vector PathProblem::residualScale() const {
+  Vector scale(unknowns_);
+  const double rms = 1.0 / std::sqrt(static_cast<double>(std::max(unknowns_, 1)));
+  for (std::size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0)
+      scale(index_[i]) = rms / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
+  constrainScale(scale);
+  return scale;
+}
+
+std::string PathProblem::unknownName(int i) const {
+  const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
+  static const char* const alongCurve[] = {"depth", "theta_x", "theta_y", "theta_z"};
+  static const char* const inSpace[] = {"X", "Y", "Z", "theta_x", "theta_y", "theta_z"};
+  const int component = dof % dofsPerNode();
+  return std::string(translations_ == 1 ? alongCurve[component] : inSpace[component]) + " of node " +
+         std::to_string(dof / dofsPerNode() + 1);
+}
+
+}  // namespace tooljoint::path

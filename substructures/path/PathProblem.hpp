@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The bent string as a nonlinear problem: corotational elements whose nodes move along a curve or in space.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/NonlinearProblem.hpp"
+#include "substructures/beam/Corotational.hpp"
+#include "substructures/beam/SparseAssembler.hpp"
+#include "substructures/path/Path.hpp"
+
+namespace tooljoint::path {
+
+/// Where a node is.
+struct NodePose {
+  Vector3 position;
+  Matrix3 triad;  ///< material axes, z normal to the cross section
+};
+
+/// Equilibrium of the unloaded string with prescribed translations. Unknowns of a node: its translations (one along a
+/// curve, or three in space), then the rotation vector theta in the axes of its reference triad, Q = Q_ref exp(theta^).
+/// Residual rows: the internal forces that work on the translations, and the internal moments in reference axes.
+class PathProblem : public model::NonlinearProblem {
+ public:
+  int size() const override { return unknowns_; }
+  void residual(const Vector& x, Vector& r) const override;
+  void jacobian(const Vector& x, Sparse& jacobian) const override;
+  Vector residualScale() const override;
+  std::string unknownName(int i) const override;
+
+  int nodes() const { return static_cast<int>(reference_.size()); }
+  /// Unknowns of the state the problem was built in (or last accepted).
+  Vector start() const;
+  std::vector<NodePose> poses(const Vector& x) const;
+  std::vector<beam::CorotationalResponse> responses(const Vector& x, bool withTangent) const;
+  /// Internal forces and moments of all nodes in global axes, 6 x nodes [N, N m].
+  Matrix nodalForces(const Vector& x) const;
+
+ protected:
+  /// `translations` per node: 1 or 3. `state` holds translations and rotation vector (zero) of all nodes; dofs in `held`
+  /// (positions in `state`) keep their values.
+  PathProblem(const PathInput& input, int translations, Vector state, std::vector<Matrix3> reference,
+              const std::vector<int>& held);
+
+  int dofsPerNode() const { return translations_ + 3; }
+  int unknownOf(int node, int dof) const { return index_[static_cast<std::size_t>(node * dofsPerNode() + dof)]; }
+  /// All dofs of all nodes, the held ones too.
+  Vector expand(const Vector& x) const;
+  /// Makes the state x the new reference: its triads become the reference triads, the rotation vectors zero.
+  void moveReference(const Vector& x);
+
+  /// Position of a node and its derivative, 3 x translations, from the node's translations.
+  virtual Vector3 position(const double* translations) const = 0;
+  virtual Matrix positionDerivative(const double* translations) const = 0;
+  /// Second derivative along the only translation; zero where positions are themselves the unknowns.
+  virtual Vector3 positionCurvature(const double* translations) const;
+  /// Last word on the assembled equations (prescribed motions).
+  virtual void constrain(const Vector& /*state*/, Vector& /*r*/) const {}
+  virtual void constrain(Sparse& /*jacobian*/) const {}
+  virtual void constrainScale(Vector& /*scale*/) const {}
+
+ private:
+  NodePose pose(int node, const Vector& state) const;
+  /// Virtual motions (test) and actual motions (trial) of a node per unit of its dofs, 6 x dofsPerNode.
+  Matrix testMotion(int node, const Vector& state) const;
+  Matrix trialMotion(int node, const Vector& state) const;
+  std::vector<beam::CorotationalResponse> evaluate(const Vector& state, bool withTangent) const;
+
+  int translations_;
+  int unknowns_ = 0;
+  Vector state_;
+  std::vector<Matrix3> reference_;
+  std::vector<int> index_;  ///< unknown of each dof, -1 when held
+  std::vector<beam::CorotationalElement> elements_;
+  beam::SparseAssembler assembler_;
+  double forceScale_ = 1.0;
+  double momentScale_ = 1.0;
+};
+
+/// `Centre line`: every node stays on the axis of the well, free to slide along it and to turn; held are the first
+/// node's depth and its turn about the tangent. Starts from unstretched depths and the given nodal frames.
+class CentreLineProblem : public PathProblem {
+ public:
+  CentreLineProblem(const PathInput& input, const std::vector<double>& depths, const std::vector<Matrix3>& frames);
+  /// Depth of each node along the well at x [m].
+  std::vector<double> depths(const Vector& x) const;
+
+ protected:
+  Vector3 position(const double* translations) const override;
+  Matrix positionDerivative(const double* translations) const override;
+  Vector3 positionCurvature(const double* translations) const override;
+
+ private:
+  const well::Trajectory* trajectory_;
+};
+
+/// `Imposed nodes`: X and Y of some nodes are moved to prescribed places; held are the first node's translations and its
+/// turn about its own axis. Starts straight down from the wellhead; each load step starts from the state accepted last.
+class ImposedNodesProblem : public PathProblem {
+ public:
+  /// `imposed` are 0-based nodes without the first one. With `Penalty`, `factor` is that of equation (13).
+  ImposedNodesProblem(const PathInput& input, std::vector<int> imposed, Imposition imposition, double factor);
+
+  /// Prescribes X and Y (columns of 2 x imposed nodes) of the imposed nodes for the next solve [m].
+  void prescribe(const Matrix& target);
+  /// Takes x as the start of the next load step.
+  void accept(const Vector& x);
+  const std::vector<int>& imposedNodes() const { return imposed_; }
+
+ protected:
+  Vector3 position(const double* translations) const override;
+  Matrix positionDerivative(const double* translations) const override;
+  void constrain(const Vector& state, Vector& r) const override;
+  void constrain(Sparse& jacobian) const override;
+  void constrainScale(Vector& scale) const override;
+
+ private:
+  std::vector<int> imposed_;
+  Imposition imposition_;
+  double factor_;
+  double penalty_ = 0.0;  ///< 10^6 c_p [N/m]
+  Matrix target_;
+};
+
+}  // namespace tooljoint::path
