@@ -7,8 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "common/Census.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/Scientific.hpp"
 #include "linalg/TpetraConversion.hpp"
 
 namespace tooljoint::linalg {
@@ -16,12 +18,6 @@ namespace tooljoint::linalg {
 std::string nameOf(const DofNamer& name, int i) { return name ? name(i) : "dof " + std::to_string(i + 1); }
 
 namespace {
-
-std::string scientific(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1e", value);
-  return text;
-}
 
 void requireSquareAndFinite(const Sparse& A, const DofNamer& name) {
   if (A.rows() != A.cols())
@@ -172,6 +168,7 @@ struct DirectSolver::Impl {
 
   void factor(const Sparse& A) {
     requireSquareAndFinite(A, name);
+    count("factorisations");
     transposed.reset();
     matrix = A;
     matrix.makeCompressed();

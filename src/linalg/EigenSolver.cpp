@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/EigenSolver.hpp"
+
+#include <AnasaziBasicEigenproblem.hpp>
+#include <AnasaziBlockKrylovSchurSolMgr.hpp>
+#include <AnasaziTpetraAdapter.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/Census.hpp"
+#include "common/Error.hpp"
+#include "linalg/Deterministic.hpp"
+#include "linalg/EigenChecks.hpp"
+#include "linalg/Scientific.hpp"
+#include "linalg/TpetraConversion.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A checked symmetric pencil and what is derived from it once.
+struct Pencil {
+  Sparse K, M;
+  double scale;  ///< lower bound of the largest eigenvalue
+
+  Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
+      : K(symmetricPart(k, "stiffness", name)), M(symmetricPart(m, "mass", name)), scale(0.0) {
+    if (K.rows() != M.rows())
+      throw ModelError("The stiffness and mass matrices of an eigenproblem have " + std::to_string(K.rows()) + " and " +
+                       std::to_string(M.rows()) + " rows: they must agree.");
+    requirePositiveDefinite(M, name);
+    scale = eigenvalueScale(K, M);
+  }
+  int size() const { return static_cast<int>(K.rows()); }
+  int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
+};
+
+/// Y = f(X) on rank-local multivectors.
+class FunctionOperator : public tpetra::Operator {
+ public:
+  using Function = std::function<Matrix(const Matrix&)>;
+  FunctionOperator(Teuchos::RCP<const tpetra::Map> map, Function f) : map_(std::move(map)), f_(std::move(f)) {}
+
+  Teuchos::RCP<const tpetra::Map> getDomainMap() const override { return map_; }
+  Teuchos::RCP<const tpetra::Map> getRangeMap() const override { return map_; }
+  void apply(const tpetra::MultiVector& X, tpetra::MultiVector& Y, Teuchos::ETransp, double alpha, double beta) const override {
+    if (alpha != 1.0 || beta != 0.0) throw std::logic_error("FunctionOperator: only Y = f(X).");
+    onViews(X, Y, [this](const ConstMatrixView& x, MatrixView& y) { y = f_(x); });
+  }
+
+ private:
+  Teuchos::RCP<const tpetra::Map> map_;
+  Function f_;
+};
+
+/// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first elastic eigenvalue
+/// (nearer to the rigid-body modes it would spoil the others), or further down for an indefinite K.
+double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
+  if (options.shift) {
+    const int below = pencil.below(*options.shift);
+    if (below > 0)
+      throw ModelError("The eigenvalue shift " + scientific(*options.shift) + " lies above " + std::to_string(below) +
+                       " eigenvalue(s): give a lower one, or none.");
+    return *options.shift;
+  }
+  const double floor = 1e-10 * pencil.scale;
+  if (floor == 0.0) return -1.0;  // K = 0
+  const int low = pencil.below(floor);
+  if (low == 0) return 0.0;
+  double size = floor;
+  while (size < pencil.scale && pencil.below(10.0 * size) == low) size *= 10.0;
+  while (pencil.below(-size) > 0) size *= 3.0;
+  return -size;
+}
+
+Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt, const EigenOptions& options) {
+  const int n = pencil.size();
+  Teuchos::ParameterList list;
+  int block = attempt == 0 ? 4 : 8;
+  if (options.anasazi != nullptr && options.anasazi->isType<int>("Block Size")) block = options.anasazi->get<int>("Block Size");
+  const int blocks = (std::max(2 * wanted, wanted + 20) + block - 1) / block;
+  list.set("Which", "LM");
+  list.set("Block Size", block);
+  list.set("Num Blocks", std::min(n / block - 1, blocks + 4 * attempt));
+  list.set("Maximum Restarts", 100);
+  list.set("Convergence Tolerance", 1e-12);
+  list.set("Verbosity", 0);
+  if (options.anasazi != nullptr) list.setParameters(*options.anasazi);
+  return list;
+}
+
+/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda - sigma.
+void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors, double shift, double tolerance) {
+  const Matrix image = factors.solve(pencil.M * modes.vectors);
+  for (int j = 0; j < modes.count(); ++j) {
+    const Vector error = modes.vectors.col(j) - (modes.values[j] - shift) * image.col(j);
+    const double size = std::sqrt(std::max(0.0, error.dot(pencil.M * error)));
+    // What rounding in the lowest mode leaves in this one: eps nu_1 / nu_j.
+    const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift);
+    if (!(size <= tolerance + rounding))
+      throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method + ") was called converged, but its relative error is " +
+                             scientific(size) + " where " + scientific(tolerance) +
+                             " is allowed: lower the solver's \"Convergence Tolerance\" or raise \"Num Blocks\" and \"Maximum Restarts\".");
+  }
+}
+
+/// Eigenvalue from the shift-inverted value nu or from the Rayleigh quotient, whichever rounding spoils less.
+double bestValue(double nu, double nuMax, double shift, const Vector& phi, const Pencil& pencil, const Sparse& absK) {
+  const double mass = phi.dot(pencil.M * phi);
+  const double quotient = phi.dot(pencil.K * phi) / mass;
+  const double quotientRounding = phi.cwiseAbs().dot(absK * phi.cwiseAbs()) / mass;
+  const double inverted = shift + 1.0 / nu;
+  const double invertedRounding = std::abs(nuMax / nu) * std::abs(1.0 / nu);
+  return invertedRounding < quotientRounding ? inverted : quotient;
+}
+
+/// The `wanted` modes nearest above the shift by Anasazi; false (with the reason) when it did not converge.
+bool krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted, int attempt,
+                 const EigenOptions& options, EigenPairs& modes, std::string& reason) {
+  using Problem = Anasazi::BasicEigenproblem<double, tpetra::MultiVector, tpetra::Operator>;
+  using Manager = Anasazi::BlockKrylovSchurSolMgr<double, tpetra::MultiVector, tpetra::Operator>;
+  const auto map = serialMap(pencil.size());
+  Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
+  try {
+    const int block = list.get<int>("Block Size");
+    // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
+    const Teuchos::RCP<tpetra::Operator> inverse =
+        Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
+    const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
+    const auto start = toTpetra(scatteredNumbers(pencil.size(), block, 17 + static_cast<std::uint64_t>(attempt)), map);
+    const auto problem = Teuchos::rcp(new Problem(inverse, mass, start));
+    problem->setHermitian(true);
+    problem->setNEV(wanted);
+    if (!problem->setProblem()) throw std::logic_error("Anasazi refused the eigenproblem.");
+    Manager manager(problem, list);
+    const bool converged = manager.solve() == Anasazi::Converged;
+    const auto& solution = problem->getSolution();
+    modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " + std::to_string(block);
+    if (!converged || solution.numVecs < wanted) {
+      reason = std::to_string(solution.numVecs) + " of " + std::to_string(wanted) + " modes converged (" + modes.method + ")";
+      return false;
+    }
+    modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
+    modes.values.resize(wanted);
+    const Sparse absK = pencil.K.cwiseAbs();
+    double nuMax = 0.0;
+    for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(solution.Evals[static_cast<std::size_t>(j)].realpart));
+    for (int j = 0; j < wanted; ++j)
+      modes.values[j] = bestValue(solution.Evals[static_cast<std::size_t>(j)].realpart, nuMax, shift, modes.vectors.col(j), pencil, absK);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw ConvergenceError(std::string("Anasazi stopped: ") + problem.what());
+  }
+  applyConventions(modes, pencil.M);
+  return true;
+}
+
+/// Middle of the last gap among the values that is at or after position `from`; nothing when there is none.
+std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, double floor) {
+  for (int j = static_cast<int>(values.size()) - 1; j >= from; --j) {
+    const double gap = values[j] - values[j - 1];
+    if (gap > std::max(1e-6 * std::max(std::abs(values[j]), std::abs(values[j - 1])), floor))
+      return std::make_pair(j, 0.5 * (values[j] + values[j - 1]));
+  }
+  return std::nullopt;
+}
+
+EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& options) {
+  EigenPairs modes = symmetricModes(Matrix(pencil.K), Matrix(pencil.M), options.name);
+  const double floor = 1e-14 * modes.values.cwiseAbs().maxCoeff();
+  truncate(modes, options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count);
+  applyConventions(modes, pencil.M);
+  recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
+  return modes;
+}
+
+EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
+  const double shift = shiftBelowSpectrum(pencil, options);
+  const DirectSolver factors(Sparse(pencil.K - shift * pencil.M), options.name);
+  const double floor = 1e-14 * pencil.scale;
+  std::string reason;
+  int extra = 4;
+  constexpr int attempts = 3;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    EigenPairs modes;
+    const int wanted = std::min(count + extra, pencil.size() / 2);
+    if (!krylovSchur(pencil, factors, shift, wanted, attempt, options, modes, reason)) continue;
+    // Sylvester: as many eigenvalues below a gap as were found below it.
+    const auto gap = lastGap(modes.values, count, floor);
+    if (gap && pencil.below(gap->second) != gap->first) {
+      reason = std::to_string(pencil.below(gap->second)) + " eigenvalues lie below " + scientific(gap->second) + " but " +
+               std::to_string(gap->first) + " were found there";
+      continue;
+    }
+    const int keep = options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
+    if (!gap || keep >= modes.count()) {  // a cluster reaches beyond what was computed
+      reason = "a cluster of more than " + std::to_string(extra) + " equal eigenvalues stands at " + scientific(modes.values[count - 1]);
+      extra *= 4;
+      continue;
+    }
+    truncate(modes, keep);
+    requireAccurate(modes, pencil, factors, shift, options.tolerance);
+    recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
+    return modes;
+  }
+  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " + std::to_string(pencil.size()) + " dofs were not found in " +
+                         std::to_string(attempts) + " attempts: " + reason +
+                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or ask for fewer modes.");
+}
+
+EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {
+  EigenPairs modes;
+  modes.method = "none asked for";
+  if (count == 0) {
+    modes.vectors.resize(pencil.size(), 0);
+    return modes;
+  }
+  const bool dense = pencil.size() < options.denseBelow || 3 * count > pencil.size() || pencil.size() < 40;
+  modes = dense ? denseModes(pencil, count, options) : sparseModes(pencil, count, options);
+  tooljoint::count("modes computed", modes.count());
+  return modes;
+}
+
+}  // namespace
+
+EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
+  if (count < 0 || count > K.rows())
+    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " + std::to_string(K.rows()) + " dofs.");
+  return modesOf(Pencil(K, M, options.name), count, options);
+}
+
+EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax, const EigenOptions& options) {
+  if (!(omegaMax >= 0.0) || !std::isfinite(omegaMax))
+    throw ModelError("The cut-off of a mode selection must be a number >= 0, not " + scientific(omegaMax) + ".");
+  const Pencil pencil(K, M, options.name);
+  return modesOf(pencil, pencil.below(omegaMax * omegaMax), options);
+}
+
+}  // namespace tooljoint::linalg
