@@ -28,11 +28,16 @@ const std::vector<std::string>& componentNames() {
 deck::ListSpec unbalanceParameters() {
   using deck::Range;
   deck::ListSpec entry("Unbalance", "One mass off the axis; the name is free.");
-  entry.integer("Node", deck::Optional{}, Range::atLeast(1), "Node that carries it, counted from 1 at the surface; give this or Position.")
-      .real("Position", "m", deck::Optional{}, Range::nonNegative(), "Measured depth of the node that carries it; give this or Node.")
+  entry
+      .integer("Node", deck::Optional{}, Range::atLeast(1),
+               "Node that carries it, counted from 1 at the surface; give this or Position.")
+      .real("Position", "m", deck::Optional{}, Range::nonNegative(),
+            "Measured depth of the node that carries it; give this or Node.")
       .real("Mass", "kg", deck::Optional{}, Range::positive(), "Mass off the axis; together with Eccentricity.")
-      .real("Eccentricity", "m", deck::Optional{}, Range::nonNegative(), "Distance of the mass from the axis; together with Mass.")
-      .real("Moment", "kg m", deck::Optional{}, Range::nonNegative(), "Mass times eccentricity; give this, or Mass and Eccentricity.")
+      .real("Eccentricity", "m", deck::Optional{}, Range::nonNegative(),
+            "Distance of the mass from the axis; together with Mass.")
+      .real("Moment", "kg m", deck::Optional{}, Range::nonNegative(),
+            "Mass times eccentricity; give this, or Mass and Eccentricity.")
       .real("Phase", "rad", 0.0, Range::any(), "Angle of the mass from local x at time 0.");
   return deck::ListSpec("Unbalance", "Mass unbalances that turn with the rotary speed, one list each.").namedLists(entry);
 }
@@ -40,13 +45,18 @@ deck::ListSpec unbalanceParameters() {
 deck::ListSpec forceParameters() {
   using deck::Range;
   deck::ListSpec entry("Force", "One force or torque at a node; the name is free.");
-  entry.integer("Node", deck::Optional{}, Range::atLeast(1), "Node it acts on, counted from 1 at the surface; give this or Position.")
+  entry
+      .integer("Node", deck::Optional{}, Range::atLeast(1),
+               "Node it acts on, counted from 1 at the surface; give this or Position.")
       .real("Position", "m", deck::Optional{}, Range::nonNegative(), "Measured depth of the node it acts on; give this or Node.")
-      .choice("Component", deck::Required{}, componentNames(), "Direction in the nodal frame: z along the well, positive down the hole.")
+      .choice("Component", deck::Required{}, componentNames(),
+              "Direction in the nodal frame: z along the well, positive down the hole.")
       .real("Value", "", deck::Required{}, Range::any(), "Force in N, or torque in N m about a rotation component.")
-      .real("Frequency", "Hz", 0.0, Range::nonNegative(), "Frequency of a harmonic load Value cos(2 pi Frequency t + Phase); 0 for a steady one.")
+      .real("Frequency", "Hz", 0.0, Range::nonNegative(),
+            "Frequency of a harmonic load Value cos(2 pi Frequency t + Phase); 0 for a steady one.")
       .real("Phase", "rad", 0.0, Range::any(), "Phase of a harmonic load; has no effect on a steady one.")
-      .real("Start Time", "s", 0.0, Range::nonNegative(), "Time from which it acts; one that acts from 0 on and is steady acts in the static state too.")
+      .real("Start Time", "s", 0.0, Range::nonNegative(),
+            "Time from which it acts; one that acts from 0 on and is steady acts in the static state too.")
       .real("End Time", "s", deck::Optional{}, Range::positive(), "Time from which it acts no more; never when not given.");
   return deck::ListSpec("Forces", "Forces and torques at nodes, one list each.").namedLists(entry);
 }
@@ -107,7 +117,8 @@ model::ScalarLaw lawOf(const NodalForce& force) {
           }};
 }
 
-void addUnbalances(std::vector<PointLoad>& out, const LoadsData& loads, const RotarySpeed& rotary, const std::vector<double>& arcLength) {
+void addUnbalances(std::vector<PointLoad>& out, const LoadsData& loads, const RotarySpeed& rotary,
+                   const std::vector<double>& arcLength) {
   if (loads.unbalances.empty()) return;
   if (!rotary.present()) {
     log::warn("The deck has mass unbalances but no list \"Rotary Speed\": nothing turns, so they load nothing and are left out.");
@@ -135,7 +146,8 @@ deck::ListSpec parameters() {
   using deck::Range;
   return deck::ListSpec("Loads", "Weight, bit loads, unbalances and nodal forces; without this list nothing loads the string.")
       .real("Gravity", "m/s2", 9.81, Range::nonNegative(), "Gravity, straight down; 0 models no weight.")
-      .real("Weight On Bit", "N", 0.0, Range::nonNegative(), "Force of the rock on the bit, up the hole: compresses the string above the bit.")
+      .real("Weight On Bit", "N", 0.0, Range::nonNegative(),
+            "Force of the rock on the bit, up the hole: compresses the string above the bit.")
       .real("Torque On Bit", "N m", 0.0, Range::any(), "Torque of the rock on the bit; positive resists a positive rotary speed.")
       .list(unbalanceParameters())
       .list(forceParameters());
@@ -145,7 +157,8 @@ deck::ListSpec dampingParameters() {
   using deck::Range;
   return deck::ListSpec("Damping", "Rayleigh damping of the string; without this list it has none of its own.")
       .real("Mass Coefficient", "1/s", 0.0, Range::nonNegative(), "Factor of the string's mass matrix in the damping matrix.")
-      .real("Stiffness Coefficient", "s", 0.0, Range::nonNegative(), "Factor of the string's stiffness, pre-stress included, in the damping matrix.");
+      .real("Stiffness Coefficient", "s", 0.0, Range::nonNegative(),
+            "Factor of the string's stiffness, pre-stress included, in the damping matrix.");
 }
 
 LoadsData readLoads(const ParameterList& list) {
@@ -158,7 +171,8 @@ LoadsData readLoads(const ParameterList& list) {
     const ParameterList& entries = list.sublist(name);
     for (auto it = entries.begin(); it != entries.end(); ++it) read(entries.sublist(entries.name(it)), entries.name(it));
   };
-  each("Unbalance", [&](const ParameterList& entry, const std::string& name) { loads.unbalances.push_back(readUnbalance(entry, name)); });
+  each("Unbalance",
+       [&](const ParameterList& entry, const std::string& name) { loads.unbalances.push_back(readUnbalance(entry, name)); });
   each("Forces", [&](const ParameterList& entry, const std::string& name) { loads.forces.push_back(readForce(entry, name)); });
   return loads;
 }
@@ -171,15 +185,16 @@ int nodeOf(const Place& place, const std::vector<double>& arcLength, const std::
   const int nodes = static_cast<int>(arcLength.size());
   if (place.node) {
     if (*place.node >= 1 && *place.node <= nodes) return *place.node;
-    throw DeckError(who + " names node " + std::to_string(*place.node) + ", but the string has nodes 1 to " + std::to_string(nodes) + ".");
+    throw DeckError(who + " names node " + std::to_string(*place.node) + ", but the string has nodes 1 to " +
+                    std::to_string(nodes) + ".");
   }
   const double wanted = place.position.value();
   const auto nearest = std::min_element(arcLength.begin(), arcLength.end(),
                                         [wanted](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); });
   const int node = static_cast<int>(nearest - arcLength.begin()) + 1;
   if (nearest != arcLength.end() && std::abs(*nearest - wanted) <= nodeTolerance) return node;
-  throw DeckError(who + " names the position " + formatNumber(wanted) + " m, where no node is; the nearest is node " + std::to_string(node) +
-                  " at " + formatNumber(*nearest) + " m.");
+  throw DeckError(who + " names the position " + formatNumber(wanted) + " m, where no node is; the nearest is node " +
+                  std::to_string(node) + " at " + formatNumber(*nearest) + " m.");
 }
 
 std::vector<PointLoad> pointLoads(const LoadsData& loads, const RotarySpeed& rotary, const std::vector<double>& arcLength) {

@@ -88,7 +88,8 @@ struct PointLoad {
 /// in local x and y; phi_0 goes into the vectors, so all unbalances share two scalar laws.
 std::vector<PointLoad> pointLoads(const LoadsData& loads, const RotarySpeed& rotary, const std::vector<double>& arcLength);
 
-/// Add loads to a model with physical dofs, one LoadTerm per name and law. Loads on dofs the model does not have (held ones) are left out.
+/// Add loads to a model with physical dofs, one LoadTerm per name and law. Loads on dofs the model does not have (held ones) are
+/// left out.
 void addTo(model::SecondOrderModel& model, const std::vector<PointLoad>& loads);
 
 }  // namespace tooljoint::loads

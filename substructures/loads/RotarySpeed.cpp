@@ -13,8 +13,10 @@ const char* const unbalanceSine = "Omega^2 sin - dOmega/dt cos";
 
 deck::ListSpec rotarySpeedParameters() {
   const auto& laws = SpeedLaws::instance();
-  deck::ListSpec spec("Rotary Speed", "Speed imposed at the surface; without this list nothing rotates and no gyroscopic matrix is built.");
-  spec.choice("Law", deck::Required{}, laws.names(), "Form of the speed over time; its numbers stand in the sublist of the same name.");
+  deck::ListSpec spec("Rotary Speed",
+                      "Speed imposed at the surface; without this list nothing rotates and no gyroscopic matrix is built.");
+  spec.choice("Law", deck::Required{}, laws.names(),
+              "Form of the speed over time; its numbers stand in the sublist of the same name.");
   for (const auto& [name, entry] : laws.entries()) spec.list(entry.parameters);
   return spec;
 }
@@ -22,7 +24,8 @@ deck::ListSpec rotarySpeedParameters() {
 RotarySpeed::RotarySpeed(const Teuchos::ParameterList& list) {
   const auto law = list.get<std::string>("Law");
   if (!list.isSublist(law)) {
-    throw DeckError("Rotary Speed/Law is \"" + law + "\", but the list \"" + law + "\" with its numbers is missing in Rotary Speed.");
+    throw DeckError("Rotary Speed/Law is \"" + law + "\", but the list \"" + law +
+                    "\" with its numbers is missing in Rotary Speed.");
   }
   law_ = SpeedLaws::instance().make(law, list.sublist(law));
 }

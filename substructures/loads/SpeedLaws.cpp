@@ -32,7 +32,9 @@ class Constant : public SpeedLaw {
 class Exponential : public SpeedLaw {
  public:
   explicit Exponential(const ParameterList& list)
-      : final_(list.get<double>("Final Speed")), missing_(list.get<double>("Initial Speed") - final_), tau_(list.get<double>("Time Constant")) {}
+      : final_(list.get<double>("Final Speed")),
+        missing_(list.get<double>("Initial Speed") - final_),
+        tau_(list.get<double>("Time Constant")) {}
   double speed(double t) const override { return final_ + missing_ * std::exp(-t / tau_); }
   double acceleration(double t) const override { return -missing_ / tau_ * std::exp(-t / tau_); }
   double angle(double t) const override { return final_ * t - missing_ * tau_ * std::expm1(-t / tau_); }
@@ -102,8 +104,9 @@ class Harmonic : public SpeedLaw {
 template <class Law>
 bool add(ListSpec parameters, const std::string& doc) {
   const std::string name = parameters.name();
-  return SpeedLaws::instance().add(
-      name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> { return std::make_unique<Law>(list); }});
+  return SpeedLaws::instance().add(name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> {
+                                            return std::make_unique<Law>(list);
+                                          }});
 }
 
 [[maybe_unused]] const bool constant = add<Constant>(
@@ -118,22 +121,22 @@ bool add(ListSpec parameters, const std::string& doc) {
         .real("Time Constant", "s", deck::Required{}, Range::positive(), "Time after which 63 % of the change is done."),
     "Exponential approach to a final speed (section 5.3 of Nguyen et al. 2020: 120 - 120 exp(-6 t) rpm).");
 
-[[maybe_unused]] const bool ramp = add<Ramp>(
-    ListSpec("Ramp", "From one speed to another in a given time, constant before and after.")
-        .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed before the ramp.")
-        .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed after the ramp.")
-        .real("Start Time", "s", 0.0, Range::nonNegative(), "Time at which the ramp begins.")
-        .real("Duration", "s", deck::Required{}, Range::positive(), "Time the ramp takes.")
-        .boolean("Smooth", true, "Cubic ramp whose angular acceleration has no jumps; false for a straight one."),
-    "Straight or smooth ramp between two speeds, then hold.");
+[[maybe_unused]] const bool ramp =
+    add<Ramp>(ListSpec("Ramp", "From one speed to another in a given time, constant before and after.")
+                  .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed before the ramp.")
+                  .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed after the ramp.")
+                  .real("Start Time", "s", 0.0, Range::nonNegative(), "Time at which the ramp begins.")
+                  .real("Duration", "s", deck::Required{}, Range::positive(), "Time the ramp takes.")
+                  .boolean("Smooth", true, "Cubic ramp whose angular acceleration has no jumps; false for a straight one."),
+              "Straight or smooth ramp between two speeds, then hold.");
 
-[[maybe_unused]] const bool harmonic = add<Harmonic>(
-    ListSpec("Harmonic", "Mean speed plus a sine, Omega = Mean + Amplitude sin(2 pi Frequency t + Phase).")
-        .real("Mean Speed", "rad/s", deck::Required{}, Range::any(), "Mean rotary speed.")
-        .real("Amplitude", "rad/s", deck::Required{}, Range::any(), "Amplitude of the fluctuation.")
-        .real("Frequency", "Hz", deck::Required{}, Range::positive(), "Frequency of the fluctuation.")
-        .real("Phase", "rad", 0.0, Range::any(), "Phase of the fluctuation at time 0."),
-    "Mean speed with a harmonic fluctuation.");
+[[maybe_unused]] const bool harmonic =
+    add<Harmonic>(ListSpec("Harmonic", "Mean speed plus a sine, Omega = Mean + Amplitude sin(2 pi Frequency t + Phase).")
+                      .real("Mean Speed", "rad/s", deck::Required{}, Range::any(), "Mean rotary speed.")
+                      .real("Amplitude", "rad/s", deck::Required{}, Range::any(), "Amplitude of the fluctuation.")
+                      .real("Frequency", "Hz", deck::Required{}, Range::positive(), "Frequency of the fluctuation.")
+                      .real("Phase", "rad", 0.0, Range::any(), "Phase of the fluctuation at time 0."),
+                  "Mean speed with a harmonic fluctuation.");
 
 }  // namespace
 }  // namespace tooljoint::loads

@@ -21,7 +21,8 @@ using Teuchos::ParameterList;
 class Table : public SpeedLaw {
  public:
   explicit Table(const ParameterList& list)
-      : time_(list.get<Teuchos::Array<double>>("Times").toVector()), speed_(list.get<Teuchos::Array<double>>("Speeds").toVector()) {
+      : time_(list.get<Teuchos::Array<double>>("Times").toVector()),
+        speed_(list.get<Teuchos::Array<double>>("Speeds").toVector()) {
     check();
     const std::size_t n = time_.size();
     const bool linear = list.get<std::string>("Interpolation") == "Linear";
@@ -67,8 +68,8 @@ class Table : public SpeedLaw {
 
  private:
   struct Piece {
-    double width;      ///< h
-    double linear;     ///< coefficients of x, x^2, x^3
+    double width;   ///< h
+    double linear;  ///< coefficients of x, x^2, x^3
     double quadratic;
     double cubic;
     double angle;  ///< int_0^{t_i} Omega
@@ -123,13 +124,14 @@ class Table : public SpeedLaw {
 };
 
 [[maybe_unused]] const bool registered = SpeedLaws::instance().add(
-    "Table", {"Speeds at given times, joined by straight lines or by cubics that do not overshoot.",
-              deck::ListSpec("Table", "Speeds at given times; the first and the last speed hold before and after.")
-                  .realArray("Times", "s", deck::Required{}, deck::Range::nonNegative(), "Times of the entries, increasing.")
-                  .realArray("Speeds", "rad/s", deck::Required{}, deck::Range::any(), "Rotary speed at each time; may change its sign.")
-                  .choice("Interpolation", std::string("Monotone cubic"), {"Monotone cubic", "Linear"},
-                          "Curve between the entries: a cubic without overshoot, or straight lines."),
-              [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> { return std::make_unique<Table>(list); }});
+    "Table",
+    {"Speeds at given times, joined by straight lines or by cubics that do not overshoot.",
+     deck::ListSpec("Table", "Speeds at given times; the first and the last speed hold before and after.")
+         .realArray("Times", "s", deck::Required{}, deck::Range::nonNegative(), "Times of the entries, increasing.")
+         .realArray("Speeds", "rad/s", deck::Required{}, deck::Range::any(), "Rotary speed at each time; may change its sign.")
+         .choice("Interpolation", std::string("Monotone cubic"), {"Monotone cubic", "Linear"},
+                 "Curve between the entries: a cubic without overshoot, or straight lines."),
+     [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> { return std::make_unique<Table>(list); }});
 
 }  // namespace
 }  // namespace tooljoint::loads

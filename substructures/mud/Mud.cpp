@@ -63,9 +63,10 @@ deck::ListSpec parameters() {
       .boolean("Coriolis", true, "Keep the Coriolis forces of both axial flows; needs a flow rate to matter.")
       .boolean("Centrifugal", true, "Keep the centrifugal stiffness of both axial flows; needs a flow rate to matter.")
       .boolean("Axial Drag", true, "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
-      .boolean("Rotating Annulus", false,
-               "Let the annular mud swirl at half the rotary speed: cross-coupled damping, negative and circulatory stiffness. It "
-               "changes the motion strongly; terms of the angular acceleration are left out.");
+      .boolean(
+          "Rotating Annulus", false,
+          "Let the annular mud swirl at half the rotary speed: cross-coupled damping, negative and circulatory stiffness. It "
+          "changes the motion strongly; terms of the angular acceleration are left out.");
 }
 
 Mud::Mud(const MudProperties& properties) : properties_(properties) {}
@@ -73,8 +74,9 @@ Mud::Mud(const Teuchos::ParameterList& list) : properties_(read(list)) {}
 
 SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius) const {
   if (!(outerRadius < boreRadius)) {
-    throw ModelError("The mud needs an annulus, but a body of outer radius " + metres(outerRadius) + " does not fit a bore of radius " +
-                     metres(boreRadius) + ": the added mass grows without bound as they meet. Check the bore radius and the section (the "
+    throw ModelError("The mud needs an annulus, but a body of outer radius " + metres(outerRadius) +
+                     " does not fit a bore of radius " + metres(boreRadius) +
+                     ": the added mass grows without bound as they meet. Check the bore radius and the section (the "
                      "gauge radius of a stabiliser or bit is no body radius).");
   }
   const MudProperties& p = properties_;
@@ -103,15 +105,16 @@ SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius)
   const double friction = p.frictionCoefficient * p.density * outerRadius;
   f.axialFlowDamping = friction * std::abs(f.annulusSpeed);
   f.axialDrag = -friction * f.annulusSpeed * std::abs(f.annulusSpeed);
-  f.rotationDamping = 2.0 * std::sqrt(2.0) * pi * p.density * outerRadius * std::sqrt(p.kinematicViscosity) * (1.0 + gamma * gamma * gamma) /
-                      square(1.0 - square(gamma));
+  f.rotationDamping = 2.0 * std::sqrt(2.0) * pi * p.density * outerRadius * std::sqrt(p.kinematicViscosity) *
+                      (1.0 + gamma * gamma * gamma) / square(1.0 - square(gamma));
   return f;
 }
 
 ElementContribution Mud::element(const beam::Section& section, double boreRadius, double length, const Vector3& gravity) const {
   if (!(section.outerRadius() > 0.0)) {
-    throw ModelError("The mud needs the radii of a section, but an element has a general one that gives only areas. Leave out the list "
-                     "Mud or give the section its radii.");
+    throw ModelError(
+        "The mud needs the radii of a section, but an element has a general one that gives only areas. Leave out the list "
+        "Mud or give the section its radii.");
   }
   count("mud matrices");
   const MudProperties& p = properties_;
@@ -123,7 +126,8 @@ ElementContribution Mud::element(const beam::Section& section, double boreRadius
   addTerm(out.damping, "mud rotation damping", "sqrt|Omega|", f.rotationDamping, lateral);
   if (p.coriolis) {
     const beam::Matrix12 slope = beam::lateralSlope(length);  // int N'N_z
-    addTerm(out.damping, "mud Coriolis", "1", f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed, slope - slope.transpose());
+    addTerm(out.damping, "mud Coriolis", "1", f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed,
+            slope - slope.transpose());
   }
   if (p.centrifugal) {
     addTerm(out.stiffness, "mud centrifugal", "1", -(f.innerMass * square(f.innerSpeed) + f.annulusMass * square(f.annulusSpeed)),

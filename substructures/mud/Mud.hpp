@@ -52,9 +52,9 @@ struct SectionFlow {
   double innerSpeed = 0.0;        ///< U_i, down the hole [m/s]
   double annulusSpeed = 0.0;      ///< U_o, up the hole [m/s]
   double axialFlowDamping = 0.0;  ///< c_ax = C_f rho_f D_o |U_o| / 2 [N s/m2]
-  double rotationDamping = 0.0;   ///< c_rot = 2 sqrt(2) pi rho_f R_e sqrt(nu_f) (1+gamma^3)/(1-gamma^2)^2 [N s/m2 per sqrt(rad/s)]
-  double axialDrag = 0.0;         ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m]
-  double buoyantMass = 0.0;       ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
+  double rotationDamping = 0.0;  ///< c_rot = 2 sqrt(2) pi rho_f R_e sqrt(nu_f) (1+gamma^3)/(1-gamma^2)^2 [N s/m2 per sqrt(rad/s)]
+  double axialDrag = 0.0;        ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m]
+  double buoyantMass = 0.0;      ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
 };
 
 /// A 12 x 12 element matrix times a law of the rotary speed: "1", "sqrt|Omega|", "Omega", "Omega^2" or "Omega sqrt|Omega|".

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Tables for spreadsheets: a header `name [unit]`, then one line per row, numbers that read back as the same doubles.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::io {
+
+class Csv {
+ public:
+  struct Column {
+    std::string name;
+    std::string unit;  ///< SI unit; "" or "1" for a pure number or a text, then the header has the name alone
+  };
+
+  explicit Csv(std::vector<Column> columns);
+
+  /// Add a row, one number per column. Error(Internal) for a wrong count or a number that is not finite.
+  void row(const std::vector<double>& values);
+  /// Add a row of texts; a text with a comma, a quote or a line end is quoted.
+  void row(const std::vector<std::string>& values);
+
+  /// The table so far.
+  const std::string& text() const { return text_; }
+  /// Write `path`.part, to be published later (OutputFolder). FileError when that fails.
+  void stage(const std::string& path) const;
+  /// Write `path` at once, never half.
+  void write(const std::string& path) const;
+
+ private:
+  std::vector<Column> columns_;
+  std::string text_;
+};
+
+}  // namespace tooljoint::io

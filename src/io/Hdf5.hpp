@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// RAII and error texts over the HDF5 C API, shared by writer and reader. Not for other rooms: include ResultsFile.hpp.
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+
+namespace tooljoint::io::hdf5 {
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0 && close_ != nullptr) close_(id_);
+  }
+  hid_t get() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// Keep HDF5 from printing its own error stack; our sentences carry the reason instead.
+void silence();
+
+/// Reason of the last failed call: the system's text ("No space left on device") when there is one, else HDF5's innermost.
+std::string lastReason();
+
+/// Variable-length UTF-8 string type.
+Handle textType();
+
+/// Write (or replace) a scalar text or number attribute; false when HDF5 refuses.
+bool putAttribute(hid_t object, const std::string& name, const std::string& value);
+bool putAttribute(hid_t object, const std::string& name, double value);
+bool putAttribute(hid_t object, const std::string& name, int value);
+
+}  // namespace tooljoint::io::hdf5

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/OutputFolder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "io/Summary.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::io {
+namespace {
+
+const char* const summaryName = "summary.json";
+
+std::string megabytes(double bytes) { return formatNumber(static_cast<int>(bytes / 1048576.0) + 1) + " MB"; }
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& folder) : folder_(folder), active_(parallel::rank() == 0) {
+  if (!active_) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) {
+    throw FileError("The output folder " + folder_ + " cannot be made: " + error.message() + ". Name another one with --output.");
+  }
+  lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0) {
+    throw FileError("The output folder " + folder_ + " cannot be opened: " + std::strerror(errno) +
+                    ". Name another one with --output.");
+  }
+  // file systems that cannot lock answer otherwise; then two runs are the user's own care
+  const bool taken = ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  try {
+    if (taken)
+      throw FileError("Another run is writing into the output folder " + folder_ +
+                      ". Wait for it or name another one with --output.");
+    prove();
+  } catch (...) {
+    ::close(lock_);
+    throw;
+  }
+  const PreviousRun previous = readPreviousRun(folder_ + "/" + summaryName);
+  finished_ = previous.status == "finished";
+  previousFiles_ = previous.files;
+}
+
+OutputFolder::~OutputFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::prove() const {
+  const std::string probe = folder_ + "/.writable";
+  try {
+    stageText(probe, "tooljoint\n");
+  } catch (const FileError& error) {
+    ::unlink((probe + ".part").c_str());
+    throw FileError("The output folder " + folder_ + " cannot be written to. " + error.what());
+  }
+  ::unlink((probe + ".part").c_str());
+}
+
+void OutputFolder::requireSpace(double bytes) const {
+  if (!active_) return;
+  std::error_code error;
+  const auto space = std::filesystem::space(folder_, error);
+  if (error || static_cast<double>(space.available) >= bytes) return;
+  throw FileError("The output folder " + folder_ + " has room for " + megabytes(static_cast<double>(space.available)) +
+                  ", but the results need about " + megabytes(bytes) +
+                  ". Make room, record less, or name another folder with --output.");
+}
+
+std::string OutputFolder::file(const std::string& name) {
+  if (name.empty() || name.find('/') != std::string::npos) {
+    throw Error(ExitCode::Internal, "\"" + name + "\" is no name for a file in the output folder.");
+  }
+  const std::string path = folder_ + "/" + name;
+  if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+    names_.push_back(name);
+    if (active_) ::unlink((path + ".part").c_str());  // left by a run that was killed: never to be taken for ours
+  }
+  return path;
+}
+
+std::vector<std::string> OutputFolder::files() const {
+  std::vector<std::string> sorted = names_;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+void OutputFolder::renameAll() {
+  // summary.json is the mark of a complete set: it goes last
+  std::stable_partition(names_.begin(), names_.end(), [](const std::string& name) { return name != summaryName; });
+  for (const auto& name : names_) {
+    const std::string path = folder_ + "/" + name;
+    if (std::filesystem::exists(path + ".part")) publishStaged(path);
+  }
+}
+
+void OutputFolder::publish() {
+  if (!active_) return;
+  renameAll();
+  for (const auto& name : previousFiles_) {
+    const bool plain = !name.empty() && name.find('/') == std::string::npos;
+    if (plain && std::find(names_.begin(), names_.end(), name) == names_.end()) ::unlink((folder_ + "/" + name).c_str());
+  }
+  finished_ = true;
+}
+
+bool OutputFolder::publishUnfinished() {
+  if (!active_ || finished_) return false;
+  renameAll();
+  return true;
+}
+
+}  // namespace tooljoint::io

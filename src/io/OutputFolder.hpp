@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The folder a run leaves its files in. During the run every file is called NAME.part; only a run that ended well
+/// gives them their names, so a finished result is never overwritten by a failed run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tooljoint::io {
+
+/// Rank 0 does all the work, the other ranks only know the names (wrap calls in parallel::agree to end alike).
+class OutputFolder {
+ public:
+  /// Make the folder if need be, lock it against a second run, and prove that a file can be written there: call before
+  /// anything is computed. FileError with the system's reason.
+  explicit OutputFolder(const std::string& folder);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  const std::string& folder() const { return folder_; }
+  /// True when a run that ended with status "finished" left its results here.
+  bool hasFinishedResults() const { return finished_; }
+
+  /// FileError when the file system has less room than `bytes`: a full disk is better found before a long run.
+  void requireSpace(double bytes) const;
+
+  /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), to be handed to a writer that stages it as .part.
+  /// A .part of that name left by an earlier run is removed.
+  std::string file(const std::string& name);
+  /// Names asked for with file(), sorted, without .part: the summary lists them.
+  std::vector<std::string> files() const;
+
+  /// The run ended well: give every staged file its name, summary.json last; files of the run before that this one did not write
+  /// are removed.
+  void publish();
+
+  /// The run failed or was interrupted. Without finished results here, the files get their names (their summary says
+  /// what happened); with them, they stay NAME.part beside the old results. Returns true in the first case.
+  bool publishUnfinished();
+
+ private:
+  void prove() const;
+  void renameAll();
+
+  std::string folder_;
+  std::vector<std::string> names_;
+  std::vector<std::string> previousFiles_;
+  bool active_ = false;
+  bool finished_ = false;
+  int lock_ = -1;
+};
+
+}  // namespace tooljoint::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/OutputParameters.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <algorithm>
+
+#include "common/Error.hpp"
+
+namespace tooljoint::io {
+
+bool OutputSettings::hasField(const std::string& name) const {
+  return std::find(fields.begin(), fields.end(), name) != fields.end();
+}
+
+deck::ListSpec parameters() {
+  using deck::Range;
+  const OutputSettings defaults;
+  return deck::ListSpec("Output", "What a run leaves behind; results.h5 and summary.json are always written.")
+      .text("Folder", deck::Optional{},
+            "Folder for the results, relative to where the program runs; --output on the command line goes first.")
+      .textArray("Fields", defaults.fields, {"displacement", "velocity", "acceleration", "normal_force"},
+                 "Motions and forces of all nodes recorded at every sample; {} records none.")
+      .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
+      .boolean("XDMF", defaults.xdmf,
+               "Write results.xdmf for ParaView: the string in its well, coloured by contact force and speed.")
+      .real("XDMF Interval", "s", defaults.xdmfInterval, Range::positive(),
+            "Time between two pictures in results.xdmf, at least the sampling interval.")
+      .boolean("Reduced Bases", defaults.reducedBases, "Store the basis of every reduced part in results.h5.")
+      .integer("Compression", defaults.compression, Range::between(0, 9),
+               "Deflate level of the time series in results.h5; 0 is off and fastest.");
+}
+
+OutputSettings readOutput(const Teuchos::ParameterList& list) {
+  OutputSettings s;
+  if (list.isParameter("Folder")) s.folder = list.get<std::string>("Folder");
+  s.fields = list.get<Teuchos::Array<std::string>>("Fields").toVector();
+  for (auto it = s.fields.begin(); it != s.fields.end(); ++it) {
+    if (std::find(s.fields.begin(), it, *it) != it) throw DeckError("Output/Fields names \"" + *it + "\" twice.");
+  }
+  s.csv = list.get<bool>("CSV");
+  s.xdmf = list.get<bool>("XDMF");
+  s.xdmfInterval = list.get<double>("XDMF Interval");
+  s.reducedBases = list.get<bool>("Reduced Bases");
+  s.compression = list.get<int>("Compression");
+  return s;
+}
+
+}  // namespace tooljoint::io

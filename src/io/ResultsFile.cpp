@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/ResultsFile.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/Version.hpp"
+#include "io/Hdf5.hpp"
+
+namespace tooljoint::io {
+
+using hdf5::Handle;
+
+namespace {
+
+/// Bytes of one chunk of a time series, about.
+constexpr std::size_t chunkBytes = 1U << 18U;
+
+[[noreturn]] void wrongUse(const std::string& sentence) { throw Error(ExitCode::Internal, sentence); }
+
+std::size_t product(const Shape& shape) {
+  std::size_t count = 1;
+  for (std::size_t extent : shape) count *= extent;
+  return count;
+}
+
+void requireFinite(const std::string& path, const double* values, std::size_t count) {
+  const double* bad = std::find_if(values, values + count, [](double x) { return !std::isfinite(x); });
+  if (bad != values + count) {
+    wrongUse("The result " + path + " holds " + formatNumber(*bad) + " at position " + std::to_string(bad - values) +
+             ", which is never written.");
+  }
+}
+
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// Access properties under which the file on disk changes its structure only in flush(): no metadata is evicted from the
+/// cache in between, so that what a killed process leaves is the state of the last flush.
+Handle accessProperties() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(access.get(), &cache);
+  cache.evictions_enabled = false;
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  H5Pset_mdc_config(access.get(), &cache);
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------- TimeSeries
+
+TimeSeries::TimeSeries(ResultsFile& file, std::string path, const Shape& rowShape)
+    : file_(file), path_(std::move(path)), rowShape_(rowShape), rowSize_(product(rowShape)) {
+  chunkRows_ = std::clamp<std::size_t>(chunkBytes / (std::max<std::size_t>(rowSize_, 1) * sizeof(double)), 1, 1024);
+}
+
+TimeSeries::~TimeSeries() = default;
+
+void TimeSeries::append(const double* row) {
+  if (!file_.active_) return;
+  if (file_.file_ < 0) wrongUse("The results file " + file_.path_ + " is closed; " + path_ + " cannot grow.");
+  requireFinite(path_, row, rowSize_);
+  buffer_.insert(buffer_.end(), row, row + rowSize_);
+  ++rows_;
+  if (rows_ % chunkRows_ == 0) writeBuffer();
+}
+
+void TimeSeries::writeBuffer() {
+  if (buffer_.empty()) return;
+  const std::size_t count = buffer_.size() / std::max<std::size_t>(rowSize_, 1);
+  std::vector<hsize_t> extent{rows_};
+  std::vector<hsize_t> start{rows_ - count};
+  std::vector<hsize_t> block{count};
+  for (std::size_t e : rowShape_) {
+    extent.push_back(e);
+    start.push_back(0);
+    block.push_back(e);
+  }
+  const auto rank = static_cast<int>(extent.size());
+  bool good = H5Dset_extent(dataset_, extent.data()) >= 0;
+  const Handle onDisk(H5Dget_space(dataset_), H5Sclose);
+  const Handle inMemory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
+  good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) >= 0;
+  good = good && H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT, buffer_.data()) >= 0;
+  if (!good) file_.fail("writing " + path_);
+  buffer_.clear();
+}
+
+// --------------------------------------------------------------------------------------------------------------- ResultsFile
+
+struct ResultsFile::DatasetRequest {
+  const std::string& path;
+  hid_t type;
+  hid_t space;
+  hid_t creation;
+  const std::string& unit;
+  const std::string& longName;
+};
+
+ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance, const ResultsOptions& options)
+    : path_(path), options_(options), active_(parallel::rank() == 0) {
+  if (!active_) return;
+  hdf5::silence();
+  file_ = H5Fcreate(partPath().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, accessProperties().get());
+  if (file_ < 0) fail("creating it");
+  try {
+    attribute("/", "format", std::string("tooljoint results"));
+    attribute("/", "format_version", resultsFormatVersion);
+    attribute("/", "program_version", programVersion());
+    attribute("/", "git_hash", gitHash());
+    attribute("/", "trilinos_version", trilinosVersion());
+    attribute("/", "mpi_version", mpiVersion());
+    attribute("/", "hdf5_version", hdf5Version());
+    attribute("/", "date", now());
+    attribute("/", "ranks", parallel::size());
+    attribute("/", "deck_file", provenance.deckFile);
+    attribute("/", "deck_sha256", provenance.deckSha256);
+    attribute("/", "deck_text", provenance.deckText);
+    attribute("/", "overrides", join(provenance.overrides, "\n"));
+    flush();
+  } catch (...) {
+    abandon();
+    throw;
+  }
+}
+
+ResultsFile::~ResultsFile() {
+  try {
+    close();
+  } catch (...) {  // a destructor must not throw; whoever needs to know calls close() or finish()
+    abandon();
+  }
+}
+
+void ResultsFile::fail(const std::string& doing) {
+  const std::string reason = hdf5::lastReason();
+  failed_ = true;
+  abandon();
+  std::string advice = "Make room or name another folder with --output.";
+  if (reason == std::strerror(EAGAIN)) {
+    advice = "Another run seems to be writing there; where the file system cannot lock files, set HDF5_USE_FILE_LOCKING=FALSE.";
+  }
+  throw FileError("The results file " + partPath() + " cannot be written (" + doing + "): " + reason + ". " + advice);
+}
+
+/// Give up what is buffered and let go of the file.
+void ResultsFile::abandon() noexcept {
+  for (auto& s : series_) s->buffer_.clear();
+  if (file_ >= 0) {
+    for (auto& s : series_) {
+      if (s->dataset_ >= 0) H5Dclose(s->dataset_);
+      s->dataset_ = -1;
+    }
+    H5Fclose(file_);
+    file_ = -1;
+  }
+}
+
+std::int64_t ResultsFile::createDataset(const DatasetRequest& request) {
+  if (file_ < 0) wrongUse("The results file " + path_ + " is closed; " + request.path + " cannot be written.");
+  if (request.longName.empty()) wrongUse("The result " + request.path + " has no long name.");
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link.get(), 1);
+  H5Eclear2(H5E_DEFAULT);
+  const hid_t dataset =
+      H5Dcreate2(file_, request.path.c_str(), request.type, request.space, link.get(), request.creation, H5P_DEFAULT);
+  if (dataset < 0) {
+    if (H5Lexists(file_, request.path.c_str(), H5P_DEFAULT) > 0) wrongUse("The result " + request.path + " is written twice.");
+    fail("making " + request.path);
+  }
+  if (!hdf5::putAttribute(dataset, "units", request.unit) || !hdf5::putAttribute(dataset, "long_name", request.longName)) {
+    H5Dclose(dataset);
+    fail("making " + request.path);
+  }
+  return dataset;
+}
+
+void ResultsFile::writeValues(const std::string& path, std::int64_t type, const void* values, std::size_t count,
+                              const Shape& shape, const std::string& unit, const std::string& longName) {
+  if (product(shape) != count) {
+    wrongUse("The result " + path + " has " + std::to_string(count) + " values, but its shape asks for " +
+             std::to_string(product(shape)) + ".");
+  }
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(
+      shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+      H5Sclose);
+  const Handle dataset(createDataset({path, type, space.get(), H5P_DEFAULT, unit, longName}), H5Dclose);
+  if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("writing " + path);
+}
+
+void ResultsFile::write(const std::string& path, const double* values, const Shape& shape, const std::string& unit,
+                        const std::string& longName) {
+  if (!active_) return;
+  if (unit.empty()) wrongUse("The result " + path + " has no unit; \"1\" is that of pure numbers.");
+  requireFinite(path, values, product(shape));
+  writeValues(path, H5T_NATIVE_DOUBLE, values, product(shape), shape, unit, longName);
+}
+
+void ResultsFile::write(const std::string& path, const std::vector<double>& values, const Shape& shape, const std::string& unit,
+                        const std::string& longName) {
+  if (product(shape) != values.size()) {
+    wrongUse("The result " + path + " has " + std::to_string(values.size()) + " values, but its shape asks for " +
+             std::to_string(product(shape)) + ".");
+  }
+  write(path, values.data(), shape, unit, longName);
+}
+
+void ResultsFile::write(const std::string& path, const Vector& values, const Shape& shape, const std::string& unit,
+                        const std::string& longName) {
+  write(path, std::vector<double>(values.data(), values.data() + values.size()), shape, unit, longName);
+}
+
+void ResultsFile::write(const std::string& path, const std::vector<int>& values, const Shape& shape, const std::string& unit,
+                        const std::string& longName) {
+  if (!active_) return;
+  if (unit.empty()) wrongUse("The result " + path + " has no unit; \"1\" is that of pure numbers.");
+  writeValues(path, H5T_NATIVE_INT, values.data(), values.size(), shape, unit, longName);
+}
+
+void ResultsFile::write(const std::string& path, const std::vector<std::string>& values, const std::string& longName) {
+  if (!active_) return;
+  std::vector<const char*> texts;
+  texts.reserve(values.size());
+  for (const auto& value : values) texts.push_back(value.c_str());
+  writeValues(path, hdf5::textType().get(), texts.data(), texts.size(), {texts.size()}, "", longName);
+}
+
+void ResultsFile::write(const std::string& path, const Matrix& values, const std::string& unit, const std::string& longName) {
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values;
+  write(path, rows.data(), {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())}, unit, longName);
+}
+
+void ResultsFile::write(const std::string& path, double value, const std::string& unit, const std::string& longName) {
+  write(path, &value, Shape{}, unit, longName);
+}
+
+TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape, const std::string& unit,
+                                const std::string& longName) {
+  series_.push_back(std::unique_ptr<TimeSeries>(new TimeSeries(*this, path, rowShape)));
+  TimeSeries& result = *series_.back();
+  if (!active_) return result;
+  if (unit.empty()) wrongUse("The result " + path + " has no unit; \"1\" is that of pure numbers.");
+  std::vector<hsize_t> extent{0};
+  std::vector<hsize_t> limit{H5S_UNLIMITED};
+  std::vector<hsize_t> chunk{result.chunkRows_};
+  for (std::size_t e : rowShape) {
+    extent.push_back(e);
+    limit.push_back(e);
+    chunk.push_back(std::max<std::size_t>(e, 1));
+  }
+  const auto rank = static_cast<int>(extent.size());
+  const Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_chunk(creation.get(), rank, chunk.data());
+  if (options_.compression > 0) {
+    H5Pset_shuffle(creation.get());
+    H5Pset_deflate(creation.get(), static_cast<unsigned>(options_.compression));
+  }
+  result.dataset_ = createDataset({path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), unit, longName});
+  result.buffer_.reserve(result.chunkRows_ * result.rowSize_);
+  return result;
+}
+
+namespace {
+
+template <class Value>
+bool attributeOf(hid_t file, const std::string& object, const std::string& name, const Value& value) {
+  const Handle target(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
+  return target.valid() && hdf5::putAttribute(target.get(), name, value);
+}
+
+}  // namespace
+
+void ResultsFile::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+}
+void ResultsFile::attribute(const std::string& object, const std::string& name, double value) {
+  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+}
+void ResultsFile::attribute(const std::string& object, const std::string& name, int value) {
+  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+}
+
+void ResultsFile::flush() {
+  if (!active_ || file_ < 0) return;
+  for (auto& s : series_) s->writeBuffer();
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("flushing it");
+}
+
+void ResultsFile::close() {
+  if (!active_ || file_ < 0) return;
+  flush();
+  for (auto& s : series_) {
+    H5Dclose(s->dataset_);
+    s->dataset_ = -1;
+  }
+  if (H5Fclose(std::exchange(file_, -1)) < 0) fail("closing it");
+}
+
+void ResultsFile::finish() {
+  if (!active_) return;
+  if (failed_) wrongUse("The results file " + path_ + " failed before and cannot be finished.");
+  close();
+  if (std::rename(partPath().c_str(), path_.c_str()) != 0) {
+    throw FileError("The results file " + partPath() + " cannot be renamed to " + path_ + ": " + std::strerror(errno) + ".");
+  }
+}
+
+}  // namespace tooljoint::io

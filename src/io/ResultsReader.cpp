@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/ResultsReader.hpp"
+
+#include <algorithm>
+
+#include "common/Error.hpp"
+#include "io/Hdf5.hpp"
+
+namespace tooljoint::io {
+
+using hdf5::Handle;
+
+namespace {
+
+Handle openDataset(hid_t file, const std::string& path) { return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose}; }
+
+std::vector<std::size_t> extents(hid_t dataset) {
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
+  if (rank > 0) H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+std::size_t product(const std::vector<std::size_t>& shape) {
+  std::size_t count = 1;
+  for (std::size_t extent : shape) count *= extent;
+  return count;
+}
+
+herr_t visit(hid_t /*file*/, const char* name, const H5O_info_t* info, void* data) {
+  if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
+  return 0;
+}
+
+/// Is the class of a dataset's or attribute's type one of two?
+bool isClass(const Handle& type, H5T_class_t a, H5T_class_t b) {
+  const H5T_class_t found = H5Tget_class(type.get());
+  return found == a || found == b;
+}
+
+}  // namespace
+
+ResultsReader::ResultsReader(const std::string& path) : path_(path) {
+  hdf5::silence();
+  file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file_ < 0) throw FileError("The results file " + path + " cannot be read: " + hdf5::lastReason() + ".");
+}
+
+ResultsReader::~ResultsReader() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void ResultsReader::fail(const std::string& what) const {
+  throw FileError("The results file " + path_ + " has no " + what + ".");
+}
+
+bool ResultsReader::has(const std::string& path) const {
+  // every link on the way must exist before the last one may be asked for
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+    if (H5Lexists(file_, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> ResultsReader::datasets() const {
+  std::vector<std::string> paths;
+  H5Ovisit(file_, H5_INDEX_NAME, H5_ITER_INC, visit, &paths);
+  return paths;
+}
+
+std::vector<std::size_t> ResultsReader::shape(const std::string& path) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  return extents(dataset.get());
+}
+
+std::vector<double> ResultsReader::numbers(const std::string& path) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  std::vector<double> values(product(extents(dataset.get())));
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) ||
+      (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+    fail("readable numbers in " + path);
+  }
+  return values;
+}
+
+std::vector<double> ResultsReader::rows(const std::string& path, std::size_t first, std::size_t count) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  const std::vector<std::size_t> whole = extents(dataset.get());
+  if (whole.empty() || first > whole[0] || count > whole[0] - first) {
+    fail("rows " + std::to_string(first) + " to " + std::to_string(first + count) + " in " + path);
+  }
+  std::vector<hsize_t> start(whole.size(), 0);
+  std::vector<hsize_t> block(whole.begin(), whole.end());
+  start[0] = first;
+  block[0] = count;
+  std::size_t size = count;
+  for (std::size_t i = 1; i < whole.size(); ++i) size *= whole[i];
+  std::vector<double> values(size);
+  if (size == 0) return values;
+  const Handle onDisk(H5Dget_space(dataset.get()), H5Sclose);
+  const Handle inMemory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose);
+  H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
+  if (H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT, values.data()) < 0) {
+    fail("readable numbers in " + path);
+  }
+  return values;
+}
+
+std::vector<int> ResultsReader::integers(const std::string& path) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  std::vector<int> values(product(extents(dataset.get())));
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  if (!isClass(type, H5T_INTEGER, H5T_INTEGER) ||
+      (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+    fail("readable integers in " + path);
+  }
+  return values;
+}
+
+std::vector<std::string> ResultsReader::texts(const std::string& path) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  std::vector<char*> raw(product(extents(dataset.get())), nullptr);
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  const Handle text = hdf5::textType();
+  if (!isClass(type, H5T_STRING, H5T_STRING) ||
+      (!raw.empty() && H5Dread(dataset.get(), text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)) {
+    fail("readable texts in " + path);
+  }
+  std::vector<std::string> values;
+  for (const char* one : raw) values.emplace_back(one != nullptr ? one : "");
+  const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+  if (!raw.empty()) H5Dvlen_reclaim(text.get(), space.get(), H5P_DEFAULT, raw.data());
+  return values;
+}
+
+bool ResultsReader::hasAttribute(const std::string& object, const std::string& name) const {
+  return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::string ResultsReader::textAttribute(const std::string& object, const std::string& name) const {
+  const Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) fail("attribute " + name + " of " + object);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  char* raw = nullptr;
+  if (!isClass(type, H5T_STRING, H5T_STRING) || H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {
+    fail("text in the attribute " + name + " of " + object);
+  }
+  std::string value = raw != nullptr ? raw : "";
+  H5free_memory(raw);
+  return value;
+}
+
+double ResultsReader::numberAttribute(const std::string& object, const std::string& name) const {
+  const Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) fail("attribute " + name + " of " + object);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  double value = 0.0;
+  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
+    fail("number in the attribute " + name + " of " + object);
+  }
+  return value;
+}
+
+}  // namespace tooljoint::io

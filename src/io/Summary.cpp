@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/Summary.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/Version.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The documented keys, in the order of the file. "[]" ends the name of an array of rows.
+const std::vector<std::string>& documentedKeys() {
+  static const std::vector<std::string> keys{
+      "format_version",
+      "status",
+      "message",
+      "program.version",
+      "program.git",
+      "deck.file",
+      "deck.sha256",
+      "ranks",
+      "wall_s",
+      "peak_memory_mb",
+      "files",
+      "warnings",
+      "model.nodes",
+      "model.elements",
+      "model.free_dofs",
+      "model.length",
+      "path.converged",
+      "path.increments",
+      "path.iterations",
+      "path.max_position_error",
+      "static.converged",
+      "static.iterations",
+      "static.residual",
+      "static.contact_nodes",
+      "static.compressed_elements",
+      "static.top_axial_force",
+      "static.last_element_axial_force",
+      "static.last_element_torque",
+      "static.max_normal_force",
+      "static.max_normal_force_node",
+      "static.total_normal_force",
+      "static.top_torque",
+      "static.torque_balance_defect",
+      "reduction.basis",
+      "reduction.substructures[].name",
+      "reduction.substructures[].interior",
+      "reduction.substructures[].interface",
+      "reduction.substructures[].retained",
+      "reduction.substructures[].modes",
+      "reduction.substructures[].cutoff_hz",
+      "reduction.reduced_dofs",
+      "reduction.wall_s",
+      "transient.model",
+      "transient.integrator",
+      "transient.start",
+      "transient.end",
+      "transient.steps",
+      "transient.rejected",
+      "transient.newton_iterations",
+      "transient.unconverged_steps",
+      "transient.wall_s",
+      "transient.cpu_s",
+      "transient.real_time_factor",
+      "transient.bit_speed_rpm.min",
+      "transient.bit_speed_rpm.max",
+      "transient.bit_speed_rpm.mean",
+      "transient.energy_residual",
+      "transient.max_penetration",
+      "study[].basis",
+      "study[].modes",
+      "study[].reduced_dofs",
+      "study[].integrator",
+      "study[].step_or_tolerance",
+      "study[].cpu_s",
+      "study[].wall_s",
+      "study[].real_time_factor",
+      "study[].steps",
+      "study[].unconverged_steps",
+      "study[].eps_t_max",
+      "study[].eps_t_mean",
+      "study[].eps_n_max",
+      "study[].dyn",
+      "study[].status",
+  };
+  return keys;
+}
+
+Json::json_pointer pointer(const std::string& path) {
+  Json::json_pointer where;
+  for (const auto& key : split(path, '.')) where /= key;
+  return where;
+}
+
+/// All keys with null; arrays of rows are null too until the first row comes.
+Json skeleton() {
+  Json json;
+  for (const auto& key : documentedKeys()) {
+    json[pointer(key.substr(0, key.find("[]")))] = nullptr;
+  }
+  return json;
+}
+
+[[noreturn]] void undocumented(const std::string& path) {
+  throw Error(ExitCode::Internal, "\"" + path + "\" is no documented key of summary.json.");
+}
+
+void requireFinite(const std::string& path, double value) {
+  if (!std::isfinite(value)) {
+    throw Error(ExitCode::Internal,
+                "The summary key \"" + path + "\" was given " + formatNumber(value) + ", which is never written.");
+  }
+}
+
+}  // namespace
+
+struct SummaryRow::Data {
+  Json json = Json::object();
+};
+struct Summary::Data {
+  Json json = skeleton();
+
+  /// The place of a documented value; rows and groups are not values.
+  Json& at(const std::string& path) {
+    for (const auto& key : documentedKeys()) {
+      if (key == path) return json[pointer(path)];
+    }
+    undocumented(path);
+  }
+};
+
+SummaryRow::SummaryRow() : data_(std::make_unique<Data>()) {}
+SummaryRow::~SummaryRow() = default;
+SummaryRow::SummaryRow(const SummaryRow& other) : data_(std::make_unique<Data>(*other.data_)) {}
+
+SummaryRow& SummaryRow::set(const std::string& key, double value) {
+  requireFinite(key, value);
+  data_->json[key] = value;
+  return *this;
+}
+SummaryRow& SummaryRow::set(const std::string& key, long value) {
+  data_->json[key] = value;
+  return *this;
+}
+SummaryRow& SummaryRow::set(const std::string& key, bool value) {
+  data_->json[key] = value;
+  return *this;
+}
+SummaryRow& SummaryRow::set(const std::string& key, const std::string& value) {
+  data_->json[key] = value;
+  return *this;
+}
+SummaryRow& SummaryRow::setNull(const std::string& key) {
+  data_->json[key] = nullptr;
+  return *this;
+}
+
+Summary::Summary() : data_(std::make_unique<Data>()) {
+  set("format_version", summaryFormatVersion);
+  set("program.version", programVersion());
+  set("program.git", gitHash());
+  set("ranks", parallel::size());
+}
+Summary::~Summary() = default;
+
+void Summary::set(const std::string& path, double value) {
+  requireFinite(path, value);
+  data_->at(path) = value;
+}
+void Summary::set(const std::string& path, long value) { data_->at(path) = value; }
+void Summary::set(const std::string& path, bool value) { data_->at(path) = value; }
+void Summary::set(const std::string& path, const std::string& value) { data_->at(path) = value; }
+void Summary::set(const std::string& path, const std::vector<std::string>& values) { data_->at(path) = values; }
+
+void Summary::append(const std::string& path, const SummaryRow& row) {
+  const std::string prefix = path + "[].";
+  Json complete = Json::object();
+  for (const auto& key : documentedKeys()) {
+    if (key.rfind(prefix, 0) == 0) complete[key.substr(prefix.size())] = nullptr;
+  }
+  if (complete.empty()) undocumented(path);
+  for (const auto& [key, value] : row.data_->json.items()) {
+    if (!complete.contains(key)) undocumented(prefix + key);
+    complete[key] = value;
+  }
+  Json& array = data_->json[pointer(path)];
+  if (array.is_null()) array = Json::array();
+  array.push_back(complete);
+}
+
+std::vector<std::string> Summary::keys() { return documentedKeys(); }
+
+std::string Summary::text() const {
+  // texts from the outside (file names, messages) may hold bytes that are no UTF-8: replaced, never a failure
+  return data_->json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void Summary::stage(const std::string& path) const { stageText(path, text()); }
+void Summary::write(const std::string& path) const { writeText(path, text()); }
+
+PreviousRun readPreviousRun(const std::string& path) {
+  PreviousRun run;
+  std::string text;
+  try {
+    text = readText(path);
+  } catch (const FileError&) {
+    return run;  // none there
+  }
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return run;
+  if (json.contains("status") && json["status"].is_string()) run.status = json["status"].get<std::string>();
+  if (json.contains("files") && json["files"].is_array()) {
+    for (const auto& name : json["files"]) {
+      if (name.is_string()) run.files.push_back(name.get<std::string>());
+    }
+  }
+  return run;
+}
+
+}  // namespace tooljoint::io
