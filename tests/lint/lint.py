@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Holds the rules of the source tree that a compiler does not: who may include whom, names that stay out, licence lines, length.
+
+    lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
+    lint.py --self-test     shows that each rule catches what it is for
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+LONGEST = 500  # lines of a source file; beyond, it is two ideas
+ROOMS = ["src", "substructures", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
+TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
+SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
+TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
+TOOLKIT_ROOMS_FOR_PARTS = {"model", "common", "deck", "linalg"}
+# Spelt so that this file does not contain them.
+FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"\bXX" r"X\b", r"(?i)\bnot " r"implemented\b", r"(?i)\bplace" r"holder\b",
+                                           r"(?<![\w.])/wo" r"rk/"]]
+FOREIGN = re.compile(r"(?i)drill[\s_-]?(string|pipe)")
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
+
+
+def is_source(path):
+    return path.suffix in SOURCES or path.name in ("CMakeLists.txt", "quickstart", "run")
+
+
+def include_problem(parts, included):
+    """Why a file at `parts` (path in pieces) may not include `included`, or None."""
+    target = included.removeprefix("tooljoint/").removeprefix("../").split("/")
+    if parts[0] == "src" and parts[1] != "app" and target[0] == "substructures":
+        return "the toolkit (src/) includes nothing of substructures/"
+    if parts[0] == "src" and parts[1] != "app" and target[0] == "app":
+        return "nothing but the program includes src/app/"
+    if parts[0] == "substructures" and toolkit_room(target) and toolkit_room(target) not in TOOLKIT_ROOMS_FOR_PARTS:
+        return "substructures/ includes only model, common, deck and linalg of src/"
+    return None
+
+
+def toolkit_room(target):
+    """The room of src/ that an included path (in pieces) belongs to, or None for other headers."""
+    if target[0] == "src" and len(target) > 1:
+        target = target[1:]
+    rooms = {"common", "deck", "linalg", "model", "statics", "reduction", "coupling", "transient", "study", "io", "app"}
+    return target[0] if len(target) > 1 and target[0] in rooms else None
+
+
+def lint_file(root, path):
+    relative = path.relative_to(root)
+    parts = relative.parts
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except UnicodeDecodeError:
+        yield 1, "is not UTF-8 text"
+        return
+    if is_source(path):
+        first = lines[1:2] if lines and lines[0].startswith("#!") else lines[:1]
+        if not first or "SPDX-License-Identifier: BSD-3-Clause" not in first[0]:
+            yield 1, "has no SPDX-License-Identifier: BSD-3-Clause on its first line"
+        if len(lines) > LONGEST:
+            yield LONGEST + 1, f"has {len(lines)} lines, more than {LONGEST}: which two ideas are in it?"
+    toolkit = parts[0] == "src" and parts[1] != "app"
+    bad_deck = parts[:2] == ("tests", "decks") and path.suffix == ".xml"
+    for number, line in enumerate(lines, 1):
+        for word in [] if bad_deck else FORBIDDEN:
+            if match := word.search(line):
+                yield number, f"says \"{match.group(0)}\""
+        if toolkit and (match := FOREIGN.search(line)):
+            yield number, f"says \"{match.group(0)}\": the toolkit has never heard of it"
+        if path.suffix in (".cpp", ".hpp") and (match := INCLUDE.match(line)):
+            if problem := include_problem(parts, match.group(1)):
+                yield number, f"includes {match.group(1)}: {problem}"
+
+
+def lint(root):
+    """All complaints about a tree as texts, and the number of files read."""
+    files = [root / name for name in TOP if (root / name).is_file()]
+    for room in ROOMS:
+        files += sorted(path for path in (root / room).rglob("*") if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
+    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)]
+    return complaints, len(files)
+
+
+def self_test():
+    spdx = "// SPDX-License-Identifier: BSD-3-Clause\n"
+    cases = {  # file, text, part of the complaint (None: no complaint)
+        "src/io/A.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "includes nothing of substructures"),
+        "src/io/B.cpp": (spdx + '#include "app/Scene.hpp"\n', "nothing but the program"),
+        "src/io/C.cpp": (spdx + "// a drill" + "string\n", "never heard"),
+        "src/io/D.cpp": (spdx + "// a Drill" + " pipe\n", "never heard"),
+        "src/app/E.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n// drill' + "string\n", None),
+        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "only model, common, deck and linalg"),
+        "substructures/beam/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/path/PathState.hpp"\n#include <vector>\n', None),
+        "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
+        "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
+        "docs/J.md": ("see /wo" + "rk/main\n", "says"),
+        "docs/K.md": ("this is not " + "implemented\n", "says"),
+        "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
+        "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
+    }
+    failures = 0
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, (text, _) in cases.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        complaints, _ = lint(root)
+        for name, (_, expected) in cases.items():
+            mine = [one for one in complaints if one.startswith(name + ":")]
+            good = not mine if expected is None else any(expected in one for one in mine)
+            failures += not good
+            print(f"{'ok    ' if good else 'FAILED'} {name}: {mine}")
+    return 1 if failures else 0
+
+
+def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
+    complaints, count = lint(pathlib.Path(sys.argv[1]).resolve())
+    print("\n".join(complaints))
+    print(f"{count} files read, {len(complaints)} complaints.")
+    return 1 if complaints or count == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a deck and compares a few physical norms of its summary.json with a gold.
+
+A gold is a JSON file:
+
+    {
+      "deck": "xml/helical_170m.xml",                     relative to the project
+      "set": ["Transient/End Time=0.2"],                  overrides, may be absent
+      "ranks": [1, 2, 4],                                 one CTest each
+      "timeout_s": 300,
+      "norms": {
+        "static.residual":        {"value": 1e-9, "at_most": true},
+        "path.converged":         {"value": true},
+        "static.top_axial_force": {"value": 81234.5, "relative": 1e-10, "absolute": 0.0, "why": "np equality of the static state"},
+        "reduction.substructures.0.modes": {"value": 60}
+      }
+    }
+
+Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
+allowances holds), or `at_most`; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
+on the first of `ranks` and rewrites the values (not those with `at_most`), never the tolerances.
+"""
+import argparse
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+
+def look_up(summary, key):
+    """The value at a dotted path; raises KeyError naming the step that is missing."""
+    value = summary
+    for step in key.split("."):
+        if isinstance(value, list) and step.isdigit() and int(step) < len(value):
+            value = value[int(step)]
+        elif isinstance(value, dict) and step in value:
+            value = value[step]
+        else:
+            raise KeyError(step)
+    return value
+
+
+def run(options, gold, ranks, output):
+    """Runs the deck and returns its summary; ends the process with the program's output when the run fails."""
+    command = [options.mpiexec, "-np", str(ranks), options.program, "run", str(options.project / gold["deck"]), "--output", str(output)]
+    for override in gold.get("set", []):
+        command += ["--set", override]
+    print(" ".join(command), flush=True)
+    (output / "summary.json").unlink(missing_ok=True)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+    if done.returncode != 0:
+        sys.exit(f"{done.stdout}\nThe run failed with exit code {done.returncode}.")
+    with open(output / "summary.json", encoding="utf-8") as file:
+        return json.load(file)
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def compare(norm, found):
+    """(difference, allowed, ok) as texts and a truth value."""
+    expected = norm["value"]
+    if not (is_number(expected) and is_number(found)):
+        return "", "equal", type(expected) is type(found) and expected == found
+    if not math.isfinite(found):
+        return "", "finite", False
+    if norm.get("at_most"):
+        return f"{found - expected:.3e}", "at most", found <= expected
+    allowed = norm.get("relative", 0.0) * abs(expected) + norm.get("absolute", 0.0)
+    return f"{abs(found - expected):.3e}", f"{allowed:.3e}", abs(found - expected) <= allowed
+
+
+def check_gold(gold, path):
+    """Ends the process when the gold itself cannot fail or cannot be read."""
+    for key, norm in gold.get("norms", {}).items():
+        if "value" not in norm:
+            sys.exit(f"{path}: {key} has no value yet: run with --update and look at what it wrote.")
+        if isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most"} & norm.keys()):
+            sys.exit(f"{path}: {key} is a real number and states no tolerance.")
+    if not gold.get("norms"):
+        sys.exit(f"{path}: no norms, so nothing would be compared.")
+
+
+def update(options, gold):
+    summary = run(options, gold, gold["ranks"][0], options.output)
+    for key, norm in gold["norms"].items():
+        if not norm.get("at_most"):
+            found = look_up(summary, key)
+            if found != norm.get("value"):
+                print(f"{key}: {norm.get('value')} -> {found}")
+            norm["value"] = found
+    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}', '"norms": {\n    %s\n  }') % ",\n    ".join(
+        f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
+    options.gold.write_text(text + "\n", encoding="utf-8")
+    return 0
+
+
+def verify(options, gold):
+    check_gold(gold, options.gold)
+    summary = run(options, gold, options.ranks, options.output)
+    width = max(len(key) for key in gold["norms"])
+    print(f"{'norm':<{width}}  {'gold':>24}  {'found':>24}  {'difference':>10}  {'allowed':>10}")
+    failed = 0
+    for key, norm in gold["norms"].items():
+        try:
+            found = look_up(summary, key)
+            difference, allowed, ok = compare(norm, found)
+        except KeyError as step:
+            found, difference, allowed, ok = f"no {step}", "", "", False
+        failed += not ok
+        print(f"{key:<{width}}  {norm['value']!s:>24}  {found!s:>24}  {difference:>10}  {allowed:>10}{'' if ok else '  FAILED'}")
+    print(f"\n{len(gold['norms'])} norms on {options.ranks} ranks, {failed} outside their tolerance.")
+    return 1 if failed else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("gold", type=pathlib.Path)
+    parser.add_argument("--program", default=os.environ.get("TOOLJOINT_PROGRAM", "tooljoint"))
+    parser.add_argument("--mpiexec", default="mpirun")
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--output", type=pathlib.Path, required=True, help="folder for the results of the run")
+    parser.add_argument("--update", action="store_true", help="rewrite the values of the gold")
+    options = parser.parse_args()
+    options.project = pathlib.Path(__file__).resolve().parents[2]
+    options.output.mkdir(parents=True, exist_ok=True)
+    gold = json.loads(options.gold.read_text(encoding="utf-8"))
+    return update(options, gold) if options.update else verify(options, gold)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
