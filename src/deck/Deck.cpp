@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/Deck.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+#include <tuple>
+
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Sha256.hpp"
+#include "common/Text.hpp"
+#include "deck/Overrides.hpp"
+#include "deck/Validator.hpp"
+#include "deck/XmlReader.hpp"
+
+namespace tooljoint::deck {
+
+struct Deck::Map {
+  Places places;
+
+  /// The place of a path, or of the nearest list around it.
+  const Place& nearest(std::string path) const {
+    while (true) {
+      const auto it = places.find(path);
+      if (it != places.end()) return it->second;
+      const auto slash = path.rfind('/');
+      path = slash == std::string::npos ? "" : path.substr(0, slash);
+    }
+  }
+};
+
+namespace {
+
+void requireConsistent(const ListSpec& spec) {
+  const std::vector<std::string> faults = spec.inconsistencies();
+  if (!faults.empty()) throw std::logic_error("The description of a deck contradicts itself: " + join(faults, "; ") + ".");
+}
+
+/// "is required" continues a path, "The bit ..." does not.
+bool continues(const std::string& sentence) {
+  return !sentence.empty() && std::islower(static_cast<unsigned char>(sentence[0])) != 0;
+}
+
+}  // namespace
+
+Deck Deck::parse(const std::string& text, const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides) {
+  requireConsistent(scene);
+  RawList tree = readXml(text, file);
+  std::vector<Finding> findings;
+  applyOverrides(tree, scene, overrides, findings);
+  auto map = std::make_shared<Map>();
+  auto list = std::make_shared<Teuchos::ParameterList>(validate(tree, scene, findings, map->places));
+  raise(std::move(findings), file);
+
+  Deck deck;
+  deck.file_ = file;
+  deck.text_ = text;
+  deck.name_ = tree.name;
+  deck.overrides_ = overrides;
+  deck.list_ = std::move(list);
+  deck.places_ = std::move(map);
+  return deck;
+}
+
+Deck Deck::read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides) {
+  std::string text;
+  parallel::agree([&] {
+    if (parallel::rank() == 0) text = readTextFile(file);
+  });
+  parallel::broadcast(text, 0);
+  return parse(text, file, scene, overrides);
+}
+
+Deck Deck::readNamed(const std::string& path, const std::string& name, const ListSpec& library) const {
+  try {
+    return read(resolve(name), library);
+  } catch (const FileError& fault) {
+    throw DeckError(error(path, std::string("names a file that cannot be read: ") + fault.what()));
+  }
+}
+
+std::string Deck::sha256() const { return tooljoint::sha256(text_); }
+
+std::string Deck::folder() const {
+  const auto slash = file_.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : file_.substr(0, slash);
+}
+
+std::string Deck::resolve(const std::string& name) const {
+  if (!name.empty() && name[0] == '/') return name;
+  const std::string base = folder();
+  return base == "." ? name : (base == "/" ? "/" : base + "/") + name;
+}
+
+std::string Deck::relative(const std::string& path) const {
+  const bool absolute = !path.empty() && path[0] == '/';
+  const std::string bare = absolute ? path.substr(1) : path;
+  const std::string prefix = name_ + "/";
+  const bool named = bare == name_ || bare.compare(0, prefix.size(), prefix) == 0;
+  if (!named || (!absolute && places_->places.count(bare) != 0)) return bare;
+  return bare == name_ ? "" : bare.substr(prefix.size());
+}
+
+bool Deck::gives(const std::string& path) const { return places_->places.count(relative(path)) != 0; }
+
+std::string Deck::where(const std::string& path) const {
+  const std::string below = relative(path);
+  return places_->nearest(below).text(file_) + ": /" + name_ + (below.empty() ? "" : "/" + below);
+}
+
+std::string Deck::error(const std::string& path, const std::string& sentence) const {
+  return where(path) + (continues(sentence) ? " " : ": ") + sentence;
+}
+
+std::string Deck::located(const std::string& message) const {
+  const std::string root = "/" + name_;
+  if (message.compare(0, root.size(), root) != 0) return message;
+  // Names may hold blanks and colons: the longest known path that the message begins with is meant.
+  std::string best;
+  for (const auto& [path, place] : places_->places) {
+    const std::string full = root + (path.empty() ? "" : "/" + path);
+    if (full.size() >= best.size() && message.compare(0, full.size(), full) == 0) best = full;
+  }
+  if (best.empty() || (best == root && message.size() > root.size() && message[root.size()] != '/' && message[root.size()] != ' ' && message[root.size()] != ':')) {
+    return message;
+  }
+  return places_->nearest(relative(best)).text(file_) + ": " + message;
+}
+
+void Problems::add(const std::string& path, const std::string& sentence) { add(deck_, path, sentence); }
+
+void Problems::add(const Deck& library, const std::string& path, const std::string& sentence) {
+  const Place& place = library.places_->nearest(library.relative(path));
+  // The deck itself comes first (""), then its libraries by name.
+  const std::string file = library.file() == deck_.file() ? "" : library.file();
+  items_.push_back({file, place.overrideNumber, place.line, library.error(path, sentence)});
+}
+
+void Problems::raise() const {
+  if (items_.empty()) return;
+  std::vector<Item> sorted = items_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Item& a, const Item& b) {
+    return std::tie(a.file, a.overrideNumber, a.line) < std::tie(b.file, b.overrideNumber, b.line);
+  });
+  std::vector<std::string> lines;
+  for (const Item& item : sorted) lines.push_back(item.text);
+  throw DeckError(join(lines, "\n"));
+}
+
+Teuchos::ParameterList defaults(const ListSpec& spec) {
+  Teuchos::ParameterList result(spec.name());
+  for (const ParameterSpec& parameter : spec.parameters()) {
+    if (std::holds_alternative<Required>(parameter.value)) {
+      throw DeckError("\"" + spec.name() + "/" + parameter.name + "\" is required but missing.");
+    }
+    setDefault(result, parameter);
+  }
+  for (const ListSpec& sublist : spec.lists()) {
+    if (sublist.required()) result.set(sublist.name(), defaults(sublist));
+  }
+  return result;
+}
+
+Teuchos::ParameterList variantList(const Teuchos::ParameterList& list, const std::string& variant, const ListSpec& parameters) {
+  if (list.isSublist(variant)) return list.sublist(variant);
+  try {
+    return defaults(parameters.named(variant)).setName(list.name() + "/" + variant);
+  } catch (const DeckError&) {
+    throw DeckError(list.name() + " needs the list \"" + variant + "\", since some of its parameters are required.");
+  }
+}
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Quantities with a unit ("120 rpm", "5 in", "8.6 ppg", "2.5 kN s/m") into SI numbers. Inside the program everything is SI.
+///
+/// A unit is a product of the symbols of unitSymbols(), each with an optional exponent, "/" before those it divides by:
+/// "N m", "N*m", "kg/m3", "kg/m^3", "N s/m", "m/s2", "deg/30m", "1/s". More than one factor below a "/" needs parentheses:
+/// "W/(m s)". Angles (rad) and cycles (Hz) are dimensions of their own: 1/s, rad/s and Hz are never mistaken for each other.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tooljoint::deck {
+
+/// Exponents of metre, kilogram, second, radian, cycle.
+using Dimension = std::array<int, 5>;
+
+struct Unit {
+  double factor = 1.0;  ///< value in SI = factor * value in this unit
+  Dimension dimension{};
+};
+
+/// One symbol of the table with what it measures, for the manual.
+struct UnitSymbol {
+  std::string symbol;
+  std::string quantity;
+  Unit unit;
+};
+
+const std::vector<UnitSymbol>& unitSymbols();
+
+/// The unit, or nothing when the text is none; `fault` (if given) then holds a clause that says why.
+std::optional<Unit> parseUnit(std::string_view text, std::string* fault = nullptr);
+
+/// "120 rpm" -> SI value for a parameter whose SI unit is `si` ("rad/s"); nothing when the text has no number, no unit, an unknown
+/// unit or one of another quantity, and `fault` then holds a full clause for an error message.
+std::optional<double> toSi(std::string_view text, const std::string& si, std::string& fault);
+
+/// Units of the table that may stand where `si` is asked for, the best known ones: {"m", "mm", "cm", "km", "ft", "in"}.
+std::vector<std::string> unitsLike(const std::string& si);
+
+}  // namespace tooljoint::deck
