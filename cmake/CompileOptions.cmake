@@ -11,7 +11,6 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 # Neither -march=native nor -ffast-math: golds hold on every machine, and NaN checks work.
 # Release is -O3 -DNDEBUG; checks that guard a result never hang on NDEBUG.
-set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
 add_compile_options(-fno-semantic-interposition)
 add_link_options(LINKER:--as-needed)
 
