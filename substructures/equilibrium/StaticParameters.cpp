@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterList.hpp>
+
+#include "substructures/equilibrium/Equilibrium.hpp"
+
+namespace tooljoint::equilibrium {
+
+deck::ListSpec parameters() {
+  using deck::Range;
+  deck::ListSpec spec("Static", "How the static equilibrium is found (Nguyen et al. 2020, section 3.2).");
+  spec.choice("Recipe", std::string("Continuation"), {"Continuation", "Source"},
+              "\"Continuation\" starts on the axis, sharpens the contacts in stages, then brings in friction, with short "
+              "steps and a line search; \"Source\" starts from the linear solution without contact and takes full steps.");
+  spec.choice("Jacobian", std::string("Exact"), {"Exact", "Source"},
+              "\"Source\" leaves out how the geometric stiffness changes with the displacement, equation (25).");
+  spec.boolean("Geometric Stiffness", true, "Whether axial force and torque of the static state stiffen the string.");
+  spec.real("Tolerance", "", 1e-9, Range::positive(),
+            "Scaled residual at convergence: root mean square over the dofs, relative to the largest load.");
+  spec.integer("Max Iterations", 200, Range::atLeast(1), "Newton iterations allowed in one stage.");
+  spec.real("Lateral Step Limit", "m", 0.05, Range::positive(),
+            "Largest change of a lateral displacement in one iteration of \"Continuation\".");
+  spec.realArray("Lambda Stages", "1/m", std::vector<double>{1e3, 1e4, 1e6}, Range::positive(),
+                 "Contact regularisations that \"Continuation\" goes through before the one of the contact list.");
+  spec.integer("Friction Steps", 4, Range::atLeast(1), "Equal steps in which \"Continuation\" brings in friction.");
+  spec.passThrough("NOX", "Handed on to NOX.");
+  spec.passThrough("Belos", "Handed on to Belos.");
+  return spec;
+}
+
+StaticOptions optionsFrom(const Teuchos::ParameterList& list) {
+  StaticOptions options;
+  options.recipe = list.get<std::string>("Recipe") == "Source" ? Recipe::Source : Recipe::Continuation;
+  options.exactJacobian = list.get<std::string>("Jacobian") == "Exact";
+  options.geometricStiffness = list.get<bool>("Geometric Stiffness");
+  options.tolerance = list.get<double>("Tolerance");
+  options.maxIterations = list.get<int>("Max Iterations");
+  options.lateralStepLimit = list.get<double>("Lateral Step Limit");
+  const auto& lambdas = list.get<Teuchos::Array<double>>("Lambda Stages");
+  options.lambdas.assign(lambdas.begin(), lambdas.end());
+  options.frictionSteps = list.get<int>("Friction Steps");
+  return options;
+}
+
+}  // namespace tooljoint::equilibrium

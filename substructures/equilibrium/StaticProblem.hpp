@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Static equilibrium of the bent string in contact with the well as a nonlinear problem (Nguyen et al. 2020, eq. 19).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/NonlinearProblem.hpp"
+#include "substructures/beam/Element.hpp"
+#include "substructures/beam/SparseAssembler.hpp"
+#include "substructures/contact/StaticContact.hpp"
+
+namespace tooljoint::equilibrium {
+
+/// Element e joins nodes e and e + 1.
+struct StaticElement {
+  beam::Matrix12 stiffness;        ///< everything linear, K_pa of the element, in nodal frames
+  beam::Matrix12 rotation;         ///< nodal dofs to the element frame (beam::rotation12)
+  double length = 0.0;             ///< [m]
+  double axialRigidity = 0.0;      ///< E S [N]
+  double torsionalRigidity = 0.0;  ///< G J [N m2]
+};
+
+/// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path state.
+struct StaticInput {
+  int nodes = 0;
+  std::vector<StaticElement> elements;
+  Vector load;             ///< F_s: weight, mud, WOB, TOB [N, N m]
+  Vector pathReaction;     ///< R_ipa; empty means zero
+  std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
+  std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
+  double direction = 1.0;          ///< sign of the rotary speed the string slides with; 0: no friction
+  bool geometricStiffness = true;  ///< K_gpo(D)
+};
+
+/// Which parts of the equation are switched on, and how the Jacobian is formed.
+struct StaticSwitches {
+  bool geometricStiffness = true;
+  bool pathReaction = true;
+  bool contact = true;
+  bool exactJacobian = true;     ///< false: without dK_gpo/dD, equation (25)
+  double lambda = 0.0;           ///< regularisation of all contacts [1/m]; 0: each point's own
+  double frictionScale = 1.0;    ///< factor on mu_s
+  double lateralStepLimit = 0.0; ///< largest change of u or v in a step [m]; 0: none
+};
+
+/// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
+class StaticProblem : public model::NonlinearProblem {
+ public:
+  /// Throws ModelError when sizes do not fit or no dof is free. `input` must outlive the problem.
+  explicit StaticProblem(const StaticInput& input);
+
+  void set(const StaticSwitches& switches) { switches_ = switches; }
+  const StaticSwitches& switches() const { return switches_; }
+
+  int size() const override { return unknowns_; }
+  void residual(const Vector& x, Vector& r) const override;
+  void jacobian(const Vector& x, Sparse& jacobian) const override;
+  Vector residualScale() const override;
+  double stepLimit(const Vector& x, const Vector& dx) const override;
+  std::string unknownName(int i) const override;
+
+  /// All dofs from the free ones (held dofs are zero), and the free ones of a full vector.
+  Vector expand(const Vector& x) const;
+  Vector restrict(const Vector& full) const;
+
+  /// F_apo = E S (w2 - w1)/l and T_apo = G J (theta_z2 - theta_z1)/l in the element frame, equation (20) [N, N m].
+  double axialForce(int element, const Vector& full) const;
+  double torque(int element, const Vector& full) const;
+  /// F_apo K_gF + T_apo K_gT of an element in nodal frames.
+  beam::Matrix12 geometricStiffness(int element, const Vector& full) const;
+
+  /// Contact forces of the batch at D: 3 per point (F_u, F_v, T_z), and the normal force per point.
+  void contactForces(const Vector& full, Vector& forces, Vector& normal) const;
+
+ private:
+  contact::StaticContact::Options contactOptions() const;
+  Vector lateral(const Vector& full) const;  ///< u, v of the contact points
+  bool touches() const { return switches_.contact && input_.contact != nullptr; }
+
+  const StaticInput& input_;
+  StaticSwitches switches_;
+  int unknowns_ = 0;
+  std::vector<int> index_;            ///< unknown of each dof, -1 when held
+  beam::SparseAssembler assembler_;   ///< elements first, then contact points (u, v, theta_z)
+  std::vector<beam::Matrix12> unitAxial_;   ///< K_gF per unit F in nodal frames
+  std::vector<beam::Matrix12> unitTorque_;  ///< K_gT per unit T in nodal frames
+  double forceScale_ = 1.0;
+  double momentScale_ = 1.0;
+};
+
+}  // namespace tooljoint::equilibrium
