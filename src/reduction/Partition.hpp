@@ -22,7 +22,11 @@ struct Partition {
   std::vector<std::vector<int>> ends;   ///< per link: indices into `kept` of the dofs it touches, increasing
 };
 
-/// Sorts the dofs of `part`. Throws ModelError when positions are out of range, not increasing or in two sets.
+/// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not symmetric, or interface and retained
+/// positions are out of range, not increasing or named twice.
+void checkPart(const model::Substructure& part);
+
+/// Sorts the dofs of `part`. Errors of checkPart.
 Partition partition(const model::Substructure& part);
 
 /// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and unsymmetric.

@@ -33,7 +33,7 @@ struct ReductionOptions {
 };
 
 /// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number of
-/// entries of "Modes by Substructure" is not `parts`.
+/// entries of "Modes by Substructure" is not `parts`. The options refer to the list (its sublist "Anasazi"), which must outlive them.
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.

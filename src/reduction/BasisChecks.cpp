@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/BasisChecks.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "linalg/DirectSolver.hpp"
+#include "linalg/EigenSolver.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+/// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size, with room.
+constexpr double zeroEnergy = 1e-12;
+/// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and two more.
+constexpr int zeroEnergyCandidates = 8;
+
+int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues, const Vector& modalMass) {
+  const Sparse absolute = K.cwiseAbs();
+  int found = 0;
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    const Vector shape = shapes.col(k).cwiseAbs();
+    if (std::abs(eigenvalues[k]) * modalMass[k] <= zeroEnergy * shape.dot(absolute * shape)) ++found;
+  }
+  return found;
+}
+
+void checkRank(const BasisResult& basis, BasisReport& report) {
+  const Matrix Phi = basis.vectors;
+  if (Phi.cols() == 0) {
+    report.rank = 0;
+    report.conditioning = 1;
+    return;
+  }
+  Matrix scaled = Phi;
+  for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
+    const double length = scaled.col(j).norm();
+    if (length > 0) scaled.col(j) /= length;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> gram(scaled.transpose() * scaled, Eigen::EigenvaluesOnly);
+  const double largest = gram.eigenvalues().maxCoeff();
+  report.rank = static_cast<int>((gram.eigenvalues().array() > 1e-14 * largest).count());
+  report.conditioning = std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
+}
+
+/// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all kept dofs (they change no
+/// constraint mode, and let a free part stand). Links that touch no kept dof do not move and are left out.
+void checkStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+  const Partition& p = basis.partition;
+  const int kept = static_cast<int>(p.kept.size());
+  if (kept == 0) return;
+  std::vector<int> positions = p.kept;
+  for (std::size_t link = 0; link < p.links.size(); ++link)
+    if (!p.ends[link].empty())
+      for (int i : p.links[link]) positions.push_back(p.interior[static_cast<std::size_t>(i)]);
+  Sparse K = block(constantStiffness(part.model), positions, positions);
+  Matrix k = reduced.constantStiffness;
+  double spring = 0;
+  for (int i = 0; i < kept; ++i) spring += std::abs(K.coeff(i, i)) / kept;
+  if (spring == 0) spring = 1;
+  Triplets ground;
+  for (int i = 0; i < kept; ++i) {
+    ground.emplace_back(i, i, spring);
+    k(i, i) += spring;
+  }
+  Sparse springs(K.rows(), K.cols());
+  springs.setFromTriplets(ground.begin(), ground.end());
+  K = Sparse(K + springs);
+
+  std::set<int> loaded{0, kept / 3, 2 * kept / 3, kept - 1};
+  Matrix full = Matrix::Zero(K.rows(), static_cast<Eigen::Index>(loaded.size()));
+  Matrix small = Matrix::Zero(k.rows(), full.cols());
+  Eigen::Index column = 0;
+  for (int j : loaded) {
+    full(j, column) = 1;
+    small(j, column++) = 1;
+  }
+  // Modes of links left out are not excited: give them any stiffness that keeps the reduced matrix regular.
+  for (Eigen::Index i = kept; i < k.rows(); ++i)
+    if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
+  const linalg::DirectSolver solver(K, [&](int i) {
+    return model::describe(part.model.dofs[static_cast<std::size_t>(positions[static_cast<std::size_t>(i)])], part.model.componentNames);
+  });
+  const Matrix exact = solver.solve(full);
+  const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
+  report.staticDefect = 0;
+  for (Eigen::Index c = 0; c < exact.cols(); ++c) {
+    double error = 0;
+    for (Eigen::Index i = 0; i < exact.rows(); ++i)
+      error = std::max(error, std::abs(recovered(positions[static_cast<std::size_t>(i)], c) - exact(i, c)));
+    report.staticDefect = std::max(report.staticDefect, error / exact.col(c).cwiseAbs().maxCoeff());
+  }
+}
+
+void checkFrequencies(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+  const Matrix m = reduced.mass;
+  const Sparse K = symmetricPart(constantStiffness(part.model));
+  const Matrix k = symmetricPart(reduced.constantStiffness);
+  if (m.rows() == 0) {
+    report.largestOmega = 0;
+    report.explicitStep = 0;
+    report.zeroEnergyReduced = 0;
+  } else {
+    const Eigen::LLT<Matrix> factor(m);
+    if (factor.info() != Eigen::Success)
+      throw ModelError("Part \"" + part.name + "\": its reduced mass matrix is not positive definite. Give every dof of the part mass, or retain fewer massless dofs.");
+    const linalg::EigenPairs pairs = linalg::symmetricModes(k, m);
+    report.largestOmega = std::sqrt(std::max(0.0, pairs.values.maxCoeff()));
+    report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
+    Vector modalMass(pairs.values.size());
+    for (Eigen::Index i = 0; i < modalMass.size(); ++i) modalMass[i] = pairs.vectors.col(i).dot(m * pairs.vectors.col(i));
+    report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors * pairs.vectors, pairs.values, modalMass);
+  }
+  const int size = part.model.size();
+  const linalg::EigenPairs lowest = linalg::lowestModes(K, part.model.mass, std::min(zeroEnergyCandidates, size), linalg::EigenOptions());
+  report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values, Vector::Ones(lowest.values.size()));
+}
+
+}  // namespace
+
+void checkBasis(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+  checkRank(basis, report);
+  if (report.rank < static_cast<int>(basis.vectors.cols()))
+    report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " + std::to_string(basis.vectors.cols()) + " coordinates");
+  checkStatics(part, basis, reduced, report);
+  if (report.staticDefect > 1e-6)
+    report.remarks.push_back("static response to loads on kept dofs is not exact: largest relative difference " + formatNumber(report.staticDefect));
+  checkFrequencies(part, basis, reduced, report);
+  if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
+    report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) + " zero-energy modes, the reduced part " +
+                             std::to_string(report.zeroEnergyReduced) + ": rigid-body motion is not preserved");
+  report.checked = true;
+}
+
+}  // namespace tooljoint::reduction

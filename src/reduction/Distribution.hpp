@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Which rank reduces which part, which parts are identical, and how a reduced part travels between ranks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/Substructure.hpp"
+#include "reduction/Basis.hpp"
+#include "reduction/Projection.hpp"
+
+namespace tooljoint::reduction {
+
+/// Everything the owner of a part computes. Loads, point rows and initial states are made from it on every rank.
+struct ReducedCore {
+  BasisResult basis;
+  ProjectedMatrices matrices;
+  BasisReport report;
+};
+
+/// Owner of each part: heaviest part first to the least loaded rank, ties to the lower index. The same on every rank.
+std::vector<int> assignOwners(const std::vector<int>& weights, int ranks);
+
+/// For each part the first part it is identical to (itself when there is none): same partition, same law names, matrices equal to
+/// 1e-13 of the largest entry, and same request. Loads, labels, points and states may differ.
+std::vector<int> findTwins(const std::vector<model::Substructure>& parts, const std::vector<ModeRequest>& requests);
+
+/// A core as bytes, and back. Both ends must be the same program on the same kind of machine.
+std::string pack(const ReducedCore& core);
+ReducedCore unpack(const std::string& bytes);
+
+}  // namespace tooljoint::reduction

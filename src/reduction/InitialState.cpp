@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/InitialState.hpp"
+
+#include <Eigen/QR>
+
+namespace tooljoint::reduction {
+
+Vector fitState(const BasisResult& basis, const Vector& x) {
+  const auto& kept = basis.partition.kept;
+  const auto& interior = basis.partition.interior;
+  Vector q = Vector::Zero(basis.vectors.cols());
+  for (std::size_t j = 0; j < kept.size(); ++j) q[static_cast<Eigen::Index>(j)] = x[kept[j]];
+  const int modes = basis.modes();
+  if (modes == 0 || interior.empty()) return q;
+  const Vector rest = x - basis.vectors * q;  // x_I - phi_C x_C on the interior
+  Vector target(static_cast<Eigen::Index>(interior.size()));
+  for (std::size_t i = 0; i < interior.size(); ++i) target[static_cast<Eigen::Index>(i)] = rest[interior[i]];
+  if (target.isZero(0.0)) return q;
+  std::vector<int> columns;
+  for (int k = 0; k < modes; ++k) columns.push_back(static_cast<int>(kept.size()) + k);
+  const Matrix phi = block(basis.vectors, interior, columns);
+  q.tail(modes) = phi.colPivHouseholderQr().solve(target);
+  return q;
+}
+
+}  // namespace tooljoint::reduction

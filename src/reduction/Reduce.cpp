@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/Reduce.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/Census.hpp"
+#include "common/Log.hpp"
+#include "common/Parallel.hpp"
+#include "reduction/BasisChecks.hpp"
+#include "reduction/Distribution.hpp"
+#include "reduction/InitialState.hpp"
+#include "reduction/Projection.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+constexpr double twoPi = 6.28318530717958647692;
+
+ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options) {
+  ReducedCore core;
+  core.basis = basis;
+  core.matrices = projectMatrices(part, basis);
+  BasisReport& report = core.report;
+  report.part = part.name;
+  report.basis = options.basis;
+  report.method = basis.method;
+  report.interface = static_cast<int>(basis.partition.interface.size());
+  report.retained = static_cast<int>(basis.partition.retained.size());
+  report.interior = static_cast<int>(basis.partition.interior.size());
+  report.modes = basis.modes();
+  report.negativeModes = static_cast<int>((basis.eigenvalues.array() < 0).count());
+  report.rows = basis.rows;
+  report.orthogonality = basis.orthogonality;
+  report.massDefect = core.matrices.massDefect;
+  report.stiffnessDefect = core.matrices.stiffnessDefect;
+  report.structureEnforced = core.matrices.structureEnforced;
+  report.remarks = basis.remarks;
+  for (std::size_t j = 0; j < report.rows.size(); ++j) {
+    if (report.rows[j].kind != "constraint") continue;
+    const double stiffness = core.matrices.constantStiffness.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
+    const double mass = core.matrices.mass.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
+    report.rows[j].eigenvalue = mass > 0 ? stiffness / mass : 0;
+  }
+  if (basis.orthonormal && !report.structureEnforced && report.modes > 0)
+    report.remarks.push_back("the modes are not orthonormal to 1e-10; the projected matrices are kept as they are");
+  if (options.checks) checkBasis(part, basis, core.matrices, report);
+  count("parts reduced");
+  return core;
+}
+
+void reduceLoads(const model::Substructure& part, const Sparse& Phi, const Vector& offset, model::SecondOrderModel& reduced) {
+  const Sparse transposed = Phi.transpose();
+  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, transposed * load.vector, load.law});
+  if (offset.isZero(0.0)) return;
+  // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
+  for (const auto& term : stiffnessTerms(part.model)) {
+    const Vector residual = -(term.matrix * offset);
+    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, transposed * residual, term.law});
+  }
+}
+
+void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, model::SecondOrderModel& reduced) {
+  for (const auto& set : part.model.points) {
+    model::PointSet points = set;
+    points.rows = set.rows * Phi;
+    points.offset = set.offset + set.rows * offset;
+    reduced.points.push_back(points);
+  }
+  reduced.recoveryNodes = part.model.recoveryNodes;
+  if (part.model.recoveryNodes.empty()) return;
+  reduced.recovery = part.model.recovery * Phi;
+  reduced.recoveryOffset = part.model.recoveryOffset + part.model.recovery * offset;
+}
+
+/// The reduced part from what its owner (or the owner of its twin) computed.
+ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index) {
+  ReducedSubstructure out;
+  out.name = part.name;
+  out.basis = core.basis;
+  out.report = core.report;
+  const Partition& p = core.basis.partition;
+  const Sparse& Phi = core.basis.vectors;
+  out.interface = static_cast<int>(p.interface.size());
+  out.retained = static_cast<int>(p.retained.size());
+  out.modes = core.basis.modes();
+
+  model::SecondOrderModel& m = out.model;
+  m.componentNames = part.model.componentNames;
+  m.laws = part.model.laws;
+  for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
+  for (int k = 0; k < out.modes; ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
+  m.mass = core.matrices.mass;
+  m.damping = core.matrices.damping;
+  m.stiffness = core.matrices.stiffness;
+
+  const bool keepStatic = options.initialState == InitialState::KeepStatic;
+  out.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(p.size));
+  reduceLoads(part, Phi, out.offset, m);
+  reducePoints(part, Phi, out.offset, m);
+  m.initialDisplacement = fitState(core.basis, part.model.initialDisplacement - out.offset);
+  m.initialVelocity = fitState(core.basis, part.model.initialVelocity);
+
+  out.report.part = part.name;
+  if (core.report.part != part.name) out.report.sharedWith = core.report.part;
+  for (std::size_t j = 0; j < p.kept.size() && j < out.report.rows.size(); ++j)
+    if (out.report.rows[j].kind == "constraint") out.report.rows[j].name = model::describe(m.dofs[j], m.componentNames);
+  const double size = part.model.initialDisplacement.norm();
+  if (size > 0) out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
+  m.validate();
+  return out;
+}
+
+std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>& parts, const ReductionOptions& options) {
+  const ModeRule& rule = options.modes;
+  double interior = 0;
+  for (const auto& part : parts) interior += static_cast<double>(part.interior().size());
+  std::vector<ModeRequest> requests(parts.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    ModeRequest& request = requests[p];
+    request.pairTolerance = rule.pairTolerance;
+    request.eigen = options.eigen;
+    switch (rule.kind) {
+      case ModeRule::Kind::PerPart:
+        request.kind = ModeRequest::Kind::Count;
+        request.count = rule.counts.size() == 1 ? rule.counts.front() : rule.counts.at(p);
+        break;
+      case ModeRule::Kind::Total: {
+        // The share of the part by size, with some room; asked again where it turns out too small.
+        const double share = interior > 0 ? static_cast<double>(parts[p].interior().size()) / interior : 0.0;
+        request.kind = ModeRequest::Kind::Count;
+        request.count = static_cast<int>(std::ceil(1.25 * share * rule.total)) + 6;
+        break;
+      }
+      case ModeRule::Kind::CutOff:
+        request.kind = ModeRequest::Kind::Below;
+        request.omegaMax = twoPi * rule.cutOffHz;
+        break;
+      case ModeRule::Kind::All:
+        request.kind = ModeRequest::Kind::All;
+        break;
+    }
+  }
+  return requests;
+}
+
+/// The reduction of a list of parts by the ranks of MPI_COMM_WORLD.
+class Team {
+ public:
+  Team(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options)
+      : parts_(parts), basis_(basis), options_(options), requests_(initialRequests(parts, options)), bases_(parts.size()), cores_(parts.size()) {
+    twin_ = findTwins(parts_, requests_);
+    std::vector<int> weights;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (first(p)) weights.push_back(static_cast<int>(parts_[p].interior().size()));
+    const auto owners = assignOwners(weights, parallel::size());
+    owner_.assign(parts_.size(), -1);
+    std::size_t next = 0;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (first(p)) owner_[p] = owners[next++];
+    const int idle = parallel::size() - static_cast<int>(weights.size());
+    if (idle > 0)
+      log::warn("There are " + std::to_string(weights.size()) + " different substructures for " + std::to_string(parallel::size()) + " ranks: " +
+                std::to_string(idle) + " of them will be idle during reduction.");
+  }
+
+  std::vector<ReducedSubstructure> run() {
+    build(std::vector<char>(parts_.size(), 1));
+    if (options_.modes.kind == ModeRule::Kind::Total) shareTotalModes();
+    parallel::agree([&] {
+      forOwned([&](std::size_t p) { cores_[p] = makeCore(parts_[p], bases_[p], options_); });
+    });
+    exchange();
+    std::vector<ReducedSubstructure> reduced(parts_.size());
+    parallel::agree([&] {
+      for (std::size_t p = 0; p < parts_.size(); ++p)
+        reduced[p] = finish(parts_[p], cores_[static_cast<std::size_t>(twin_[p])], options_, static_cast<int>(p));
+    });
+    return reduced;
+  }
+
+ private:
+  bool first(std::size_t p) const { return twin_[p] == static_cast<int>(p); }
+
+  template <class Work>
+  void forOwned(const Work& work) const {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (owner_[p] == parallel::rank()) work(p);
+  }
+
+  void build(const std::vector<char>& wanted) {
+    parallel::agree([&] {
+      forOwned([&](std::size_t p) {
+        if (wanted[p]) bases_[p] = basis_.build(parts_[p], requests_[p]);
+      });
+    });
+  }
+
+  /// Total Modes: ask until every part knows enough of its spectrum, then cut all at the same frequency.
+  void shareTotalModes() {
+    for (;;) {
+      std::vector<Vector> spectra(parts_.size());
+      std::vector<bool> complete(parts_.size());
+      std::vector<int> built(parts_.size());
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto t = static_cast<std::size_t>(twin_[p]);
+        spectra[p] = first(p) ? bases_[p].candidates : spectra[t];
+        int state[2] = {bases_[t].complete ? 1 : 0, bases_[t].modes()};
+        if (first(p)) {
+          parallel::broadcast(spectra[p], owner_[p]);
+          parallel::broadcast(state[0], owner_[p]);
+          parallel::broadcast(state[1], owner_[p]);
+        }
+        complete[p] = first(p) ? state[0] == 1 : complete[t];
+        built[p] = first(p) ? state[1] : built[t];
+      }
+      std::vector<int> counts = shareTotal(spectra, complete, options_.modes.total, options_.modes.pairTolerance);
+      std::vector<char> again(parts_.size(), 0);
+      bool enough = true;
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto t = static_cast<std::size_t>(twin_[p]);
+        counts[t] = counts[p] < 0 || counts[t] < 0 ? -1 : std::max(counts[t], counts[p]);
+        if (counts[p] < 0 || counts[p] > built[p]) {
+          again[t] = 1;
+          enough = false;
+        }
+      }
+      if (enough) {
+        forOwned([&](std::size_t p) {
+          bases_[p].remarks.clear();  // they were about the number asked of this part alone
+          truncate(bases_[p], counts[p], "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
+        });
+        return;
+      }
+      for (std::size_t p = 0; p < parts_.size(); ++p)
+        if (again[p]) requests_[p].count *= 2;
+      build(again);
+    }
+  }
+
+  void exchange() {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!first(p) || parallel::size() == 1) continue;
+      std::string bytes;
+      if (owner_[p] == parallel::rank()) bytes = pack(cores_[p]);
+      parallel::broadcast(bytes, owner_[p]);
+      if (owner_[p] != parallel::rank()) cores_[p] = unpack(bytes);
+    }
+  }
+
+  const std::vector<model::Substructure>& parts_;
+  const Basis& basis_;
+  const ReductionOptions& options_;
+  std::vector<ModeRequest> requests_;
+  std::vector<int> twin_;   ///< first identical part
+  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin
+  std::vector<BasisResult> bases_;
+  std::vector<ReducedCore> cores_;
+};
+
+}  // namespace
+
+ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index) {
+  return finish(part, makeCore(part, basis, options), options, index);
+}
+
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options) {
+  for (const auto& part : parts) checkPart(part);
+  return Team(parts, basis, options).run();
+}
+
+std::string summaryTable(const std::vector<ReducedSubstructure>& parts) {
+  std::vector<const BasisReport*> reports;
+  for (const auto& part : parts) reports.push_back(&part.report);
+  return summaryTable(reports);
+}
+
+}  // namespace tooljoint::reduction
