@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/Text.hpp"
+#include "deck/Deck.hpp"
 
 namespace tooljoint::contact {
 namespace {
@@ -17,8 +18,8 @@ void take(const Teuchos::ParameterList& list, const char* name, double& value) {
   if (list.isParameter(name)) value = list.get<double>(name);
 }
 
-/// Overrides `values` by what the list (the base list or an interval) gives; `path` is where it stands.
-void takeValues(const Teuchos::ParameterList& list, const std::string& path, ContactPoint& values) {
+/// Overrides `values` by what the list (the base list or an interval) gives.
+void takeValues(const Teuchos::ParameterList& list, ContactPoint& values) {
   take(list, "Stiffness", values.stiffness);
   take(list, "Damping", values.damping);
   take(list, "Stiffness Regularisation", values.lambdaK);
@@ -29,7 +30,7 @@ void takeValues(const Teuchos::ParameterList& list, const std::string& path, Con
   take(friction, "Dynamic", values.muDynamic);
   take(friction, "Regularisation Velocity", values.regularisationVelocity);
   if (values.muDynamic > values.muStatic)
-    throw DeckError(path + "/Friction: the dynamic friction coefficient " + formatNumber(values.muDynamic) +
+    throw DeckError(friction.name() + ": the dynamic friction coefficient " + formatNumber(values.muDynamic) +
                     " is above the static one, " + formatNumber(values.muStatic) +
                     "; the friction law needs Dynamic <= Static.");
 }
@@ -38,19 +39,18 @@ std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, c
   std::vector<ContactInterval> intervals;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string& name = list.name(it);
-    const std::string path = "Contact/Intervals/" + name;
     const Teuchos::ParameterList& sub = list.sublist(name);
     ContactInterval interval{name, sub.get<double>("From"), sub.get<double>("To"), base};
-    takeValues(sub, path, interval.values);
+    takeValues(sub, interval.values);
     if (!(interval.to > interval.from))
-      throw DeckError(path + ": To = " + formatNumber(interval.to) + " m must be deeper than From = " +
+      throw DeckError(sub.name() + ": To = " + formatNumber(interval.to) + " m must be deeper than From = " +
                       formatNumber(interval.from) + " m.");
     intervals.push_back(interval);
   }
   std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
   for (std::size_t i = 1; i < intervals.size(); ++i)
     if (intervals[i].from < intervals[i - 1].to)
-      throw DeckError("Contact/Intervals: \"" + intervals[i - 1].name + "\" and \"" + intervals[i].name +
+      throw DeckError(list.name() + ": \"" + intervals[i - 1].name + "\" and \"" + intervals[i].name +
                       "\" overlap; end the upper one where the lower one starts.");
   return intervals;
 }
@@ -108,12 +108,11 @@ deck::ListSpec parameters() {
 ContactSettings readContact(const Teuchos::ParameterList& list) {
   ContactSettings settings;
   settings.lawName = list.get<std::string>("Law");
-  const Teuchos::ParameterList none;
-  settings.law = LawRegistry::instance().make(settings.lawName,
-                                              list.isSublist(settings.lawName) ? list.sublist(settings.lawName) : none);
-  takeValues(list, "Contact", settings.values);
+  const auto& entry = LawRegistry::instance().find(settings.lawName);
+  settings.law = entry.make(deck::variantList(list, settings.lawName, entry.parameters));
+  takeValues(list, settings.values);
   if (settings.lawName == "Hunt-Crossley" && settings.values.damping > 0.0)
-    throw DeckError("Contact/Damping: the law Hunt-Crossley does not use it; give Contact/Hunt-Crossley/Dissipation instead.");
+    throw DeckError(list.name() + "/Damping is not used by the law Hunt-Crossley; give its Dissipation instead.");
   if (list.isSublist("Intervals")) settings.intervals = readIntervals(list.sublist("Intervals"), settings.values);
   settings.friction = settings.values.muStatic > 0.0;
   for (const ContactInterval& interval : settings.intervals) settings.friction |= interval.values.muStatic > 0.0;

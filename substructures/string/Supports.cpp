@@ -57,7 +57,7 @@ std::vector<char> SupportSettings::held(int nodes) const {
   hold(nodes - 1, bit);
   for (const NamedSupport& support : named) {
     if (support.node < 1 || support.node > nodes)
-      throw DeckError("Supports/" + support.name + "/Node: node " + std::to_string(support.node) + " does not exist; the string has nodes 1 to " +
+      throw DeckError(support.path + "/Node: node " + std::to_string(support.node) + " does not exist; the string has nodes 1 to " +
                       std::to_string(nodes) + ".");
     hold(support.node - 1, support.dofs);
   }
@@ -78,11 +78,11 @@ deck::ListSpec supportParameters() {
 
 SupportSettings readSupports(const Teuchos::ParameterList& list) {
   SupportSettings settings;
-  settings.top = parseDofs(list.get<std::string>("Top"), "Supports/Top");
-  settings.bit = parseDofs(list.get<std::string>("Bit"), "Supports/Bit");
-  const std::vector<bool> families = flags(list.get<std::string>("Dofs"), familyNames, "Supports/Dofs", "family of dofs");
+  settings.top = parseDofs(list.get<std::string>("Top"), list.name() + "/Top");
+  settings.bit = parseDofs(list.get<std::string>("Bit"), list.name() + "/Bit");
+  const std::vector<bool> families = flags(list.get<std::string>("Dofs"), familyNames, list.name() + "/Dofs", "family of dofs");
   if (std::find(families.begin(), families.end(), true) == families.end())
-    throw DeckError("Supports/Dofs: no family of dofs is left to model; known are " + quotedList(familyNames) + ".");
+    throw DeckError(list.name() + "/Dofs: no family of dofs is left to model; known are " + quotedList(familyNames) + ".");
   settings.lateral = families[0];
   settings.axial = families[1];
   settings.torsional = families[2];
@@ -90,7 +90,7 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
     const std::string& name = list.name(it);
     if (!list.isSublist(name)) continue;
     const Teuchos::ParameterList& sub = list.sublist(name);
-    settings.named.push_back({name, sub.get<int>("Node"), parseDofs(sub.get<std::string>("Dofs"), "Supports/" + name + "/Dofs")});
+    settings.named.push_back({name, sub.get<int>("Node"), parseDofs(sub.get<std::string>("Dofs"), sub.name() + "/Dofs"), sub.name()});
   }
   return settings;
 }

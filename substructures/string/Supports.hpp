@@ -23,6 +23,7 @@ struct NamedSupport {
   std::string name;
   int node = 0;  ///< 1-based
   DofFlags dofs{};
+  std::string path = {};  ///< of its list in the deck, for messages
 };
 
 /// What the list `Supports` says; the defaults are those of a deck without the list.

@@ -13,14 +13,18 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const s
   ArcShape shape;
   const bool radius = list.isParameter("Radius");
   if (radius == list.isParameter("Build Rate"))
-    throw DeckError("The arc needs either Radius or Build Rate, and only one of them.");
+    throw DeckError(list.name() + ": The arc needs either Radius or Build Rate, and only one of them.");
   shape.radius = radius ? list.get<double>("Radius") : 1.0 / list.get<double>("Build Rate");
   shape.kickOffDepth = list.get<double>("Kick-off Depth");
   shape.startInclination = list.get<double>("Start Inclination");
   shape.endInclination = list.get<double>("End Inclination");
   shape.azimuth = list.get<double>("Azimuth");
   shape.tangentLength = list.get<double>("Tangent Length");
-  return arc(shape);
+  try {
+    return arc(shape);
+  } catch (const DeckError& error) {
+    throw DeckError(list.name() + ": " + error.what());
+  }
 }
 
 const bool registered = TrajectoryRegistry::instance().add(

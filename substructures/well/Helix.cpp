@@ -58,7 +58,11 @@ const bool registered = TrajectoryRegistry::instance().add(
          .real("Angle", "rad", deck::Required{}, deck::Range::positive(), "Angle the helix turns through over its length.")
          .real("Length", "m", deck::Required{}, deck::Range::positive(), "Length along the hole; at least Radius times Angle."),
      [](const Teuchos::ParameterList& list, const std::string&) {
-       return helix(list.get<double>("Radius"), list.get<double>("Angle"), list.get<double>("Length"));
+       try {
+         return helix(list.get<double>("Radius"), list.get<double>("Angle"), list.get<double>("Length"));
+       } catch (const DeckError& error) {
+         throw DeckError(list.name() + ": " + error.what());
+       }
      }});
 
 }  // namespace

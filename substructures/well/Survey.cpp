@@ -161,6 +161,7 @@ class SurveyReader {
 std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const std::string& folder) {
   const auto& name = list.get<std::string>("File");
   const std::string file = name.empty() || name[0] == '/' || folder.empty() ? name : folder + "/" + name;
+  if (!std::ifstream(file)) throw DeckError(list.name() + "/File names a file that cannot be read: " + file + ".");
   return minimumCurvature(readSurvey(file, list.get<std::string>("Depth Unit"), list.get<std::string>("Angle Unit")));
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "deck/Deck.hpp"
+
 namespace tooljoint::well {
 
 Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius, std::vector<BoreInterval> intervals)
@@ -62,9 +64,8 @@ deck::ListSpec parameters() {
 
 Well readWell(const Teuchos::ParameterList& list, const std::string& folder) {
   const auto& name = list.get<std::string>("Trajectory");
-  if (!list.isSublist(name))
-    throw DeckError("The trajectory is \"" + name + "\", but the list Well has no sublist \"" + name + "\" with its parameters.");
-  std::shared_ptr<const Trajectory> trajectory = TrajectoryRegistry::instance().make(name, list.sublist(name), folder);
+  const auto& entry = TrajectoryRegistry::instance().find(name);
+  std::shared_ptr<const Trajectory> trajectory = entry.make(deck::variantList(list, name, entry.parameters), folder);
   std::vector<BoreInterval> intervals;
   if (list.isSublist("Bore")) {
     const Teuchos::ParameterList& bore = list.sublist("Bore");
@@ -74,7 +75,11 @@ Well readWell(const Teuchos::ParameterList& list, const std::string& folder) {
       intervals.push_back({key, interval.get<double>("From"), interval.get<double>("To"), interval.get<double>("Radius")});
     }
   }
-  return Well(std::move(trajectory), list.get<double>("Bore Radius"), std::move(intervals));
+  try {
+    return Well(std::move(trajectory), list.get<double>("Bore Radius"), std::move(intervals));
+  } catch (const DeckError& error) {
+    throw DeckError(list.name() + "/Bore: " + error.what());
+  }
 }
 
 }  // namespace tooljoint::well
