@@ -13,6 +13,7 @@
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/EigenChecks.hpp"
+#include "linalg/FunctionOperator.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/TpetraConversion.hpp"
 
@@ -37,24 +38,6 @@ struct Pencil {
   }
   int size() const { return static_cast<int>(K.rows()); }
   int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
-};
-
-/// Y = f(X) on rank-local multivectors.
-class FunctionOperator : public tpetra::Operator {
- public:
-  using Function = std::function<Matrix(const Matrix&)>;
-  FunctionOperator(Teuchos::RCP<const tpetra::Map> map, Function f) : map_(std::move(map)), f_(std::move(f)) {}
-
-  Teuchos::RCP<const tpetra::Map> getDomainMap() const override { return map_; }
-  Teuchos::RCP<const tpetra::Map> getRangeMap() const override { return map_; }
-  void apply(const tpetra::MultiVector& X, tpetra::MultiVector& Y, Teuchos::ETransp, double alpha, double beta) const override {
-    if (alpha != 1.0 || beta != 0.0) throw std::logic_error("FunctionOperator: only Y = f(X).");
-    onViews(X, Y, [this](const ConstMatrixView& x, MatrixView& y) { y = f_(x); });
-  }
-
- private:
-  Teuchos::RCP<const tpetra::Map> map_;
-  Function f_;
 };
 
 /// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first elastic eigenvalue

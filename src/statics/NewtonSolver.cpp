@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "statics/NewtonSolver.hpp"
+
+#include <NOX_Solver_Factory.H>
+#include <NOX_SolverStats.hpp>
+#include <NOX_StatusTest_Combo.H>
+#include <NOX_StatusTest_FiniteValue.H>
+#include <NOX_StatusTest_MaxIters.H>
+#include <NOX_StatusTest_NormF.H>
+#include <NOX_Thyra_Group.H>
+#include <NOX_Utils.H>
+#include <Teuchos_ParameterList.hpp>
+#include <Teuchos_oblackholestream.hpp>
+#include <Thyra_BelosLinearOpWithSolveFactory.hpp>
+
+#include "common/Error.hpp"
+#include "linalg/Scientific.hpp"
+#include "statics/StepSearch.hpp"
+#include "statics/ThyraProblem.hpp"
+
+namespace tooljoint::statics {
+
+namespace {
+
+using linalg::scientific;
+
+/// Belos behind Thyra with our parameters and the deck's over them.
+Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, const NewtonOptions& options, const Teuchos::ParameterList* belos) {
+  const auto list = Teuchos::parameterList("Belos");
+  list->set("Solver Type", "Block GMRES");
+  Teuchos::ParameterList& gmres = list->sublist("Solver Types").sublist("Block GMRES");
+  gmres.set("Convergence Tolerance", options.linearTolerance);
+  gmres.set("Maximum Iterations", options.linearIterations);
+  gmres.set("Num Blocks", std::max(1, std::min(n, options.linearIterations)));
+  gmres.set("Verbosity", 0);
+  list->sublist("VerboseObject").set("Verbosity Level", "none");
+  if (belos != nullptr) list->setParameters(*belos);
+  const auto factory = Teuchos::rcp(new Thyra::BelosLinearOpWithSolveFactory<double>());
+  try {
+    factory->setParameterList(list);
+  } catch (const std::exception& refused) {
+    throw ModelError(std::string("Belos refuses its parameters: ") + refused.what());
+  }
+  factory->setVerbLevel(Teuchos::VERB_NONE);
+  return factory;
+}
+
+Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options, const Teuchos::RCP<NOX::LineSearch::Generic>& search,
+                                                   const Teuchos::ParameterList* nox) {
+  const auto list = Teuchos::parameterList("NOX");
+  list->set("Nonlinear Solver", "Line Search Based");
+  Teuchos::ParameterList& newton = list->sublist("Direction").sublist("Newton");
+  list->sublist("Direction").set("Method", "Newton");
+  newton.set("Forcing Term Method", "Constant");
+  newton.set("Rescue Bad Newton Solve", true);  // GMRES that falls short still gives a descent direction; the search judges it
+  newton.sublist("Linear Solver").set("Tolerance", options.linearTolerance);
+  Teuchos::ParameterList& lineSearch = list->sublist("Line Search");
+  lineSearch.set("Method", "User Defined");
+  const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory = Teuchos::rcp(new StepSearchFactory(search));
+  lineSearch.set("User Defined Line Search Factory", factory);
+  Teuchos::ParameterList& printing = list->sublist("Printing");
+  if (options.verbose) {
+    printing.set("Output Information", NOX::Utils::Error + NOX::Utils::Warning + NOX::Utils::OuterIteration + NOX::Utils::OuterIterationStatusTest);
+  } else {
+    const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream());
+    printing.set("Output Information", static_cast<int>(NOX::Utils::Error));
+    printing.set("Output Stream", nowhere);
+    printing.set("Error Stream", nowhere);
+  }
+  if (nox != nullptr) {
+    if (nox->isSublist("Printing")) {  // whoever sets the printing wants to see it
+      printing.remove("Output Stream", false);
+      printing.remove("Error Stream", false);
+    }
+    list->setParameters(*nox);
+  }
+  return list;
+}
+
+double scaledResidual(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x, int* worst = nullptr) {
+  Vector r(x.size());
+  problem.residual(x, r);
+  const Vector scaled = scale.cwiseProduct(r).cwiseAbs();
+  for (Eigen::Index i = 0; i < scaled.size(); ++i)
+    if (!std::isfinite(scaled[i])) {
+      if (worst != nullptr) *worst = static_cast<int>(i);
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  Eigen::Index position = 0;
+  const double largest = scaled.size() == 0 ? 0.0 : scaled.maxCoeff(&position);
+  if (worst != nullptr) *worst = static_cast<int>(position);
+  return largest;
+}
+
+/// One NOX solve with all that has to live as long as it.
+class Newton {
+ public:
+  Newton(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options, const Teuchos::ParameterList* nox,
+         const Teuchos::ParameterList* belos)
+      : options_(options),
+        model_(Teuchos::rcp(new ThyraProblem(problem, start, options))),
+        smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
+    using namespace NOX::StatusTest;
+    const Teuchos::RCP<const Thyra::ModelEvaluator<double>> model = model_;
+    const Teuchos::RCP<const Thyra::LinearOpWithSolveFactoryBase<double>> solves = belosFactory(problem.size(), options, belos);
+    const Teuchos::RCP<Thyra::PreconditionerFactoryBase<double>> noFactory;  // the model itself updates W_prec
+    const auto group = Teuchos::rcp(new NOX::Thyra::Group(NOX::Thyra::Vector(*model_->getNominalValues().get_x()), model, model_->create_W_op(),
+                                                          solves, model_->create_W_prec(), noFactory));
+    const auto smallResidual = Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled));
+    const auto solved = Teuchos::rcp(new Combo(Combo::AND, smallResidual, smallStep_));
+    const auto tests = Teuchos::rcp(new Combo(Combo::OR));
+    tests->addStatusTest(Teuchos::rcp(new FiniteValue()));
+    tests->addStatusTest(solved);
+    tests->addStatusTest(Teuchos::rcp(new MaxIters(options.maxIterations)));
+    const auto search = Teuchos::rcp(new StepSearch(problem, options, record_));
+    solver_ = NOX::Solver::buildSolver(group, tests, noxParameters(options, search, nox));
+  }
+
+  void run(NewtonReport& report) {
+    report.history.push_back(residual());
+    NOX::StatusTest::StatusType status = NOX::StatusTest::Unconverged;
+    while (status == NOX::StatusTest::Unconverged) {
+      const int before = solver_->getNumIterations();
+      status = solver_->step();
+      if (solver_->getNumIterations() > before) report.history.push_back(residual());
+    }
+    report.converged = status == NOX::StatusTest::Converged;
+  }
+
+  Vector solution() const { return vectorOf(solver_->getSolutionGroup().getX()); }
+  const ThyraProblem& model() const { return *model_; }
+  const SearchRecord& record() const { return record_; }
+
+  void account(NewtonReport& report) const {
+    report.iterations = solver_->getNumIterations();
+    report.update = smallStep_->update();
+    report.factorisations = model_->factorisations();
+    report.linearIterations = solver_->getSolverStatistics()->linearSolve.lastNonlinearSolve_NumLinearIterations;
+    report.halvings = record_.halvings;
+    report.linearResidual = record_.linearResidual;
+  }
+
+ private:
+  double residual() const {
+    const NOX::Abstract::Group& group = solver_->getSolutionGroup();
+    if (!group.isF()) const_cast<NOX::Abstract::Group&>(group).computeF();
+    const Vector F = vectorOf(group.getF());
+    return F.allFinite() ? F.cwiseAbs().maxCoeff() : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  const NewtonOptions& options_;
+  SearchRecord record_;
+  Teuchos::RCP<ThyraProblem> model_;
+  Teuchos::RCP<SmallStep> smallStep_;
+  Teuchos::RCP<NOX::Solver::Generic> solver_;
+};
+
+std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record, const std::string& worst) {
+  const std::string state = "the scaled residual is " + scientific(report.residual) + " (largest at " + worst + ") where " +
+                            scientific(options.tolerance) + " is asked for, the last relative step " + scientific(report.update) +
+                            " where " + scientific(options.updateTolerance) + " is";
+  if (!std::isfinite(report.residual)) return "the residual is not finite at " + worst + " after " + std::to_string(report.iterations) + " iterations.";
+  if (record.failuresInARow >= options.maxFailedSearches)
+    return "no step along the Newton direction reduces the residual any more after " + std::to_string(report.iterations) +
+           " iterations: " + state + ".";
+  std::string text = std::to_string(report.iterations) + " Newton iterations were not enough: " + state + ".";
+  if (report.linearResidual > 0.1) text += " Some linear systems were badly solved (relative residual " + scientific(report.linearResidual) + ").";
+  return text;
+}
+
+}  // namespace
+
+NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options, const Teuchos::ParameterList* nox,
+                   const Teuchos::ParameterList* belos) {
+  if (x.size() != problem.size())
+    throw ModelError("A starting point of " + std::to_string(x.size()) + " unknowns was given to a nonlinear problem of " +
+                     std::to_string(problem.size()) + ".");
+  NewtonReport report;
+  const Vector scale = problem.residualScale();
+  int worst = 0;
+  report.residual = scaledResidual(problem, scale, x, &worst);
+  if (problem.size() == 0) {
+    report.converged = true;
+    report.message = "converged: there is nothing to solve.";
+    return report;
+  }
+  if (!std::isfinite(report.residual)) {
+    report.history.push_back(report.residual);
+    report.message = "the residual is not finite at " + problem.unknownName(worst) + " at the starting point.";
+    return report;
+  }
+  Newton newton(problem, x, options, nox, belos);
+  std::string stopped;
+  try {
+    newton.run(report);
+  } catch (const std::exception& error) {
+    if (newton.model().problemError()) std::rethrow_exception(newton.model().problemError());
+    stopped = error.what();
+  } catch (const char* error) {  // NOX throws character strings
+    stopped = error;
+  }
+  x = newton.solution();
+  newton.account(report);
+  report.residual = scaledResidual(problem, scale, x, &worst);
+  if (!stopped.empty()) report.converged = false;
+  // The last word is ours: recomputed, not NOX's.
+  if (!(report.residual <= options.tolerance)) report.converged = false;
+  if (!stopped.empty())
+    report.message = "stopped after " + std::to_string(report.iterations) + " iterations: " + stopped;
+  else if (report.converged)
+    report.message = "converged in " + std::to_string(report.iterations) + " iterations to a scaled residual of " + scientific(report.residual) + ".";
+  else
+    report.message = explain(report, options, newton.record(), problem.unknownName(worst));
+  return report;
+}
+
+void requireConverged(const NewtonReport& report, const std::string& what, const std::string& advice) {
+  if (!report.converged) throw ConvergenceError(what + " did not converge: " + report.message + (advice.empty() ? "" : " " + advice));
+}
+
+}  // namespace tooljoint::statics

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The line search and the step test handed to NOX. Included by NewtonSolver.cpp only.
+#pragma once
+
+#include <NOX_Abstract_Group.H>
+#include <NOX_Abstract_Vector.H>
+#include <NOX_LineSearch_Generic.H>
+#include <NOX_LineSearch_UserDefinedFactory.H>
+#include <NOX_Solver_Generic.H>
+#include <NOX_StatusTest_Generic.H>
+#include <NOX_Thyra_Vector.H>
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "model/NonlinearProblem.hpp"
+#include "statics/NewtonSolver.hpp"
+#include "statics/ThyraProblem.hpp"
+
+namespace tooljoint::statics {
+
+/// What the line search has done, shared with the step test and the report.
+struct SearchRecord {
+  double step = 1.0;  ///< s of the last step x + s dx
+  int halvings = 0;
+  int failuresInARow = 0;
+  double linearResidual = 0.0;
+};
+
+inline Vector vectorOf(const NOX::Abstract::Vector& x) {
+  return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
+}
+
+/// Full step, or backtracking on the scaled residual from the step limit of the problem.
+class StepSearch : public NOX::LineSearch::Generic {
+ public:
+  StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options, SearchRecord& record)
+      : problem_(problem), options_(options), record_(record) {}
+
+  bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) override {
+    const NOX::Abstract::Group& old = solver.getPreviousSolutionGroup();
+    recordLinearResidual(group, direction);
+    if (options_.lineSearch == NewtonOptions::FullStep) {
+      record_.step = step = 1.0;
+      group.computeX(old, direction, step);
+      return group.computeF() == NOX::Abstract::Group::Ok;
+    }
+    return backtrack(group, step, direction, old);
+  }
+
+ private:
+  bool backtrack(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Abstract::Group& old) {
+    const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
+    const double before = old.getNormF();
+    step = x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0;
+    double bestStep = 0.0, best = std::numeric_limits<double>::infinity();
+    for (int k = 0; k <= options_.maxHalvings; ++k) {
+      group.computeX(old, direction, step);
+      if (group.computeF() != NOX::Abstract::Group::Ok) return false;
+      const double after = group.getNormF();
+      // Armijo, or already as good as asked for (there rounding decides about a decrease)
+      if (std::isfinite(after) && (after <= (1.0 - options_.armijo * step) * before || largest(group) <= options_.tolerance)) {
+        record_.step = step;
+        record_.failuresInARow = 0;
+        return true;
+      }
+      if (after < best) {
+        best = after;
+        bestStep = step;
+      }
+      step *= 0.5;
+      ++record_.halvings;
+    }
+    // No decrease: take the best of what was tried and hope for a better direction from there, a few times.
+    ++record_.failuresInARow;
+    if (bestStep == 0.0 || record_.failuresInARow >= options_.maxFailedSearches) {
+      step = 0.0;
+      group.computeX(old, direction, step);
+      group.computeF();
+      return false;
+    }
+    record_.step = step = bestStep;
+    group.computeX(old, direction, step);
+    return group.computeF() == NOX::Abstract::Group::Ok;
+  }
+
+  static double largest(const NOX::Abstract::Group& group) { return group.getF().norm(NOX::Abstract::Vector::MaxNorm); }
+
+  /// |J dx + F| / |F| with the Jacobian itself, whatever the linear solver says about its own success.
+  void recordLinearResidual(const NOX::Abstract::Group& start, const NOX::Abstract::Vector& direction) {
+    const auto residual = direction.clone(NOX::ShapeCopy);
+    if (!start.isJacobian() || start.applyJacobian(direction, *residual) != NOX::Abstract::Group::Ok) return;
+    residual->update(1.0, start.getF(), 1.0);
+    const double size = start.getNormF();
+    if (size > 0.0) record_.linearResidual = std::max(record_.linearResidual, residual->norm() / size);
+  }
+
+  const model::NonlinearProblem& problem_;
+  const NewtonOptions& options_;
+  SearchRecord& record_;
+};
+
+class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {
+ public:
+  explicit StepSearchFactory(Teuchos::RCP<NOX::LineSearch::Generic> search) : search_(std::move(search)) {}
+  Teuchos::RCP<NOX::LineSearch::Generic> buildLineSearch(const Teuchos::RCP<NOX::GlobalData>&, Teuchos::ParameterList&) const override {
+    return search_;
+  }
+
+ private:
+  Teuchos::RCP<NOX::LineSearch::Generic> search_;
+};
+
+/// Converged when the last full Newton step is small: |dx| <= tolerance |x| + floor, or nothing is left to solve.
+class SmallStep : public NOX::StatusTest::Generic {
+ public:
+  SmallStep(const NewtonOptions& options, const SearchRecord& record) : options_(options), record_(record) {}
+
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType) override {
+    const NOX::Abstract::Group& now = solver.getSolutionGroup();
+    if (solver.getNumIterations() == 0) {
+      status_ = now.getNormF() == 0.0 ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
+      return status_;
+    }
+    const auto change = now.getX().clone(NOX::DeepCopy);
+    change->update(-1.0, solver.getPreviousSolutionGroup().getX(), 1.0);
+    const double dx = change->norm() / record_.step, size = now.getX().norm();
+    update_ = size > 0.0 ? dx / size : (dx > 0.0 ? std::numeric_limits<double>::infinity() : 0.0);
+    const bool small = dx <= options_.updateTolerance * size + options_.updateFloor;
+    status_ = small ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
+    return status_;
+  }
+  NOX::StatusTest::StatusType getStatus() const override { return status_; }
+  std::ostream& print(std::ostream& stream, int indent) const override {
+    return stream << std::string(static_cast<std::size_t>(indent), ' ') << "relative Newton step = " << update_ << '\n';
+  }
+  double update() const { return update_; }
+
+ private:
+  const NewtonOptions& options_;
+  const SearchRecord& record_;
+  double update_ = 0.0;
+  NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+};
+
+}  // namespace tooljoint::statics
