@@ -27,18 +27,16 @@ class Stages {
   Stages(StaticProblem& problem, const StaticOptions& options, const model::NonlinearSolver& solve)
       : problem_(problem), options_(options), solve_(solve) {}
 
-  void run(const std::string& name, const StaticSwitches& switches, double tolerance, bool backtracking, Vector& x) {
+  /// One stage from x; `rescue` allows a second attempt from the same start with a line search.
+  void run(const std::string& name, const StaticSwitches& switches, double tolerance, bool rescue, Vector& x) {
     problem_.set(switches);
-    model::SolveRequest request;
-    request.what = "the static equilibrium (" + name + ")";
-    request.tolerance = std::max(options_.tolerance, tolerance);
-    request.maxIterations = options_.maxIterations;
-    request.backtracking = backtracking;
-    const model::SolveOutcome outcome = solve_(problem_, x, request);
-    report_.stages.push_back({name, outcome.iterations, outcome.residual});
-    report_.iterations += outcome.iterations;
-    report_.residual = outcome.residual;
-    if (!outcome.converged || !x.allFinite()) throw ConvergenceError(complaint(request.tolerance) + outcome.message);
+    const Vector start = x;
+    if (attempt(name, tolerance, false, x)) return;
+    if (rescue) {
+      x = start;
+      if (attempt(name + ", line search", tolerance, true, x)) return;
+    }
+    throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
   }
 
   StaticReport report() const {
@@ -48,6 +46,20 @@ class Stages {
   }
 
  private:
+  bool attempt(const std::string& name, double tolerance, bool backtracking, Vector& x) {
+    model::SolveRequest request;
+    request.what = "the static equilibrium (" + name + ")";
+    request.tolerance = std::max(options_.tolerance, tolerance);
+    request.maxIterations = options_.maxIterations;
+    request.backtracking = backtracking;
+    const model::SolveOutcome outcome = solve_(problem_, x, request);
+    report_.stages.push_back({name, outcome.iterations, outcome.residual});
+    report_.iterations += outcome.iterations;
+    report_.residual = outcome.residual;
+    message_ = outcome.message;
+    return outcome.converged && x.allFinite();
+  }
+
   std::string complaint(double tolerance) const {
     std::string text = "The static equilibrium did not converge to " + shortNumber(tolerance) + " of the largest load; tried ";
     for (const StageReport& stage : report_.stages)
@@ -62,9 +74,12 @@ class Stages {
   const StaticOptions& options_;
   const model::NonlinearSolver& solve_;
   StaticReport report_;
+  std::string message_;
 };
 
-/// D = 0; lambda up to each point's own without friction, then friction in steps.
+/// D = 0; lambda up to each point's own without friction, then friction in steps. The cap on lateral motion is what makes
+/// it robust: at small lambda the tails of the contact law pull open nodes to the wall, and a line search on the residual
+/// alone creeps there, so it comes second.
 void continuation(const StaticInput& input, const StaticOptions& options, Stages& stages, StaticSwitches switches, Vector& x) {
   x.setZero();
   if (input.contact == nullptr) {

@@ -17,7 +17,7 @@ class ParameterList;
 namespace tooljoint::equilibrium {
 
 enum class Recipe {
-  Continuation,  ///< from D = 0: contacts from soft to sharp, then friction in steps, short steps with line search
+  Continuation,  ///< from D = 0: contacts from soft to sharp, then friction in steps; capped steps, else line search
   Source,        ///< from K_pa^-1 F_s with full Newton steps: first without, then with K_gpo
 };
 
