@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/BlockFactor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "linalg/BlockKernels.hpp"
+
+namespace tooljoint::linalg {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+/// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one that waited longest, which makes
+/// a chain shrink from both ends in turn and so gives the processor two independent sweeps.
+void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const {
+  const int n = pattern.blocks();
+  std::vector<std::set<int>> graph(z(n));
+  for (int b = 0; b < n; ++b)
+    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
+      if (pattern.column(e) != b) graph[z(b)].insert(pattern.column(e));
+  const auto work = [&](int b) {
+    double neighbours = 0;
+    for (int c : graph[z(b)]) neighbours += pattern.width(c);
+    return static_cast<long>(graph[z(b)].size() < 2 ? 0 : pattern.width(b) * neighbours * neighbours);
+  };
+  std::set<std::tuple<long, int, int>> queue;  // work, waiting since, block
+  std::vector<std::tuple<long, int, int>> key(z(n));
+  for (int b = 0; b < n; ++b) queue.insert(key[z(b)] = {work(b), b, b});
+  later.assign(z(n), {});
+  for (int clock = n; !queue.empty(); ++clock) {
+    const int b = std::get<2>(*queue.begin());
+    queue.erase(queue.begin());
+    sequence.push_back(b);
+    later[z(b)].assign(graph[z(b)].begin(), graph[z(b)].end());
+    for (int i : later[z(b)]) {
+      graph[z(i)].erase(b);
+      for (int j : later[z(b)])
+        if (i != j) graph[z(i)].insert(j);
+    }
+    for (int i : later[z(b)]) {
+      queue.erase(key[z(i)]);
+      queue.insert(key[z(i)] = {work(i), clock, i});
+    }
+  }
+}
+
+BlockFactor::BlockFactor(const BlockPattern& pattern) {
+  std::vector<int> sequence;
+  std::vector<std::vector<int>> later;
+  order(pattern, sequence, later);
+
+  std::map<std::pair<int, int>, std::size_t> fill;
+  std::size_t storage = patternStorage_ = pattern.storage();
+  const auto place = [&](int i, int j) {
+    const int entry = pattern.find(i, j);
+    if (entry >= 0) return pattern.offset(entry);
+    const auto [it, fresh] = fill.emplace(std::make_pair(i, j), storage);
+    if (fresh) storage += (z(pattern.width(i)) * z(pattern.width(j)) + 3) / 4 * 4;
+    return it->second;
+  };
+
+  int widest = 0;
+  std::size_t panel = 0;
+  for (int k : sequence) {
+    Pivot pivot{pattern.start(k), pattern.width(k), place(k, k), static_cast<int>(couplings_.size()), 0,
+                static_cast<int>(updates_.size()), 0};
+    widest = std::max(widest, pivot.width);
+    for (int i : later[z(k)]) {
+      couplings_.push_back({pattern.start(i), pattern.width(i), place(i, k), place(k, i)});
+      panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
+      solveWork_ += 2.0 * pivot.width * pattern.width(i);
+    }
+    solveWork_ += static_cast<double>(pivot.width) * pivot.width;
+    pivot.couplingEnd = static_cast<int>(couplings_.size());
+    for (int a = pivot.couplingBegin; a < pivot.couplingEnd; ++a)
+      for (int b = pivot.couplingBegin; b < pivot.couplingEnd; ++b)
+        updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)], later[z(k)][z(b - pivot.couplingBegin)]), a, b});
+    pivot.updateEnd = static_cast<int>(updates_.size());
+    pivots_.push_back(pivot);
+  }
+  values_.assign(storage, 0.0);
+  scale_.assign(z(pattern.size()), 0.0);
+  swaps_.assign(z(pattern.size()), 0);
+  workScale_.assign(z(widest), 0.0);
+  work_.assign(z(widest), 0.0);
+  panel_.assign(panel, 0.0);
+}
+
+int BlockFactor::factor() {
+  double* values = values_.data();
+  std::fill(values + patternStorage_, values + values_.size(), 0.0);
+  for (const Pivot& p : pivots_) {  // size of each row before elimination
+    for (int i = 0; i < p.width; ++i) {
+      double size = 0;
+      for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(values[p.diagonal + z(j * p.width + i)]));
+      if (!(size > 0)) return p.start + i;  // an empty row, or not a number
+      scale_[z(p.start + i)] = size;
+    }
+  }
+  for (const Pivot& p : pivots_) {
+    double* D = values + p.diagonal;
+    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)]);
+    if (bad >= 0) return p.start + bad;
+    // W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+      double* upper = values + couplings_[z(c)].upper;
+      const int columns = couplings_[z(c)].width;
+      if (p.width <= kernel::largestInverse) {
+        std::copy(upper, upper + p.width * columns, panel_.data());
+        kernel::multiplySmall(p.width, p.width, columns, D, panel_.data(), upper);
+      } else {
+        kernel::solveLarge(p.width, columns, D, &swaps_[z(p.start)], upper);
+      }
+    }
+    for (int u = p.updateBegin; u < p.updateEnd; ++u) {
+      const Update& update = updates_[z(u)];
+      const Coupling& i = couplings_[z(update.i)];
+      const Coupling& j = couplings_[z(update.j)];
+      kernel::multiplySubtract(i.width, p.width, j.width, values + i.lower, values + j.upper, values + update.target);
+    }
+  }
+  return -1;
+}
+
+void BlockFactor::solve(double* x) const {
+  const double* values = values_.data();
+  const Coupling* couplings = couplings_.data();
+  // z_k = D_k^-1 b_k;  b_i -= A_ik z_k
+  for (const Pivot& p : pivots_) {
+    double* target = x + p.start;
+    if (p.width == 6) {
+      kernel::Six s = kernel::Six::zero();
+      s.add(values + p.diagonal, target);
+      s.to(target);
+    } else if (p.width <= kernel::largestInverse) {
+      double* copy = work_.data();
+      for (int i = 0; i < p.width; ++i) copy[i] = target[i], target[i] = 0;
+      kernel::multiplyAdd(p.width, p.width, values + p.diagonal, copy, target);
+    } else {
+      kernel::solveLarge(p.width, 1, values + p.diagonal, &swaps_[z(p.start)], target);
+    }
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+      kernel::multiplySubtract(couplings[c].width, p.width, values + couplings[c].lower, target, x + couplings[c].start);
+  }
+  // x_k = z_k - sum_j W_kj x_j
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p)
+    for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
+      kernel::multiplySubtract(p->width, couplings[c].width, values + couplings[c].upper, x + couplings[c].start, x + p->start);
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The few dense operations block solvers are made of, on raw column-major storage. Blocks of 6 x 6 (one node of a spatial
+/// beam) are unrolled; blocks up to 8 keep an explicit inverse, larger ones a pivoted LU. Nothing here allocates for blocks
+/// below about 600 rows.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstring>
+
+namespace tooljoint::linalg::kernel {
+
+/// Blocks up to this size are inverted explicitly: a product is faster than two triangular solves.
+constexpr int largestInverse = 8;
+
+// Two lanes: the width every x86-64 and AArch64 has, so that results do not depend on the machine.
+using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
+
+inline Pair load(const double* a) { return *reinterpret_cast<const Pair*>(a); }
+inline void store(double* a, Pair x) { *reinterpret_cast<Pair*>(a) = x; }
+
+/// Three pairs holding a vector of six.
+struct Six {
+  Pair a, b, c;
+  static Six zero() { return {Pair{0, 0}, Pair{0, 0}, Pair{0, 0}}; }
+  static Six from(const double* x) { return {load(x), load(x + 2), load(x + 4)}; }
+  void to(double* x) const { store(x, a), store(x + 2, b), store(x + 4, c); }
+  /// this += A x, A 6 x 6.
+  void add(const double* A, const double* x) {
+    for (int j = 0; j < 6; ++j) {
+      const Pair f = {x[j], x[j]};
+      a += load(A + 6 * j) * f;
+      b += load(A + 6 * j + 2) * f;
+      c += load(A + 6 * j + 4) * f;
+    }
+  }
+  /// this -= A x, A 6 x 6.
+  void subtract(const double* A, const double* x) {
+    for (int j = 0; j < 6; ++j) {
+      const Pair f = {x[j], x[j]};
+      a -= load(A + 6 * j) * f;
+      b -= load(A + 6 * j + 2) * f;
+      c -= load(A + 6 * j + 4) * f;
+    }
+  }
+};
+
+using ConstBlock = Eigen::Map<const Eigen::MatrixXd>;
+using MutableBlock = Eigen::Map<Eigen::MatrixXd>;
+using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
+using MutableSegment = Eigen::Map<Eigen::VectorXd>;
+
+/// y += A x.
+inline void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
+  if (rows == 6 && columns == 6) {
+    Six s = Six::from(y);
+    s.add(A, x);
+    s.to(y);
+  } else if (rows <= 12) {
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < rows; ++i) y[i] += A[j * rows + i] * x[j];
+  } else {
+    MutableSegment(y, rows).noalias() += ConstBlock(A, rows, columns) * ConstSegment(x, columns);
+  }
+}
+
+/// y -= A x.
+inline void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
+  if (rows == 6 && columns == 6) {
+    Six s = Six::from(y);
+    s.subtract(A, x);
+    s.to(y);
+  } else if (rows <= 12) {
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < rows; ++i) y[i] -= A[j * rows + i] * x[j];
+  } else {
+    MutableSegment(y, rows).noalias() -= ConstBlock(A, rows, columns) * ConstSegment(x, columns);
+  }
+}
+
+/// C -= A B with A rows x inner, B inner x columns.
+inline void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+  if (rows == 6 && inner == 6) {
+    for (int j = 0; j < columns; ++j) {
+      Six s = Six::from(C + 6 * j);
+      s.subtract(A, B + 6 * j);
+      s.to(C + 6 * j);
+    }
+  } else if (rows <= 12 && inner <= 12) {
+    for (int j = 0; j < columns; ++j) multiplySubtract(rows, inner, A, B + j * inner, C + j * rows);
+  } else {
+    // Slices of the inner dimension keep Eigen's packing buffers on the stack.
+    constexpr int slice = 24;
+    for (int k = 0; k < inner; k += slice) {
+      const int n = inner - k < slice ? inner - k : slice;
+      MutableBlock(C, rows, columns).noalias() -=
+          ConstBlock(A + static_cast<std::ptrdiff_t>(k) * rows, rows, n) *
+          Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(B + k, n, columns, Eigen::OuterStride<>(inner));
+    }
+  }
+}
+
+/// C = A B, both small enough for an explicit inverse.
+inline void multiplySmall(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+  std::memset(C, 0, sizeof(double) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+  for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
+}
+
+/// Pivots smaller than this times the scale of their row count as zero.
+constexpr double smallestPivot = 1e-14;
+
+/// Replace the N x N block a by its inverse: Gauss-Jordan with pivoting on scaled rows. scale[i] > 0 is the size of row and
+/// column i before elimination. Returns -1, or the position of the first unusable pivot.
+template <int N>
+int invert(double* a, const double* scale) {
+  int swapped[N];
+  double s[N];
+  for (int i = 0; i < N; ++i) s[i] = scale[i];
+  for (int k = 0; k < N; ++k) {
+    int p = k;
+    double best = -1;
+    for (int i = k; i < N; ++i) {
+      const double size = std::abs(a[i * N + k]) / s[i];
+      if (size > best) best = size, p = i;
+    }
+    if (!(best > smallestPivot)) return k;  // also catches NaN
+    swapped[k] = p;
+    if (p != k) {
+      for (int j = 0; j < N; ++j) std::swap(a[k * N + j], a[p * N + j]);
+      std::swap(s[k], s[p]);
+    }
+    const double reciprocal = 1.0 / a[k * N + k];
+    a[k * N + k] = 1.0;
+    for (int j = 0; j < N; ++j) a[k * N + j] *= reciprocal;
+    for (int i = 0; i < N; ++i) {
+      if (i == k) continue;
+      const double factor = a[i * N + k];
+      a[i * N + k] = 0.0;
+      for (int j = 0; j < N; ++j) a[i * N + j] -= factor * a[k * N + j];
+    }
+  }
+  for (int k = N - 1; k >= 0; --k)
+    if (swapped[k] != k)
+      for (int i = 0; i < N; ++i) std::swap(a[i * N + k], a[i * N + swapped[k]]);
+  return -1;
+}
+
+/// PA = LU in place, unblocked within panels of 24 columns. pivots has n entries. Returns as invert().
+int factorLarge(int n, double* a, const double* scale, double* workScale, int* pivots);
+/// B := A^-1 B with the factors of factorLarge; B is n x columns.
+void solveLarge(int n, int columns, const double* lu, const int* pivots, double* B);
+
+/// Factor a diagonal block: explicit inverse up to largestInverse, LU above. Returns -1 or the position of the bad pivot.
+inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots) {
+  switch (n) {
+    case 1: return invert<1>(a, scale);
+    case 2: return invert<2>(a, scale);
+    case 3: return invert<3>(a, scale);
+    case 4: return invert<4>(a, scale);
+    case 5: return invert<5>(a, scale);
+    case 6: return invert<6>(a, scale);
+    case 7: return invert<7>(a, scale);
+    case 8: return invert<8>(a, scale);
+    default: return factorLarge(n, a, scale, workScale, pivots);
+  }
+}
+
+}  // namespace tooljoint::linalg::kernel

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/BlockSparse.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "linalg/BlockKernels.hpp"
+
+namespace tooljoint::linalg {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// Union-find with path halving.
+class Families {
+ public:
+  explicit Families(int n) : parent_(z(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[z(i)] != i) i = parent_[z(i)] = parent_[z(parent_[z(i)])];
+    return i;
+  }
+  void join(int a, int b) {
+    a = root(a), b = root(b);
+    if (a != b) parent_[z(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Number per dof of the block it belongs to, in order of first appearance.
+int number(const std::vector<std::pair<int, int>>& key, std::vector<int>& block) {
+  std::map<std::pair<int, int>, int> seen;
+  for (std::size_t i = 0; i < key.size(); ++i) block[i] = seen.emplace(key[i], static_cast<int>(seen.size())).first->second;
+  return static_cast<int>(seen.size());
+}
+
+std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices, const std::vector<int>& block, int blocks) {
+  std::vector<std::set<int>> graph(z(blocks));
+  for (int b = 0; b < blocks; ++b) graph[z(b)].insert(b);
+  for (const Sparse* matrix : matrices)
+    for (int i = 0; i < matrix->outerSize(); ++i)
+      for (Sparse::InnerIterator it(*matrix, i); it; ++it) {
+        if (it.value() == 0.0) continue;
+        const int a = block[z(i)];
+        const int b = block[z(static_cast<int>(it.col()))];
+        if (a == b) continue;
+        graph[z(a)].insert(b);
+        graph[z(b)].insert(a);
+      }
+  return graph;
+}
+
+}  // namespace
+
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group, const std::vector<int>& kind) {
+  const int n = static_cast<int>(group.size());
+  Families families(n);
+  for (const Sparse* matrix : matrices)
+    for (int i = 0; i < n; ++i)
+      for (Sparse::InnerIterator it(*matrix, i); it; ++it)
+        if (it.value() != 0.0) families.join(i, static_cast<int>(it.col()));
+
+  std::vector<std::pair<int, int>> key(z(n));
+  for (int i = 0; i < n; ++i) key[z(i)] = {group[z(i)], families.root(i)};
+  std::vector<int> block(z(n));
+  const int groups = number(key, block);
+
+  // Blocks with one closed neighbourhood and one class are indistinguishable: merge them.
+  const auto graph = blockGraph(matrices, block, groups);
+  std::vector<int> kindOf(z(groups), 0);
+  for (int i = 0; i < n; ++i) kindOf[z(block[z(i)])] = kind[z(i)];
+  std::map<std::pair<int, std::vector<int>>, int> first;
+  std::vector<int> leader(z(groups));
+  for (int b = 0; b < groups; ++b) {
+    std::vector<int> neighbours(graph[z(b)].begin(), graph[z(b)].end());
+    leader[z(b)] = first.emplace(std::make_pair(kindOf[z(b)], std::move(neighbours)), b).first->second;
+  }
+  for (int i = 0; i < n; ++i) key[z(i)] = {leader[z(block[z(i)])], 0};
+  const int blocks = number(key, block);
+
+  BlockPartition partition;
+  partition.start.assign(z(blocks + 1), 0);
+  for (int i = 0; i < n; ++i) ++partition.start[z(block[z(i)] + 1)];
+  std::partial_sum(partition.start.begin(), partition.start.end(), partition.start.begin());
+  std::vector<int> next(partition.start.begin(), partition.start.end() - 1);
+  partition.position.resize(z(n));
+  partition.dof.resize(z(n));
+  for (int i = 0; i < n; ++i) {
+    const int p = next[z(block[z(i)])]++;
+    partition.position[z(i)] = p;
+    partition.dof[z(p)] = i;
+  }
+  return partition;
+}
+
+BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Sparse*>& matrices) : partition_(std::move(partition)) {
+  const int n = size();
+  blockOf_.resize(z(n));
+  for (int b = 0; b < blocks(); ++b)
+    for (int p = start(b); p < start(b + 1); ++p) blockOf_[z(p)] = b;
+  std::vector<int> blockOfDof(z(n));
+  for (int i = 0; i < n; ++i) blockOfDof[z(i)] = blockOf_[z(partition_.position[z(i)])];
+
+  const auto graph = blockGraph(matrices, blockOfDof, blocks());
+  rowBegin_.push_back(0);
+  for (int b = 0; b < blocks(); ++b) {
+    for (int c : graph[z(b)]) {
+      column_.push_back(c);
+      offset_.push_back(storage_);
+      storage_ += (z(width(b)) * z(width(c)) + 3) / 4 * 4;
+    }
+    rowBegin_.push_back(static_cast<int>(column_.size()));
+  }
+}
+
+int BlockPattern::find(int row, int column) const {
+  const auto begin = column_.begin() + rowBegin(row);
+  const auto end = column_.begin() + rowBegin(row + 1);
+  const auto it = std::lower_bound(begin, end, column);
+  return it != end && *it == column ? static_cast<int>(it - column_.begin()) : -1;
+}
+
+std::size_t BlockPattern::address(int rowPosition, int columnPosition) const {
+  const int row = blockOf(rowPosition);
+  const int col = blockOf(columnPosition);
+  return offset(find(row, col)) + z(columnPosition - start(col)) * z(width(row)) + z(rowPosition - start(row));
+}
+
+void BlockPattern::add(const Sparse& matrix, double factor, BlockValues& values) const {
+  for (int i = 0; i < matrix.outerSize(); ++i)
+    for (Sparse::InnerIterator it(matrix, i); it; ++it)
+      if (it.value() != 0.0)
+        values[address(partition_.position[z(i)], partition_.position[z(static_cast<int>(it.col()))])] += factor * it.value();
+}
+
+BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+  for (int b = 0; b < pattern.blocks(); ++b) {
+    const int rows = pattern.width(b);
+    Row row{pattern.start(b), rows, static_cast<int>(entries_.size()), 0, rows == 6};
+    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
+      const int columns = pattern.width(pattern.column(e));
+      bool any = false;
+      bool offDiagonal = rows != columns;
+      for (int j = 0; j < columns; ++j)
+        for (int i = 0; i < rows; ++i)
+          for (const BlockValues* sample : samples)
+            if ((*sample)[pattern.offset(e) + z(j * rows + i)] != 0.0) {
+              any = true;
+              offDiagonal = offDiagonal || i != j;
+            }
+      if (!any) continue;
+      const Form form = offDiagonal ? Form::Dense : Form::Diagonal;
+      row.allSix = row.allSix && columns == 6 && form == Form::Dense;
+      entries_.push_back({pattern.offset(e), pattern.start(pattern.column(e)), columns, form});
+    }
+    row.end = static_cast<int>(entries_.size());
+    if (row.end > row.begin) rows_.push_back(row);
+  }
+}
+
+void BlockProduct::addTo(const double* values, const double* x, double* y) const {
+  const Entry* entries = entries_.data();
+  for (const Row& row : rows_) {
+    double* target = y + row.start;
+    if (row.allSix) {
+      kernel::Six sum = kernel::Six::from(target);
+      for (int e = row.begin; e < row.end; ++e) sum.add(values + entries[e].offset, x + entries[e].column);
+      sum.to(target);
+      continue;
+    }
+    for (int e = row.begin; e < row.end; ++e) {
+      const double* block = values + entries[e].offset;
+      const double* source = x + entries[e].column;
+      if (entries[e].form == Form::Diagonal)
+        for (int i = 0; i < row.width; ++i) target[i] += block[i * (row.width + 1)] * source[i];
+      else
+        kernel::multiplyAdd(row.width, entries[e].width, block, source, target);
+    }
+  }
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Square matrices made of dense blocks of varying size on one symmetric pattern: how dofs are gathered into blocks, where a
+/// block stands in storage, and products that skip blocks which are zero or only diagonal.
+///
+/// All matrices of a model share one pattern, hence one storage layout: a sum of matrices is a sum of arrays.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+
+/// Storage aligned for vector loads.
+using BlockValues = std::vector<double, Eigen::aligned_allocator<double>>;
+
+/// Which dofs form a block. Positions are dofs renumbered so that blocks are contiguous.
+struct BlockPartition {
+  std::vector<int> start;     ///< block -> its first position; size blocks()+1
+  std::vector<int> position;  ///< dof -> position
+  std::vector<int> dof;       ///< position -> dof
+  int blocks() const { return static_cast<int>(start.size()) - 1; }
+};
+
+/// Gather dofs into blocks. Dofs of one group (a node, the modes of a part) stay together unless the matrices do not couple
+/// them at all, in which case each family (lateral, axial ...) gets blocks of its own; groups of one class that see exactly the
+/// same neighbours (a dense interface) become one block.
+/// \param matrices  patterns to unite, all of one size
+/// \param group     group number per dof
+/// \param kind      class per dof; only groups of one class may be merged
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group, const std::vector<int>& kind);
+
+/// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row then column.
+class BlockPattern {
+ public:
+  BlockPattern() = default;
+  /// United, symmetrised pattern of the matrices under a partition.
+  BlockPattern(BlockPartition partition, const std::vector<const Sparse*>& matrices);
+
+  int size() const { return partition_.start.back(); }
+  int blocks() const { return partition_.blocks(); }
+  int start(int block) const { return partition_.start[static_cast<std::size_t>(block)]; }
+  int width(int block) const { return start(block + 1) - start(block); }
+  int blockOf(int position) const { return blockOf_[static_cast<std::size_t>(position)]; }
+  const BlockPartition& partition() const { return partition_; }
+
+  /// Blocks of block row b: entries rowBegin(b) ... rowBegin(b+1)-1 of column() and offset().
+  int rowBegin(int b) const { return rowBegin_[static_cast<std::size_t>(b)]; }
+  int column(int entry) const { return column_[static_cast<std::size_t>(entry)]; }
+  std::size_t offset(int entry) const { return offset_[static_cast<std::size_t>(entry)]; }
+  /// Entry of block (row, column), -1 if it is not in the pattern.
+  int find(int row, int column) const;
+  /// Number of doubles a matrix on this pattern takes.
+  std::size_t storage() const { return storage_; }
+  /// Address of a scalar entry given by positions, which must be in the pattern.
+  std::size_t address(int rowPosition, int columnPosition) const;
+
+  /// values += factor * matrix (in dofs, not positions).
+  void add(const Sparse& matrix, double factor, BlockValues& values) const;
+
+ private:
+  BlockPartition partition_;
+  std::vector<int> blockOf_;
+  std::vector<int> rowBegin_;
+  std::vector<int> column_;
+  std::vector<std::size_t> offset_;
+  std::size_t storage_ = 0;
+};
+
+/// y += A x for matrices on one pattern; which blocks are zero or diagonal is found once, from samples that have every
+/// nonzero the products will see.
+class BlockProduct {
+ public:
+  BlockProduct() = default;
+  BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
+  bool empty() const { return rows_.empty(); }
+  /// y += A x, vectors in positions.
+  void addTo(const double* values, const double* x, double* y) const;
+
+ private:
+  enum class Form { Dense, Diagonal };
+  struct Entry {
+    std::size_t offset;
+    int column;
+    int width;
+    Form form;
+  };
+  struct Row {
+    int start;
+    int width;
+    int begin;
+    int end;
+    bool allSix;  ///< six rows, every block dense with six columns
+  };
+  std::vector<Row> rows_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A SecondOrderModel in the form a step loop wants: dofs gathered into dense blocks, terms that share a law merged, matrices
+/// of equal layout combined only when a law has changed, loads likewise. Built once; nothing here allocates afterwards.
+///
+/// Vectors are raw arrays in *positions* (dofs renumbered block by block); toPositions()/toDofs() translate.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "linalg/BlockSparse.hpp"
+#include "model/SecondOrderModel.hpp"
+#include "transient/PointBatch.hpp"
+
+namespace tooljoint::transient {
+
+/// A sum of constant matrices times laws: sum_i c_i(t) C_i.
+class MatrixSum {
+ public:
+  struct Term {
+    std::string name;            ///< names of the merged terms, joined by " + "
+    int law = 0;                 ///< index of the model's law
+    linalg::BlockValues values;  ///< on the common pattern
+    linalg::BlockProduct product;
+    bool skew = false;           ///< does no work (gyroscopics): x'Ax = 0 to rounding
+  };
+
+  MatrixSum() = default;
+  MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws, const linalg::BlockPattern& pattern);
+  bool empty() const { return terms_.empty(); }
+  /// Recombine if a law has another value than last time; true if so.
+  bool update(const std::vector<double>& lawValues);
+  /// y += A(t) x.
+  void addTo(const double* x, double* y) const;
+  /// values += factor * A(t).
+  void combine(double factor, double* values, std::size_t storage) const;
+  double entry(std::size_t address) const { return terms_.empty() ? 0.0 : current()[address]; }
+  const std::vector<Term>& terms() const { return terms_; }
+  /// Value of the law of a term at the time of the last update().
+  double factor(std::size_t term) const { return last_[term]; }
+  /// Values of A(t) on the pattern; undefined when empty().
+  const double* current() const { return constant_ ? terms_.front().values.data() : sum_.data(); }
+
+ private:
+  std::vector<Term> terms_;
+  std::vector<double> last_;  ///< law values of sum_
+  linalg::BlockValues sum_;
+  linalg::BlockProduct product_;
+  bool constant_ = false;     ///< one term with the law 1: no sum is kept
+};
+
+class CompiledModel {
+ public:
+  /// Throws ModelError when the model is inconsistent.
+  explicit CompiledModel(const model::SecondOrderModel& model);
+  CompiledModel(const CompiledModel&) = delete;
+  CompiledModel& operator=(const CompiledModel&) = delete;
+
+  int size() const { return pattern_.size(); }
+  const model::SecondOrderModel& source() const { return model_; }
+  const linalg::BlockPattern& pattern() const { return pattern_; }
+
+  void toPositions(const Vector& dofs, Vector& positions) const;
+  void toDofs(const Vector& positions, Vector& dofs) const;
+  /// "theta_z of node 17".
+  std::string dofName(int position) const;
+
+  /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
+  void setTime(double t);
+  double time() const { return time_; }
+  /// Changes whenever C(t) or K(t) changed.
+  long matrixStamp() const { return stamp_; }
+  /// F(t).
+  const double* load() const { return load_.data(); }
+
+  /// y += M x, y += C(t) x, y += K(t) x.
+  void addMass(const double* x, double* y) const { massProduct_.addTo(mass_.data(), x, y); }
+  void addDamping(const double* x, double* y) const { damping_.addTo(x, y); }
+  void addStiffness(const double* x, double* y) const { stiffness_.addTo(x, y); }
+  bool hasDamping() const { return !damping_.empty(); }
+
+  /// values = m M + c C(t) + k K(t) on the pattern (storage() doubles).
+  void combine(double m, double c, double k, double* values) const;
+  /// Diagonal of the same sum.
+  void diagonal(double m, double c, double k, double* out) const;
+
+  const MatrixSum& damping() const { return damping_; }
+  const MatrixSum& stiffness() const { return stiffness_; }
+  std::vector<PointBatch>& points() { return points_; }
+  const std::vector<PointBatch>& points() const { return points_; }
+
+  /// sum of R' f over all batches: evaluated at the active points of state (q, v), added to y.
+  void addPointForces(double t, const double* q, const double* v, double* y);
+
+ private:
+  const model::SecondOrderModel& model_;
+  linalg::BlockPattern pattern_;
+  linalg::BlockValues mass_;
+  linalg::BlockProduct massProduct_;
+  MatrixSum damping_;
+  MatrixSum stiffness_;
+  std::vector<std::size_t> diagonalAddress_;
+  struct Load {
+    int law;
+    Vector vector;  ///< positions
+  };
+  std::vector<Load> loads_;
+  std::vector<double> lastLoadLaws_;
+  Vector load_;
+  std::vector<double> lawValues_;
+  std::vector<PointBatch> points_;
+  double time_ = 0;
+  bool timeSet_ = false;
+  long stamp_ = 0;
+};
+
+}  // namespace tooljoint::transient

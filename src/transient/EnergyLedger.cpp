@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/EnergyLedger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+double EnergyAccount::numerical() const {
+  double dissipated = friction + contactDamping + circulatory;
+  for (double each : damping) dissipated += each;
+  return initial + loads + drive - dissipated - (kinetic + strain + contact);
+}
+
+double EnergyAccount::residual() const {
+  const double scale = std::max({exchanged, std::abs(initial), std::abs(kinetic) + std::abs(strain) + std::abs(contact)});
+  return scale > 0 ? numerical() / scale : 0.0;
+}
+
+void EnergyLedger::allocate(CompiledModel& model) {
+  const int n = model.size();
+  for (Vector* x : {&step_, &product_, &internal_, &nextInternal_, &load_}) x->setZero(n);
+  dissipative_.clear();
+  account_.dampingNames.clear();
+  for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
+    if (model.damping().terms()[i].skew) continue;
+    dissipative_.push_back(i);
+    account_.dampingNames.push_back(model.damping().terms()[i].name);
+  }
+  account_.damping.resize(dissipative_.size(), 0.0);
+}
+
+EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, const State& state) {
+  Powers sum;
+  for (auto& batch : model.points()) {
+    batch.gatherAll(state.q.data(), state.v.data());
+    const auto power = batch.law().power(state.t, batch.d(), batch.v());
+    sum.stored += power.stored;
+    sum.damping += power.damping;
+    sum.friction += power.friction;
+    sum.drive += power.drive;
+  }
+  return sum;
+}
+
+void EnergyLedger::start(CompiledModel& model, const State& state) {
+  account_ = {};
+  allocate(model);
+  model.setTime(state.t);
+  model.addStiffness(state.q.data(), internal_.data());
+  load_ = Eigen::Map<const Vector>(model.load(), model.size());
+  strain_ = 0.5 * state.q.dot(internal_);
+  last_ = pointPowers(model, state);
+  const EnergyAccount now = account(model, state);
+  account_.initial = now.kinetic + now.strain + now.contact;
+}
+
+void EnergyLedger::book(CompiledModel& model, const State& from, const State& to) {
+  model.setTime(to.t);
+  const double h = to.t - from.t;
+  step_ = to.q - from.q;
+  double exchanged = 0;
+  const auto enter = [&exchanged](double& entry, double work) {
+    entry += work;
+    exchanged += std::abs(work);
+  };
+  // loads: (F_n + F_{n+1}) / 2 . dq
+  const Eigen::Map<const Vector> load(model.load(), model.size());
+  enter(account_.loads, 0.5 * (load_.dot(step_) + load.dot(step_)));
+  load_ = load;
+  // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory
+  nextInternal_.setZero();
+  model.addStiffness(to.q.data(), nextInternal_.data());
+  const double strain = 0.5 * to.q.dot(nextInternal_);
+  const double work = 0.5 * (internal_.dot(step_) + nextInternal_.dot(step_));
+  enter(account_.circulatory, work - (strain - strain_));
+  exchanged += std::abs(strain - strain_);
+  strain_ = strain;
+  internal_.swap(nextInternal_);
+  // C_i: dq' c_i C_i dq / h
+  const auto& terms = model.damping().terms();
+  for (std::size_t i = 0; i < dissipative_.size(); ++i) {
+    const double law = model.damping().factor(dissipative_[i]);
+    if (law == 0.0) continue;
+    product_.setZero();
+    terms[dissipative_[i]].product.addTo(terms[dissipative_[i]].values.data(), step_.data(), product_.data());
+    enter(account_.damping[i], law * step_.dot(product_) / h);
+  }
+  // point laws: mean power times h
+  if (!model.points().empty()) {
+    const Powers now = pointPowers(model, to);
+    enter(account_.friction, 0.5 * h * (last_.friction + now.friction));
+    enter(account_.contactDamping, 0.5 * h * (last_.damping + now.damping));
+    enter(account_.drive, 0.5 * h * (last_.drive + now.drive));
+    exchanged += std::abs(now.stored - last_.stored);
+    last_ = now;
+  }
+  account_.exchanged += exchanged;
+}
+
+EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) const {
+  EnergyAccount result = account_;
+  Vector momentum = Vector::Zero(model.size());
+  model.addMass(state.v.data(), momentum.data());
+  result.kinetic = 0.5 * state.v.dot(momentum);
+  result.strain = strain_;
+  result.contact = last_.stored;
+  return result;
+}
+
+void EnergyLedger::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {strain_, last_.stored, last_.damping, last_.friction, last_.drive, account_.initial, account_.loads,
+                               account_.drive, account_.friction, account_.contactDamping, account_.circulatory, account_.exchanged});
+  memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
+}
+
+void EnergyLedger::restore(CompiledModel& model, const State& state, const double*& memory) {
+  account_ = {};
+  allocate(model);
+  model.setTime(state.t);
+  model.addStiffness(state.q.data(), internal_.data());
+  load_ = Eigen::Map<const Vector>(model.load(), model.size());
+  for (double* x : {&strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial, &account_.loads,
+                    &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory, &account_.exchanged})
+    *x = *memory++;
+  for (double& x : account_.damping) x = *memory++;
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Where the energy went: kinetic + strain + contact energy at the end equals what was there at the start plus the work of loads and
+/// drive, minus every dissipation; what is missing is the numerical dissipation of the integrator and the error of these sums,
+/// which are trapezoidal over the steps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "transient/CompiledModel.hpp"
+
+namespace tooljoint::transient {
+
+struct State;
+
+/// Energies in J. Stored ones are those of the time reached, exchanged ones are summed from the start.
+struct EnergyAccount {
+  double kinetic = 0;         ///< v'M v / 2
+  double strain = 0;          ///< q'K q / 2
+  double contact = 0;         ///< stored in point laws
+  double initial = 0;         ///< kinetic + strain + contact at the start
+  double loads = 0;           ///< work of F(t)
+  double drive = 0;           ///< work fed in through prescribed motion (the rotary drive acting through friction)
+  double friction = 0;        ///< dissipated in friction
+  double contactDamping = 0;  ///< dissipated in normal damping of point laws
+  double circulatory = 0;     ///< work given to skew stiffness (torque) and to stiffness that changes with time
+  std::vector<std::string> dampingNames;  ///< groups of damping terms with one law; those that do no work are left out
+  std::vector<double> damping;            ///< dissipated per group
+  double exchanged = 0;       ///< sum of the sizes of all exchanges over all steps
+
+  /// initial + loads + drive - dissipations - stored: what the integrator lost (> 0) or made (< 0).
+  double numerical() const;
+  /// numerical() relative to the energy exchanged or stored, whichever is larger.
+  double residual() const;
+};
+
+class EnergyLedger {
+ public:
+  void start(CompiledModel& model, const State& state);
+  /// Book the step from `from` to `to`. Allocates nothing.
+  void book(CompiledModel& model, const State& from, const State& to);
+  /// The account with the stored energies of `state`.
+  EnergyAccount account(CompiledModel& model, const State& state) const;
+
+  void save(std::vector<double>& memory) const;
+  void restore(CompiledModel& model, const State& state, const double*& memory);
+
+ private:
+  struct Powers {
+    double stored = 0, damping = 0, friction = 0, drive = 0;
+  };
+  void allocate(CompiledModel& model);
+  Powers pointPowers(CompiledModel& model, const State& state);
+
+  EnergyAccount account_;
+  std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
+  Vector step_, product_, internal_, nextInternal_, load_;
+  Powers last_;
+  double strain_ = 0;
+};
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What every time integrator is: it carries a state from one accepted step to the next on a compiled model.
+/// A new integrator is one new file that registers itself.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/Registry.hpp"
+#include "transient/CompiledModel.hpp"
+
+namespace tooljoint::transient {
+
+/// Motion at one time; vectors in positions of the compiled model.
+struct State {
+  double t = 0;
+  Vector q;  ///< displacement
+  Vector v;  ///< velocity
+  Vector a;  ///< acceleration
+  void resize(int n) { q.setZero(n), v.setZero(n), a.setZero(n); }
+};
+
+/// What was done, counted; nothing is hidden.
+struct Counters {
+  long steps = 0;             ///< accepted steps, sub-steps of a halved step counted one by one
+  long rejected = 0;          ///< steps computed and thrown away by error control
+  long halved = 0;            ///< times a step was halved because Newton failed
+  long newtonIterations = 0;  ///< linear solves inside Newton
+  long unconvergedSteps = 0;  ///< steps kept although Newton had not converged (only when the deck accepts that)
+  long factorisations = 0;    ///< of the mass matrix or the effective matrix
+  double minStep = 0;
+  double maxStep = 0;
+  void accept(double h);
+};
+
+/// Where the steps have to fit.
+struct Window {
+  double begin = 0;
+  double end = 0;
+  double sampling = 0;  ///< sampling interval, a whole number of which fixed steps divide; 0 = none
+  double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the integrator.
+  /// Throws ModelError for a model this integrator cannot treat (a singular mass matrix for an explicit one).
+  virtual void prepare(CompiledModel& model, const Window& window, State& state) = 0;
+
+  /// One accepted step: writes `to` (all vectors sized already). Allocates nothing. Throws ConvergenceError.
+  virtual void advance(const State& from, State& to) = 0;
+
+  /// Append / take back everything beyond State that the next steps depend on, so that a run goes on with the same numbers.
+  virtual void save(std::vector<double>& memory) const = 0;
+  virtual void restore(const double*& memory) = 0;
+
+  const Counters& counters() const { return counters_; }
+  Counters& counters() { return counters_; }
+
+ protected:
+  Counters counters_;
+};
+
+/// Arguments: the sublist named after the integrator (defaults filled in by ownParameters()).
+using IntegratorRegistry = deck::Registry<Integrator, const Teuchos::ParameterList&>;
+
+/// The fixed step that divides the sampling interval: interval / ceil(interval / asked), or, for steps above the interval, the one that
+/// divides the whole duration.
+double fittedStep(const Window& window, double asked);
+
+/// A copy of `given` with the defaults of `spec` filled in where it is silent.
+Teuchos::ParameterList withDefaults(const Teuchos::ParameterList& given, const deck::ListSpec& spec);
+
+/// Position of the entry of largest size, or of the first that is not a finite number.
+int worstPosition(const Vector& x);
+
+}  // namespace tooljoint::transient

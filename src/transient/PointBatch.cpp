@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/PointBatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
+
+PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern)
+    : name_(set.name), law_(set.law), entities_(set.entities), points_(set.law->size()), width_(set.law->width()) {
+  const int rows = points_ * width_;
+  const auto& position = pattern.partition().position;
+  offset_.assign(set.offset.data(), set.offset.data() + rows);
+  rowBegin_.push_back(0);
+  single_ = true;
+  for (int r = 0; r < rows; ++r) {
+    for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
+      if (it.value() == 0.0) continue;
+      column_.push_back(position[z(static_cast<int>(it.col()))]);
+      value_.push_back(it.value());
+      single_ = single_ && it.value() == 1.0;
+    }
+    rowBegin_.push_back(static_cast<int>(column_.size()));
+    single_ = single_ && rowBegin_[z(r + 1)] - rowBegin_[z(r)] <= 1;
+  }
+  if (single_) {
+    index_.assign(z(rows), -1);
+    for (int r = 0; r < rows; ++r)
+      if (rowBegin_[z(r + 1)] > rowBegin_[z(r)]) index_[z(r)] = column_[z(rowBegin_[z(r)])];
+    entryAddress_.assign(z(rows) * z(width_), none);
+    for (int p = 0; p < points_; ++p)
+      for (int i = 0; i < width_; ++i)
+        for (int j = 0; j < width_; ++j) {
+          const int row = index_[z(p * width_ + i)];
+          const int column = index_[z(p * width_ + j)];
+          if (row >= 0 && column >= 0) entryAddress_[z((p * width_ + i) * width_ + j)] = pattern.address(row, column);
+        }
+  } else {
+    touchBegin_.push_back(0);
+    pairBegin_.push_back(0);
+    for (int p = 0; p < points_; ++p) {
+      std::map<int, std::size_t> blocks;
+      for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i) blocks[pattern.blockOf(column_[z(i)])] = 0;
+      for (auto& [block, begin] : blocks) {
+        begin = touchRows_.size();
+        touches_.push_back({pattern.start(block), pattern.width(block), begin});
+        touchRows_.resize(begin + z(width_ * pattern.width(block)), 0.0);
+        for (const auto& [other, ignored] : blocks) pairOffset_.push_back(pattern.offset(pattern.find(block, other)));
+      }
+      for (int c = 0; c < width_; ++c)
+        for (int i = rowBegin_[z(p * width_ + c)]; i < rowBegin_[z(p * width_ + c + 1)]; ++i) {
+          const int block = pattern.blockOf(column_[z(i)]);
+          touchRows_[blocks[block] + z((column_[z(i)] - pattern.start(block)) * width_ + c)] = value_[z(i)];
+        }
+      touchBegin_.push_back(static_cast<int>(touches_.size()));
+      pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
+    }
+  }
+  small_.assign(z(width_), 0.0);
+  active_.reserve(z(points_));
+  frozen_.reserve(z(points_));
+  isActive_.assign(z(points_), 0);
+  for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
+  for (auto* array : {&dfdd_, &dfdv_, &P_}) array->assign(z(rows) * z(width_), 0.0);
+  gap_.assign(z(points_), 0.0);
+  lastGap_.assign(z(points_), 0.0);
+  check_.assign(z(points_), 0.0);
+}
+
+double PointBatch::rowTimes(int row, const double* x) const {
+  double sum = 0;
+  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i) sum += value_[z(i)] * x[column_[z(i)]];
+  return sum;
+}
+
+void PointBatch::gatherAll(const double* q, const double* v) {
+  const int rows = points_ * width_;
+  if (single_) {
+    for (int r = 0; r < rows; ++r) {
+      const int i = index_[z(r)];
+      d_[z(r)] = i < 0 ? offset_[z(r)] : offset_[z(r)] + q[i];
+    }
+    if (v != nullptr)
+      for (int r = 0; r < rows; ++r) v_[z(r)] = index_[z(r)] < 0 ? 0.0 : v[index_[z(r)]];
+  } else {
+    for (int r = 0; r < rows; ++r) d_[z(r)] = offset_[z(r)] + rowTimes(r, q);
+    if (v != nullptr)
+      for (int r = 0; r < rows; ++r) v_[z(r)] = rowTimes(r, v);
+  }
+}
+
+void PointBatch::gatherActive(const double* q, const double* v) {
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) {
+      if (single_) {
+        const int i = index_[z(r)];
+        d_[z(r)] = i < 0 ? offset_[z(r)] : offset_[z(r)] + q[i];
+        v_[z(r)] = i < 0 ? 0.0 : v[i];
+      } else {
+        d_[z(r)] = offset_[z(r)] + rowTimes(r, q);
+        v_[z(r)] = rowTimes(r, v);
+      }
+    }
+}
+
+void PointBatch::look(double t, double h, const double* q) {
+  if (gapsSeen_ == 0 || t != gapTime_) {
+    gap_.swap(lastGap_);
+    lastGapTime_ = gapTime_;
+    gapTime_ = t;
+    gapsSeen_ = std::min(gapsSeen_ + 1, 2);
+  }
+  gatherAll(q, nullptr);
+  law_->clearanceLeft(d_.data(), gap_.data());
+  // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank since the look before.
+  const double reach = gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
+  active_.clear();
+  for (int p = 0; p < points_; ++p) {
+    const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
+    isActive_[z(p)] = !(gap_[z(p)] > reach * closing);
+    if (isActive_[z(p)]) active_.push_back(p);
+  }
+}
+
+bool PointBatch::addMissed(const double* q) {
+  if (static_cast<int>(active_.size()) == points_) return false;
+  gatherAll(q, nullptr);
+  law_->clearanceLeft(d_.data(), check_.data());
+  bool any = false;
+  for (int p = 0; p < points_; ++p)
+    if (!isActive_[z(p)] && !(check_[z(p)] > 0)) isActive_[z(p)] = 1, any = true;
+  if (!any) return false;
+  active_.clear();
+  for (int p = 0; p < points_; ++p)
+    if (isActive_[z(p)]) active_.push_back(p);
+  return true;
+}
+
+void PointBatch::evaluate(double t, const double* q, const double* v) {
+  if (active_.empty()) return;
+  gatherActive(q, v);
+  law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
+  evaluations_ += static_cast<long>(active_.size());
+}
+
+void PointBatch::evaluateWithTangent(double t, const double* q, const double* v) {
+  if (active_.empty()) return;
+  gatherActive(q, v);
+  law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+  evaluations_ += static_cast<long>(active_.size());
+}
+
+void PointBatch::addForce(double factor, double* y) const {
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) {
+      const double force = factor * f_[z(r)];
+      if (single_) {
+        if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
+      } else {
+        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * force;
+      }
+    }
+}
+
+void PointBatch::freezeTangent(double cd, double cv) {
+  frozen_ = active_;
+  const int entries = width_ * width_;
+  for (int p : frozen_)
+    for (int i = p * entries; i < (p + 1) * entries; ++i) P_[z(i)] = cd * dfdd_[z(i)] + cv * dfdv_[z(i)];
+}
+
+void PointBatch::subtractTangent(double* values) const {
+  const int entries = width_ * width_;
+  if (single_) {
+    for (int p : frozen_)
+      for (int i = p * entries; i < (p + 1) * entries; ++i)
+        if (entryAddress_[z(i)] != none) values[entryAddress_[z(i)]] -= P_[z(i)];
+    return;
+  }
+  for (int p : frozen_) {
+    const double* P = &P_[z(p * entries)];
+    const int first = touchBegin_[z(p)];
+    const int count = touchBegin_[z(p + 1)] - first;
+    for (int b = 0; b < count; ++b) {
+      const Touch& column = touches_[z(first + b)];
+      for (int j = 0; j < column.width; ++j) {
+        // PR_j = P R(:, j);  A(:, j) -= R' PR_j
+        const double* Rj = &touchRows_[column.rows + z(j * width_)];
+        bool zero = true;
+        for (int c = 0; c < width_; ++c) zero = zero && Rj[c] == 0.0;
+        if (zero) continue;
+        double* PRj = small_.data();
+        for (int r = 0; r < width_; ++r) {
+          PRj[r] = 0;
+          for (int c = 0; c < width_; ++c) PRj[r] += P[r * width_ + c] * Rj[c];
+        }
+        for (int a = 0; a < count; ++a) {
+          const Touch& row = touches_[z(first + a)];
+          double* target = values + pairOffset_[z(pairBegin_[z(p)] + a * count + b)] + z(j * row.width);
+          const double* R = &touchRows_[row.rows];
+          for (int i = 0; i < row.width; ++i) {
+            double sum = 0;
+            for (int r = 0; r < width_; ++r) sum += R[i * width_ + r] * PRj[r];
+            target[i] -= sum;
+          }
+        }
+      }
+    }
+  }
+}
+
+void PointBatch::addTangentTimes(const double* x, double* y) const {
+  const int entries = width_ * width_;
+  for (int p : frozen_) {
+    double* Rx = small_.data();
+    for (int c = 0; c < width_; ++c) {
+      const int r = p * width_ + c;
+      Rx[c] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+    }
+    for (int c = 0; c < width_; ++c) {
+      const int r = p * width_ + c;
+      double force = 0;
+      for (int k = 0; k < width_; ++k) force += P_[z(p * entries + c * width_ + k)] * Rx[k];
+      if (single_) {
+        if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
+      } else {
+        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * force;
+      }
+    }
+  }
+}
+
+void PointBatch::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {gapTime_, lastGapTime_, static_cast<double>(gapsSeen_)});
+  memory.insert(memory.end(), gap_.begin(), gap_.end());
+  memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
+  for (char on : isActive_) memory.push_back(on);
+  memory.push_back(static_cast<double>(frozen_.size()));
+  for (int p : frozen_) {
+    memory.push_back(p);
+    memory.insert(memory.end(), P_.begin() + p * width_ * width_, P_.begin() + (p + 1) * width_ * width_);
+  }
+}
+
+void PointBatch::restore(const double*& memory) {
+  gapTime_ = *memory++;
+  lastGapTime_ = *memory++;
+  gapsSeen_ = static_cast<int>(*memory++);
+  for (double& gap : gap_) gap = *memory++;
+  for (double& gap : lastGap_) gap = *memory++;
+  active_.clear();
+  for (int p = 0; p < points_; ++p) {
+    isActive_[z(p)] = *memory++ != 0.0;
+    if (isActive_[z(p)]) active_.push_back(p);
+  }
+  frozen_.assign(z(static_cast<int>(*memory++)), 0);
+  for (int& p : frozen_) {
+    p = static_cast<int>(*memory++);
+    for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) P_[z(i)] = *memory++;
+  }
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can act, scatters R' f and its
+/// tangents into the block matrix.
+///
+/// A point is looked at in a step when its clearance may close within the step at twice the rate last seen; after the step
+/// every other point is checked, and one that has touched is added and the step corrected: none is ever missed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "linalg/BlockSparse.hpp"
+#include "model/SecondOrderModel.hpp"
+
+namespace tooljoint::transient {
+
+class PointBatch {
+ public:
+  PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern);
+
+  int points() const { return points_; }
+  int width() const { return width_; }
+  const std::vector<int>& active() const { return active_; }
+  long evaluations() const { return evaluations_; }
+  const model::PointLaw& law() const { return *law_; }
+  const std::string& name() const { return name_; }
+  std::int64_t entity(int point) const { return entities_[static_cast<std::size_t>(point)]; }
+
+  /// Measure the clearances at q (time t) and choose the points to look at in a step of length h from there.
+  void look(double t, double h, const double* q);
+  /// Measure the clearances at q and add points that have touched without being looked at; true if there were any.
+  bool addMissed(const double* q);
+
+  /// Forces of the active points at (q, v).
+  void evaluate(double t, const double* q, const double* v);
+  /// Forces and tangents of the active points at (q, v); the tangents are kept until the next call.
+  void evaluateWithTangent(double t, const double* q, const double* v);
+  /// y += factor R' f.
+  void addForce(double factor, double* y) const;
+
+  /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
+  void freezeTangent(double cd, double cv);
+  /// Matrix -= R' P R on the pattern.
+  void subtractTangent(double* values) const;
+  /// y += R' P R x.
+  void addTangentTimes(const double* x, double* y) const;
+  void forgetTangent() { frozen_.clear(); }
+
+  /// Position, velocity of all points for recording (all of them are gathered).
+  void gatherAll(const double* q, const double* v);
+  const double* d() const { return d_.data(); }
+  const double* v() const { return v_.data(); }
+  /// Forces, defined for active points only.
+  const double* force() const { return f_.data(); }
+
+  /// What a restart needs to go on with the same choices and the same frozen tangent.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  void gatherActive(const double* q, const double* v);
+  double rowTimes(int row, const double* x) const;
+
+  std::string name_;
+  std::shared_ptr<const model::PointLaw> law_;
+  std::vector<std::int64_t> entities_;
+  int points_ = 0;
+  int width_ = 0;
+  bool single_ = false;               ///< every row has at most one entry, and it is 1
+  std::vector<int> index_;            ///< single: position per row, -1 for none
+  std::vector<int> rowBegin_;         ///< otherwise: rows as CSR in positions
+  std::vector<int> column_;
+  std::vector<double> value_;
+  std::vector<double> offset_;
+
+  // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x block, column-major).
+  struct Touch {
+    int start;
+    int width;
+    std::size_t rows;  ///< into touchRows_
+  };
+  std::vector<int> touchBegin_;
+  std::vector<Touch> touches_;
+  std::vector<double> touchRows_;
+  std::vector<int> pairBegin_;              ///< per point into pairOffset_
+  std::vector<std::size_t> pairOffset_;     ///< block offsets for all pairs of touches (general rows)
+  std::vector<std::size_t> entryAddress_;   ///< single: address per point of (row, column), width x width; npos for none
+
+  std::vector<int> active_;
+  std::vector<char> isActive_;
+  std::vector<double> d_, v_, f_, dfdd_, dfdv_;
+  std::vector<double> gap_, lastGap_, check_;
+  double gapTime_ = 0, lastGapTime_ = 0;
+  int gapsSeen_ = 0;                        ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
+  std::vector<int> frozen_;                 ///< points of the frozen tangent
+  std::vector<double> P_;
+  mutable std::vector<double> small_;
+  long evaluations_ = 0;
+};
+
+}  // namespace tooljoint::transient

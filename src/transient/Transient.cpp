@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/Transient.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <sstream>
+
+#include "common/Census.hpp"
+#include "common/Error.hpp"
+#include "common/Interrupt.hpp"
+#include "common/Log.hpp"
+#include "common/Progress.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
+constexpr double blowUp = 1e6;
+
+double cpuSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Hands out samples at start + k * interval from accepted steps.
+class Sampler {
+ public:
+  Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done)
+      : model_(model), begin_(options.start), end_(options.end), interval_(options.sampling), sink_(sink), count_(done) {
+    middle_.resize(model.size());
+    for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.size());
+  }
+  long count() const { return count_; }
+
+  /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.
+  void step(const State& from, const State& to) {
+    const double h = to.t - from.t;
+    for (;;) {
+      const double t = begin_ + static_cast<double>(count_) * interval_;
+      if (t > to.t + 1e-9 * h || t > end_ + 1e-9 * interval_) return;
+      if (t > to.t - 1e-9 * h)
+        give(t, to);
+      else
+        give(t, between(from, to, (t - from.t) / h));
+    }
+  }
+  void first(const State& state) { give(state.t, state); }
+
+ private:
+  /// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the step.
+  const State& between(const State& from, const State& to, double x) {
+    const double h = to.t - from.t;
+    const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
+    const double h01 = x * x * (3 - 2 * x), h11 = x * x * (x - 1) * h;
+    middle_.q = h00 * from.q + h10 * from.v + h01 * to.q + h11 * to.v;
+    middle_.v = h00 * from.v + h10 * from.a + h01 * to.v + h11 * to.a;
+    middle_.a = (1 - x) * from.a + x * to.a;
+    return middle_;
+  }
+  void give(double t, const State& state) {
+    model_.toDofs(state.q, q_);
+    model_.toDofs(state.v, v_);
+    model_.toDofs(state.a, a_);
+    sink_.sample(t, q_, v_, a_);
+    ++count_;
+  }
+
+  const CompiledModel& model_;
+  double begin_, end_, interval_;
+  SampleSink& sink_;
+  long count_;
+  State middle_;
+  Vector q_, v_, a_;
+};
+
+/// Not a number, infinite or absurdly large: say when and where.
+void checkFinite(const CompiledModel& model, const State& from, const State& to) {
+  const double size = to.q.cwiseAbs().sum() + to.v.cwiseAbs().sum() * 1e-6;
+  if (std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp)) return;
+  const int q = worstPosition(to.q);
+  const int v = worstPosition(to.v);
+  const int worst = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]) ? v : q;
+  std::ostringstream text;
+  text << "The motion blew up in the step from t = " << from.t << " s to " << to.t << " s: " << model.dofName(worst) << " reached "
+       << (worst == q ? to.q[worst] : to.v[worst])
+       << ". Choose a smaller Transient/Step (or Tolerance), or the integrator \"Generalized-alpha\"; if it happens at any step, the model itself "
+          "is unstable there.";
+  throw ConvergenceError(text.str());
+}
+
+long contactEvaluations(const CompiledModel& model) {
+  long sum = 0;
+  for (const auto& batch : model.points()) sum += batch.evaluations();
+  return sum;
+}
+
+/// One run: the loop and what surrounds it.
+class Run {
+ public:
+  Run(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink, const RunHooks& hooks)
+      : options_(options),
+        hooks_(hooks),
+        model_(model),
+        integrator_(IntegratorRegistry::instance().make(options.integrator, options.own)),
+        sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
+    state_.resize(model_.size());
+    next_.resize(model_.size());
+  }
+
+  TransientReport go() {
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = cpuSeconds();
+    begin();
+    const double from = state_.t;
+    const bool interrupted = loop();
+    TransientReport report;
+    report.integrator = options_.integrator;
+    report.size = model_.size();
+    report.start = options_.start;
+    report.end = state_.t;
+    report.interrupted = interrupted;
+    report.counters = integrator_->counters();
+    report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
+    report.samples = sampler_.count();
+    report.hasEnergy = options_.ledger;
+    if (options_.ledger) report.energy = ledger_.account(model_, state_);
+    report.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    report.cpu = cpuSeconds() - cpu;
+    report.realTimeFactor = report.wall > 0 ? (state_.t - from) / report.wall : 0.0;
+    count("contact evaluations", contactEvaluations(model_));
+    count("factorisations", report.counters.factorisations);
+    if (report.counters.unconvergedSteps > 0)
+      log::warn(std::to_string(report.counters.unconvergedSteps) + " of " + std::to_string(report.counters.steps) +
+                " steps were kept although Newton had not converged (Transient/Generalized-alpha/Accept Unconverged is true).");
+    return report;
+  }
+
+ private:
+  void begin() {
+    const auto& source = model_.source();
+    state_.t = options_.start;
+    model_.toPositions(source.initialDisplacement, state_.q);
+    model_.toPositions(source.initialVelocity, state_.v);
+    model_.setTime(state_.t);
+    integrator_->prepare(model_, {options_.start, options_.end, options_.sampling, options_.step}, state_);
+    if (hooks_.resume != nullptr) {
+      resume(*hooks_.resume);
+      return;
+    }
+    checkFinite(model_, state_, state_);
+    if (options_.ledger) ledger_.start(model_, state_);
+    sampler_.first(state_);
+  }
+
+  void resume(const Checkpoint& point) {
+    if (point.integrator != options_.integrator)
+      throw DeckError("The checkpoint was written by the integrator \"" + point.integrator + "\", the deck asks for \"" + options_.integrator +
+                      "\". Restart with the same deck.");
+    if (point.state.q.size() != model_.size() || point.fingerprint != fingerprint(model_))
+      throw DeckError("The checkpoint belongs to another model than this deck describes. Restart with the same deck.");
+    state_ = point.state;
+    integrator_->counters() = point.counters;
+    evaluationsBefore_ = point.contactEvaluations;
+    const double* memory = point.memory.data();
+    for (auto& batch : model_.points()) batch.restore(memory);
+    integrator_->restore(memory);
+    if (options_.ledger) ledger_.restore(model_, state_, memory);
+  }
+
+  Checkpoint checkpoint() const {
+    Checkpoint point;
+    point.integrator = options_.integrator;
+    point.fingerprint = fingerprint(model_);
+    point.state = state_;
+    point.counters = integrator_->counters();
+    point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
+    point.samples = sampler_.count();
+    for (const auto& batch : model_.points()) batch.save(point.memory);
+    integrator_->save(point.memory);
+    if (options_.ledger) ledger_.save(point.memory);
+    return point;
+  }
+
+  /// True when stopped before the end.
+  bool loop() {
+    std::unique_ptr<Progress> bar;
+    if (options_.progress) bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
+    double nextCheckpoint = options_.checkpointInterval > 0 && hooks_.keep ? state_.t + options_.checkpointInterval : 2 * std::abs(options_.end) + 1e300;
+    while (state_.t < options_.end) {
+      if (hooks_.stop ? hooks_.stop() : interruptRequested()) {
+        if (hooks_.keep) hooks_.keep(checkpoint());
+        return true;
+      }
+      integrator_->advance(state_, next_);
+      checkFinite(model_, state_, next_);
+      if (options_.ledger) ledger_.book(model_, state_, next_);
+      sampler_.step(state_, next_);
+      std::swap(state_, next_);
+      if (state_.t >= nextCheckpoint) {
+        hooks_.keep(checkpoint());
+        nextCheckpoint += options_.checkpointInterval;
+      }
+      if (bar && bar->due(state_.t)) bar->update(state_.t, suffix());
+    }
+    if (bar) bar->finish();
+    return false;
+  }
+
+  std::string suffix() const {
+    const Counters& c = integrator_->counters();
+    std::string text = std::to_string(c.steps) + " steps";
+    if (c.rejected > 0) text += ", " + std::to_string(c.rejected) + " rejected";
+    if (c.halved > 0) text += ", " + std::to_string(c.halved) + " halved";
+    if (c.unconvergedSteps > 0) text += ", " + std::to_string(c.unconvergedSteps) + " unconverged";
+    return text;
+  }
+
+  TransientOptions options_;
+  const RunHooks& hooks_;
+  CompiledModel model_;
+  std::unique_ptr<Integrator> integrator_;
+  Sampler sampler_;
+  EnergyLedger ledger_;
+  State state_, next_;
+  long evaluationsBefore_ = 0;
+};
+
+}  // namespace
+
+TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink, const RunHooks& hooks) {
+  return Run(model, options, sink, hooks).go();
+}
+
+TransientReport integrate(const model::SecondOrderModel& model, const Teuchos::ParameterList& transient, SampleSink& sink,
+                          const RunHooks& hooks) {
+  return integrate(model, readOptions(transient), sink, hooks);
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/TransientParameters.hpp"
+
+#include "common/Error.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+deck::ListSpec parameters() {
+  const auto& registry = IntegratorRegistry::instance();
+  deck::ListSpec spec("Transient", "Motion in time. Without this list a run stops at the static state.");
+  spec.choice("Integrator", std::string("Generalized-alpha"), registry.names(), "Time integration method; its own parameters stand in the sublist of that name.")
+      .real("Start Time", "s", 0.0, deck::Range::any(), "Time at which the motion starts.")
+      .real("End Time", "s", deck::Required{}, deck::Range::any(), "Time at which the motion ends; later than Start Time.")
+      .real("Step", "s", deck::Optional{}, deck::Range::positive(),
+            "Fixed step; shortened so that it divides the sampling interval. By default 0.001 s for Generalized-alpha and 0.9 of the "
+            "stability limit for RK4; RK4 adaptive chooses its own.")
+      .real("Sampling Interval", "s", 0.005, deck::Range::positive(), "Time between two recorded states; both ends of the motion are recorded when they fall on it.")
+      .boolean("Progress", true, "Show a progress bar, or a line per 10 % when the output is not a terminal.")
+      .boolean("Energy Ledger", true, "Keep account of kinetic, strain and contact energy, of the work of all loads and of every dissipation.")
+      .real("Checkpoint Interval", "s", 1.0, deck::Range::nonNegative(),
+            "Simulated time between two states saved for a restart; 0 saves one only when the run is interrupted.");
+  for (const auto& [name, entry] : registry.entries()) {
+    deck::ListSpec own(name, entry.doc);
+    own.merge(entry.parameters);
+    spec.list(own);
+  }
+  return spec;
+}
+
+TransientOptions readOptions(const Teuchos::ParameterList& given) {
+  const Teuchos::ParameterList list = withDefaults(given, parameters());
+  TransientOptions options;
+  options.integrator = list.get<std::string>("Integrator");
+  options.start = list.get<double>("Start Time");
+  if (!list.isParameter("End Time")) throw DeckError("Transient/End Time is required: the time in s at which the motion ends.");
+  options.end = list.get<double>("End Time");
+  if (list.isParameter("Step")) options.step = list.get<double>("Step");
+  options.sampling = list.get<double>("Sampling Interval");
+  options.progress = list.get<bool>("Progress");
+  options.ledger = list.get<bool>("Energy Ledger");
+  options.checkpointInterval = list.get<double>("Checkpoint Interval");
+  if (list.isSublist(options.integrator)) options.own = list.sublist(options.integrator);
+  if (!(options.end > options.start))
+    throw DeckError("Transient/End Time (" + std::to_string(options.end) + " s) must be later than Transient/Start Time (" +
+                    std::to_string(options.start) + " s).");
+  return options;
+}
+
+}  // namespace tooljoint::transient
