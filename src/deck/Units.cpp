@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "common/Text.hpp"
 
@@ -102,6 +103,20 @@ double scaled(double number, double factor) {
 bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
+/// The symbol for a unit a person has spelled out or written another way; "" when there is no good guess.
+std::string meantUnit(const std::string& name) {
+  static const std::map<std::string, std::string> spelled = {
+      {"inch", "in"},   {"inches", "in"},  {"foot", "ft"},   {"feet", "ft"},    {"meter", "m"},    {"metre", "m"},    {"meters", "m"}, {"metres", "m"},
+      {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"sec", "s"},      {"second", "s"},   {"seconds", "s"}, {"minute", "min"},
+      {"minutes", "min"}, {"hr", "h"},      {"hour", "h"},    {"hours", "h"},    {"lb", "lbf"},     {"lbs", "lbf"},    {"kip", "klbf"}, {"kips", "klbf"},
+      {"klb", "klbf"},  {"newton", "N"},   {"pascal", "Pa"}, {"liter", "l"},    {"litre", "l"},    {"liters", "l"},   {"litres", "l"}, {"tonne", "t"}};
+  const auto it = spelled.find(lower(name));
+  if (it != spelled.end()) return it->second;
+  std::vector<std::string> known;
+  for (const UnitSymbol& symbol : unitSymbols()) known.push_back(symbol.symbol);
+  return closest(name, known);
+}
+
 /// Recursive descent over the grammar of the header: product of factors, "/" applies to the one factor after it.
 class UnitParser {
  public:
@@ -186,9 +201,7 @@ class UnitParser {
     const auto it = std::find_if(symbols.begin(), symbols.end(), [&](const UnitSymbol& s) { return s.symbol == name; });
     if (it != symbols.end()) return power(it->unit);
     if (name.empty()) return fail("\"" + trim(text_.substr(begin)) + "\" is not a unit");
-    std::vector<std::string> known;
-    for (const UnitSymbol& s : symbols) known.push_back(s.symbol);
-    const std::string near = closest(name, known);
+    const std::string near = meantUnit(name);
     return fail("\"" + name + "\" is not a known unit" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
   }
 

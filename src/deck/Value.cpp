@@ -14,11 +14,13 @@ namespace {
 
 /// What follows a number that reads up to `rest`: why the text is not a number.
 std::string trailing(const std::string& text, const std::string& rest, bool inArray) {
+  const std::optional<Unit> unit = parseUnit(rest);
+  const bool quantity = unit && unit->dimension != Dimension{};
   if (rest[0] == ',') return "is not a number: write a decimal point, not a comma";
-  if (!inArray && parseUnit(rest)) {
+  if (!inArray && quantity) {
     return "is not a number. A quantity with a unit is written type=\"string\" value=\"" + text + "\"";
   }
-  if (inArray && parseUnit(rest)) return "is not a number. Quantities with a unit are written type=\"Array(string)\"";
+  if (inArray && quantity) return "is not a number. Quantities with a unit are written type=\"Array(string)\"";
   return "is not a number: \"" + rest + "\" is left over";
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/XmlReader.hpp"
 
+#include <libxml/SAX2.h>
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <libxml/tree.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -42,6 +44,20 @@ void onError(void* context, xmlErrorPtr error) {
   news->fault = trim(error->message != nullptr ? error->message : "unknown fault");
 }
 
+/// Builds the element as libxml2 does and notes the line its "<" stands in (libxml2 itself counts to 65535, and to a tag's end).
+void onElement(void* context, const xmlChar* name, const xmlChar* prefix, const xmlChar* uri, int namespaceCount, const xmlChar** namespaces,
+               int attributeCount, int defaultedCount, const xmlChar** attributes) {
+  xmlSAX2StartElementNs(context, name, prefix, uri, namespaceCount, namespaces, attributeCount, defaultedCount, attributes);
+  auto* parser = static_cast<xmlParserCtxtPtr>(context);
+  if (parser->node == nullptr || parser->input == nullptr) return;
+  std::intptr_t line = parser->input->line;
+  for (const xmlChar* at = parser->input->cur; at > parser->input->base && *at != '<';) {
+    --at;
+    if (*at == '\n') --line;
+  }
+  parser->node->_private = reinterpret_cast<void*>(line);
+}
+
 struct DocumentDeleter {
   void operator()(xmlDoc* document) const { xmlFreeDoc(document); }
 };
@@ -58,7 +74,14 @@ std::string excerpt(const std::string& text) {
   return whole.size() > 60 ? whole.substr(0, 57) + "..." : whole;
 }
 
-int lineOf(const xmlNode* node) { return static_cast<int>(xmlGetLineNo(const_cast<xmlNode*>(node))); }
+int lineOf(const xmlNode* node) {
+  if (node->type == XML_ELEMENT_NODE) return static_cast<int>(reinterpret_cast<std::intptr_t>(node->_private));
+  // Of a text libxml2 knows the line it ends in.
+  const std::string text = asText(node->content);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const auto after = first == std::string::npos ? 0 : std::count(text.begin() + static_cast<std::ptrdiff_t>(first), text.end(), '\n');
+  return static_cast<int>(xmlGetLineNo(const_cast<xmlNode*>(node)) - after);
+}
 
 Document parseDocument(const std::string& text, const std::string& file) {
   xmlInitParser();
@@ -68,6 +91,7 @@ Document parseDocument(const std::string& text, const std::string& file) {
   parser->_private = &news;
   parser->sax->internalSubset = onDocumentType;
   parser->sax->serror = onError;
+  parser->sax->startElementNs = onElement;
   constexpr int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_BIG_LINES;
   Document document(xmlCtxtReadMemory(parser.get(), text.data(), static_cast<int>(text.size()), nullptr, nullptr, options));
   if (news.documentType) {

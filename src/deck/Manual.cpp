@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/Manual.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "deck/Describe.hpp"
+#include "deck/Units.hpp"
+
+namespace tooljoint::deck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A list with its path; the root's path is its name.
+struct Located {
+  const ListSpec* list;
+  std::string path;
+};
+
+std::string patternName(const ListSpec& pattern) { return "<" + pattern.name() + ">"; }
+
+void collect(const ListSpec& list, const std::string& path, std::vector<Located>& all) {
+  all.push_back({&list, path});
+  for (const ListSpec& sublist : list.lists()) collect(sublist, path + "/" + sublist.name(), all);
+  if (list.pattern() != nullptr) collect(*list.pattern(), path + "/" + patternName(*list.pattern()), all);
+}
+
+std::vector<Located> collect(const ListSpec& root) {
+  std::vector<Located> all;
+  collect(root, root.name(), all);
+  return all;
+}
+
+std::string lastName(const std::string& path) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return name.size() > 2 && name.front() == '<' ? name.substr(1, name.size() - 2) : name;
+}
+
+/// Is `path` the topic, or does it end with "/topic"? Case does not matter.
+bool matches(const std::string& path, const std::string& topic) {
+  const std::string whole = lower(path);
+  const std::string end = lower(topic);
+  if (whole == end || lower(lastName(path)) == end) return true;
+  return whole.size() > end.size() && whole.compare(whole.size() - end.size() - 1, std::string::npos, "/" + end) == 0;
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+
+/// Lists of a topic: those named so with all below them, else those that hold a parameter of that name.
+std::vector<Located> select(const std::vector<Located>& all, const std::string& rawTopic) {
+  std::string topic = trim(rawTopic);
+  while (!topic.empty() && topic.front() == '/') topic.erase(0, 1);
+  if (topic.empty()) return all;
+  std::vector<Located> found;
+  for (const Located& item : all) {
+    const bool below = std::any_of(all.begin(), all.end(), [&](const Located& top) {
+      return matches(top.path, topic) && (item.path == top.path || startsWith(item.path, top.path + "/"));
+    });
+    if (below) found.push_back(item);
+  }
+  if (!found.empty()) return found;
+  for (const Located& item : all) {
+    const auto& parameters = item.list->parameters();
+    const bool holds = std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) { return lower(p.name) == lower(topic); });
+    if (holds) found.push_back(item);
+  }
+  return found;
+}
+
+[[noreturn]] void refuse(const std::vector<Located>& all, const std::string& topic) {
+  std::vector<std::string> names;
+  for (const Located& item : all) names.push_back(lastName(item.path));
+  std::vector<std::string> candidates = names;
+  for (const Located& item : all) {
+    for (const ParameterSpec& parameter : item.list->parameters()) candidates.push_back(parameter.name);
+  }
+  const std::string near = closest(topic, candidates);
+  throw UsageError("The manual has no topic \"" + topic + "\"." + (near.empty() ? "" : " Did you mean \"" + near + "\"?") +
+                   " Topics are the lists " + quotedList(names) + " and the names of parameters.");
+}
+
+/// Text of a table cell: "|" and line ends would break the table, "<" would start HTML.
+std::string cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|') result += "\\|";
+    else if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else result += c == '\n' ? ' ' : c;
+  }
+  return result;
+}
+
+std::string rangeOrChoices(const ParameterSpec& parameter) {
+  if (!parameter.choices.empty()) return join(parameter.choices, ", ");
+  return describe(parameter.range);
+}
+
+std::string defaultCell(const ParameterSpec& parameter) {
+  if (std::holds_alternative<Required>(parameter.value)) return "required";
+  if (std::holds_alternative<Optional>(parameter.value)) return "none";
+  const std::string text = describe(parameter.value);
+  return text.empty() ? "\"\"" : "`" + text + "`";
+}
+
+std::string sentence(const std::string& doc) {
+  const std::string text = trim(doc);
+  return text.empty() || text.back() == '.' ? text : text + ".";
+}
+
+std::string markdown(const Located& item, int headingLevel) {
+  const ListSpec& list = *item.list;
+  const auto depth = static_cast<int>(std::count(item.path.begin(), item.path.end(), '/'));
+  std::string text = std::string(static_cast<std::size_t>(std::min(6, headingLevel + depth)), '#') + " " + cell(item.path) + "\n\n";
+  text += sentence(list.doc());
+  if (list.required()) text += " Required.";
+  if (list.passesThrough()) text += " Handed on to Trilinos as it is.";
+  if (list.pattern() != nullptr) text += " Holds lists with names of your own, each described under " + cell(patternName(*list.pattern())) + ".";
+  text += "\n\n";
+  if (list.parameters().empty()) return text;
+  text += "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n";
+  for (const ParameterSpec& parameter : list.parameters()) {
+    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " + cell(parameter.unit) + " | " + cell(rangeOrChoices(parameter)) + " | " +
+            defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
+  }
+  return text + "\n";
+}
+
+std::string kindName(Kind kind) {
+  static const std::map<Kind, std::string> names = {{Kind::Real, "real"},           {Kind::Integer, "integer"},
+                                                    {Kind::Boolean, "boolean"},     {Kind::Text, "text"},
+                                                    {Kind::Choice, "choice"},       {Kind::RealArray, "real array"},
+                                                    {Kind::IntegerArray, "integer array"}, {Kind::TextArray, "text array"}};
+  return names.at(kind);
+}
+
+Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json jsonOf(const Default& value) {
+  struct Writer {
+    Json operator()(Required) const { return nullptr; }
+    Json operator()(Optional) const { return nullptr; }
+    Json operator()(bool flag) const { return flag; }
+    Json operator()(int number) const { return number; }
+    Json operator()(double number) const { return number; }
+    Json operator()(const std::string& text) const { return text; }
+    Json operator()(const std::vector<int>& values) const { return values; }
+    Json operator()(const std::vector<double>& values) const { return values; }
+    Json operator()(const std::vector<std::string>& values) const { return values; }
+  };
+  return std::visit(Writer{}, value);
+}
+
+Json jsonOf(const ParameterSpec& parameter) {
+  return {{"name", parameter.name},
+          {"type", typeName(parameter.kind)},
+          {"kind", kindName(parameter.kind)},
+          {"unit", parameter.unit},
+          {"min", bound(parameter.range.min)},
+          {"max", bound(parameter.range.max)},
+          {"open_min", parameter.range.openMin},
+          {"open_max", parameter.range.openMax},
+          {"choices", parameter.choices},
+          {"required", std::holds_alternative<Required>(parameter.value)},
+          {"default", jsonOf(parameter.value)},
+          {"doc", parameter.doc}};
+}
+
+Json jsonOf(const ListSpec& list) {
+  Json parameters = Json::array();
+  for (const ParameterSpec& parameter : list.parameters()) parameters.push_back(jsonOf(parameter));
+  Json lists = Json::array();
+  for (const ListSpec& sublist : list.lists()) lists.push_back(jsonOf(sublist));
+  return {{"name", list.name()},          {"doc", list.doc()},
+          {"required", list.required()},  {"pass_through", list.passesThrough()},
+          {"parameters", parameters},     {"lists", lists},
+          {"named_lists", list.pattern() == nullptr ? Json(nullptr) : jsonOf(*list.pattern())}};
+}
+
+std::vector<Located> collect(const std::vector<ListSpec>& roots) {
+  std::vector<Located> all;
+  for (const ListSpec& root : roots) collect(root, root.name(), all);
+  return all;
+}
+
+std::vector<Located> selectOrRefuse(const std::vector<Located>& all, const std::string& topic) {
+  std::vector<Located> found = select(all, topic);
+  if (found.empty()) refuse(all, topic);
+  return found;
+}
+
+std::string printMarkdown(const std::vector<Located>& all, const std::string& topic, int headingLevel) {
+  std::string text;
+  for (const Located& item : selectOrRefuse(all, topic)) text += markdown(item, headingLevel);
+  while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
+  return text;
+}
+
+/// Of a topic only the lists at its top: those below them are inside them.
+std::string printJson(const std::vector<Located>& all, const std::string& topic) {
+  Json result = Json::array();
+  std::string last;
+  for (const Located& item : selectOrRefuse(all, topic)) {
+    if (!last.empty() && startsWith(item.path, last + "/")) continue;
+    last = item.path;
+    Json entry = {{"path", item.path}};
+    entry.update(jsonOf(*item.list));
+    result.push_back(entry);
+  }
+  return result.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string manualMarkdown(const ListSpec& root, const std::string& topic, int headingLevel) {
+  return printMarkdown(collect(root), topic, headingLevel);
+}
+
+std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string& topic, int headingLevel) {
+  return printMarkdown(collect(roots), topic, headingLevel);
+}
+
+std::string manualJson(const ListSpec& root, const std::string& topic) { return printJson(collect(root), topic); }
+
+std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic) { return printJson(collect(roots), topic); }
+
+std::string unitsMarkdown() {
+  std::vector<std::string> quantities;
+  std::map<std::string, std::string> rows;
+  for (const UnitSymbol& symbol : unitSymbols()) {
+    std::string& row = rows[symbol.quantity];
+    if (row.empty()) quantities.push_back(symbol.quantity);
+    row += (row.empty() ? "`" : ", `") + symbol.symbol + "`";
+  }
+  std::string text = "| Quantity | Units |\n|---|---|\n";
+  for (const std::string& quantity : quantities) text += "| " + quantity + " | " + rows[quantity] + " |\n";
+  return text;
+}
+
+std::vector<std::string> topics(const ListSpec& root) {
+  std::vector<std::string> result;
+  for (const Located& item : collect(root)) result.push_back(item.path);
+  return result;
+}
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The parameter reference, printed from the descriptions the reader checks decks against, so that it cannot drift.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+
+namespace tooljoint::deck {
+
+/// Markdown: one heading per list with its path, its sentence, and a table of name, type, unit, range or choices, default (or
+/// "required") and sentence. `topic` selects a list by name or path ("Contact", "Transient/RK4"), with what lies below it, or the
+/// lists that hold a parameter of that name; "" prints everything. Throws UsageError when there is no such topic.
+/// The text depends on the description alone.
+std::string manualMarkdown(const ListSpec& root, const std::string& topic = "", int headingLevel = 2);
+
+/// The same for several roots (scene, component library), one after the other; a topic needs to be known to one of them.
+std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string& topic = "", int headingLevel = 2);
+
+/// JSON with stable keys: {"name","doc","required","pass_through","parameters":[{"name","type","kind","unit","min","max","open_min","open_max",
+/// "choices","required","default","doc"}],"lists":[...],"named_lists":{...}|null}; bounds that do not exist and defaults that are none
+/// are null. With a topic an array of the lists found, each with its "path".
+std::string manualJson(const ListSpec& root, const std::string& topic = "");
+std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic = "");
+
+/// The table of units that quantities may be given in, as Markdown.
+std::string unitsMarkdown();
+
+/// Topics a person may ask for: the paths of all lists, in the order of the manual.
+std::vector<std::string> topics(const ListSpec& root);
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/Template.hpp"
+
+#include "common/Text.hpp"
+#include "deck/Describe.hpp"
+
+namespace tooljoint::deck {
+namespace {
+
+const std::string openMark = "<!-- <";
+const std::string closeMark = "> -->";
+
+/// Text of an attribute that may also stand in a comment.
+std::string escaped(const std::string& text) {
+  std::string result;
+  char before = '\0';
+  for (const char c : text) {
+    if (c == '&') result += "&amp;";
+    else if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else if (c == '"') result += "&quot;";
+    else if (c == '-' && before == '-') result += "&#45;";  // "--" must not stand in a comment
+    else result += c;
+    before = c;
+  }
+  return result;
+}
+
+/// A sentence inside a comment: "--" would end it, and a leading "<" would make it a commented-out line.
+std::string remark(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '-' && !result.empty() && result.back() == '-') result += ' ';
+    result += c == '\n' ? ' ' : c;
+  }
+  if (!result.empty() && result.back() == '-') result += ' ';
+  return "<!-- " + result + " -->";
+}
+
+class Writer {
+ public:
+  std::string write(const ListSpec& root, const std::string& name) {
+    text_ = remark(root.doc()) + "\n";
+    writeList(root, name, 0, true);
+    return text_;
+  }
+
+ private:
+  void line(int depth, const std::string& content) { text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n"; }
+
+  /// `active` lines stand as they are, the others are commented out (an XML comment must not hold "--").
+  void element(int depth, const std::string& content, bool active) {
+    line(depth, active ? content : "<!-- " + content + " -->");
+  }
+
+  void writeList(const ListSpec& list, const std::string& name, int depth, bool active) {
+    element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
+    for (const ParameterSpec& parameter : list.parameters()) writeParameter(parameter, depth + 1, active);
+    for (const ListSpec& sublist : list.lists()) {
+      line(depth + 1, remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") + sublist.doc()));
+      writeList(sublist, sublist.name(), depth + 1, active && sublist.required());
+    }
+    if (list.pattern() != nullptr) {
+      line(depth + 1, remark("any number of lists with names of your own: " + list.pattern()->doc()));
+      writeList(*list.pattern(), "my " + list.pattern()->name(), depth + 1, false);
+    }
+    element(depth, "</ParameterList>", active);
+  }
+
+  void writeParameter(const ParameterSpec& parameter, int depth, bool active) {
+    const bool required = std::holds_alternative<Required>(parameter.value);
+    std::string note = describe(parameter);
+    if (required) note += "; required";
+    if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
+    line(depth, remark(note));
+    const std::string value = escaped(exampleValue(parameter));
+    element(depth, "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" + typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
+            active && required);
+  }
+
+  std::string text_;
+};
+
+}  // namespace
+
+std::string templateXml(const ListSpec& root, const std::string& name) { return Writer().write(root, name); }
+
+std::string uncommented(const std::string& templateText) {
+  std::string result;
+  for (const std::string& whole : split(templateText, '\n')) {
+    const std::string content = trim(whole);
+    const bool commented = content.size() > openMark.size() + closeMark.size() && content.compare(0, openMark.size(), openMark) == 0 &&
+                           content.compare(content.size() - closeMark.size(), closeMark.size(), closeMark) == 0;
+    if (commented) {
+      const std::string indent = whole.substr(0, whole.find('<'));
+      result += indent + content.substr(5, content.size() - 9) + "\n";
+    } else {
+      result += whole + "\n";
+    }
+  }
+  return result;
+}
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Puts the registered variants of one kind into a list's description: a choice that names the variant, and for each variant with
+/// parameters of its own an optional sublist with the variant's name.
+#pragma once
+
+#include <string>
+
+#include "deck/ListSpec.hpp"
+#include "deck/Registry.hpp"
+
+namespace tooljoint::deck {
+
+/// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time integrator.")`. The sentence of the choice is
+/// followed by what each variant is.
+template <class Base, class... Args>
+ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default chosen, const std::string& doc) {
+  const auto& registry = Registry<Base, Args...>::instance();
+  std::string sentence = doc;
+  for (const auto& [name, entry] : registry.entries()) sentence += " " + name + ": " + entry.doc;
+  list.choice(parameter, std::move(chosen), registry.names(), sentence);
+  for (const auto& [name, entry] : registry.entries()) {
+    const ListSpec& own = entry.parameters;
+    if (own.parameters().empty() && own.lists().empty() && own.pattern() == nullptr) continue;
+    list.list(own.doc().empty() ? ListSpec(name, entry.doc).merge(own) : own.named(name));
+  }
+  return list;
+}
+
+}  // namespace tooljoint::deck

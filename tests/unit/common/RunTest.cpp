@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run says and counts: log, progress, interrupt flag, census, versions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+#include "common/Census.hpp"
+#include "common/Interrupt.hpp"
+#include "common/Log.hpp"
+#include "common/Parallel.hpp"
+#include "common/Progress.hpp"
+#include "common/Version.hpp"
+
+using namespace tooljoint;
+
+namespace {
+
+std::size_t linesOf(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+}  // namespace
+
+TEST(Log, WarningsAreCollectedOnceEach) {
+  log::clearWarnings();
+  ::testing::internal::CaptureStderr();
+  log::warn("the bit turns backwards");
+  log::warn("the bit turns backwards");
+  log::warn("the string is short");
+  const std::string printed = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(log::warnings(), (std::vector<std::string>{"the bit turns backwards", "the string is short"}));
+  EXPECT_EQ(printed, parallel::rank() == 0 ? "warning: the bit turns backwards\nwarning: the string is short\n" : "");
+  log::clearWarnings();
+  EXPECT_TRUE(log::warnings().empty());
+}
+
+TEST(Log, QuietSilencesInfoOnly) {
+  ::testing::internal::CaptureStdout();
+  log::info("one");
+  log::setQuiet(true);
+  log::info("two");
+  log::setQuiet(false);
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), parallel::rank() == 0 ? "one\n" : "");
+}
+
+TEST(Progress, SpeaksOncePerTenPercentAwayFromATerminal) {
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("transient", 20.0);
+    for (int step = 0; step <= 1000; ++step) progress.update(0.02 * step, "t");
+    progress.finish();
+  }
+  const std::string printed = ::testing::internal::GetCapturedStderr();
+  if (parallel::rank() == 0) {
+    EXPECT_EQ(linesOf(printed), 10U);
+    EXPECT_EQ(printed.find("transient:  10 %"), 0U);
+    EXPECT_NE(printed.find("transient: 100 %"), std::string::npos);
+  } else {
+    EXPECT_EQ(printed, "");
+  }
+}
+
+TEST(Progress, CountsFromItsBegin) {
+  Progress progress("restart", 20.0, 10.0);
+  EXPECT_FALSE(progress.due(10.5));
+  if (parallel::rank() == 0) {
+    EXPECT_TRUE(progress.due(11.0));
+  }
+}
+
+TEST(Progress, ToleratesAnEmptySpanAndNonsense) {
+  ::testing::internal::CaptureStderr();
+  Progress empty("nothing", 0.0);
+  empty.update(0.0);
+  Progress odd("odd", 1.0);
+  odd.update(std::nan(""));
+  odd.update(-5.0);
+  odd.update(7.0);
+  odd.finish();
+  odd.update(8.0);
+  const std::string printed = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(linesOf(printed), parallel::rank() == 0 ? 2U : 0U);
+}
+
+TEST(Interrupt, ASignalSetsTheFlag) {
+  requestInterrupt(false);
+  EXPECT_FALSE(interruptRequested());
+  const auto before = std::signal(SIGTERM, SIG_DFL);
+  const auto beforeInt = std::signal(SIGINT, SIG_DFL);
+  installInterruptHandlers();
+  std::raise(SIGTERM);
+  EXPECT_TRUE(interruptRequested());
+  requestInterrupt(false);
+  std::raise(SIGINT);
+  EXPECT_TRUE(interruptRequested());
+  requestInterrupt(false);
+  std::signal(SIGTERM, before);
+  std::signal(SIGINT, beforeInt);
+}
+
+TEST(Census, CountsByName) {
+  resetCensus();
+  EXPECT_EQ(counted("mud matrices"), 0);
+  count("mud matrices");
+  count("mud matrices", 4);
+  long& evaluations = counter("contact evaluations");
+  ++evaluations;
+  EXPECT_EQ(counted("mud matrices"), 5);
+  EXPECT_EQ(census(), (std::map<std::string, long>{{"contact evaluations", 1}, {"mud matrices", 5}}));
+  resetCensus();
+  EXPECT_TRUE(census().empty());
+  ++evaluations;
+  EXPECT_EQ(counted("contact evaluations"), 1);
+  resetCensus();
+}
+
+TEST(Version, NamesEverythingARunStandsOn) {
+  EXPECT_EQ(trilinosVersion().substr(0, 3), "13.");
+  EXPECT_EQ(hdf5Version().substr(0, 2), "1.");
+  EXPECT_NE(mpiVersion(), "");
+  EXPECT_EQ(mpiVersion().find('\n'), std::string::npos);
+  EXPECT_NE(gitHash(), "");
+  const std::string text = versionText();
+  for (const std::string& version : {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version()}) {
+    EXPECT_NE(text.find(version), std::string::npos);
+  }
+}

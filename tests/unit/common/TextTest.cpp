@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/Text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace tooljoint;
+
+TEST(EditDistance, CountsInsertionsDeletionsSubstitutionsAndSwaps) {
+  EXPECT_EQ(editDistance("", ""), 0U);
+  EXPECT_EQ(editDistance("abc", ""), 3U);
+  EXPECT_EQ(editDistance("Stiffnes", "Stiffness"), 1U);
+  EXPECT_EQ(editDistance("Step", "Stop"), 1U);
+  EXPECT_EQ(editDistance("Setp", "Step"), 1U);
+  EXPECT_EQ(editDistance("kitten", "sitting"), 3U);
+}
+
+struct Guess {
+  std::string typed, meant;
+  friend std::ostream& operator<<(std::ostream& out, const Guess& t) { return out << t.typed; }
+};
+class Closest : public ::testing::TestWithParam<Guess> {};
+
+TEST_P(Closest, FindsWhatAPersonMeant) {
+  const std::vector<std::string> names = {"Stiffness", "Damping", "End Time", "Sampling Interval", "Young Modulus", "WOB", "Step"};
+  EXPECT_EQ(closest(GetParam().typed, names), GetParam().meant);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Closest,
+                         ::testing::Values(Guess{"Stiffnes", "Stiffness"}, Guess{"stiffness", "Stiffness"}, Guess{"Sitffness", "Stiffness"},
+                                           Guess{"EndTime", "End Time"}, Guess{"end_time", "End Time"}, Guess{"END-TIME", "End Time"},
+                                           Guess{"Stepp", "Step"}, Guess{"wob", "WOB"}, Guess{"Young", "Young Modulus"},
+                                           Guess{"Young Modulus E", "Young Modulus"}, Guess{"Dampng", "Damping"}, Guess{"Viscosity", ""},
+                                           Guess{"", ""}, Guess{"Zz", ""}));
+
+TEST(Closest, OfEquallyCloseNamesTheFirstWins) { EXPECT_EQ(closest("ab", {"ac", "ad"}), "ac"); }
+
+TEST(Closest, HasNoGuessWithoutCandidates) { EXPECT_EQ(closest("Step", {}), ""); }
+
+TEST(FormatNumber, IsTheShortestTextThatReadsBack) {
+  EXPECT_EQ(formatNumber(0.1), "0.1");
+  EXPECT_EQ(formatNumber(20.0), "20");
+  EXPECT_EQ(formatNumber(2.1e11), "2.1e+11");
+  EXPECT_EQ(formatNumber(-0.001), "-0.001");
+  EXPECT_EQ(formatNumber(std::nextafter(1.0, 2.0)), "1.0000000000000002");
+  EXPECT_EQ(formatNumber(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(formatNumber(-std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(formatNumber(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(formatNumber(-7), "-7");
+}
+
+TEST(Text, TrimsSplitsAndJoins) {
+  EXPECT_EQ(trim("  a b\t\n"), "a b");
+  EXPECT_EQ(trim(" \n "), "");
+  EXPECT_EQ(split("a//b", '/'), (std::vector<std::string>{"a", "", "b"}));
+  EXPECT_EQ(split("", '/'), (std::vector<std::string>{""}));
+  EXPECT_EQ(join({"a", "b"}, ", "), "a, b");
+  EXPECT_EQ(quotedList({"a", "b"}), "\"a\", \"b\"");
+  EXPECT_EQ(quotedList({}), "");
+  EXPECT_EQ(lower("RK4 Adaptive"), "rk4 adaptive");
+}
