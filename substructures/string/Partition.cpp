@@ -37,15 +37,14 @@ deck::ListSpec partitionParameters() {
 namespace {
 
 std::vector<int> integers(const Teuchos::ParameterList& list, const std::string& name, const std::string& choice) {
-  if (!list.isParameter(name))
-    throw DeckError("Substructures: \"" + name + "\" is required by the choice \"" + choice + "\" and is missing.");
+  if (!list.isParameter(name)) throw DeckError(list.name() + "/" + name + " is required by the choice \"" + choice + "\" and is missing.");
   return list.get<Teuchos::Array<int>>(name).toVector();
 }
 
 void requireNodes(const std::vector<int>& nodes, int count, const std::string& parameter) {
   for (int node : nodes)
     if (node < 1 || node > count)
-      throw DeckError("Substructures/" + parameter + ": node " + std::to_string(node) + " does not exist; the string has nodes 1 to " +
+      throw DeckError(parameter + ": node " + std::to_string(node) + " does not exist; the string has nodes 1 to " +
                       std::to_string(count) + ".");
 }
 
@@ -53,10 +52,11 @@ void requireNodes(const std::vector<int>& nodes, int count, const std::string& p
 
 PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator) {
   PartitionRules rules;
+  rules.where = list.name();
   rules.retain = explicitIntegrator ? Retain::Translations : Retain::Nodes;
   rules.rule = list.get<std::string>("Rule");
   if (rules.rule == "By length") {
-    if (!list.isParameter("Length")) throw DeckError("Substructures: \"Length\" is required by the rule \"By length\" and is missing.");
+    if (!list.isParameter("Length")) throw DeckError(list.name() + "/Length is required by the rule \"By length\" and is missing.");
     rules.length = list.get<double>("Length");
   }
   if (rules.rule == "By nodes") rules.cutNodes = integers(list, "Cut Nodes", rules.rule);
@@ -76,12 +76,11 @@ std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules&
   std::vector<PartRange> parts;
   if (rules.rule == "Single") return {{"string", 0, last}};
   if (rules.rule == "By nodes") {
-    requireNodes(rules.cutNodes, string.nodeCount(), "Cut Nodes");
     const std::set<int> cuts(rules.cutNodes.begin(), rules.cutNodes.end());
     int first = 0;
     for (int node : cuts) {  // element e joins nodes e and e+1 (0-based); cutting at 1-based node n ends element n-2
       if (node < 2 || node > last + 1)
-        throw DeckError("Substructures/Cut Nodes: node " + std::to_string(node) + " is an end of the string; cut between 2 and " +
+        throw DeckError(rules.where + "/Cut Nodes: node " + std::to_string(node) + " is an end of the string; cut between 2 and " +
                         std::to_string(last + 1) + ".");
       parts.push_back({"part " + std::to_string(parts.size() + 1), first, node - 2});
       first = node - 1;
@@ -112,10 +111,14 @@ std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules&
   return parts;
 }
 
+void requireKnownNodes(const DrillString& string, const PartitionRules& rules) {
+  requireNodes(rules.cutNodes, string.nodeCount(), rules.where + "/Cut Nodes");
+  requireNodes(rules.nodeList, string.nodeCount(), rules.where + "/Node List");
+}
+
 std::vector<int> chosenNodes(const DrillString& string, const PartitionRules& rules, const NodeState& state) {
   std::vector<int> nodes;
   if (rules.retainedNodes == "List") {
-    requireNodes(rules.nodeList, string.nodeCount(), "Node List");
     for (int node : rules.nodeList) nodes.push_back(node - 1);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

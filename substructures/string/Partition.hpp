@@ -28,6 +28,7 @@ enum class Retain { Nodes, Contact, Translations };
 
 /// The choices of the list `Substructures`.
 struct PartitionRules {
+  std::string where = "Substructures";  ///< path of the list, for messages
   std::string rule = "By component";
   double length = 0.0;         ///< "By length": shortest part [m]
   std::vector<int> cutNodes;   ///< "By nodes": 1-based
@@ -56,8 +57,11 @@ PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIn
 std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules& rules);
 
 /// Positions 6 node + component of the dofs that stay physical inside the parts, increasing (interface nodes, which stay
-/// whole anyway, may be among them). Throws DeckError for a listed node that does not exist.
+/// whole anyway, may be among them).
 std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& rules, const NodeState& state);
+
+/// Throws DeckError when the rules name a node the string does not have.
+void requireKnownNodes(const DrillString& string, const PartitionRules& rules);
 
 /// Nodes (0-based, increasing) that `Retained Nodes` chooses.
 std::vector<int> chosenNodes(const DrillString& string, const PartitionRules& rules, const NodeState& state);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What each subcommand does. All of them throw tooljoint::Error; main turns that into the exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tooljoint::app {
+
+/// Options of the commands that read a deck.
+struct RunOptions {
+  std::string deck;                    ///< file
+  std::vector<std::string> overrides;  ///< "PATH=VALUE"
+  std::string output;                  ///< results folder; empty: results/<name of the deck>
+  std::string restart;                 ///< folder of an interrupted run; empty: start anew
+  int modeCount = 20;                  ///< frequencies listed by `modes`
+};
+
+/// Two results folders and the window of time to compare them in [s].
+struct CompareOptions {
+  std::string folder;
+  std::string reference;
+  double begin = 0.0;
+  double end = 3.0;
+};
+
+/// `tooljoint run`: the whole way of the data, ending in results.h5, summary.json and a printed summary.
+void run(const RunOptions& options);
+/// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates; runs nothing.
+void check(const RunOptions& options);
+/// `tooljoint modes`: eigenfrequencies of the full model, of the parts (fixed interface) and of the coupled model.
+void modes(const RunOptions& options);
+/// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run against another.
+void compare(const CompareOptions& options);
+/// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
+std::string manual(const std::string& topic, const std::string& format);
+/// `tooljoint template`: a commented deck ("scene" or "components").
+std::string deckTemplate(const std::string& kind);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/NoxSolver.hpp"
+
+#include <memory>
+
+#include "statics/NewtonSolver.hpp"
+
+namespace tooljoint::app {
+
+model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list) {
+  const auto sublist = [&list](const char* name) {
+    return list.isSublist(name) ? std::make_shared<const Teuchos::ParameterList>(list.sublist(name)) : nullptr;
+  };
+  const auto nox = sublist("NOX");
+  const auto belos = sublist("Belos");
+  return [nox, belos](const model::NonlinearProblem& problem, Vector& x, const model::SolveRequest& request) {
+    statics::NewtonOptions options;
+    options.tolerance = request.tolerance;
+    options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;
+    options.maxIterations = request.maxIterations;
+    options.lineSearch = request.backtracking ? statics::NewtonOptions::Backtracking : statics::NewtonOptions::FullStep;
+    const auto report = statics::solve(problem, x, options, nox.get(), belos.get());
+    return model::SolveOutcome{report.converged, report.iterations, report.residual, report.update, report.message};
+  };
+}
+
+}  // namespace tooljoint::app

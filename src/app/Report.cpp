@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/Report.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+
+namespace tooljoint::app {
+
+namespace {
+
+constexpr double kRpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
+
+/// printf into a string.
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(buffer, sizeof buffer, pattern, arguments);
+  va_end(arguments);
+  return buffer;
+}
+
+}  // namespace
+
+std::string describeScene(const Scene& scene) {
+  return format("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs", scene.string.nodeCount(),
+                scene.string.elementCount(), scene.string.length(), scene.well.length(), scene.freeDofs());
+}
+
+std::string describeStatic(const StaticStage& stage) {
+  const auto& path = stage.path.report;
+  const auto& s = stage.state;
+  std::string text = format("path        %d iterations in %d load steps, nodes within %.2g m of the axis\n", path.iterations, path.increments,
+                            path.maxPositionError);
+  text += format("static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n", s.report.iterations,
+                 s.report.residual, s.contactNodes, s.compressedElements);
+  text += format("            axial force %.4g kN at the top, %.4g kN in the last element; torque %.4g kN m at the top, %.4g kN m in the last element\n",
+                 s.topAxialForce / 1e3, s.lastElementAxialForce / 1e3, s.topTorque / 1e3, s.lastElementTorque / 1e3);
+  if (s.maxNormalForceNode > 0)
+    text += format("            contact %.4g kN in all, at most %.4g kN at node %d\n", s.totalNormalForce / 1e3, s.maxNormalForce / 1e3,
+                   s.maxNormalForceNode);
+  text += format("            torque balance defect %.4g N m (top torque against bit and friction torques)", s.torqueBalanceDefect);
+  return text;
+}
+
+std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts, int fullDofs, int reducedDofs, double wall) {
+  int modes = 0;
+  for (const auto& part : parts) modes += part.modes;
+  return format("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s", parts.size(), modes, reducedDofs, fullDofs, wall);
+}
+
+std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures) {
+  const auto& c = report.counters;
+  std::string text = format("transient   %s, %g to %g s: %ld steps of %.3g to %.3g s in %.2f s wall, %.2f s CPU: %.3g times real time\n",
+                            report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep, report.wall, report.cpu,
+                            report.realTimeFactor);
+  text += format("            %ld Newton iterations, %ld factorisations, %ld halved, %ld rejected, %ld unconverged steps\n",
+                 c.newtonIterations, c.factorisations, c.halved, c.rejected, c.unconvergedSteps);
+  text += format("            bit speed %.4g to %.4g rpm, mean %.4g rpm; largest penetration %.3g mm", figures.minBitSpeed * kRpm,
+                 figures.maxBitSpeed * kRpm, figures.meanBitSpeed() * kRpm, figures.maxPenetration * 1e3);
+  if (report.hasEnergy) text += format("\n            energy balance closes to %.2g of the energy exchanged", report.energy.residual());
+  return text;
+}
+
+}  // namespace tooljoint::app

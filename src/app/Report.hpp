@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a run tells a person: short blocks of text, one per stage.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/Recording.hpp"
+#include "app/Scene.hpp"
+#include "app/Stages.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+#include "transient/Transient.hpp"
+
+namespace tooljoint::app {
+
+std::string describeScene(const Scene& scene);
+std::string describeStatic(const StaticStage& stage);
+std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts, int fullDofs, int reducedDofs, double wall);
+std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sys/resource.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "app/Commands.hpp"
+#include "app/Recording.hpp"
+#include "app/Report.hpp"
+#include "app/ResultsWriter.hpp"
+#include "app/Scene.hpp"
+#include "app/Stages.hpp"
+#include "common/Error.hpp"
+#include "common/Log.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/Version.hpp"
+#include "coupling/Assembler.hpp"
+#include "io/ResultsReader.hpp"
+#include "reduction/Reduce.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* kCheckpoint = "checkpoint.bin";
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Largest resident memory so far, summed over the ranks [MB].
+double peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return parallel::sum(static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
+std::string resultsFolder(const RunOptions& options, const Scene& scene) {
+  if (!options.output.empty()) return options.output;
+  if (!options.restart.empty()) return options.restart;
+  if (!scene.output.folder.empty()) return scene.output.folder;
+  return (std::filesystem::path("results") / std::filesystem::path(options.deck).stem()).string();
+}
+
+/// One run of one scene into one folder.
+class Run {
+ public:
+  Run(const RunOptions& options, Scene scene) : options_(options), scene_(std::move(scene)) {}
+
+  void go() {
+    const auto folderName = resultsFolder(options_, scene_);
+    if (!options_.restart.empty()) readRestart();
+    parallel::agree([&] {
+      folder_.emplace(folderName);
+      folder_->requireSpace(expectedBytes());
+      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_), io::ResultsOptions{scene_.output.compression});
+    });
+    summarise(scene_, summary_);
+    try {
+      stages();
+      finish();
+    } catch (const Error& error) {
+      leave(error);
+      throw;
+    }
+  }
+
+ private:
+  void stages() {
+    log::info("Tooljoint " + programVersion() + ": " + scene_.deck.name());
+    log::info(describeScene(scene_));
+    stage_ = settle(scene_);
+    log::info(describeStatic(stage_));
+    summarise(stage_, summary_);
+    parallel::agree([&] {
+      writeModel(scene_, stage_, *file_);
+      writePath(stage_, *file_);
+      writeStatic(scene_, stage_, *file_);
+      if (scene_.output.csv) stageStaticTables(scene_, stage_, *folder_);
+      file_->flush();
+    });
+    if (!scene_.moves()) return;
+    const auto model = scene_.reduces() ? reduce() : fullModel(stage_);
+    parallel::agree([&] { integrate(model); });
+  }
+
+  model::SecondOrderModel reduce() {
+    const auto start = Clock::now();
+    const auto parts = cut(scene_, stage_);
+    const auto& list = scene_.list().sublist("Reduction");
+    const auto reduced = reduction::reduceAll(parts, list);
+    auto model = coupling::couple(reduced);
+    const double wall = since(start);
+    log::info(describeReduction(reduced, scene_.freeDofs(), model.size(), wall));
+    summarise(reduced, list.get<std::string>("Basis"), model.size(), wall, summary_);
+    parallel::agree([&] {
+      if (scene_.output.csv) stageBasisTable(reduced, *folder_);
+      if (scene_.output.reducedBases) writeBases(reduced, *file_);
+    });
+    return model;
+  }
+
+  void integrate(const model::SecondOrderModel& model) {
+    recorder_ = std::make_unique<MotionRecorder>(scene_, stage_, model, *file_);
+    transient::RunHooks hooks;
+    std::optional<transient::Checkpoint> resume;
+    if (restart_) {
+      resume = transient::Checkpoint::read((std::filesystem::path(options_.restart) / kCheckpoint).string());
+      recorder_->replay(*restart_, static_cast<std::size_t>(resume->samples));
+      hooks.resume = &*resume;
+    }
+    hooks.keep = [this](const transient::Checkpoint& checkpoint) {
+      file_->flush();
+      if (parallel::rank() == 0) checkpoint.write(checkpointFile());
+    };
+    const auto report = transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
+    summarise(report, recorder_->figures(), scene_.reduces(), summary_);
+    if (report.interrupted)
+      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " + folder_->folder() +
+                             "; go on with: tooljoint run " + options_.deck + " --restart " + folder_->folder());
+    log::info(describeTransient(report, recorder_->figures()));
+    warnOfMissedNodes();
+    if (scene_.output.csv) recorder_->stageTable(*folder_);
+  }
+
+  void warnOfMissedNodes() const {
+    const auto& missed = recorder_->figures().missed;
+    if (missed.empty()) return;
+    log::warn(std::to_string(missed.size()) + " nodes reached the wall although contact is evaluated at retained nodes only (node " +
+              std::to_string(missed.front()) + " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
+  }
+
+  void finish() {
+    stamp("finished", "");
+    parallel::agree([&] {
+      if (recorder_ && recorder_->pictures()) recorder_->stagePictures(*folder_);
+      file_->finish();
+      summary_.set("files", folder_->files());
+      summary_.stage(folder_->file("summary.json"));
+      folder_->publish();
+      if (parallel::rank() == 0) std::filesystem::remove(checkpointFile());
+    });
+    log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
+  }
+
+  /// The run ends early: what is there stays readable, and the summary says what happened.
+  void leave(const Error& error) {
+    stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
+    try {
+      file_->close();
+      summary_.set("files", folder_->files());
+      summary_.stage(folder_->file("summary.json"));
+      folder_->publishUnfinished();
+    } catch (const Error& second) {
+      log::warn(std::string("The results so far could not be kept: ") + second.what());
+    }
+  }
+
+  void stamp(const std::string& status, const std::string& message) {
+    summary_.set("status", status);
+    if (!message.empty()) summary_.set("message", message);
+    summary_.set("wall_s", since(start_));
+    summary_.set("peak_memory_mb", peakMemory());
+    summary_.set("warnings", log::warnings());
+  }
+
+  void readRestart() {
+    const auto folder = std::filesystem::path(options_.restart);
+    parallel::agree([&] {
+      if (!std::filesystem::exists(folder / kCheckpoint))
+        throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint + ". --restart goes on from the folder of an interrupted run.");
+      // The old samples are read whole before the new run writes a file of the same name.
+      for (const char* name : {"results.h5.part", "results.h5"})
+        if (!restart_ && std::filesystem::exists(folder / name)) restart_ = std::make_unique<RecordedMotion>((folder / name).string());
+      if (!restart_) throw FileError("\"" + options_.restart + "\" holds no results to go on from.");
+    });
+  }
+
+  std::string checkpointFile() const { return (std::filesystem::path(folder_->folder()) / kCheckpoint).string(); }
+
+  /// Rough size of the results: 8 bytes for every recorded number.
+  double expectedBytes() const {
+    if (!scene_.moves()) return 1e6;
+    const auto& list = scene_.list().sublist("Transient");
+    const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) / list.get<double>("Sampling Interval");
+    return 1e6 + 8.0 * samples * scene_.string.nodeCount() * (6.0 * static_cast<double>(scene_.output.fields.size()));
+  }
+
+  const RunOptions& options_;
+  Scene scene_;
+  Clock::time_point start_ = Clock::now();
+  std::optional<io::OutputFolder> folder_;
+  std::unique_ptr<io::ResultsFile> file_;
+  std::unique_ptr<RecordedMotion> restart_;
+  io::Summary summary_;
+  StaticStage stage_;
+  std::unique_ptr<MotionRecorder> recorder_;
+};
+
+}  // namespace
+
+void run(const RunOptions& options) { Run(options, readScene(options.deck, options.overrides)).go(); }
+
+}  // namespace tooljoint::app

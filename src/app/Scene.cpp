@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/Scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "reduction/Reduce.hpp"
+#include "reduction/ReductionParameters.hpp"
+#include "substructures/string/ContactNodes.hpp"
+#include "substructures/string/DrillstringReader.hpp"
+#include "transient/TransientParameters.hpp"
+
+namespace tooljoint::app {
+
+deck::ListSpec sceneSpec() {
+  deck::ListSpec scene("Scene", "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
+                                "Drillstring may be left out, and what is left out is not modelled.");
+  scene.requiredList(well::parameters());
+  scene.requiredList(string_::drillstringParameters());
+  scene.list(string_::supportParameters());
+  scene.list(mud::parameters());
+  scene.list(contact::parameters());
+  scene.list(loads::parameters());
+  scene.list(loads::rotarySpeedParameters());
+  scene.list(loads::dampingParameters());
+  scene.list(path::parameters());
+  scene.list(equilibrium::parameters());
+  scene.list(string_::partitionParameters());
+  scene.list(reduction::parameters());
+  scene.list(transient::parameters());
+  scene.list(io::parameters());
+  return scene;
+}
+
+double Scene::direction() const {
+  if (!rotary.present()) return 0.0;
+  // The first instant at which the string turns, looked for up to a minute.
+  for (double t = 0.0; t <= 60.0; t = t == 0.0 ? 1e-3 : 2.0 * t)
+    if (rotary.speed(t) != 0.0) return std::copysign(1.0, rotary.speed(t));
+  return 0.0;
+}
+
+int Scene::freeDofs() const { return static_cast<int>(std::count(held.begin(), held.end(), char{0})); }
+
+namespace {
+
+/// Runs the readers of phase 3 one after the other and keeps the faults of all of them.
+class Faults {
+ public:
+  explicit Faults(const deck::Deck& deck) : deck_(deck) {}
+  template <class Read>
+  void attempt(const Read& read) {
+    try {
+      read();
+    } catch (const DeckError& error) {
+      for (const auto& line : split(error.what(), '\n')) lines_.push_back(deck_.located(line));
+    }
+  }
+  void add(const std::string& path, const std::string& sentence) { lines_.push_back(deck_.error(path, sentence)); }
+  bool none() const { return lines_.empty(); }
+  void raise() const {
+    if (!none()) throw DeckError(join(lines_, "\n"));
+  }
+
+ private:
+  const deck::Deck& deck_;
+  std::vector<std::string> lines_;
+};
+
+/// The sublist, or the defaults of its description when the deck leaves it out.
+Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const deck::ListSpec& spec) {
+  return deck.isSublist(spec.name()) ? deck.sublist(spec.name()) : deck::defaults(spec);
+}
+
+/// What only several lists together can tell.
+void crossCheck(const Scene& scene, Faults& faults) {
+  const auto& list = scene.list();
+  if (list.isSublist("Substructures") && !scene.reduces())
+    faults.add("Substructures", "has no effect without a Reduction list. Add one, or leave Substructures out.");
+  if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
+    faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
+  if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
+    faults.add("Contact/Friction", "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
+  if (scene.loads.weightOnBit < 0.0)
+    faults.add("Loads/Weight On Bit", "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
+                                          " N. A weight on bit is positive when it compresses the string.");
+  const auto dofs = scene.held.size() - 6;
+  const auto held = [&](std::size_t dof) { return scene.held[dof] != 0; };
+  if (scene.loads.weightOnBit != 0.0 && held(dofs + 2))
+    faults.add("Loads/Weight On Bit", "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the load out.");
+  if (scene.loads.torqueOnBit != 0.0 && held(dofs + 5))
+    faults.add("Loads/Torque On Bit", "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or leave the load out.");
+  if (scene.freeDofs() == 0) faults.add("Supports", "hold every dof of the string; nothing is left to compute. Release some.");
+}
+
+}  // namespace
+
+Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
+  const auto deck = deck::Deck::read(file, sceneSpec(), overrides);
+  const auto& list = deck.list();
+  Faults faults(deck);
+
+  std::optional<well::Well> well;
+  std::optional<string_::DrillString> string;
+  faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
+  if (well) faults.attempt([&] { string = string_::buildDrillString(string_::readDrillstring(deck), *well); });
+  std::optional<mud::Mud> mud;
+  std::optional<contact::ContactSettings> contact;
+  loads::RotarySpeed rotary;
+  loads::LoadsData loads;
+  loads::RayleighDamping damping;
+  string_::SupportSettings supports;
+  path::PathOptions path;
+  equilibrium::StaticOptions statics;
+  string_::PartitionRules partition;
+  io::OutputSettings output;
+  if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
+  if (list.isSublist("Contact")) faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
+  faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
+  if (list.isSublist("Loads")) faults.attempt([&] { loads = loads::readLoads(list.sublist("Loads")); });
+  if (list.isSublist("Damping")) faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
+  if (list.isSublist("Supports")) faults.attempt([&] { supports = string_::readSupports(list.sublist("Supports")); });
+  faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
+  faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
+  faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
+  const bool explicitSteps = list.isSublist("Transient") && list.sublist("Transient").get<std::string>("Integrator").rfind("RK4", 0) == 0;
+  faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
+  faults.raise();
+
+  Scene scene{deck, *well, *string, supports, {}, mud, contact, {}, rotary, loads, damping, path, statics, partition, output};
+  faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
+  faults.raise();
+  if (contact) faults.attempt([&] { scene.contactPoints = string_::contactPoints(*contact, scene.string, scene.held); });
+  faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
+  if (scene.reduces()) {
+    faults.attempt([&] {
+      const auto parts = string_::cutParts(scene.string, partition);
+      reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+    });
+    faults.attempt([&] { string_::requireKnownNodes(scene.string, partition); });
+  }
+  crossCheck(scene, faults);
+  faults.raise();
+  return scene;
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A deck, read, checked and turned into typed values: what the stages of a run start from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/Deck.hpp"
+#include "io/OutputParameters.hpp"
+#include "substructures/contact/ContactParameters.hpp"
+#include "substructures/equilibrium/Equilibrium.hpp"
+#include "substructures/loads/Loads.hpp"
+#include "substructures/loads/RotarySpeed.hpp"
+#include "substructures/mud/Mud.hpp"
+#include "substructures/path/Path.hpp"
+#include "substructures/string/DrillString.hpp"
+#include "substructures/string/Partition.hpp"
+#include "substructures/string/Supports.hpp"
+#include "substructures/well/Well.hpp"
+
+namespace tooljoint::app {
+
+/// Description of a whole deck: every list any room reads.
+deck::ListSpec sceneSpec();
+
+/// A deck's lists as plain values. What the deck does not have is not here either.
+struct Scene {
+  deck::Deck deck;
+  well::Well well;
+  string_::DrillString string;
+  string_::SupportSettings supports;
+  std::vector<char> held;  ///< 6 per node
+  std::optional<mud::Mud> mud;
+  std::optional<contact::ContactSettings> contact;
+  contact::ContactPoints contactPoints;  ///< empty without contact
+  loads::RotarySpeed rotary;
+  loads::LoadsData loads;
+  loads::RayleighDamping damping;
+  path::PathOptions path;
+  equilibrium::StaticOptions statics;
+  string_::PartitionRules partition;
+  io::OutputSettings output;
+
+  const Teuchos::ParameterList& list() const { return deck.list(); }
+  bool reduces() const { return list().isSublist("Reduction"); }
+  bool moves() const { return list().isSublist("Transient"); }
+  /// +1 or -1: the direction the string turns in first; 0 without rotation (no sliding friction in the static state then).
+  double direction() const;
+  int freeDofs() const;
+};
+
+/// Reads and checks a deck with its overrides. Throws DeckError (one line per fault of the phase that failed) or FileError.
+Scene readScene(const std::string& file, const std::vector<std::string>& overrides);
+
+}  // namespace tooljoint::app

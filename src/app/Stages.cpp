@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/Stages.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "app/NoxSolver.hpp"
+#include "substructures/string/EquationBuilder.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+constexpr const char* kPathReaction = "path reaction";
+
+Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
+  return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
+}
+
+path::PathState bend(const Scene& scene) {
+  path::PathInput input;
+  for (const auto& element : scene.string.elements) {
+    input.sections.push_back(element.section);
+    input.lengths.push_back(element.length);
+  }
+  input.trajectory = &scene.well.trajectory();
+  return path::computePath(input, scene.path, noxSolver(listOrEmpty(scene, "Path")));
+}
+
+/// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
+equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path, const string_::StringModel& equations) {
+  equilibrium::StaticInput input;
+  input.nodes = equations.nodes;
+  input.held = equations.held;
+  input.direction = scene.direction();
+  input.geometricStiffness = scene.statics.geometricStiffness;
+  for (int e = 0; e < equations.elements(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    const auto& section = scene.string.elements[i].section;
+    equilibrium::StaticElement element;
+    element.stiffness.setZero();
+    for (const auto& term : equations.stiffness)
+      if (term.law == 0) element.stiffness += term.matrices[i];
+    element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
+    element.length = path.initialLength[i];
+    element.axialRigidity = section.axialRigidity();
+    element.torsionalRigidity = section.torsionalRigidity();
+    input.elements.push_back(element);
+  }
+  input.load = Vector::Zero(string_::kNodeDofs * equations.nodes);
+  for (const auto& load : equations.loads) {
+    if (load.law != 0) continue;
+    if (load.name == kPathReaction) input.pathReaction = load.vector;
+    else input.load += load.vector;
+  }
+  if (scene.contactPoints.size() > 0) input.contact = scene.contact->law->atRest(scene.contactPoints);
+  return input;
+}
+
+}  // namespace
+
+StaticStage settle(const Scene& scene) {
+  StaticStage stage;
+  stage.path = bend(scene);
+  const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
+  stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
+  const auto input = staticInput(scene, stage.path, stage.equations);
+  stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
+  string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement, scene.damping);
+  if (scene.contactPoints.size() > 0) {
+    const auto rotary = scene.rotary;
+    stage.equations.contact.law = scene.contact->law->inMotion(scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
+    for (int node : scene.contactPoints.node) stage.equations.contact.nodes.push_back(node - 1);
+  }
+  return stage;
+}
+
+model::SecondOrderModel fullModel(const StaticStage& stage) { return string_::assemble(stage.equations); }
+
+namespace {
+
+string_::NodeState nodeState(const Scene& scene, const StaticStage& stage) {
+  string_::NodeState nodes;
+  const auto count = static_cast<std::size_t>(scene.string.nodeCount());
+  nodes.gap.assign(count, std::numeric_limits<double>::infinity());
+  nodes.candidate.assign(count, 0);
+  for (int node : stage.equations.contact.nodes) {
+    nodes.gap[static_cast<std::size_t>(node)] = -stage.state.gap(node);
+    nodes.candidate[static_cast<std::size_t>(node)] = 1;
+  }
+  std::set<int> loaded;
+  for (const auto& load : loads::pointLoads(scene.loads, scene.rotary, scene.string.depths())) {
+    const int dof = string_::kNodeDofs * (load.node - 1) + load.component;
+    if (load.value != 0.0 && !scene.held[static_cast<std::size_t>(dof)]) loaded.insert(dof);
+  }
+  nodes.loadedDofs.assign(loaded.begin(), loaded.end());
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage) {
+  if (!scene.partition.contactAtRetainedOnly) return stage.equations.contact.nodes;
+  const auto chosen = string_::chosenNodes(scene.string, scene.partition, nodeState(scene, stage));
+  std::vector<int> nodes;
+  std::set_intersection(chosen.begin(), chosen.end(), stage.equations.contact.nodes.begin(), stage.equations.contact.nodes.end(),
+                        std::back_inserter(nodes));
+  return nodes;
+}
+
+std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage) {
+  const auto retained = string_::retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
+  const auto touching = contactNodes(scene, stage);
+  std::vector<model::Substructure> parts;
+  for (const auto& range : string_::cutParts(scene.string, scene.partition))
+    parts.push_back(string_::assemblePart(stage.equations, range, retained, &touching));
+  return parts;
+}
+
+}  // namespace tooljoint::app

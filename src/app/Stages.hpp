@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The way of the data as calls, each with a typed value in and a typed value out:
+/// scene -> path -> equations and static state -> parts -> reduced parts -> coupled model.
+#pragma once
+
+#include <vector>
+
+#include "app/Scene.hpp"
+#include "model/SecondOrderModel.hpp"
+#include "model/Substructure.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+#include "substructures/equilibrium/StaticState.hpp"
+#include "substructures/path/PathState.hpp"
+#include "substructures/string/StringModel.hpp"
+
+namespace tooljoint::app {
+
+/// The string at rest in its well, and its equations of motion about that state.
+struct StaticStage {
+  path::PathState path;
+  string_::StringModel equations;
+  equilibrium::StaticState state;
+};
+
+/// Bends the string into the well and finds its static equilibrium. Throws ConvergenceError, ModelError.
+StaticStage settle(const Scene& scene);
+
+/// The full model, in total displacements.
+model::SecondOrderModel fullModel(const StaticStage& stage);
+
+/// The parts the deck's Substructures list asks for.
+std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
+
+/// Nodes (0-based, increasing) where contact is evaluated in the reduced model.
+std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage);
+
+}  // namespace tooljoint::app
