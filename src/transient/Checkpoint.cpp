@@ -110,7 +110,13 @@ double fingerprint(const CompiledModel& model) {
     for (double x : values) sum += weight * x, weight = weight < 1e3 ? weight * 1.0009765625 : 1.0;
   };
   const auto& source = model.source();
-  const auto addSparse = [&](const Sparse& m) { add(Eigen::Map<const Vector>(m.valuePtr(), m.nonZeros())); };
+  const auto addSparse = [&](const Sparse& m) {
+    Vector values(m.nonZeros());
+    Eigen::Index k = 0;
+    for (int i = 0; i < m.outerSize(); ++i)
+      for (Sparse::InnerIterator it(m, i); it; ++it) values[k++] = it.value();
+    add(values);
+  };
   addSparse(source.mass);
   for (const auto& term : source.damping) addSparse(term.matrix);
   for (const auto& term : source.stiffness) addSparse(term.matrix);

@@ -38,8 +38,10 @@ deck::ListSpec specification() {
 
 /// Largest step of the default when the deck gives none.
 constexpr double defaultStep = 1e-3;
-/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation.
-constexpr double slowConvergence = 0.25;
+/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation ...
+constexpr double slowestRate = 0.5;
+/// ... and so does one that would need more iterations than this to converge: a factorisation costs about as much.
+constexpr double patience = 5;
 
 class GeneralizedAlpha final : public Integrator {
  public:
@@ -67,11 +69,19 @@ class GeneralizedAlpha final : public Integrator {
   bool attempt(const State& from, State& to, double h, bool keep);
   void predict(const State& from, State& to, double h);
   double measure(const State& to);
+  /// Whether a new factor is cheaper than going on at this rate of convergence.
+  bool isSlow(double rate) const {
+    if (rate >= slowestRate) return true;
+    const double left = error_ / (tolerance_ * reference_ + floor_);
+    return left > 1 && std::log(left) > -std::log(rate) * patience;
+  }
   bool converged() const { return error_ <= tolerance_ * reference_ + floor_; }
   bool iterate(State& to, double h);
   void refactor(const State& to, double h);
   void buildFactor();
   bool backtrack(State& to, double h);
+  bool bracket(State& to, double beyond, double c0, double c1);
+  void place(State& to, double fraction, double c0, double c1);
   void finish(const State& from, State& to);
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
@@ -267,18 +277,39 @@ bool GeneralizedAlpha::backtrack(State& to, double h) {
   q0_ = to.q, v0_ = to.v, a0_ = to.a, linear0_ = linear_;
   const double before = merit_;
   double fraction = 1;
-  for (int cut = 0; cut < 8; ++cut) {
-    to.q = q0_ + fraction * delta_;
-    to.v = v0_ + fraction * c1 * delta_;
-    to.a = a0_ + fraction * c0 * delta_;
-    linear_ = linear0_ + fraction * change_;
-    measure(to);
+  double beyond = 0;  // a fraction at which the residual along delta has changed sign
+  for (int cut = 0; cut < 8; ++cut, fraction *= 0.5) {
+    place(to, fraction, c0, c1);
     if (converged() || merit_ <= (1 - 1e-4 * fraction) * before) return true;
-    fraction *= 0.5;
+    if (delta_.dot(residual_) > 0) beyond = fraction;
   }
-  to.q = q0_, to.v = v0_, to.a = a0_, linear_ = linear0_;
-  measure(to);
+  if (fresh_ && beyond > 0) return bracket(to, beyond, c0, c1);
+  place(to, 0, c0, c1);
   return false;
+}
+
+/// Contact that switches within the step, or friction that reverses, is a jump of the residual that no decrease of its norm can find:
+/// search for the sign change of delta . R between 0 and `beyond` by bisection. The law is continuous, so there is a root, and at the
+/// root the tangent knows the steep branch.
+bool GeneralizedAlpha::bracket(State& to, double beyond, double c0, double c1) {
+  double low = 0;
+  double high = beyond;
+  for (int i = 0; i < 60 && high - low > 1e-15 * beyond; ++i) {
+    const double middle = 0.5 * (low + high);
+    place(to, middle, c0, c1);
+    if (converged()) return true;
+    (delta_.dot(residual_) > 0 ? high : low) = middle;
+  }
+  return std::isfinite(merit_);
+}
+
+/// The iterate at a fraction of delta from where the line search began, measured.
+void GeneralizedAlpha::place(State& to, double fraction, double c0, double c1) {
+  to.q = q0_ + fraction * delta_;
+  to.v = v0_ + fraction * c1 * delta_;
+  to.a = a0_ + fraction * c0 * delta_;
+  linear_ = linear0_ + fraction * change_;
+  measure(to);
 }
 
 /// Newton iterations from the predicted state; false on failure.
@@ -308,7 +339,7 @@ bool GeneralizedAlpha::iterate(State& to, double h) {
       wanted_ = true;
       continue;
     }
-    wanted_ = merit_ > slowConvergence * before;
+    wanted_ = isSlow(merit_ / before);
     fresh_ = false;
   }
 }

@@ -47,6 +47,8 @@ struct Window {
 class Integrator {
  public:
   virtual ~Integrator() = default;
+  /// True when the step is bounded by the largest frequency of the model.
+  virtual bool isExplicit() const { return false; }
 
   /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the integrator.
   /// Throws ModelError for a model this integrator cannot treat (a singular mass matrix for an explicit one).

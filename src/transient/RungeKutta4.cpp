@@ -20,6 +20,8 @@ class RungeKutta4 final : public Integrator {
  public:
   explicit RungeKutta4(const Teuchos::ParameterList& own) : safety_(withDefaults(own, specification()).get<double>("Safety")) {}
 
+  bool isExplicit() const override { return true; }
+
   void prepare(CompiledModel& model, const Window& window, State& state) override {
     rhs_.bind(model, "RK4");
     ++counters_.factorisations;

@@ -130,7 +130,6 @@ class Run {
     report.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     report.cpu = cpuSeconds() - cpu;
     report.realTimeFactor = report.wall > 0 ? (state_.t - from) / report.wall : 0.0;
-    count("contact evaluations", contactEvaluations(model_));
     count("factorisations", report.counters.factorisations);
     if (report.counters.unconvergedSteps > 0)
       log::warn(std::to_string(report.counters.unconvergedSteps) + " of " + std::to_string(report.counters.steps) +

@@ -28,6 +28,11 @@ deck::ListSpec parameters() {
   return spec;
 }
 
+bool isExplicit(const Teuchos::ParameterList& transient) {
+  const auto list = withDefaults(transient, parameters());
+  return IntegratorRegistry::instance().make(list.get<std::string>("Integrator"), Teuchos::ParameterList())->isExplicit();
+}
+
 TransientOptions readOptions(const Teuchos::ParameterList& given) {
   const Teuchos::ParameterList list = withDefaults(given, parameters());
   TransientOptions options;

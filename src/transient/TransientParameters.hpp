@@ -29,4 +29,7 @@ struct TransientOptions {
 /// Read a validated list. Throws DeckError for what the registry cannot check alone (End Time not after Start Time).
 TransientOptions readOptions(const Teuchos::ParameterList& transient);
 
+/// Whether the list asks for an integrator whose step is bounded by the largest frequency of the model.
+bool isExplicit(const Teuchos::ParameterList& transient);
+
 }  // namespace tooljoint::transient
