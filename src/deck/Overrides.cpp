@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/Overrides.hpp"
 
+#include <charconv>
+
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"
+#include "deck/Units.hpp"
 #include "deck/Validator.hpp"
 
 namespace tooljoint::deck {
@@ -52,6 +55,14 @@ std::string typeLike(const std::string& text) {
     if (parseValue(type, text, ignored)) return type;
   }
   return parseValue("Array(string)", text, ignored) ? "Array(string)" : "string";
+}
+
+/// What stands behind the number a text begins with; "" when it begins with none.
+std::string tailOf(const std::string& text) {
+  const std::string whole = trim(text);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), number);
+  return error == std::errc() ? trim(std::string_view(end, static_cast<std::size_t>(whole.data() + whole.size() - end))) : "";
 }
 
 class Applier {
@@ -116,6 +127,8 @@ class Applier {
     std::string fault;
     const std::optional<Value> value = parseValue(type, item.value, fault);
     if (!value) {
+      const bool unitless = spec != nullptr && type == "double" && parseUnit(tailOf(item.value)).has_value();
+      if (unitless && !tailOf(item.value).empty()) fault = "is not a number: this parameter has no unit";
       findings_.push_back({item.place, path + "/" + name + ": value=\"" + item.value + "\" " + fault + "."});
       return;
     }

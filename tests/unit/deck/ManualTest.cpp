@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The manual and the templates, and the variants of a registry in both.
+#include "deck/Manual.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "SmallScene.hpp"
+#include "deck/Template.hpp"
+#include "deck/Variants.hpp"
+
+using namespace tooljoint;
+using namespace tooljoint::deck;
+using namespace tooljoint::deck::test;
+
+namespace {
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+  return n;
+}
+
+/// A spring with two registered laws, one of them without parameters.
+struct Spring {
+  virtual ~Spring() = default;
+};
+struct Plain : Spring {};
+struct Cubic : Spring {
+  explicit Cubic(double c) : coefficient(c) {}
+  double coefficient;
+};
+using Springs = Registry<Spring, const Teuchos::ParameterList&>;
+
+const bool plainRegistered =
+    Springs::instance().add("Plain", {"Force proportional to the stretch.", ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<Plain>(); }});
+const bool cubicRegistered = Springs::instance().add(
+    "Cubic", {"Force with a cubic part.", ListSpec("Cubic", "").real("Coefficient", "N/m", 2.0, Range::positive(), "The cubic coefficient."),
+              [](const Teuchos::ParameterList& list) { return std::make_unique<Cubic>(variantList(list, "Cubic", Springs::instance().find("Cubic").parameters).get<double>("Coefficient")); }});
+
+ListSpec springList() {
+  ListSpec list("Springs", "The springs.");
+  declareVariants<Spring, const Teuchos::ParameterList&>(list, "Law", "Plain", "The law of the springs.");
+  return list;
+}
+
+}  // namespace
+
+TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
+  const std::string text = manualMarkdown(smallScene());
+  std::size_t at = 0;
+  for (const char* part : {"## scene\n\nA small scene.\n", "| `Title` | string |  |  | `none` | The title. |", "### scene/Contact\n\nThe contact with the borehole wall.\n",
+                           "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n",
+                           "| `Stiffness` | double | N/m | &gt; 0 | required | The nominal contact stiffness. |\n", "| `Friction` | double |  | in [0, 1] | `0.2` | The friction coefficient. |\n",
+                           "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n", "#### scene/Contact/Intervals\n",
+                           "Holds lists with names of your own, each described under &lt;interval&gt;.\n", "##### scene/Contact/Intervals/&lt;interval&gt;\n",
+                           "| `Depths` | Array(double) | m | &gt;= 0 | required |", "| `Friction` | double |  | in [0, 1] | none |", "### scene/Transient\n\nThe time integration. Required.\n",
+                           "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |", "| `Note` | string |  |  | \"\" | A remark. |\n", "#### scene/Transient/NOX\n", "Handed on to Trilinos as it is.",
+                           "### scene/Mud\n"}) {
+    const std::size_t found = text.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part << "\nnot in\n" << text.substr(at);
+    at = found;
+  }
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_NE(text[text.size() - 2], '\n');
+}
+
+TEST(Manual, IsTheSameEachTime) { EXPECT_EQ(manualMarkdown(smallScene()), manualMarkdown(smallScene())); }
+
+TEST(Manual, ATopicIsAListWithAllBelow) {
+  for (const char* topic : {"Contact", "contact", "scene/Contact", "/Contact", "/scene/Contact"}) {
+    const std::string text = manualMarkdown(smallScene(), topic);
+    EXPECT_EQ(occurrences(text, "\n#") + 1, 3U) << topic;
+    EXPECT_EQ(text.find("### scene/Contact\n"), 0U) << topic;
+  }
+  EXPECT_EQ(manualMarkdown(smallScene(), "interval").find("##### scene/Contact/Intervals/&lt;interval&gt;\n"), 0U);
+}
+
+TEST(Manual, ATopicMayBeAParameter) {
+  const std::string text = manualMarkdown(smallScene(), "friction");
+  EXPECT_NE(text.find("### scene/Contact\n"), std::string::npos);
+  EXPECT_NE(text.find("&lt;interval&gt;"), std::string::npos);
+  EXPECT_EQ(text.find("scene/Transient"), std::string::npos);
+}
+
+TEST(Manual, AnUnknownTopicIsWrongUsage) {
+  const std::string fault = messageOf([] { manualMarkdown(smallScene(), "Contct"); });
+  EXPECT_EQ(fault.find("UsageError: The manual has no topic \"Contct\". Did you mean \"Contact\"? Topics are the lists \"scene\", \"Contact\","), 0U) << fault;
+  EXPECT_NE(messageOf([] { manualJson(smallScene(), "Contct"); }), "");
+}
+
+TEST(Manual, SeveralRootsFollowEachOther) {
+  const std::vector<ListSpec> roots = {smallScene(), ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
+  EXPECT_NE(manualMarkdown(roots).find("\n## library\n"), std::string::npos);
+  EXPECT_EQ(manualMarkdown(roots, "component").find("### library/&lt;component&gt;"), 0U);
+}
+
+TEST(Manual, JsonHoldsWhatTheDescriptionHolds) {
+  const auto all = nlohmann::json::parse(manualJson(smallScene()));
+  ASSERT_EQ(all.size(), 1U);
+  const auto& scene = all[0];
+  EXPECT_EQ(scene["path"], "scene");
+  const auto& contact = scene["lists"][0];
+  EXPECT_EQ(contact["name"], "Contact");
+  EXPECT_EQ(contact["required"], false);
+  const auto& stiff = contact["parameters"][0];
+  EXPECT_EQ(stiff["name"], "Stiffness");
+  EXPECT_EQ(stiff["type"], "double");
+  EXPECT_EQ(stiff["unit"], "N/m");
+  EXPECT_EQ(stiff["min"], 0.0);
+  EXPECT_EQ(stiff["open_min"], true);
+  EXPECT_TRUE(stiff["max"].is_null());
+  EXPECT_EQ(stiff["required"], true);
+  EXPECT_TRUE(stiff["default"].is_null());
+  EXPECT_EQ(contact["parameters"][2]["choices"].size(), 3U);
+  EXPECT_EQ(contact["parameters"][2]["default"], "Linear");
+  EXPECT_EQ(contact["lists"][0]["named_lists"]["name"], "interval");
+  EXPECT_EQ(scene["lists"][1]["lists"][0]["pass_through"], true);
+  EXPECT_EQ(nlohmann::json::parse(manualJson(smallScene(), "Mud"))[0]["path"], "scene/Mud");
+}
+
+TEST(Manual, TopicsAreThePathsOfAllLists) {
+  EXPECT_EQ(topics(smallScene()), (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals", "scene/Contact/Intervals/<interval>", "scene/Transient", "scene/Transient/NOX", "scene/Mud"}));
+}
+
+TEST(Manual, UnitsAreListedByQuantity) {
+  const std::string text = unitsMarkdown();
+  EXPECT_NE(text.find("| length | `m`, `mm`, `cm`, `km`, `ft`, `in` |\n"), std::string::npos);
+  EXPECT_NE(text.find("| rotary speed | `rpm` |\n"), std::string::npos);
+}
+
+TEST(Template, ReadsAsItIs) {
+  const Deck deck = Deck::parse(templateXml(smallScene(), "my_well"), "template.xml", smallScene());
+  EXPECT_EQ(deck.name(), "my_well");
+  EXPECT_EQ(deck.list().sublist("Transient").get<double>("End Time"), 1.0);
+  EXPECT_FALSE(deck.list().isSublist("Contact"));
+}
+
+TEST(Template, ReadsWithEveryCommentedLineTakenIn) {
+  const std::string text = uncommented(templateXml(smallScene(), "my_well"));
+  const Deck deck = Deck::parse(text, "template.xml", smallScene());
+  EXPECT_EQ(deck.list().sublist("Contact").sublist("Intervals").sublist("my interval").get<double>("Friction"), 1.0);
+  EXPECT_TRUE(deck.gives("Transient/Angle"));
+  EXPECT_TRUE(deck.gives("Mud/Density"));
+  EXPECT_TRUE(deck.list().sublist("Transient").isSublist("NOX"));
+}
+
+TEST(Template, HasTheSentenceOfEachParameter) {
+  const std::string text = templateXml(smallScene(), "my_well");
+  EXPECT_NE(text.find("<!-- the nominal contact stiffness, N/m, > 0; required -->\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("    <!-- <Parameter name=\"Step\" type=\"double\" value=\"0.001\"/> -->\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("    <Parameter name=\"End Time\" type=\"double\" value=\"1\"/>\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  <!-- Contact (optional): The contact with the borehole wall. -->\n"), std::string::npos) << text;
+}
+
+TEST(Template, EscapesWhatXmlWouldMisread) {
+  const ListSpec odd = ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
+  const std::string text = templateXml(odd, "odd & \"old\"");
+  EXPECT_EQ(Deck::parse(text, "t.xml", odd).name(), "odd & \"old\"");
+  const Deck deck = Deck::parse(uncommented(text), "t.xml", odd);
+  EXPECT_TRUE(deck.gives("A & B"));
+  EXPECT_EQ(deck.list().get<std::string>("A & B"), "a<b>\"c\"--d-");
+}
+
+TEST(Variants, AreAChoiceAndAListEach) {
+  ASSERT_TRUE(plainRegistered && cubicRegistered);
+  const ListSpec list = springList();
+  EXPECT_TRUE(list.inconsistencies().empty());
+  EXPECT_EQ(list.findParameter("Law")->choices, (std::vector<std::string>{"Cubic", "Plain"}));
+  EXPECT_EQ(list.findParameter("Law")->doc, "The law of the springs. Cubic: Force with a cubic part. Plain: Force proportional to the stretch.");
+  ASSERT_EQ(list.lists().size(), 1U);
+  EXPECT_EQ(list.lists()[0].name(), "Cubic");
+  EXPECT_EQ(list.lists()[0].doc(), "Force with a cubic part.");
+  EXPECT_NE(manualMarkdown(list).find("### Springs/Cubic\n"), std::string::npos);
+}
+
+TEST(Variants, AreMadeWithTheirParametersOrTheirDefaults) {
+  const auto made = [](const std::string& text) {
+    const Deck deck = Deck::parse("<ParameterList name=\"x\">" + text + "</ParameterList>", "x.xml", springList());
+    return Springs::instance().make(deck.list().get<std::string>("Law"), deck.list());
+  };
+  const std::string cubic = parameter("Law", "string", "Cubic");
+  EXPECT_NE(dynamic_cast<Plain*>(made("").get()), nullptr);
+  EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic)).coefficient, 2.0);
+  EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic + "<ParameterList name=\"Cubic\">" + parameter("Coefficient", "string", "5 kN/m") + "</ParameterList>")).coefficient, 5000.0);
+}
+
+TEST(Variants, AnUnknownOneNamesTheKnown) {
+  EXPECT_EQ(messageOf([] { Deck::parse("<ParameterList name=\"x\">" + parameter("Law", "string", "Cubical") + "</ParameterList>", "x.xml", springList()); }),
+            "x.xml:1: /x/Law: value=\"Cubical\" is not one of \"Cubic\", \"Plain\". Did you mean \"Cubic\"?");
+  EXPECT_EQ(messageOf([] { Springs::instance().find("Cubical"); }), "\"Cubical\" is not known here; known are \"Cubic\", \"Plain\".");
+}
+
+TEST(Variants, AVariantWithRequiredParametersNeedsItsList) {
+  const ListSpec own = ListSpec("Own", "O.").real("x", "m", Required{}, Range::any(), "X.");
+  Teuchos::ParameterList list("/well/Springs");
+  EXPECT_EQ(messageOf([&] { variantList(list, "Own", own); }), "/well/Springs needs the list \"Own\", since some of its parameters are required.");
+}
