@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "common/Parallel.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <cstdint>
+#include <mpi.h>
 
 namespace tooljoint::parallel {
 namespace {

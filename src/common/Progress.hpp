@@ -36,7 +36,7 @@ class Progress {
   bool speaks_ = false;    ///< rank 0 and not quiet
   bool terminal_ = false;  ///< standard error is a terminal
   bool finished_ = false;
-  bool drawn_ = false;     ///< an unfinished bar stands on the terminal
+  bool drawn_ = false;  ///< an unfinished bar stands on the terminal
   int lastTenth_ = 0;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point lastDraw_;

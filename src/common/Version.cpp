@@ -2,10 +2,9 @@
 #include "common/Version.hpp"
 
 #include <Trilinos_version.h>
+#include <array>
 #include <hdf5.h>
 #include <mpi.h>
-
-#include <array>
 
 #include "common/Text.hpp"
 
@@ -43,8 +42,8 @@ std::string hdf5Version() {
 }
 
 std::string versionText() {
-  return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " + trilinosVersion() + "\nMPI       " + mpiVersion() +
-         "\nHDF5      " + hdf5Version() + "\n";
+  return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " + trilinosVersion() + "\nMPI       " +
+         mpiVersion() + "\nHDF5      " + hdf5Version() + "\n";
 }
 
 }  // namespace tooljoint

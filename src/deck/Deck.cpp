@@ -44,7 +44,8 @@ bool continues(const std::string& sentence) {
 
 }  // namespace
 
-Deck Deck::parse(const std::string& text, const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides) {
+Deck Deck::parse(const std::string& text, const std::string& file, const ListSpec& scene,
+                 const std::vector<std::string>& overrides) {
   requireConsistent(scene);
   RawList tree = readXml(text, file);
   std::vector<Finding> findings;
@@ -123,7 +124,8 @@ std::string Deck::located(const std::string& message) const {
     const std::string full = root + (path.empty() ? "" : "/" + path);
     if (full.size() >= best.size() && message.compare(0, full.size(), full) == 0) best = full;
   }
-  if (best.empty() || (best == root && message.size() > root.size() && message[root.size()] != '/' && message[root.size()] != ' ' && message[root.size()] != ':')) {
+  if (best.empty() || (best == root && message.size() > root.size() && message[root.size()] != '/' &&
+                       message[root.size()] != ' ' && message[root.size()] != ':')) {
     return message;
   }
   return places_->nearest(relative(best)).text(file_) + ": " + message;

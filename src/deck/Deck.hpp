@@ -22,7 +22,8 @@ namespace tooljoint::deck {
 class Deck {
  public:
   /// Read `file` on rank 0 and hand its text to all ranks, so that all see the same and fail alike. Collective.
-  /// `overrides` are "PATH=VALUE". Throws FileError (file missing, a folder, unreadable), DeckError, UsageError (override without "=").
+  /// `overrides` are "PATH=VALUE". Throws FileError (file missing, a folder, unreadable), DeckError, UsageError (override without
+  /// "=").
   static Deck read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides = {});
 
   /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder. Collective. A file that
@@ -30,14 +31,15 @@ class Deck {
   Deck readNamed(const std::string& path, const std::string& name, const ListSpec& library) const;
 
   /// The same from a text in memory; `file` is what errors call it. Not collective.
-  static Deck parse(const std::string& text, const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides = {});
+  static Deck parse(const std::string& text, const std::string& file, const ListSpec& scene,
+                    const std::vector<std::string>& overrides = {});
 
   const Teuchos::ParameterList& list() const { return *list_; }
   const std::string& name() const { return name_; }  ///< of the root list
   std::string text() const { return text_; }         ///< of the file as it was read, overrides not applied
   std::string sha256() const;                        ///< of text()
   std::string file() const { return file_; }
-  std::string folder() const;                        ///< that holds the file; "." when its name has none
+  std::string folder() const;  ///< that holds the file; "." when its name has none
   const std::vector<std::string>& overrides() const { return overrides_; }
 
   /// A file name of the deck, relative to the deck's folder unless absolute.
@@ -47,10 +49,12 @@ class Deck {
   bool gives(const std::string& path) const;
 
   /// "deck.xml:42: /Scene/Contact/Stiffness"; for a default the line of the list it would stand in, for an override
-  /// "--set Contact/Stiffness=1: /Scene/Contact/Stiffness". `path` is "Contact/Stiffness" or a full one, "/Scene/Contact/Stiffness".
+  /// "--set Contact/Stiffness=1: /Scene/Contact/Stiffness". `path` is "Contact/Stiffness" or a full one,
+  /// "/Scene/Contact/Stiffness".
   std::string where(const std::string& path) const;
 
-  /// where(path) + ": " + sentence, or + " " + sentence when the sentence continues the path with a verb in lower case ("is ...").
+  /// where(path) + ": " + sentence, or + " " + sentence when the sentence continues the path with a verb in lower case ("is
+  /// ...").
   std::string error(const std::string& path, const std::string& sentence) const;
 
   /// A message that begins with a full path of this deck ("/Scene/Contact/Stiffness is ..."), with file and line in front; any
@@ -97,8 +101,8 @@ class Problems {
   std::vector<Item> items_;
 };
 
-/// A list with the defaults of its description alone, for a list a deck may leave out. Required sublists are filled too; a required
-/// parameter is a DeckError, since it has no default.
+/// A list with the defaults of its description alone, for a list a deck may leave out. Required sublists are filled too; a
+/// required parameter is a DeckError, since it has no default.
 Teuchos::ParameterList defaults(const ListSpec& spec);
 
 /// The sublist that holds a variant's own parameters (named after the variant), or its defaults when the deck gives none.

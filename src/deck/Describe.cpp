@@ -36,7 +36,8 @@ double exampleNumber(const Range& range, bool whole) {
   if (contains(range, 1.0)) return 1.0;
   if (std::isfinite(range.min) && !range.openMin) return range.min;
   if (std::isfinite(range.max) && !range.openMax) return range.max;
-  if (std::isfinite(range.min) && std::isfinite(range.max)) return whole ? std::floor(range.min) + 1.0 : 0.5 * (range.min + range.max);
+  if (std::isfinite(range.min) && std::isfinite(range.max))
+    return whole ? std::floor(range.min) + 1.0 : 0.5 * (range.min + range.max);
   return std::isfinite(range.min) ? std::floor(range.min) + 1.0 : std::ceil(range.max) - 1.0;
 }
 
@@ -91,9 +92,15 @@ std::string describe(const Default& value) {
     std::string operator()(int number) const { return formatNumber(number); }
     std::string operator()(double number) const { return formatNumber(number); }
     std::string operator()(const std::string& text) const { return text; }
-    std::string operator()(const std::vector<int>& v) const { return braces(v, [](int i) { return formatNumber(i); }); }
-    std::string operator()(const std::vector<double>& v) const { return braces(v, [](double d) { return formatNumber(d); }); }
-    std::string operator()(const std::vector<std::string>& v) const { return braces(v, [](const std::string& s) { return s; }); }
+    std::string operator()(const std::vector<int>& v) const {
+      return braces(v, [](int i) { return formatNumber(i); });
+    }
+    std::string operator()(const std::vector<double>& v) const {
+      return braces(v, [](double d) { return formatNumber(d); });
+    }
+    std::string operator()(const std::vector<std::string>& v) const {
+      return braces(v, [](const std::string& s) { return s; });
+    }
   };
   return std::visit(Writer{}, value);
 }

@@ -61,7 +61,8 @@ std::vector<std::string> textsOf(const Default& value) {
 
 void inspect(const ParameterSpec& parameter, const std::string& path, std::vector<std::string>& faults) {
   const std::string where = path + "/" + parameter.name;
-  if (parameter.name.empty() || trim(parameter.name) != parameter.name) faults.push_back(where + " has an empty name, or blanks around it");
+  if (parameter.name.empty() || trim(parameter.name) != parameter.name)
+    faults.push_back(where + " has an empty name, or blanks around it");
   if (parameter.doc.empty()) faults.push_back(where + " has no sentence that documents it");
   if (!fits(parameter.kind, parameter.value)) faults.push_back(where + " has a default of another type than its own");
   for (const double number : numbersOf(parameter.value)) {
@@ -161,7 +162,8 @@ ListSpec& ListSpec::merge(const ListSpec& other) {
     if (mine == nullptr) {
       parameters_.push_back(parameter);
     } else if (mine->kind != parameter.kind || mine->unit != parameter.unit) {
-      throw std::logic_error("ListSpec::merge: \"" + parameter.name + "\" of \"" + other.name_ + "\" is declared otherwise in \"" + name_ + "\"");
+      throw std::logic_error("ListSpec::merge: \"" + parameter.name + "\" of \"" + other.name_ +
+                             "\" is declared otherwise in \"" + name_ + "\"");
     }
   }
   for (const ListSpec& sublist : other.lists_) {

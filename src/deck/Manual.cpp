@@ -66,7 +66,8 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
   if (!found.empty()) return found;
   for (const Located& item : all) {
     const auto& parameters = item.list->parameters();
-    const bool holds = std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) { return lower(p.name) == lower(topic); });
+    const bool holds =
+        std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) { return lower(p.name) == lower(topic); });
     if (holds) found.push_back(item);
   }
   return found;
@@ -88,10 +89,14 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '|') result += "\\|";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else result += c == '\n' ? ' ' : c;
+    if (c == '|')
+      result += "\\|";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else
+      result += c == '\n' ? ' ' : c;
   }
   return result;
 }
@@ -116,26 +121,32 @@ std::string sentence(const std::string& doc) {
 std::string markdown(const Located& item, int headingLevel) {
   const ListSpec& list = *item.list;
   const auto depth = static_cast<int>(std::count(item.path.begin(), item.path.end(), '/'));
-  std::string text = std::string(static_cast<std::size_t>(std::min(6, headingLevel + depth)), '#') + " " + cell(item.path) + "\n\n";
+  std::string text =
+      std::string(static_cast<std::size_t>(std::min(6, headingLevel + depth)), '#') + " " + cell(item.path) + "\n\n";
   text += sentence(list.doc());
   if (list.required()) text += " Required.";
   if (list.passesThrough()) text += " Handed on to Trilinos as it is.";
-  if (list.pattern() != nullptr) text += " Holds lists with names of your own, each described under " + cell(patternName(*list.pattern())) + ".";
+  if (list.pattern() != nullptr)
+    text += " Holds lists with names of your own, each described under " + cell(patternName(*list.pattern())) + ".";
   text += "\n\n";
   if (list.parameters().empty()) return text;
   text += "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n";
   for (const ParameterSpec& parameter : list.parameters()) {
-    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " + cell(parameter.unit) + " | " + cell(rangeOrChoices(parameter)) + " | " +
-            defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
+    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " + cell(parameter.unit) + " | " +
+            cell(rangeOrChoices(parameter)) + " | " + defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
   }
   return text + "\n";
 }
 
 std::string kindName(Kind kind) {
-  static const std::map<Kind, std::string> names = {{Kind::Real, "real"},           {Kind::Integer, "integer"},
-                                                    {Kind::Boolean, "boolean"},     {Kind::Text, "text"},
-                                                    {Kind::Choice, "choice"},       {Kind::RealArray, "real array"},
-                                                    {Kind::IntegerArray, "integer array"}, {Kind::TextArray, "text array"}};
+  static const std::map<Kind, std::string> names = {{Kind::Real, "real"},
+                                                    {Kind::Integer, "integer"},
+                                                    {Kind::Boolean, "boolean"},
+                                                    {Kind::Text, "text"},
+                                                    {Kind::Choice, "choice"},
+                                                    {Kind::RealArray, "real array"},
+                                                    {Kind::IntegerArray, "integer array"},
+                                                    {Kind::TextArray, "text array"}};
   return names.at(kind);
 }
 
@@ -176,9 +187,12 @@ Json jsonOf(const ListSpec& list) {
   for (const ParameterSpec& parameter : list.parameters()) parameters.push_back(jsonOf(parameter));
   Json lists = Json::array();
   for (const ListSpec& sublist : list.lists()) lists.push_back(jsonOf(sublist));
-  return {{"name", list.name()},          {"doc", list.doc()},
-          {"required", list.required()},  {"pass_through", list.passesThrough()},
-          {"parameters", parameters},     {"lists", lists},
+  return {{"name", list.name()},
+          {"doc", list.doc()},
+          {"required", list.required()},
+          {"pass_through", list.passesThrough()},
+          {"parameters", parameters},
+          {"lists", lists},
           {"named_lists", list.pattern() == nullptr ? Json(nullptr) : jsonOf(*list.pattern())}};
 }
 

@@ -19,9 +19,10 @@ std::string manualMarkdown(const ListSpec& root, const std::string& topic = "", 
 /// The same for several roots (scene, component library), one after the other; a topic needs to be known to one of them.
 std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string& topic = "", int headingLevel = 2);
 
-/// JSON with stable keys: {"name","doc","required","pass_through","parameters":[{"name","type","kind","unit","min","max","open_min","open_max",
-/// "choices","required","default","doc"}],"lists":[...],"named_lists":{...}|null}; bounds that do not exist and defaults that are none
-/// are null. With a topic an array of the lists found, each with its "path".
+/// JSON with stable keys:
+/// {"name","doc","required","pass_through","parameters":[{"name","type","kind","unit","min","max","open_min","open_max",
+/// "choices","required","default","doc"}],"lists":[...],"named_lists":{...}|null}; bounds that do not exist and defaults that are
+/// none are null. With a topic an array of the lists found, each with its "path".
 std::string manualJson(const ListSpec& root, const std::string& topic = "");
 std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic = "");
 

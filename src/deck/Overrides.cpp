@@ -67,7 +67,8 @@ std::string tailOf(const std::string& text) {
 
 class Applier {
  public:
-  Applier(RawList& scene, const ListSpec& spec, std::vector<Finding>& findings) : scene_(scene), spec_(spec), findings_(findings) {}
+  Applier(RawList& scene, const ListSpec& spec, std::vector<Finding>& findings)
+      : scene_(scene), spec_(spec), findings_(findings) {}
 
   void apply(Override item) {
     stripSceneName(item.path);
@@ -147,7 +148,8 @@ class Applier {
 
 }  // namespace
 
-void applyOverrides(RawList& scene, const ListSpec& spec, const std::vector<std::string>& overrides, std::vector<Finding>& findings) {
+void applyOverrides(RawList& scene, const ListSpec& spec, const std::vector<std::string>& overrides,
+                    std::vector<Finding>& findings) {
   Applier applier(scene, spec, findings);
   int number = 0;
   for (const std::string& text : overrides) applier.apply(parseOverride(text, ++number));

@@ -27,7 +27,8 @@ bool declares(const ListSpec& list, const std::string& name) {
 }
 
 /// Paths of the lists below `list` that hold a parameter (or a list) of this name.
-void collectHomes(const ListSpec& list, const std::string& path, const std::string& name, bool ofList, std::vector<std::string>& homes) {
+void collectHomes(const ListSpec& list, const std::string& path, const std::string& name, bool ofList,
+                  std::vector<std::string>& homes) {
   if (ofList ? declares(list, name) : list.findParameter(name) != nullptr) homes.push_back(path.empty() ? "/" : path);
   for (const ListSpec& sublist : list.lists()) collectHomes(sublist, path + "/" + sublist.name(), name, ofList, homes);
   if (list.pattern() != nullptr) collectHomes(*list.pattern(), path + "/<" + list.pattern()->name() + ">", name, ofList, homes);
@@ -59,10 +60,12 @@ std::string didYouMean(const ListSpec& list, const std::string& name, bool lists
   const std::string parameter = closest(name, parameterNames(list));
   const std::string sublist = closest(name, listNames(list));
   if (!sublist.empty() && (listsFirst || parameter.empty())) {
-    return std::string(" Did you mean ") + (listsFirst ? "" : "the list ") + "\"" + sublist + "\"? " + introduce(*list.findList(sublist));
+    return std::string(" Did you mean ") + (listsFirst ? "" : "the list ") + "\"" + sublist + "\"? " +
+           introduce(*list.findList(sublist));
   }
   if (parameter.empty()) return "";
-  return std::string(" Did you mean ") + (listsFirst ? "the parameter " : "") + "\"" + parameter + "\"? " + introduce(*list.findParameter(parameter));
+  return std::string(" Did you mean ") + (listsFirst ? "the parameter " : "") + "\"" + parameter + "\"? " +
+         introduce(*list.findParameter(parameter));
 }
 
 }  // namespace
@@ -75,10 +78,12 @@ std::string unknownParameter(const ListSpec& root, const ListSpec& list, const s
   return text + guess + home + (guess.empty() && home.empty() ? known(list) : "");
 }
 
-std::string unknownList(const ListSpec& root, const ListSpec& list, const std::string& path, const std::string& name, const RawList& present) {
+std::string unknownList(const ListSpec& root, const ListSpec& list, const std::string& path, const std::string& name,
+                        const RawList& present) {
   std::string text = path + "/" + name + " is not a list.";
   if (list.findParameter(name) != nullptr) {
-    return text + " It is a parameter: write <Parameter name=\"" + name + "\" type=\"" + typeName(list.findParameter(name)->kind) + "\" value=\"...\"/>.";
+    return text + " It is a parameter: write <Parameter name=\"" + name + "\" type=\"" +
+           typeName(list.findParameter(name)->kind) + "\" value=\"...\"/>.";
   }
   std::vector<std::string> own;
   for (const RawList& sublist : present.lists()) own.push_back(sublist.name);

@@ -15,12 +15,18 @@ std::string escaped(const std::string& text) {
   std::string result;
   char before = '\0';
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else if (c == '-' && before == '-') result += "&#45;";  // "--" must not stand in a comment
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '-' && before == '-')
+      result += "&#45;";  // "--" must not stand in a comment
+    else
+      result += c;
     before = c;
   }
   return result;
@@ -46,12 +52,12 @@ class Writer {
   }
 
  private:
-  void line(int depth, const std::string& content) { text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n"; }
+  void line(int depth, const std::string& content) {
+    text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n";
+  }
 
   /// `active` lines stand as they are, the others are commented out (an XML comment must not hold "--").
-  void element(int depth, const std::string& content, bool active) {
-    line(depth, active ? content : "<!-- " + content + " -->");
-  }
+  void element(int depth, const std::string& content, bool active) { line(depth, active ? content : "<!-- " + content + " -->"); }
 
   void writeList(const ListSpec& list, const std::string& name, int depth, bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
@@ -74,8 +80,10 @@ class Writer {
     if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
     line(depth, remark(note));
     const std::string value = escaped(exampleValue(parameter));
-    element(depth, "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" + typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
-            active && required);
+    element(
+        depth,
+        "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" + typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
+        active && required);
   }
 
   std::string text_;
@@ -89,7 +97,8 @@ std::string uncommented(const std::string& templateText) {
   std::string result;
   for (const std::string& whole : split(templateText, '\n')) {
     const std::string content = trim(whole);
-    const bool commented = content.size() > openMark.size() + closeMark.size() && content.compare(0, openMark.size(), openMark) == 0 &&
+    const bool commented = content.size() > openMark.size() + closeMark.size() &&
+                           content.compare(0, openMark.size(), openMark) == 0 &&
                            content.compare(content.size() - closeMark.size(), closeMark.size(), closeMark) == 0;
     if (commented) {
       const std::string indent = whole.substr(0, whole.find('<'));

@@ -9,9 +9,9 @@
 
 namespace tooljoint::deck {
 
-/// A deck named `name` in the order of declaration: required parameters and lists stand with an example value, everything optional is
-/// commented out line by line, each with its sentence above it. It reads without errors of the phases 1 and 2, as it is and with
-/// every commented line taken in.
+/// A deck named `name` in the order of declaration: required parameters and lists stand with an example value, everything
+/// optional is commented out line by line, each with its sentence above it. It reads without errors of the phases 1 and 2, as it
+/// is and with every commented line taken in.
 std::string templateXml(const ListSpec& root, const std::string& name);
 
 /// A template with every commented-out line taken in.

@@ -106,10 +106,12 @@ bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; 
 /// The symbol for a unit a person has spelled out or written another way; "" when there is no good guess.
 std::string meantUnit(const std::string& name) {
   static const std::map<std::string, std::string> spelled = {
-      {"inch", "in"},   {"inches", "in"},  {"foot", "ft"},   {"feet", "ft"},    {"meter", "m"},    {"metre", "m"},    {"meters", "m"}, {"metres", "m"},
-      {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"}, {"sec", "s"},      {"second", "s"},   {"seconds", "s"}, {"minute", "min"},
-      {"minutes", "min"}, {"hr", "h"},      {"hour", "h"},    {"hours", "h"},    {"lb", "lbf"},     {"lbs", "lbf"},    {"kip", "klbf"}, {"kips", "klbf"},
-      {"klb", "klbf"},  {"newton", "N"},   {"pascal", "Pa"}, {"liter", "l"},    {"litre", "l"},    {"liters", "l"},   {"litres", "l"}, {"tonne", "t"}};
+      {"inch", "in"},  {"inches", "in"}, {"foot", "ft"},    {"feet", "ft"},     {"meter", "m"},     {"metre", "m"},
+      {"meters", "m"}, {"metres", "m"},  {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},  {"radians", "rad"},
+      {"sec", "s"},    {"second", "s"},  {"seconds", "s"},  {"minute", "min"},  {"minutes", "min"}, {"hr", "h"},
+      {"hour", "h"},   {"hours", "h"},   {"lb", "lbf"},     {"lbs", "lbf"},     {"kip", "klbf"},    {"kips", "klbf"},
+      {"klb", "klbf"}, {"newton", "N"},  {"pascal", "Pa"},  {"liter", "l"},     {"litre", "l"},     {"liters", "l"},
+      {"litres", "l"}, {"tonne", "t"}};
   const auto it = spelled.find(lower(name));
   if (it != spelled.end()) return it->second;
   std::vector<std::string> known;
@@ -125,7 +127,8 @@ class UnitParser {
   std::optional<Unit> parse() {
     std::optional<Unit> unit = product();
     skipBlanks();
-    if (unit && at_ < text_.size()) return fail("\"" + std::string(text_.substr(at_)) + "\" is not understood in the unit \"" + trim(text_) + "\"");
+    if (unit && at_ < text_.size())
+      return fail("\"" + std::string(text_.substr(at_)) + "\" is not understood in the unit \"" + trim(text_) + "\"");
     return unit;
   }
 
@@ -150,7 +153,8 @@ class UnitParser {
       if (at_ >= text_.size() || text_[at_] == ')') return result;
       const bool divide = text_[at_] == '/';
       if (divide || text_[at_] == '*') ++at_;
-      if (divided && !divide) return fail("the unit \"" + trim(text_) + "\" is ambiguous: write parentheses around what it divides by");
+      if (divided && !divide)
+        return fail("the unit \"" + trim(text_) + "\" is ambiguous: write parentheses around what it divides by");
       const std::optional<Unit> next = factor();
       if (!next) return next;
       result = multiply(*result, *next, divide ? -1 : 1);
@@ -244,11 +248,10 @@ std::optional<Unit> parseUnit(std::string_view text, std::string* fault) {
 }
 
 std::vector<std::string> unitsLike(const std::string& si) {
-  static const std::vector<std::string> compounds = {"m/s",    "ft/s",   "m/h",     "ft/h",   "m/s2",  "m2",    "mm2",   "in2",
-                                                     "kg/m3",  "g/cm3",  "kg/m",    "lbm/ft", "N/m",   "kN/m",  "MN/m",  "N s/m",
-                                                     "N m",    "kN m",   "ft lbf",  "kg m",   "1/m",   "rad/m", "deg/m", "deg/30m",
-                                                     "rad/s",  "deg/s",  "rad/s2",  "1/s",    "m3/s",  "l/min", "m2/s",  "N m/rad",
-                                                     "Pa s",   "m4",     "mm4",     "in4",    "kg m2", "N m s/rad", "m3"};
+  static const std::vector<std::string> compounds = {
+      "m/s",    "ft/s", "m/h",   "ft/h",  "m/s2", "m2",      "mm2",  "in2", "kg/m3", "g/cm3", "kg/m",    "lbm/ft",    "N/m",
+      "kN/m",   "MN/m", "N s/m", "N m",   "kN m", "ft lbf",  "kg m", "1/m", "rad/m", "deg/m", "deg/30m", "rad/s",     "deg/s",
+      "rad/s2", "1/s",  "m3/s",  "l/min", "m2/s", "N m/rad", "Pa s", "m4",  "mm4",   "in4",   "kg m2",   "N m s/rad", "m3"};
   std::vector<std::string> result;
   const std::optional<Unit> wanted = parseUnit(si);
   if (!wanted) return result;

@@ -35,8 +35,8 @@ const std::vector<UnitSymbol>& unitSymbols();
 /// The unit, or nothing when the text is none; `fault` (if given) then holds a clause that says why.
 std::optional<Unit> parseUnit(std::string_view text, std::string* fault = nullptr);
 
-/// "120 rpm" -> SI value for a parameter whose SI unit is `si` ("rad/s"); nothing when the text has no number, no unit, an unknown
-/// unit or one of another quantity, and `fault` then holds a full clause for an error message.
+/// "120 rpm" -> SI value for a parameter whose SI unit is `si` ("rad/s"); nothing when the text has no number, no unit, an
+/// unknown unit or one of another quantity, and `fault` then holds a full clause for an error message.
 std::optional<double> toSi(std::string_view text, const std::string& si, std::string& fault);
 
 /// Units of the table that may stand where `si` is asked for, the best known ones: {"m", "mm", "cm", "km", "ft", "in"}.

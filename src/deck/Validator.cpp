@@ -31,7 +31,9 @@ struct Setter {
   void operator()(const std::vector<std::string>& values) const { setArray(list, name, values); }
 };
 
-void setValue(Teuchos::ParameterList& list, const std::string& name, const Value& value) { std::visit(Setter{list, name}, value); }
+void setValue(Teuchos::ParameterList& list, const std::string& name, const Value& value) {
+  std::visit(Setter{list, name}, value);
+}
 
 /// A text in the type `kind` asks for that says what the person most probably meant; "" when there is none.
 std::string rewritten(Kind kind, const RawParameter& given) {
@@ -119,8 +121,8 @@ class ParameterCheck {
     if (contains(spec_.range, number)) return true;
     const bool convertedUnit = given_.type == "string";
     fault_ = entry == 0 ? quoted() : ": entry number " + std::to_string(entry) + ", " + formatNumber(number) + ", ";
-    fault_ += (convertedUnit ? "(" + formatNumber(number) + " " + spec_.unit + ") " : std::string()) + "is out of range: it must be " + describe(spec_.range) +
-              ". " + introduce(spec_);
+    fault_ += (convertedUnit ? "(" + formatNumber(number) + " " + spec_.unit + ") " : std::string()) +
+              "is out of range: it must be " + describe(spec_.range) + ". " + introduce(spec_);
     return false;
   }
 
@@ -147,10 +149,12 @@ class ParameterCheck {
 
 class Validation {
  public:
-  Validation(const ListSpec& root, std::vector<Finding>& findings, Places& places) : root_(root), findings_(findings), places_(places) {}
+  Validation(const ListSpec& root, std::vector<Finding>& findings, Places& places)
+      : root_(root), findings_(findings), places_(places) {}
 
   /// `path` is the full one, `key` the one below the scene; `spec` is null inside a list that passes through.
-  void fill(const RawList& given, const ListSpec* spec, const std::string& path, const std::string& key, Teuchos::ParameterList& out) {
+  void fill(const RawList& given, const ListSpec* spec, const std::string& path, const std::string& key,
+            Teuchos::ParameterList& out) {
     out.setName(path);
     places_[key] = given.place;
     const std::string below = key.empty() ? "" : key + "/";
@@ -197,15 +201,15 @@ class Validation {
     for (const ParameterSpec& parameter : spec.parameters()) {
       if (given.holdsParameter(parameter.name) || given.holdsList(parameter.name)) continue;
       if (std::holds_alternative<Required>(parameter.value)) {
-        add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=\"" + parameter.name + "\" type=\"" +
-                             typeName(parameter.kind) + "\" value=\"...\"/>. " + introduce(parameter));
+        add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=\"" + parameter.name +
+                             "\" type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>. " + introduce(parameter));
       }
       setDefault(out, parameter);
     }
     for (const ListSpec& sublist : spec.lists()) {
       if (!sublist.required() || given.holdsList(sublist.name()) || given.holdsParameter(sublist.name())) continue;
-      add(given.place, path + "/" + sublist.name() + " is required but missing: write <ParameterList name=\"" + sublist.name() + "\">...</ParameterList>. " +
-                           introduce(sublist));
+      add(given.place, path + "/" + sublist.name() + " is required but missing: write <ParameterList name=\"" + sublist.name() +
+                           "\">...</ParameterList>. " + introduce(sublist));
     }
   }
 
@@ -216,7 +220,9 @@ class Validation {
 
 }  // namespace
 
-void setDefault(Teuchos::ParameterList& list, const ParameterSpec& parameter) { std::visit(Setter{list, parameter.name}, parameter.value); }
+void setDefault(Teuchos::ParameterList& list, const ParameterSpec& parameter) {
+  std::visit(Setter{list, parameter.name}, parameter.value);
+}
 
 Teuchos::ParameterList validate(const RawList& scene, const ListSpec& spec, std::vector<Finding>& findings, Places& places) {
   Teuchos::ParameterList result;

@@ -20,11 +20,13 @@ using Places = std::map<std::string, Place>;
 /// full path ("/helical_170m/Contact"). Faults are added to `findings`; the list is complete only if there are none.
 Teuchos::ParameterList validate(const RawList& scene, const ListSpec& spec, std::vector<Finding>& findings, Places& places);
 
-/// `/scene/Contact/Stiffnes is not a parameter. Did you mean "Stiffness"? It is ...` with the help that `list` (part of `root`) gives.
+/// `/scene/Contact/Stiffnes is not a parameter. Did you mean "Stiffness"? It is ...` with the help that `list` (part of `root`)
+/// gives.
 std::string unknownParameter(const ListSpec& root, const ListSpec& list, const std::string& path, const std::string& name);
 
 /// The same for a list; `present` holds the lists a person has named where names are free.
-std::string unknownList(const ListSpec& root, const ListSpec& list, const std::string& path, const std::string& name, const RawList& present);
+std::string unknownList(const ListSpec& root, const ListSpec& list, const std::string& path, const std::string& name,
+                        const RawList& present);
 
 /// Put a default into a list; nothing for Required and Optional.
 void setDefault(Teuchos::ParameterList& list, const ParameterSpec& parameter);

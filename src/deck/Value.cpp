@@ -135,15 +135,16 @@ std::optional<Value> wrap(std::optional<T> value) {
 }  // namespace
 
 const std::vector<std::string>& typeNames() {
-  static const std::vector<std::string> names = {"double", "int", "bool", "string", "Array(double)", "Array(int)", "Array(string)"};
+  static const std::vector<std::string> names = {"double",        "int",        "bool",         "string",
+                                                 "Array(double)", "Array(int)", "Array(string)"};
   return names;
 }
 
 std::string meantType(const std::string& type) {
   static const std::map<std::string, std::string> others = {
-      {"float", "double"}, {"real", "double"},   {"number", "double"}, {"quantity", "string"}, {"integer", "int"},
-      {"long", "int"},     {"longlong", "int"},  {"unsigned", "int"},  {"size_t", "int"},      {"short", "int"},
-      {"boolean", "bool"}, {"logical", "bool"},  {"text", "string"},   {"char", "string"},     {"str", "string"},
+      {"float", "double"},  {"real", "double"},  {"number", "double"}, {"quantity", "string"}, {"integer", "int"},
+      {"long", "int"},      {"longlong", "int"}, {"unsigned", "int"},  {"size_t", "int"},      {"short", "int"},
+      {"boolean", "bool"},  {"logical", "bool"}, {"text", "string"},   {"char", "string"},     {"str", "string"},
       {"double", "double"}, {"int", "int"},      {"bool", "bool"},     {"string", "string"}};
   std::string small;
   for (const char c : lower(type)) {

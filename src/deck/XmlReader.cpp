@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/XmlReader.hpp"
 
-#include <libxml/SAX2.h>
-#include <libxml/parser.h>
-#include <libxml/parserInternals.h>
-#include <libxml/tree.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <libxml/SAX2.h>
+#include <libxml/parser.h>
+#include <libxml/parserInternals.h>
+#include <libxml/tree.h>
 #include <map>
 #include <memory>
+#include <sys/stat.h>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
@@ -45,8 +44,8 @@ void onError(void* context, xmlErrorPtr error) {
 }
 
 /// Builds the element as libxml2 does and notes the line its "<" stands in (libxml2 itself counts to 65535, and to a tag's end).
-void onElement(void* context, const xmlChar* name, const xmlChar* prefix, const xmlChar* uri, int namespaceCount, const xmlChar** namespaces,
-               int attributeCount, int defaultedCount, const xmlChar** attributes) {
+void onElement(void* context, const xmlChar* name, const xmlChar* prefix, const xmlChar* uri, int namespaceCount,
+               const xmlChar** namespaces, int attributeCount, int defaultedCount, const xmlChar** attributes) {
   xmlSAX2StartElementNs(context, name, prefix, uri, namespaceCount, namespaces, attributeCount, defaultedCount, attributes);
   auto* parser = static_cast<xmlParserCtxtPtr>(context);
   if (parser->node == nullptr || parser->input == nullptr) return;
@@ -66,7 +65,9 @@ struct ParserDeleter {
 };
 using Document = std::unique_ptr<xmlDoc, DocumentDeleter>;
 
-std::string asText(const xmlChar* text) { return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text)); }
+std::string asText(const xmlChar* text) {
+  return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+}
 
 /// Text a person can read in an error message: cut to a line's length.
 std::string excerpt(const std::string& text) {
@@ -79,7 +80,8 @@ int lineOf(const xmlNode* node) {
   // Of a text libxml2 knows the line it ends in.
   const std::string text = asText(node->content);
   const auto first = text.find_first_not_of(" \t\r\n");
-  const auto after = first == std::string::npos ? 0 : std::count(text.begin() + static_cast<std::ptrdiff_t>(first), text.end(), '\n');
+  const auto after =
+      first == std::string::npos ? 0 : std::count(text.begin() + static_cast<std::ptrdiff_t>(first), text.end(), '\n');
   return static_cast<int>(xmlGetLineNo(const_cast<xmlNode*>(node)) - after);
 }
 
@@ -144,7 +146,8 @@ class TreeReader {
       if (std::find(known.begin(), known.end(), name) != known.end()) {
         result.emplace(name, value);
       } else {
-        add(node, subject + " has the attribute " + name + "=\"" + excerpt(value) + "\", which is not known; " + attributeAdvice(name, value, known));
+        add(node, subject + " has the attribute " + name + "=\"" + excerpt(value) + "\", which is not known; " +
+                      attributeAdvice(name, value, known));
       }
     }
     for (const xmlNs* space = node->nsDef; space != nullptr; space = space->next) {
@@ -201,7 +204,8 @@ class TreeReader {
   void readChild(const xmlNode* child, const std::string& path, RawList& list) {
     if (child->type == XML_TEXT_NODE || child->type == XML_CDATA_SECTION_NODE) {
       const std::string text = excerpt(asText(child->content));
-      if (!text.empty()) add(child, path + " holds the stray text \"" + text + "\"; a list holds <Parameter/> and <ParameterList> only.");
+      if (!text.empty())
+        add(child, path + " holds the stray text \"" + text + "\"; a list holds <Parameter/> and <ParameterList> only.");
     } else if (child->type == XML_ELEMENT_NODE) {
       readElement(child, path, list);
     } else if (child->type != XML_COMMENT_NODE && child->type != XML_PI_NODE) {
@@ -245,7 +249,8 @@ class TreeReader {
     for (const xmlNode* child = node->children; child != nullptr; child = child->next) {
       const bool comment = child->type == XML_COMMENT_NODE;
       if (comment || (child->type == XML_TEXT_NODE && trim(asText(child->content)).empty())) continue;
-      add(node, subject + " has content; a parameter is one empty element: <Parameter name=\"...\" type=\"...\" value=\"...\"/>.");
+      add(node,
+          subject + " has content; a parameter is one empty element: <Parameter name=\"...\" type=\"...\" value=\"...\"/>.");
       break;
     }
     if (attributes.count("type") == 0 || attributes.count("value") == 0) return;

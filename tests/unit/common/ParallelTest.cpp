@@ -3,7 +3,6 @@
 #include "common/Parallel.hpp"
 
 #include <gtest/gtest.h>
-
 #include <stdexcept>
 
 using namespace tooljoint;

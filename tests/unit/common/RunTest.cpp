@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run says and counts: log, progress, interrupt flag, census, versions.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <gtest/gtest.h>
 
 #include "common/Census.hpp"
 #include "common/Interrupt.hpp"

@@ -2,12 +2,11 @@
 // Files, places, libraries, and the faults of phase 3. True at any number of ranks.
 #include "deck/Deck.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 #include "SmallScene.hpp"
 #include "common/Parallel.hpp"
@@ -71,24 +70,29 @@ TEST_F(DeckFiles, FaultsAreTheSameOnEveryRank) {
 
 TEST_F(DeckFiles, AMissingFileIsAFileError) {
   const std::string file = folder_ + "/nothing.xml";
-  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }), "FileError: " + file + ": the file cannot be opened: No such file or directory.");
+  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
+            "FileError: " + file + ": the file cannot be opened: No such file or directory.");
 }
 
 TEST_F(DeckFiles, AFolderIsAFileError) {
-  EXPECT_EQ(messageOf([&] { Deck::read(folder_, smallScene()); }), "FileError: " + folder_ + ": is a folder; a deck is an XML file.");
+  EXPECT_EQ(messageOf([&] { Deck::read(folder_, smallScene()); }),
+            "FileError: " + folder_ + ": is a folder; a deck is an XML file.");
 }
 
 TEST_F(DeckFiles, ADeviceOrPipeIsAFileError) {
-  EXPECT_EQ(messageOf([&] { Deck::read("/dev/zero", smallScene()); }), "FileError: /dev/zero: is no regular file; a deck is an XML file.");
+  EXPECT_EQ(messageOf([&] { Deck::read("/dev/zero", smallScene()); }),
+            "FileError: /dev/zero: is no regular file; a deck is an XML file.");
   const std::string pipe = folder_ + "/pipe";
   const int made = parallel::rank() == 0 ? mkfifo(pipe.c_str(), 0600) : 0;
   EXPECT_EQ(made, 0);
-  EXPECT_EQ(messageOf([&] { Deck::read(pipe, smallScene()); }), "FileError: " + pipe + ": is no regular file; a deck is an XML file.");
+  EXPECT_EQ(messageOf([&] { Deck::read(pipe, smallScene()); }),
+            "FileError: " + pipe + ": is no regular file; a deck is an XML file.");
 }
 
 TEST_F(DeckFiles, AnEmptyFileIsABadDeck) {
   const std::string file = write("empty.xml", "");
-  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }), file + ": the file is empty; a deck is one <ParameterList name=\"...\">.");
+  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
+            file + ": the file is empty; a deck is one <ParameterList name=\"...\">.");
 }
 
 TEST_F(DeckFiles, ABinaryFileIsABadDeck) {
@@ -106,7 +110,8 @@ TEST_F(DeckFiles, WindowsLineEndsCountAsLines) {
   std::string text = deckWith(parameter("Stiffness", "double", "x"), endTime);
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
   const std::string file = write("windows.xml", text);
-  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }), file + ":3: /well/Contact/Stiffness: type=\"double\" value=\"x\" is not a number.");
+  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
+            file + ":3: /well/Contact/Stiffness: type=\"double\" value=\"x\" is not a number.");
 }
 
 TEST_F(DeckFiles, AByteOrderMarkIsFine) {
@@ -115,9 +120,13 @@ TEST_F(DeckFiles, AByteOrderMarkIsFine) {
 }
 
 TEST_F(DeckFiles, LibrariesAreReadWithTheirOwnDescription) {
-  const ListSpec library = ListSpec("library", "L.").namedLists(ListSpec("component", "C.").real("Length", "m", Required{}, Range::positive(), "The length."));
-  const Deck deck = Deck::read(write("scene.xml", deckWith(stiffness, endTime + parameter("Note", "string", "library.xml"))), smallScene());
-  const std::string file = write("library.xml", "<ParameterList name=\"lib\">\n<ParameterList name=\"pipe\">" + parameter("Length", "string", "30 ft") + "</ParameterList></ParameterList>");
+  const ListSpec library =
+      ListSpec("library", "L.")
+          .namedLists(ListSpec("component", "C.").real("Length", "m", Required{}, Range::positive(), "The length."));
+  const Deck deck =
+      Deck::read(write("scene.xml", deckWith(stiffness, endTime + parameter("Note", "string", "library.xml"))), smallScene());
+  const std::string file = write("library.xml", "<ParameterList name=\"lib\">\n<ParameterList name=\"pipe\">" +
+                                                    parameter("Length", "string", "30 ft") + "</ParameterList></ParameterList>");
   const Deck pipes = deck.readNamed("Transient/Note", "library.xml", library);
   EXPECT_DOUBLE_EQ(pipes.list().sublist("pipe").get<double>("Length"), 9.144);
   EXPECT_EQ(pipes.where("pipe/Length"), file + ":2: /lib/pipe/Length");
@@ -128,18 +137,22 @@ TEST_F(DeckFiles, AMissingLibraryIsAFaultOfTheDeck) {
   const std::string scene = write("scene.xml", deckWith(stiffness, endTime + "\n" + parameter("Note", "string", "no.xml")));
   const Deck deck = Deck::read(scene, smallScene());
   EXPECT_EQ(messageOf([&] { deck.readNamed("Transient/Note", "no.xml", ListSpec("library", "L.")); }),
-            scene + ":7: /well/Transient/Note names a file that cannot be read: " + folder_ + "/no.xml: the file cannot be opened: No such file or directory.");
+            scene + ":7: /well/Transient/Note names a file that cannot be read: " + folder_ +
+                "/no.xml: the file cannot be opened: No such file or directory.");
 }
 
 TEST_F(DeckFiles, FaultsOfALibraryPointIntoTheLibrary) {
   const Deck deck = Deck::read(write("scene.xml", good), smallScene());
-  const std::string file = write("library.xml", "<ParameterList name=\"lib\">\n<Parameter name=\"x\" type=\"int\" value=\"1\"/></ParameterList>");
+  const std::string file =
+      write("library.xml", "<ParameterList name=\"lib\">\n<Parameter name=\"x\" type=\"int\" value=\"1\"/></ParameterList>");
   EXPECT_EQ(messageOf([&] { deck.readNamed("Title", "library.xml", ListSpec("library", "L.")); }),
             file + ":2: /lib/x is not a parameter. This list holds nothing of its own.");
 }
 
 TEST(DeckPlaces, NamesOfFilesAreRelativeToTheDeck) {
-  const auto resolved = [](const std::string& deckFile, const std::string& name) { return Deck::parse(good, deckFile, smallScene()).resolve(name); };
+  const auto resolved = [](const std::string& deckFile, const std::string& name) {
+    return Deck::parse(good, deckFile, smallScene()).resolve(name);
+  };
   EXPECT_EQ(resolved("deck.xml", "a/b.xml"), "a/b.xml");
   EXPECT_EQ(resolved("xml/deck.xml", "a/b.xml"), "xml/a/b.xml");
   EXPECT_EQ(resolved("/deck.xml", "b.xml"), "/b.xml");
@@ -173,7 +186,8 @@ TEST(DeckPlaces, WhatIsGivenAndWhatIsADefault) {
 TEST(DeckPlaces, ErrorsContinueThePathOrFollowIt) {
   const Deck deck = parseSmall(good);
   EXPECT_EQ(deck.error("Contact/Stiffness", "is too small."), "deck.xml:3: /well/Contact/Stiffness is too small.");
-  EXPECT_EQ(deck.error("Contact/Stiffness", "The bit is above the well."), "deck.xml:3: /well/Contact/Stiffness: The bit is above the well.");
+  EXPECT_EQ(deck.error("Contact/Stiffness", "The bit is above the well."),
+            "deck.xml:3: /well/Contact/Stiffness: The bit is above the well.");
 }
 
 TEST(DeckPlaces, AMessageThatBeginsWithAPathGetsItsLine) {
@@ -205,15 +219,21 @@ TEST(Problems, ComeTogetherSortedByLine) {
 
 TEST(Problems, OfALibraryFollowThoseOfTheDeck) {
   const Deck deck = parseSmall(good);
-  const Deck library = Deck::parse("<ParameterList name=\"lib\"><ParameterList name=\"pipe\"/></ParameterList>", "a.xml", ListSpec("l", "L.").namedLists(ListSpec("c", "C.")));
+  const Deck library = Deck::parse("<ParameterList name=\"lib\"><ParameterList name=\"pipe\"/></ParameterList>", "a.xml",
+                                   ListSpec("l", "L.").namedLists(ListSpec("c", "C.")));
   Problems problems(deck);
   problems.add(library, "pipe", "is thicker than the well.");
   problems.add("Transient/End Time", "is too short.");
-  EXPECT_EQ(messageOf([&] { problems.raise(); }), "deck.xml:6: /well/Transient/End Time is too short.\na.xml:1: /lib/pipe is thicker than the well.");
+  EXPECT_EQ(messageOf([&] { problems.raise(); }),
+            "deck.xml:6: /well/Transient/End Time is too short.\na.xml:1: /lib/pipe is thicker than the well.");
 }
 
 TEST(Defaults, OfAListWithoutADeck) {
-  const ListSpec list = ListSpec("RK4", "R.").real("Step", "s", 1e-3, Range::positive(), "S.").real("End", "s", Optional{}, Range::any(), "E.").requiredList(ListSpec("Sub", "S.").integer("N", 2, Range::any(), "N.")).list(ListSpec("Not", "N."));
+  const ListSpec list = ListSpec("RK4", "R.")
+                            .real("Step", "s", 1e-3, Range::positive(), "S.")
+                            .real("End", "s", Optional{}, Range::any(), "E.")
+                            .requiredList(ListSpec("Sub", "S.").integer("N", 2, Range::any(), "N."))
+                            .list(ListSpec("Not", "N."));
   const Teuchos::ParameterList values = defaults(list);
   EXPECT_EQ(values.get<double>("Step"), 1e-3);
   EXPECT_FALSE(values.isParameter("End"));

@@ -2,7 +2,6 @@
 #include "deck/ListSpec.hpp"
 
 #include <gtest/gtest.h>
-
 #include <stdexcept>
 
 #include "SmallScene.hpp"
@@ -24,7 +23,9 @@ TEST(ListSpec, KeepsTheOrderOfDeclaration) {
 }
 
 TEST(ListSpec, WholeNumbersStandForRealDefaults) {
-  const ListSpec list = ListSpec("a", "A.").real("Length", "m", 2, Range::any(), "L.").realArray("Lengths", "m", std::vector<int>{1, 2}, Range::any(), "L.");
+  const ListSpec list = ListSpec("a", "A.")
+                            .real("Length", "m", 2, Range::any(), "L.")
+                            .realArray("Lengths", "m", std::vector<int>{1, 2}, Range::any(), "L.");
   EXPECT_EQ(std::get<double>(list.findParameter("Length")->value), 2.0);
   EXPECT_EQ(std::get<std::vector<double>>(list.findParameter("Lengths")->value), (std::vector<double>{1.0, 2.0}));
   EXPECT_TRUE(list.inconsistencies().empty());
@@ -43,8 +44,13 @@ TEST(ListSpec, APatternAnswersForNamesThatAreNotDeclared) {
 }
 
 TEST(ListSpec, MergeAddsWhatIsNotThere) {
-  ListSpec common = ListSpec("Common", "C.").real("Step", "s", 1.0, Range::any(), "S.").list(ListSpec("Sub", "S.").integer("A", 1, Range::any(), "A."));
-  common.merge(ListSpec("Other", "O.").real("Step", "s", 2.0, Range::any(), "T.").integer("N", 3, Range::any(), "N.").list(ListSpec("Sub", "S.").integer("B", 1, Range::any(), "B.")));
+  ListSpec common = ListSpec("Common", "C.")
+                        .real("Step", "s", 1.0, Range::any(), "S.")
+                        .list(ListSpec("Sub", "S.").integer("A", 1, Range::any(), "A."));
+  common.merge(ListSpec("Other", "O.")
+                   .real("Step", "s", 2.0, Range::any(), "T.")
+                   .integer("N", 3, Range::any(), "N.")
+                   .list(ListSpec("Sub", "S.").integer("B", 1, Range::any(), "B.")));
   EXPECT_EQ(std::get<double>(common.findParameter("Step")->value), 1.0);
   EXPECT_NE(common.findParameter("N"), nullptr);
   EXPECT_NE(common.findList("Sub")->findParameter("A"), nullptr);
@@ -78,16 +84,22 @@ TEST_P(Inconsistency, IsFoundAndRefused) {
 INSTANTIATE_TEST_SUITE_P(
     Table, Inconsistency,
     ::testing::Values(
-        Contradiction{"/a/N is declared twice", ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").integer("N", 2, Range::any(), "N.")},
-        Contradiction{"/a/N is declared twice", ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").list(ListSpec("N", "N."))},
+        Contradiction{"/a/N is declared twice",
+                      ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").integer("N", 2, Range::any(), "N.")},
+        Contradiction{"/a/N is declared twice",
+                      ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").list(ListSpec("N", "N."))},
         Contradiction{"/a/N has a default outside its range", ListSpec("a", "A.").integer("N", 0, Range::atLeast(1), "N.")},
-        Contradiction{"/a/x has a default outside its range", ListSpec("a", "A.").realArray("x", "m", std::vector<double>{1.0, -1.0}, Range::positive(), "X.")},
-        Contradiction{"/a/N has a default of another type than its own", ListSpec("a", "A.").integer("N", 1.5, Range::any(), "N.")},
-        Contradiction{"/a/L has a default that is not one of its choices", ListSpec("a", "A.").choice("L", "z", {"x", "y"}, "L.")},
+        Contradiction{"/a/x has a default outside its range",
+                      ListSpec("a", "A.").realArray("x", "m", std::vector<double>{1.0, -1.0}, Range::positive(), "X.")},
+        Contradiction{"/a/N has a default of another type than its own",
+                      ListSpec("a", "A.").integer("N", 1.5, Range::any(), "N.")},
+        Contradiction{"/a/L has a default that is not one of its choices",
+                      ListSpec("a", "A.").choice("L", "z", {"x", "y"}, "L.")},
         Contradiction{"/a/L has no choices", ListSpec("a", "A.").choice("L", Required{}, {}, "L.")},
         Contradiction{"/a/L has no sentence that documents it", ListSpec("a", "A.").text("L", "x", "")},
         Contradiction{"/a/ L has an empty name, or blanks around it", ListSpec("a", "A.").text(" L", "x", "L.")},
-        Contradiction{"/a/<p>/N has a default outside its range", ListSpec("a", "A.").namedLists(ListSpec("p", "P.").integer("N", 0, Range::positive(), "N."))}));
+        Contradiction{"/a/<p>/N has a default outside its range",
+                      ListSpec("a", "A.").namedLists(ListSpec("p", "P.").integer("N", 0, Range::positive(), "N."))}));
 
 TEST(Describe, RangesInWords) {
   EXPECT_EQ(describe(Range::any()), "");
@@ -110,14 +122,23 @@ TEST(Describe, BoundsAreInOrOutAsDeclared) {
 TEST(Describe, IntroducesAParameterInASentence) {
   const ListSpec scene = test::smallScene();
   EXPECT_EQ(introduce(*scene.findList("Contact")->findParameter("Stiffness")), "It is the nominal contact stiffness, N/m, > 0.");
-  const ListSpec other = ListSpec("a", "A.").integer("Modes", 1, Range::atLeast(0), "Number of modes kept.").real("W", "N", 1.0, Range::any(), "WOB at the bit.");
+  const ListSpec other = ListSpec("a", "A.")
+                             .integer("Modes", 1, Range::atLeast(0), "Number of modes kept.")
+                             .real("W", "N", 1.0, Range::any(), "WOB at the bit.");
   EXPECT_EQ(introduce(other.parameters()[0]), "\"Modes\": number of modes kept, >= 0.");
   EXPECT_EQ(introduce(other.parameters()[1]), "\"W\": WOB at the bit, N.");
 }
 
 TEST(Describe, ExamplesLieInRangeAndAmongTheChoices) {
-  const std::vector<Range> ranges = {Range::any(), Range::positive(), Range::nonNegative(), Range::atLeast(5), Range::between(-3, -2), Range{2, 3, true, true},
-                                     Range{0, 0.5, true, false}, Range{-std::numeric_limits<double>::infinity(), -4, false, true}, Range{7.5, std::numeric_limits<double>::infinity(), true, false}};
+  const std::vector<Range> ranges = {Range::any(),
+                                     Range::positive(),
+                                     Range::nonNegative(),
+                                     Range::atLeast(5),
+                                     Range::between(-3, -2),
+                                     Range{2, 3, true, true},
+                                     Range{0, 0.5, true, false},
+                                     Range{-std::numeric_limits<double>::infinity(), -4, false, true},
+                                     Range{7.5, std::numeric_limits<double>::infinity(), true, false}};
   for (const Range& range : ranges) {
     const ListSpec list = ListSpec("a", "A.").real("x", "m", Required{}, range, "X.");
     EXPECT_TRUE(contains(range, std::stod(exampleValue(list.parameters()[0])))) << describe(range);

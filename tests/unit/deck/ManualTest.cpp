@@ -3,7 +3,6 @@
 #include "deck/Manual.hpp"
 
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "SmallScene.hpp"
@@ -33,11 +32,16 @@ struct Cubic : Spring {
 };
 using Springs = Registry<Spring, const Teuchos::ParameterList&>;
 
-const bool plainRegistered =
-    Springs::instance().add("Plain", {"Force proportional to the stretch.", ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<Plain>(); }});
+const bool plainRegistered = Springs::instance().add(
+    "Plain",
+    {"Force proportional to the stretch.", ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<Plain>(); }});
 const bool cubicRegistered = Springs::instance().add(
-    "Cubic", {"Force with a cubic part.", ListSpec("Cubic", "").real("Coefficient", "N/m", 2.0, Range::positive(), "The cubic coefficient."),
-              [](const Teuchos::ParameterList& list) { return std::make_unique<Cubic>(variantList(list, "Cubic", Springs::instance().find("Cubic").parameters).get<double>("Coefficient")); }});
+    "Cubic", {"Force with a cubic part.",
+              ListSpec("Cubic", "").real("Coefficient", "N/m", 2.0, Range::positive(), "The cubic coefficient."),
+              [](const Teuchos::ParameterList& list) {
+                return std::make_unique<Cubic>(
+                    variantList(list, "Cubic", Springs::instance().find("Cubic").parameters).get<double>("Coefficient"));
+              }});
 
 ListSpec springList() {
   ListSpec list("Springs", "The springs.");
@@ -50,14 +54,18 @@ ListSpec springList() {
 TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
   const std::string text = manualMarkdown(smallScene());
   std::size_t at = 0;
-  for (const char* part : {"## scene\n\nA small scene.\n", "| `Title` | string |  |  | `none` | The title. |", "### scene/Contact\n\nThe contact with the borehole wall.\n",
-                           "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n",
-                           "| `Stiffness` | double | N/m | &gt; 0 | required | The nominal contact stiffness. |\n", "| `Friction` | double |  | in [0, 1] | `0.2` | The friction coefficient. |\n",
-                           "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n", "#### scene/Contact/Intervals\n",
-                           "Holds lists with names of your own, each described under &lt;interval&gt;.\n", "##### scene/Contact/Intervals/&lt;interval&gt;\n",
-                           "| `Depths` | Array(double) | m | &gt;= 0 | required |", "| `Friction` | double |  | in [0, 1] | none |", "### scene/Transient\n\nThe time integration. Required.\n",
-                           "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |", "| `Note` | string |  |  | \"\" | A remark. |\n", "#### scene/Transient/NOX\n", "Handed on to Trilinos as it is.",
-                           "### scene/Mud\n"}) {
+  for (const char* part :
+       {"## scene\n\nA small scene.\n", "| `Title` | string |  |  | `none` | The title. |",
+        "### scene/Contact\n\nThe contact with the borehole wall.\n",
+        "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n",
+        "| `Stiffness` | double | N/m | &gt; 0 | required | The nominal contact stiffness. |\n",
+        "| `Friction` | double |  | in [0, 1] | `0.2` | The friction coefficient. |\n",
+        "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n", "#### scene/Contact/Intervals\n",
+        "Holds lists with names of your own, each described under &lt;interval&gt;.\n",
+        "##### scene/Contact/Intervals/&lt;interval&gt;\n", "| `Depths` | Array(double) | m | &gt;= 0 | required |",
+        "| `Friction` | double |  | in [0, 1] | none |", "### scene/Transient\n\nThe time integration. Required.\n",
+        "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |", "| `Note` | string |  |  | \"\" | A remark. |\n",
+        "#### scene/Transient/NOX\n", "Handed on to Trilinos as it is.", "### scene/Mud\n"}) {
     const std::size_t found = text.find(part, at);
     ASSERT_NE(found, std::string::npos) << part << "\nnot in\n" << text.substr(at);
     at = found;
@@ -86,12 +94,16 @@ TEST(Manual, ATopicMayBeAParameter) {
 
 TEST(Manual, AnUnknownTopicIsWrongUsage) {
   const std::string fault = messageOf([] { manualMarkdown(smallScene(), "Contct"); });
-  EXPECT_EQ(fault.find("UsageError: The manual has no topic \"Contct\". Did you mean \"Contact\"? Topics are the lists \"scene\", \"Contact\","), 0U) << fault;
+  EXPECT_EQ(fault.find("UsageError: The manual has no topic \"Contct\". Did you mean \"Contact\"? Topics are the lists "
+                       "\"scene\", \"Contact\","),
+            0U)
+      << fault;
   EXPECT_NE(messageOf([] { manualJson(smallScene(), "Contct"); }), "");
 }
 
 TEST(Manual, SeveralRootsFollowEachOther) {
-  const std::vector<ListSpec> roots = {smallScene(), ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
+  const std::vector<ListSpec> roots = {smallScene(),
+                                       ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
   EXPECT_NE(manualMarkdown(roots).find("\n## library\n"), std::string::npos);
   EXPECT_EQ(manualMarkdown(roots, "component").find("### library/&lt;component&gt;"), 0U);
 }
@@ -121,7 +133,9 @@ TEST(Manual, JsonHoldsWhatTheDescriptionHolds) {
 }
 
 TEST(Manual, TopicsAreThePathsOfAllLists) {
-  EXPECT_EQ(topics(smallScene()), (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals", "scene/Contact/Intervals/<interval>", "scene/Transient", "scene/Transient/NOX", "scene/Mud"}));
+  EXPECT_EQ(topics(smallScene()),
+            (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals", "scene/Contact/Intervals/<interval>",
+                                      "scene/Transient", "scene/Transient/NOX", "scene/Mud"}));
 }
 
 TEST(Manual, UnitsAreListedByQuantity) {
@@ -155,7 +169,8 @@ TEST(Template, HasTheSentenceOfEachParameter) {
 }
 
 TEST(Template, EscapesWhatXmlWouldMisread) {
-  const ListSpec odd = ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
+  const ListSpec odd =
+      ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
   const std::string text = templateXml(odd, "odd & \"old\"");
   EXPECT_EQ(Deck::parse(text, "t.xml", odd).name(), "odd & \"old\"");
   const Deck deck = Deck::parse(uncommented(text), "t.xml", odd);
@@ -168,7 +183,8 @@ TEST(Variants, AreAChoiceAndAListEach) {
   const ListSpec list = springList();
   EXPECT_TRUE(list.inconsistencies().empty());
   EXPECT_EQ(list.findParameter("Law")->choices, (std::vector<std::string>{"Cubic", "Plain"}));
-  EXPECT_EQ(list.findParameter("Law")->doc, "The law of the springs. Cubic: Force with a cubic part. Plain: Force proportional to the stretch.");
+  EXPECT_EQ(list.findParameter("Law")->doc,
+            "The law of the springs. Cubic: Force with a cubic part. Plain: Force proportional to the stretch.");
   ASSERT_EQ(list.lists().size(), 1U);
   EXPECT_EQ(list.lists()[0].name(), "Cubic");
   EXPECT_EQ(list.lists()[0].doc(), "Force with a cubic part.");
@@ -183,17 +199,25 @@ TEST(Variants, AreMadeWithTheirParametersOrTheirDefaults) {
   const std::string cubic = parameter("Law", "string", "Cubic");
   EXPECT_NE(dynamic_cast<Plain*>(made("").get()), nullptr);
   EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic)).coefficient, 2.0);
-  EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic + "<ParameterList name=\"Cubic\">" + parameter("Coefficient", "string", "5 kN/m") + "</ParameterList>")).coefficient, 5000.0);
+  EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic + "<ParameterList name=\"Cubic\">" + parameter("Coefficient", "string", "5 kN/m") +
+                                       "</ParameterList>"))
+                .coefficient,
+            5000.0);
 }
 
 TEST(Variants, AnUnknownOneNamesTheKnown) {
-  EXPECT_EQ(messageOf([] { Deck::parse("<ParameterList name=\"x\">" + parameter("Law", "string", "Cubical") + "</ParameterList>", "x.xml", springList()); }),
+  EXPECT_EQ(messageOf([] {
+              Deck::parse("<ParameterList name=\"x\">" + parameter("Law", "string", "Cubical") + "</ParameterList>", "x.xml",
+                          springList());
+            }),
             "x.xml:1: /x/Law: value=\"Cubical\" is not one of \"Cubic\", \"Plain\". Did you mean \"Cubic\"?");
-  EXPECT_EQ(messageOf([] { Springs::instance().find("Cubical"); }), "\"Cubical\" is not known here; known are \"Cubic\", \"Plain\".");
+  EXPECT_EQ(messageOf([] { Springs::instance().find("Cubical"); }),
+            "\"Cubical\" is not known here; known are \"Cubic\", \"Plain\".");
 }
 
 TEST(Variants, AVariantWithRequiredParametersNeedsItsList) {
   const ListSpec own = ListSpec("Own", "O.").real("x", "m", Required{}, Range::any(), "X.");
   Teuchos::ParameterList list("/well/Springs");
-  EXPECT_EQ(messageOf([&] { variantList(list, "Own", own); }), "/well/Springs needs the list \"Own\", since some of its parameters are required.");
+  EXPECT_EQ(messageOf([&] { variantList(list, "Own", own); }),
+            "/well/Springs needs the list \"Own\", since some of its parameters are required.");
 }

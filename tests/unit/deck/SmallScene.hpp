@@ -37,14 +37,17 @@ inline ListSpec smallScene() {
       .passThrough("NOX", "Settings of the nonlinear solver.");
 
   ListSpec scene("scene", "A small scene.");
-  scene.text("Title", "none", "The title.").list(contact).requiredList(transient).list(ListSpec("Mud", "The drilling mud.").real("Density", "kg/m3", 1000.0, Range::positive(), "The density."));
+  scene.text("Title", "none", "The title.")
+      .list(contact)
+      .requiredList(transient)
+      .list(ListSpec("Mud", "The drilling mud.").real("Density", "kg/m3", 1000.0, Range::positive(), "The density."));
   return scene;
 }
 
 /// A deck with `contact` inside its contact list (line 3) and `transient` inside the list of the time integration.
 inline std::string deckWith(const std::string& contact, const std::string& transient) {
-  return "<ParameterList name=\"well\">\n<ParameterList name=\"Contact\">\n" + contact + "\n</ParameterList>\n<ParameterList name=\"Transient\">\n" +
-         transient + "\n</ParameterList>\n</ParameterList>\n";
+  return "<ParameterList name=\"well\">\n<ParameterList name=\"Contact\">\n" + contact +
+         "\n</ParameterList>\n<ParameterList name=\"Transient\">\n" + transient + "\n</ParameterList>\n</ParameterList>\n";
 }
 
 inline std::string parameter(const std::string& name, const std::string& type, const std::string& value) {
