@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/Hdf5.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace tooljoint::io::hdf5 {
 namespace {
 
@@ -24,6 +31,26 @@ herr_t collect(unsigned /*n*/, const H5E_error2_t* error, void* data) {
   return 0;
 }
 
+std::string& noted() {
+  static std::string reason;
+  return reason;
+}
+
+/// HDF5 calls this when one of its functions fails, while the error stack is still whole (the next call clears it).
+herr_t note(hid_t stack, void* /*data*/) {
+  Reason reason;
+  H5Ewalk2(stack, H5E_WALK_UPWARD, collect, &reason);
+  noted() = reason.system.empty() ? reason.innermost : reason.system;
+  return 0;
+}
+
+/// Descriptor of an open file, -1 when its driver has none.
+int descriptorOf(hid_t file) {
+  void* handle = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 || handle == nullptr) return -1;
+  return *static_cast<int*>(handle);
+}
+
 bool putScalar(hid_t object, const std::string& name, hid_t type, const void* value) {
   if (H5Aexists(object, name.c_str()) > 0 && H5Adelete(object, name.c_str()) < 0) return false;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
@@ -33,13 +60,31 @@ bool putScalar(hid_t object, const std::string& name, hid_t type, const void* va
 
 }  // namespace
 
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence() { H5Eset_auto2(H5E_DEFAULT, note, nullptr); }
 
-std::string lastReason() {
-  Reason reason;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, collect, &reason);
-  if (!reason.system.empty()) return reason.system;
-  return reason.innermost.empty() ? "unknown reason" : reason.innermost;
+std::string lastReason() { return noted().empty() ? "unknown reason" : noted(); }
+
+bool reserve(hid_t file) {
+  const int descriptor = descriptorOf(file);
+  hsize_t end = 0;
+  struct stat now {};
+  if (descriptor < 0 || H5Fget_filesize(file, &end) < 0 || ::fstat(descriptor, &now) != 0) return true;  // nothing to tell
+  const auto wanted = static_cast<off_t>(end);
+  if (now.st_size >= wanted) return true;
+  int error = ::posix_fallocate(descriptor, now.st_size, wanted - now.st_size);
+  if (error != 0 && error != ENOSPC && error != EFBIG && error != EDQUOT) {  // this file system cannot: try a byte at the end
+    error = ::pwrite(descriptor, "", 1, wanted - 1) == 1 ? 0 : errno;
+  }
+  if (error != 0) noted() = std::strerror(error);
+  return error == 0;
+}
+
+void letGo(hid_t file) {
+  const int descriptor = descriptorOf(file);
+  const int memory = ::memfd_create("tooljoint-results", MFD_CLOEXEC);
+  if (descriptor >= 0 && memory >= 0) ::dup2(memory, descriptor);
+  if (memory >= 0) ::close(memory);
+  H5Fclose(file);
 }
 
 Handle textType() {
@@ -47,6 +92,13 @@ Handle textType() {
   H5Tset_size(type.get(), H5T_VARIABLE);
   H5Tset_cset(type.get(), H5T_CSET_UTF8);
   return type;
+}
+
+bool hasLink(hid_t file, const std::string& path) {
+  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+    if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
 }
 
 bool putAttribute(hid_t object, const std::string& name, const std::string& value) {

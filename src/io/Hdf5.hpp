@@ -4,7 +4,6 @@
 #pragma once
 
 #include <hdf5.h>
-
 #include <string>
 #include <utility>
 
@@ -35,14 +34,25 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// Keep HDF5 from printing its own error stack; our sentences carry the reason instead.
+/// Keep HDF5 from printing its own error stack; its reasons are noted instead, for our sentences.
 void silence();
 
 /// Reason of the last failed call: the system's text ("No space left on device") when there is one, else HDF5's innermost.
 std::string lastReason();
 
+/// Make the disk hold a place for everything the file will have once flushed; false, with the reason noted, when it has no
+/// room. A flush that fails half-way leaves HDF5 1.10 unable to close the file, so it must not be tried then.
+bool reserve(hid_t file);
+
+/// Close a file that can no longer be written. HDF5 would try to write what it still holds, fail, keep the file open and crash
+/// at the end of the process; so its descriptor is first turned to anonymous memory, and the file stays as last flushed.
+void letGo(hid_t file);
+
 /// Variable-length UTF-8 string type.
 Handle textType();
+
+/// Is there an object of this path? Every group on the way is looked at, so a missing one is no error.
+bool hasLink(hid_t file, const std::string& path);
 
 /// Write (or replace) a scalar text or number attribute; false when HDF5 refuses.
 bool putAttribute(hid_t object, const std::string& name, const std::string& value);

@@ -14,6 +14,7 @@
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "io/Hdf5.hpp"
+#include "io/TextFile.hpp"
 
 namespace tooljoint::io {
 
@@ -65,6 +66,17 @@ Handle accessProperties() {
   return access;
 }
 
+/// Creation properties of a dataset. `early`: its place in the file is known before its values are written, so that it can
+/// be reserved (not for compressed data and texts, whose size is not known before).
+Handle creationProperties(bool early) {
+  Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (early) {
+    H5Pset_alloc_time(creation.get(), H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation.get(), H5D_FILL_TIME_NEVER);
+  }
+  return creation;
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------------------------------------------------------- TimeSeries
@@ -97,7 +109,7 @@ void TimeSeries::writeBuffer() {
     block.push_back(e);
   }
   const auto rank = static_cast<int>(extent.size());
-  bool good = H5Dset_extent(dataset_, extent.data()) >= 0;
+  bool good = H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_);
   const Handle onDisk(H5Dget_space(dataset_), H5Sclose);
   const Handle inMemory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
   good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) >= 0;
@@ -113,6 +125,7 @@ struct ResultsFile::DatasetRequest {
   hid_t type;
   hid_t space;
   hid_t creation;
+  hid_t access;
   const std::string& unit;
   const std::string& longName;
 };
@@ -121,6 +134,7 @@ ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance, 
     : path_(path), options_(options), active_(parallel::rank() == 0) {
   if (!active_) return;
   hdf5::silence();
+  stageText(path_, std::string(4096, '\0'));  // a full disk shows here, with less ado than inside HDF5
   file_ = H5Fcreate(partPath().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, accessProperties().get());
   if (file_ < 0) fail("creating it");
   try {
@@ -163,17 +177,13 @@ void ResultsFile::fail(const std::string& doing) {
   throw FileError("The results file " + partPath() + " cannot be written (" + doing + "): " + reason + ". " + advice);
 }
 
-/// Give up what is buffered and let go of the file.
+/// Give up what is buffered and let go of the file; that closes its datasets too (H5F_CLOSE_STRONG).
 void ResultsFile::abandon() noexcept {
-  for (auto& s : series_) s->buffer_.clear();
-  if (file_ >= 0) {
-    for (auto& s : series_) {
-      if (s->dataset_ >= 0) H5Dclose(s->dataset_);
-      s->dataset_ = -1;
-    }
-    H5Fclose(file_);
-    file_ = -1;
+  for (auto& s : series_) {
+    s->buffer_.clear();
+    s->dataset_ = -1;
   }
+  if (file_ >= 0) hdf5::letGo(std::exchange(file_, -1));
 }
 
 std::int64_t ResultsFile::createDataset(const DatasetRequest& request) {
@@ -181,11 +191,10 @@ std::int64_t ResultsFile::createDataset(const DatasetRequest& request) {
   if (request.longName.empty()) wrongUse("The result " + request.path + " has no long name.");
   const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
-  H5Eclear2(H5E_DEFAULT);
   const hid_t dataset =
-      H5Dcreate2(file_, request.path.c_str(), request.type, request.space, link.get(), request.creation, H5P_DEFAULT);
+      H5Dcreate2(file_, request.path.c_str(), request.type, request.space, link.get(), request.creation, request.access);
   if (dataset < 0) {
-    if (H5Lexists(file_, request.path.c_str(), H5P_DEFAULT) > 0) wrongUse("The result " + request.path + " is written twice.");
+    if (hdf5::hasLink(file_, request.path)) wrongUse("The result " + request.path + " is written twice.");
     fail("making " + request.path);
   }
   if (!hdf5::putAttribute(dataset, "units", request.unit) || !hdf5::putAttribute(dataset, "long_name", request.longName)) {
@@ -205,7 +214,9 @@ void ResultsFile::writeValues(const std::string& path, std::int64_t type, const 
   const Handle space(
       shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
       H5Sclose);
-  const Handle dataset(createDataset({path, type, space.get(), H5P_DEFAULT, unit, longName}), H5Dclose);
+  const Handle creation = creationProperties(H5Tis_variable_str(type) <= 0);
+  const Handle dataset(createDataset({path, type, space.get(), creation.get(), H5P_DEFAULT, unit, longName}), H5Dclose);
+  if (!hdf5::reserve(file_)) fail("writing " + path);
   if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("writing " + path);
 }
 
@@ -271,13 +282,16 @@ TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape, 
   }
   const auto rank = static_cast<int>(extent.size());
   const Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Handle creation = creationProperties(options_.compression == 0);
   H5Pset_chunk(creation.get(), rank, chunk.data());
   if (options_.compression > 0) {
     H5Pset_shuffle(creation.get());
     H5Pset_deflate(creation.get(), static_cast<unsigned>(options_.compression));
   }
-  result.dataset_ = createDataset({path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), unit, longName});
+  // no chunk cache: the rows are buffered here, and what is written is on the disk or has failed
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access.get(), 0, 0, 0.0);
+  result.dataset_ = createDataset({path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), access.get(), unit, longName});
   result.buffer_.reserve(result.chunkRows_ * result.rowSize_);
   return result;
 }
@@ -305,7 +319,7 @@ void ResultsFile::attribute(const std::string& object, const std::string& name, 
 void ResultsFile::flush() {
   if (!active_ || file_ < 0) return;
   for (auto& s : series_) s->writeBuffer();
-  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("flushing it");
+  if (!hdf5::reserve(file_) || H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("flushing it");
 }
 
 void ResultsFile::close() {
@@ -315,7 +329,8 @@ void ResultsFile::close() {
     H5Dclose(s->dataset_);
     s->dataset_ = -1;
   }
-  if (H5Fclose(std::exchange(file_, -1)) < 0) fail("closing it");
+  if (H5Fclose(file_) < 0) fail("closing it");
+  file_ = -1;
 }
 
 void ResultsFile::finish() {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -83,6 +84,10 @@ class ResultsFile {
              const std::string& longName);
   void write(const std::string& path, const std::vector<double>& values, const Shape& shape, const std::string& unit,
              const std::string& longName);
+  void write(const std::string& path, std::initializer_list<double> values, const Shape& shape, const std::string& unit,
+             const std::string& longName) {
+    write(path, std::vector<double>(values), shape, unit, longName);
+  }
   void write(const std::string& path, const Vector& values, const Shape& shape, const std::string& unit,
              const std::string& longName);
   void write(const std::string& path, const std::vector<int>& values, const Shape& shape, const std::string& unit,

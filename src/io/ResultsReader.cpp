@@ -55,13 +55,7 @@ void ResultsReader::fail(const std::string& what) const {
   throw FileError("The results file " + path_ + " has no " + what + ".");
 }
 
-bool ResultsReader::has(const std::string& path) const {
-  // every link on the way must exist before the last one may be asked for
-  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
-    if (H5Lexists(file_, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-  }
-  return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
-}
+bool ResultsReader::has(const std::string& path) const { return hdf5::hasLink(file_, path); }
 
 std::vector<std::string> ResultsReader::datasets() const {
   std::vector<std::string> paths;
