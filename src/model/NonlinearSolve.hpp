@@ -11,20 +11,20 @@
 
 namespace tooljoint::model {
 
-/// What is asked of a solver. The iteration has converged when |scale .* r| <= tolerance, or, if updateTolerance > 0,
-/// when |dx| <= updateTolerance |x| for the full Newton step dx.
+/// What is asked of a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance and, if updateTolerance > 0,
+/// the full Newton step dx has become |dx| <= updateTolerance |x|.
 struct SolveRequest {
   std::string what;              ///< for messages: "the static equilibrium, lambda = 1e4 1/m"
-  double tolerance = 1e-9;       ///< on the scaled residual norm
+  double tolerance = 1e-9;       ///< on the largest scaled residual
   double updateTolerance = 0.0;  ///< relative, 0: off
   int maxIterations = 50;
-  bool backtracking = true;      ///< false: full Newton steps (stepLimit() of the problem still holds)
+  bool backtracking = true;      ///< false: no line search; steps are as long as stepLimit() of the problem allows
 };
 
 struct SolveOutcome {
   bool converged = false;
   int iterations = 0;
-  double residual = 0.0;  ///< |scale .* r| at the end
+  double residual = 0.0;  ///< max_i |scale_i r_i| at the end
   double update = 0.0;    ///< |dx|/|x| of the last step
   std::string message;    ///< what went wrong, when it did
 };

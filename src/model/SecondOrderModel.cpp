@@ -2,6 +2,7 @@
 #include "model/SecondOrderModel.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "common/Error.hpp"
 #include "model/Substructure.hpp"
@@ -31,6 +32,12 @@ Sparse sumAt(double t, const std::vector<MatrixTerm>& terms, const std::vector<S
   return sum;
 }
 
+std::vector<int> everyPoint(const PointLaw& law) {
+  std::vector<int> points(static_cast<std::size_t>(law.size()));
+  std::iota(points.begin(), points.end(), 0);
+  return points;
+}
+
 [[noreturn]] void inconsistent(const std::string& what) { throw ModelError("The second-order model is inconsistent: " + what); }
 
 bool finite(const Sparse& matrix) {
@@ -54,8 +61,7 @@ Vector SecondOrderModel::loadAt(double t) const {
 Vector SecondOrderModel::pointForce(double t, const Vector& q, const Vector& qDot) const {
   Vector force = Vector::Zero(mass.rows());
   for (const auto& set : points) {
-    std::vector<int> active(static_cast<std::size_t>(set.law->size()));
-    for (std::size_t i = 0; i < active.size(); ++i) active[i] = static_cast<int>(i);
+    const auto active = everyPoint(*set.law);
     const Vector d = set.offset + set.rows * q;
     const Vector v = set.rows * qDot;
     Vector f = Vector::Zero(d.size());
@@ -63,6 +69,29 @@ Vector SecondOrderModel::pointForce(double t, const Vector& q, const Vector& qDo
     force += set.rows.transpose() * f;
   }
   return force;
+}
+
+Sparse SecondOrderModel::pointStiffness(double t, const Vector& q, const Vector& qDot) const {
+  Sparse sum(mass.rows(), mass.rows());
+  for (const auto& set : points) {
+    const auto active = everyPoint(*set.law);
+    const int width = set.law->width();
+    const Vector d = set.offset + set.rows * q;
+    const Vector v = set.rows * qDot;
+    Vector f = Vector::Zero(d.size());
+    Vector dfdd = Vector::Zero(d.size() * width);
+    Vector dfdv = Vector::Zero(d.size() * width);
+    set.law->evaluateWithTangent(t, active, d.data(), v.data(), f.data(), dfdd.data(), dfdv.data());
+    Triplets triplets;
+    for (int row = 0; row < set.law->size() * width; ++row)
+      for (int column = 0; column < width; ++column)
+        triplets.emplace_back(row, row / width * width + column, dfdd(row * width + column));
+    Sparse tangent(d.size(), d.size());
+    tangent.setFromTriplets(triplets.begin(), triplets.end());
+    const Sparse rowsTransposed = set.rows.transpose();
+    sum -= Sparse(rowsTransposed * Sparse(tangent * set.rows));
+  }
+  return sum;
 }
 
 void SecondOrderModel::validate() const {

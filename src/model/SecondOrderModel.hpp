@@ -69,6 +69,8 @@ struct SecondOrderModel {
   Vector loadAt(double t) const;
   /// Point forces R' f(d, d', t) (set-up code and tests).
   Vector pointForce(double t, const Vector& q, const Vector& qDot) const;
+  /// -sum R' (df/dd) R: stiffness of the point laws about a state (set-up code and tests).
+  Sparse pointStiffness(double t, const Vector& q, const Vector& qDot) const;
   /// Throws ModelError naming what is inconsistent (sizes, non-finite entries, law indices).
   void validate() const;
 };

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+
+#include "app/Commands.hpp"
+#include "app/Report.hpp"
+#include "app/Scene.hpp"
+#include "common/Log.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+/// "modelled" and "not modelled" lines, aligned.
+void item(bool modelled, const std::string& what, const std::string& why) {
+  char line[512];
+  std::snprintf(line, sizeof line, "  %-3s %-24s %s", modelled ? "yes" : "no", what.c_str(), why.c_str());
+  log::info(line);
+}
+
+std::string families(const string_::SupportSettings& supports) {
+  std::vector<std::string> names;
+  if (supports.lateral) names.push_back("lateral");
+  if (supports.axial) names.push_back("axial");
+  if (supports.torsional) names.push_back("torsional");
+  return join(names, ", ");
+}
+
+void listPhysics(const Scene& scene) {
+  const bool turns = scene.rotary.present();
+  log::info("modelled:");
+  item(true, "motions", families(scene.supports) + " dofs");
+  item(scene.loads.gravity != 0.0, "weight", scene.loads.gravity != 0.0 ? "g = " + formatNumber(scene.loads.gravity) + " m/s2" : "no gravity in Loads");
+  item(scene.mud.has_value(), "mud", scene.mud ? "added mass, damping and buoyancy in every element" : "no Mud list");
+  item(scene.contact.has_value(), "contact",
+       scene.contact ? scene.contact->lawName + " law at " + std::to_string(scene.contactPoints.size()) + " nodes" : "no Contact list");
+  const bool friction = scene.contact && scene.contact->friction;
+  item(friction, "friction", friction ? "smoothed Coulomb" : "no Friction in Contact");
+  item(turns, "gyroscopics", turns ? "matrices times the rotary speed" : "no Rotary Speed list");
+  item(scene.statics.geometricStiffness, "geometric stiffness", scene.statics.geometricStiffness ? "of the static axial force and torque" : "switched off in Static");
+  item(scene.damping.present(), "Rayleigh damping", scene.damping.present() ? "" : "no Damping list");
+  item(scene.loads.weightOnBit != 0.0, "weight on bit", formatNumber(scene.loads.weightOnBit) + " N");
+  item(scene.loads.torqueOnBit != 0.0, "torque on bit", formatNumber(scene.loads.torqueOnBit) + " N m");
+  const bool unbalance = !scene.loads.unbalances.empty() && turns;
+  item(unbalance, "mass unbalance", std::to_string(scene.loads.unbalances.size()) + (turns ? " places" : " places, but nothing turns"));
+}
+
+void listWork(const Scene& scene) {
+  log::info("computed:");
+  item(true, "path and static state", std::to_string(scene.freeDofs()) + " dofs");
+  if (scene.reduces()) {
+    const auto parts = string_::cutParts(scene.string, scene.partition);
+    item(true, "reduction", std::to_string(parts.size()) + " parts (" + scene.partition.rule + "), retained nodes: " + scene.partition.retainedNodes +
+                                ", chosen when the static state is known");
+  } else {
+    item(false, "reduction", "no Reduction list: the full model runs");
+  }
+  if (!scene.moves()) {
+    item(false, "transient", "no Transient list: the run stops at the static state");
+    return;
+  }
+  const auto& list = scene.list().sublist("Transient");
+  const double duration = list.get<double>("End Time") - list.get<double>("Start Time");
+  const double samples = std::floor(duration / list.get<double>("Sampling Interval")) + 1.0;
+  std::string what = list.get<std::string>("Integrator") + " over " + formatNumber(duration) + " s";
+  if (list.isParameter("Step")) what += ", about " + formatNumber(std::ceil(duration / list.get<double>("Step"))) + " steps";
+  item(true, "transient", what);
+  const double recorded = 8.0 * samples * scene.string.nodeCount() *
+                          (6.0 * (scene.output.hasField("displacement") + scene.output.hasField("velocity") + scene.output.hasField("acceleration")) +
+                           scene.output.hasField("normal_force"));
+  char size[64];
+  std::snprintf(size, sizeof size, "%.0f samples, about %.3g MB", samples, recorded / 1e6);
+  item(true, "results.h5", size);
+}
+
+}  // namespace
+
+void check(const RunOptions& options) {
+  const auto scene = readScene(options.deck, options.overrides);
+  log::info(scene.deck.file() + " is a valid deck.");
+  log::info(describeScene(scene));
+  listPhysics(scene);
+  listWork(scene);
+}
+
+}  // namespace tooljoint::app

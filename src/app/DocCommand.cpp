@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/Commands.hpp"
+#include "app/Scene.hpp"
+#include "common/Error.hpp"
+#include "deck/Manual.hpp"
+#include "deck/Template.hpp"
+#include "substructures/string/Components.hpp"
+
+namespace tooljoint::app {
+
+std::string manual(const std::string& topic, const std::string& format) {
+  const std::vector<deck::ListSpec> roots{sceneSpec(), string_::libraryParameters()};
+  if (format == "json") return deck::manualJson(roots, topic) + "\n";
+  if (!topic.empty()) return deck::manualMarkdown(roots, topic);
+  return "# Parameters of a deck\n\nWritten by `tooljoint doc`; every parameter a deck may hold, and the component libraries it may name.\n\n" +
+         deck::manualMarkdown(roots) + "\n" + deck::unitsMarkdown();
+}
+
+std::string deckTemplate(const std::string& kind) {
+  if (kind == "scene") return deck::templateXml(sceneSpec(), "my_scene");
+  if (kind == "components") return deck::templateXml(string_::libraryParameters(), "my_components");
+  throw UsageError("There is no template \"" + kind + "\"; known are \"scene\" and \"components\".");
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The program `tooljoint`: reads the command line, runs one command, and turns every error into a sentence and its exit code.
+#include <CLI/CLI.hpp>
+#include <Tpetra_Core.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "app/Commands.hpp"
+#include "common/Error.hpp"
+#include "common/Interrupt.hpp"
+#include "common/Parallel.hpp"
+#include "common/Version.hpp"
+
+namespace {
+
+using tooljoint::ExitCode;
+
+int code(ExitCode exit) { return static_cast<int>(exit); }
+
+/// Prints a message once, whatever the number of ranks.
+void say(std::ostream& out, const std::string& text) {
+  if (tooljoint::parallel::rank() == 0) out << text << std::flush;
+}
+
+/// Runs the command; every error that leaves it ends here.
+int guarded(const std::function<void()>& command) {
+  try {
+    command();
+    return code(ExitCode::Done);
+  } catch (const tooljoint::Error& error) {
+    say(std::cerr, std::string("tooljoint: ") + error.what() + "\n");
+    return code(error.code());
+  } catch (const std::bad_alloc&) {
+    say(std::cerr, "tooljoint: out of memory. Use fewer nodes, fewer modes or a longer sampling interval.\n");
+    return code(ExitCode::Internal);
+  } catch (const std::exception& error) {
+    say(std::cerr, std::string("tooljoint: internal error, please report it: ") + error.what() + "\n");
+    return code(ExitCode::Internal);
+  }
+}
+
+/// A deck on the command line with its overrides and where results go.
+void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool writes) {
+  command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
+  command.add_option("--set", options.overrides, "override one parameter: PATH=VALUE, e.g. --set \"Transient/End Time=5\"")
+      ->allow_extra_args(false);
+  if (writes) command.add_option("--output,-o", options.output, "folder for the results (default: results/<name of the deck>)");
+}
+
+int run(int argc, char** argv) {
+  namespace app = tooljoint::app;
+  CLI::App program{"Tooljoint: component mode synthesis, and the drillstring simulator built on it."};
+  program.name("tooljoint");
+  program.require_subcommand(0, 1);
+  bool version = false;
+  program.add_flag("--version", version, "print program, git, Trilinos, MPI and HDF5 versions");
+
+  app::RunOptions options;
+  std::string topic;
+  std::string format = "md";
+  std::string kind;
+  std::function<void()> command;
+
+  auto* runCommand = program.add_subcommand("run", "path, static state, reduction, transient: from deck to results");
+  addDeckOptions(*runCommand, options, true);
+  runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from");
+  runCommand->callback([&] { command = [&] { app::run(options); }; });
+
+  auto* checkCommand = program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
+  addDeckOptions(*checkCommand, options, false);
+  checkCommand->callback([&] { command = [&] { app::check(options); }; });
+
+  auto* modesCommand = program.add_subcommand("modes", "eigenfrequencies: full, fixed-interface, coupled");
+  addDeckOptions(*modesCommand, options, true);
+  modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")->check(CLI::PositiveNumber);
+  modesCommand->callback([&] { command = [&] { app::modes(options); }; });
+
+  app::CompareOptions comparison;
+  auto* compareCommand = program.add_subcommand("compare", "errors eps_t, eps_n and dyn of one run against a reference run");
+  compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
+  compareCommand->add_option("REFERENCE", comparison.reference, "results folder of the reference run")->required();
+  compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
+  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
+  compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
+
+  auto* docCommand = program.add_subcommand("doc", "print the parameter manual");
+  docCommand->add_option("TOPIC", topic, "a list of the deck, e.g. Contact");
+  docCommand->add_option("--format", format, "md or json")->check(CLI::IsMember({"md", "json"}));
+  docCommand->callback([&] { command = [&] { say(std::cout, app::manual(topic, format)); }; });
+
+  auto* templateCommand = program.add_subcommand("template", "print a commented deck to start from");
+  templateCommand->add_option("KIND", kind, "scene or components")->required();
+  templateCommand->callback([&] { command = [&] { say(std::cout, app::deckTemplate(kind)); }; });
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream out;
+    std::ostringstream err;
+    const int cliCode = program.exit(error, out, err);
+    say(std::cout, out.str());
+    say(std::cerr, err.str());
+    return cliCode == 0 ? code(ExitCode::Done) : code(ExitCode::Usage);
+  }
+  if (version) {
+    say(std::cout, tooljoint::versionText());
+    return code(ExitCode::Done);
+  }
+  if (!command) {
+    say(std::cerr, program.help());
+    return code(ExitCode::Usage);
+  }
+  tooljoint::installInterruptHandlers();
+  return guarded(command);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  return run(argc, argv);
+}
