@@ -13,7 +13,8 @@
 namespace tooljoint::linalg {
 
 EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name) {
-  const Sparse k = symmetricPart(K.sparseView(0.0, 0.0), "stiffness", name), m = symmetricPart(M.sparseView(0.0, 0.0), "mass", name);
+  const Sparse k = symmetricPart(K.sparseView(0.0, 0.0), "stiffness", name),
+               m = symmetricPart(M.sparseView(0.0, 0.0), "mass", name);
   if (k.rows() != m.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
   requirePositiveDefinite(m, name);
   EigenPairs modes;
@@ -23,7 +24,8 @@ EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name
     return modes;
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver{Matrix(k), Matrix(m)};
-  if (solver.info() != Eigen::Success) throw ConvergenceError("The QR iteration of a dense symmetric eigenproblem did not converge.");
+  if (solver.info() != Eigen::Success)
+    throw ConvergenceError("The QR iteration of a dense symmetric eigenproblem did not converge.");
   modes.values = solver.eigenvalues();
   modes.vectors = solver.eigenvectors();
   applyConventions(modes, m);
@@ -90,7 +92,8 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     modes.vectors.col(j) = phi;
     modes.residuals[j] = size > 0.0 ? residual.cwiseAbs().maxCoeff() / size : 0.0;
     if (!(modes.residuals[j] <= 1e-8))
-      throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " + scientific(modes.residuals[j]) + ".");
+      throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " + scientific(modes.residuals[j]) +
+                             ".");
   }
   return modes;
 }

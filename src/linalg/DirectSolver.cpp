@@ -26,8 +26,8 @@ void requireSquareAndFinite(const Sparse& A, const DofNamer& name) {
   for (int row = 0; row < A.rows(); ++row)
     for (Sparse::InnerIterator it(A, row); it; ++it)
       if (!std::isfinite(it.value()))
-        throw ModelError("The matrix has an entry that is not finite, in the row of " + nameOf(name, row) + " and the column of " +
-                         nameOf(name, static_cast<int>(it.col())) + ".");
+        throw ModelError("The matrix has an entry that is not finite, in the row of " + nameOf(name, row) +
+                         " and the column of " + nameOf(name, static_cast<int>(it.col())) + ".");
 }
 
 /// Factors R and C of the equilibrated matrix R A C, whose rows and columns are of order one; 1 for empty ones.
@@ -130,7 +130,9 @@ WeakMotion weakestMotion(const Sparse& A, const Klu2& factors, const Equilibrati
     const WeakMotion weak = weakestMotion(A, shifted, scale, 4);
     throwSingular(nameOf(name, static_cast<int>(largestEntry(weak.shape))), "zero pivot");
   }
-  throw ModelError("The matrix is singular (zero pivot), also after small shifts of its diagonal: several degrees of freedom are unconnected.");
+  throw ModelError(
+      "The matrix is singular (zero pivot), also after small shifts of its diagonal: several degrees of freedom are "
+      "unconnected.");
 }
 
 }  // namespace

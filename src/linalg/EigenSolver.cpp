@@ -60,16 +60,21 @@ double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   return -size;
 }
 
+/// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues that rounding made complex in
+/// the projected problem and then fails; later attempts have larger blocks and bases, so large that they need no restart.
 Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt, const EigenOptions& options) {
   const int n = pencil.size();
   Teuchos::ParameterList list;
   int block = attempt == 0 ? 4 : 8;
-  if (options.anasazi != nullptr && options.anasazi->isType<int>("Block Size")) block = options.anasazi->get<int>("Block Size");
-  const int blocks = (std::max(2 * wanted, wanted + 20) + block - 1) / block;
+  if (options.anasazi != nullptr && options.anasazi->isType<int>("Block Size"))
+    block = std::max(1, options.anasazi->get<int>("Block Size"));
+  const int basis = (attempt + 1) * std::max(2 * wanted, wanted + 20) + (attempt > 0 ? 100 : 0);
+  const int blocks = std::min(n / block - 1, (basis + block - 1) / block);
   list.set("Which", "LM");
   list.set("Block Size", block);
-  list.set("Num Blocks", std::min(n / block - 1, blocks + 4 * attempt));
+  list.set("Num Blocks", blocks);
   list.set("Maximum Restarts", 100);
+  if (attempt > 0) list.set("Step Size", std::max(1, blocks / 4));
   list.set("Convergence Tolerance", 1e-12);
   list.set("Verbosity", 0);
   if (options.anasazi != nullptr) list.setParameters(*options.anasazi);
@@ -85,9 +90,9 @@ void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const Direct
     // What rounding in the lowest mode leaves in this one: eps nu_1 / nu_j.
     const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift);
     if (!(size <= tolerance + rounding))
-      throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method + ") was called converged, but its relative error is " +
-                             scientific(size) + " where " + scientific(tolerance) +
-                             " is allowed: lower the solver's \"Convergence Tolerance\" or raise \"Num Blocks\" and \"Maximum Restarts\".");
+      throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
+                             ") was called converged, but its relative error is " + scientific(size) + " where " +
+                             scientific(tolerance) + " is allowed");
   }
 }
 
@@ -101,46 +106,47 @@ double bestValue(double nu, double nuMax, double shift, const Vector& phi, const
   return invertedRounding < quotientRounding ? inverted : quotient;
 }
 
-/// The `wanted` modes nearest above the shift by Anasazi; false (with the reason) when it did not converge.
-bool krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted, int attempt,
-                 const EigenOptions& options, EigenPairs& modes, std::string& reason) {
+/// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not converge.
+EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted, int attempt,
+                       const EigenOptions& options) {
   using Problem = Anasazi::BasicEigenproblem<double, tpetra::MultiVector, tpetra::Operator>;
   using Manager = Anasazi::BlockKrylovSchurSolMgr<double, tpetra::MultiVector, tpetra::Operator>;
   const auto map = serialMap(pencil.size());
   Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
+  const int block = list.get<int>("Block Size");
+  // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
+  const Teuchos::RCP<tpetra::Operator> inverse =
+      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
+  const Teuchos::RCP<tpetra::Operator> mass =
+      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
+  const auto start = toTpetra(scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)), map);
+  const auto problem = Teuchos::rcp(new Problem(inverse, mass, start));
+  EigenPairs modes;
+  modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " + std::to_string(block);
+  bool converged = false;
   try {
-    const int block = list.get<int>("Block Size");
-    // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
-    const Teuchos::RCP<tpetra::Operator> inverse =
-        Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
-    const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
-    const auto start = toTpetra(scatteredNumbers(pencil.size(), block, 17 + static_cast<std::uint64_t>(attempt)), map);
-    const auto problem = Teuchos::rcp(new Problem(inverse, mass, start));
     problem->setHermitian(true);
     problem->setNEV(wanted);
-    if (!problem->setProblem()) throw std::logic_error("Anasazi refused the eigenproblem.");
-    Manager manager(problem, list);
-    const bool converged = manager.solve() == Anasazi::Converged;
-    const auto& solution = problem->getSolution();
-    modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " + std::to_string(block);
-    if (!converged || solution.numVecs < wanted) {
-      reason = std::to_string(solution.numVecs) + " of " + std::to_string(wanted) + " modes converged (" + modes.method + ")";
-      return false;
-    }
-    modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
-    modes.values.resize(wanted);
-    const Sparse absK = pencil.K.cwiseAbs();
-    double nuMax = 0.0;
-    for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(solution.Evals[static_cast<std::size_t>(j)].realpart));
-    for (int j = 0; j < wanted; ++j)
-      modes.values[j] = bestValue(solution.Evals[static_cast<std::size_t>(j)].realpart, nuMax, shift, modes.vectors.col(j), pencil, absK);
+    if (!problem->setProblem()) throw std::logic_error("it refused the eigenproblem.");
+    converged = Manager(problem, list).solve() == Anasazi::Converged;
   } catch (const Error&) {
     throw;
-  } catch (const std::exception& problem) {
-    throw ConvergenceError(std::string("Anasazi stopped: ") + problem.what());
+  } catch (const std::exception& stopped) {
+    throw ConvergenceError(modes.method + " stopped: " + stopped.what());
   }
+  const auto& solution = problem->getSolution();
+  if (!converged || solution.numVecs < wanted)
+    throw ConvergenceError(std::to_string(solution.numVecs) + " of " + std::to_string(wanted) + " modes converged (" +
+                           modes.method + ")");
+  modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
+  modes.values.resize(wanted);
+  const Sparse absK = pencil.K.cwiseAbs();
+  const auto nu = [&](int j) { return solution.Evals[static_cast<std::size_t>(j)].realpart; };
+  double nuMax = 0.0;
+  for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(nu(j)));
+  for (int j = 0; j < wanted; ++j) modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
   applyConventions(modes, pencil.M);
-  return true;
+  return modes;
 }
 
 /// Middle of the last gap among the values that is at or after position `from`; nothing when there is none.
@@ -162,38 +168,47 @@ EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& optio
   return modes;
 }
 
+/// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes beyond `count` show where
+/// the last cluster ends, and grow when they do not.
+EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count, int& extra, int attempt,
+                        const EigenOptions& options) {
+  const double floor = 1e-14 * pencil.scale;
+  EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2), attempt, options);
+  const auto gap = lastGap(modes.values, count, floor);
+  const int keep = options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
+  if (!gap || (options.keepPairs && keep >= modes.count())) {
+    const std::string cluster = std::to_string(extra) + " modes after number " + std::to_string(count) +
+                                " have the same eigenvalue " + scientific(modes.values[count - 1]);
+    extra *= 4;
+    throw ConvergenceError(cluster);
+  }
+  // Sylvester: as many eigenvalues lie below a gap as were found below it.
+  const int below = pencil.below(gap->second);
+  if (below != gap->first)
+    throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " + scientific(gap->second) + " but " +
+                           std::to_string(gap->first) + " were found there (" + modes.method + ")");
+  truncate(modes, keep);
+  requireAccurate(modes, pencil, factors, shift, options.tolerance);
+  recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
+  return modes;
+}
+
 EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
   const double shift = shiftBelowSpectrum(pencil, options);
   const DirectSolver factors(Sparse(pencil.K - shift * pencil.M), options.name);
-  const double floor = 1e-14 * pencil.scale;
   std::string reason;
   int extra = 4;
-  constexpr int attempts = 3;
+  constexpr int attempts = 4;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    EigenPairs modes;
-    const int wanted = std::min(count + extra, pencil.size() / 2);
-    if (!krylovSchur(pencil, factors, shift, wanted, attempt, options, modes, reason)) continue;
-    // Sylvester: as many eigenvalues below a gap as were found below it.
-    const auto gap = lastGap(modes.values, count, floor);
-    if (gap && pencil.below(gap->second) != gap->first) {
-      reason = std::to_string(pencil.below(gap->second)) + " eigenvalues lie below " + scientific(gap->second) + " but " +
-               std::to_string(gap->first) + " were found there";
-      continue;
+    try {
+      return checkedModes(pencil, factors, shift, count, extra, attempt, options);
+    } catch (const ConvergenceError& failure) {
+      reason = failure.what();
     }
-    const int keep = options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
-    if (!gap || keep >= modes.count()) {  // a cluster reaches beyond what was computed
-      reason = "a cluster of more than " + std::to_string(extra) + " equal eigenvalues stands at " + scientific(modes.values[count - 1]);
-      extra *= 4;
-      continue;
-    }
-    truncate(modes, keep);
-    requireAccurate(modes, pencil, factors, shift, options.tolerance);
-    recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
-    return modes;
   }
-  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " + std::to_string(pencil.size()) + " dofs were not found in " +
-                         std::to_string(attempts) + " attempts: " + reason +
-                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or ask for fewer modes.");
+  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " + std::to_string(pencil.size()) +
+                         " dofs were not found in " + std::to_string(attempts) + " attempts. The last one: " + reason +
+                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or lower \"Convergence Tolerance\".");
 }
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {
@@ -213,7 +228,8 @@ EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options)
 
 EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
   if (count < 0 || count > K.rows())
-    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " + std::to_string(K.rows()) + " dofs.");
+    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " + std::to_string(K.rows()) +
+                     " dofs.");
   return modesOf(Pencil(K, M, options.name), count, options);
 }
 

@@ -32,9 +32,9 @@ struct EigenOptions {
   double orthogonality = 1e-8;  ///< largest |Phi' M Phi - I| accepted
   bool keepPairs = false;       ///< add modes while the next eigenvalue is within pairTolerance of the last: never cut a pair
   double pairTolerance = 1e-6;  ///< relative distance of two eigenvalues of a pair
-  int denseBelow = 200;         ///< matrices smaller than this are solved dense, as are requests for more than a third of the modes
-  std::optional<double> shift;  ///< shift below all eigenvalues; chosen from the matrices when absent
-  DofNamer name;                ///< names of the dofs for messages
+  int denseBelow = 200;  ///< matrices smaller than this are solved dense, as are requests for more than a third of the modes
+  std::optional<double> shift;                      ///< shift below all eigenvalues; chosen from the matrices when absent
+  DofNamer name;                                    ///< names of the dofs for messages
   const Teuchos::ParameterList* anasazi = nullptr;  ///< laid over the parameters of Anasazi::BlockKrylovSchurSolMgr
 };
 

@@ -19,7 +19,8 @@ class FunctionOperator : public tpetra::Operator {
 
   Teuchos::RCP<const tpetra::Map> getDomainMap() const override { return map_; }
   Teuchos::RCP<const tpetra::Map> getRangeMap() const override { return map_; }
-  void apply(const tpetra::MultiVector& X, tpetra::MultiVector& Y, Teuchos::ETransp mode, double alpha, double beta) const override {
+  void apply(const tpetra::MultiVector& X, tpetra::MultiVector& Y, Teuchos::ETransp mode, double alpha,
+             double beta) const override {
     if (mode != Teuchos::NO_TRANS || alpha != 1.0 || beta != 0.0) throw std::logic_error("FunctionOperator: only Y = f(X).");
     onViews(X, Y, [this](const ConstMatrixView& x, MatrixView& y) { y = f_(x); });
   }

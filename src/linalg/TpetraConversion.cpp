@@ -46,7 +46,8 @@ Teuchos::RCP<tpetra::MultiVector> toTpetra(const Matrix& columns, const Teuchos:
   const auto result = Teuchos::rcp(new tpetra::MultiVector(map, static_cast<std::size_t>(columns.cols())));
   const auto host = tpetra::overwriteHost(*result);
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
-    for (Eigen::Index i = 0; i < columns.rows(); ++i) host(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = columns(i, j);
+    for (Eigen::Index i = 0; i < columns.rows(); ++i)
+      host(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) = columns(i, j);
   return result;
 }
 
@@ -54,7 +55,8 @@ Matrix toEigen(const tpetra::MultiVector& columns) {
   const auto host = tpetra::readHost(columns);
   Matrix result(static_cast<Eigen::Index>(host.extent(0)), static_cast<Eigen::Index>(host.extent(1)));
   for (Eigen::Index j = 0; j < result.cols(); ++j)
-    for (Eigen::Index i = 0; i < result.rows(); ++i) result(i, j) = host(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+      result(i, j) = host(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
   return result;
 }
 

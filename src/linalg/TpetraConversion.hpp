@@ -38,7 +38,8 @@ void onViews(const tpetra::MultiVector& x, tpetra::MultiVector& y, Work&& work) 
     return Eigen::OuterStride<>(view.extent(1) > 1 ? static_cast<Eigen::Index>(view.stride(1)) : std::max<Eigen::Index>(rows, 1));
   };
   const ConstMatrixView in(xHost.data(), rows, static_cast<Eigen::Index>(xHost.extent(1)), stride(xHost));
-  MatrixView out(yHost.data(), static_cast<Eigen::Index>(yHost.extent(0)), static_cast<Eigen::Index>(yHost.extent(1)), stride(yHost));
+  MatrixView out(yHost.data(), static_cast<Eigen::Index>(yHost.extent(0)), static_cast<Eigen::Index>(yHost.extent(1)),
+                 stride(yHost));
   work(in, out);
 }
 

@@ -64,7 +64,8 @@ ContinuationReport runRamp(const model::NonlinearProblem& problem, Vector& x, co
 }
 
 void requireConverged(const ContinuationReport& report, const std::string& what, const std::string& advice) {
-  if (!report.converged) throw ConvergenceError(what + " did not converge: " + report.message() + (advice.empty() ? "" : " " + advice));
+  if (!report.converged)
+    throw ConvergenceError(what + " did not converge: " + report.message() + (advice.empty() ? "" : " " + advice));
 }
 
 }  // namespace tooljoint::statics

@@ -38,8 +38,8 @@ ContinuationReport runStages(const model::NonlinearProblem& problem, Vector& x, 
 
 struct RampOptions {
   NewtonOptions newton;
-  int increments = 1;      ///< equal increments from 0 to 1 to begin with
-  int maxHalvings = 6;     ///< an increment that fails is halved so often; it grows back by two after two easy ones
+  int increments = 1;   ///< equal increments from 0 to 1 to begin with
+  int maxHalvings = 6;  ///< an increment that fails is halved so often; it grows back by two after two easy ones
 };
 
 /// Brings a parameter from 0 to 1: `set(s)` puts the problem at s, then it is solved from the last converged x.

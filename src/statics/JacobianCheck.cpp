@@ -53,8 +53,8 @@ JacobianError checkJacobian(const model::NonlinearProblem& problem, const Vector
 std::string JacobianError::describe(const model::NonlinearProblem& problem) const {
   if (row < 0) return "the Jacobian agrees with its differences exactly";
   return "row " + problem.unknownName(row) + ", column " + problem.unknownName(column) + ": " + linalg::scientific(analytic) +
-         " analytic, " + linalg::scientific(differences) + " by differences (relative error " + linalg::scientific(relative) + ")" +
-         (patternComplete ? "" : "; differences found entries outside the sparsity pattern");
+         " analytic, " + linalg::scientific(differences) + " by differences (relative error " + linalg::scientific(relative) +
+         ")" + (patternComplete ? "" : "; differences found entries outside the sparsity pattern");
 }
 
 }  // namespace tooljoint::statics

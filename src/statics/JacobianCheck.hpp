@@ -14,8 +14,8 @@ struct JacobianError {
   double relative = 0;  ///< max |analytic - differences| / size of the entry's row and column (see checkJacobian)
   int row = -1;         ///< where it is; -1 when everything is zero
   int column = -1;
-  double analytic = 0;     ///< dr_row/dx_column as the problem gives it
-  double differences = 0;  ///< the same by differences
+  double analytic = 0;          ///< dr_row/dx_column as the problem gives it
+  double differences = 0;       ///< the same by differences
   bool patternComplete = true;  ///< false: differences found an entry outside the sparsity pattern
 
   /// "row w of node 3, column theta_x of node 4: 1.2 analytic, 1.3 by differences (relative error 0.1)"

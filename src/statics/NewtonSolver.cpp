@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "statics/NewtonSolver.hpp"
 
-#include <NOX_Solver_Factory.H>
 #include <NOX_SolverStats.hpp>
+#include <NOX_Solver_Factory.H>
 #include <NOX_StatusTest_Combo.H>
 #include <NOX_StatusTest_FiniteValue.H>
 #include <NOX_StatusTest_MaxIters.H>
@@ -25,7 +25,8 @@ namespace {
 using linalg::scientific;
 
 /// Belos behind Thyra with our parameters and the deck's over them.
-Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, const NewtonOptions& options, const Teuchos::ParameterList* belos) {
+Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, const NewtonOptions& options,
+                                                                        const Teuchos::ParameterList* belos) {
   const auto list = Teuchos::parameterList("Belos");
   list->set("Solver Type", "Block GMRES");
   Teuchos::ParameterList& gmres = list->sublist("Solver Types").sublist("Block GMRES");
@@ -35,6 +36,13 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, c
   gmres.set("Verbosity", 0);
   list->sublist("VerboseObject").set("Verbosity Level", "none");
   if (belos != nullptr) list->setParameters(*belos);
+  // On the left the size of the step decides, whatever the units of the rows; not every method of Belos can do that.
+  const char* side = "Left Preconditioner If Unspecified";
+  const bool known = list->isType<std::string>("Solver Type");
+  const std::string method = known ? list->get<std::string>("Solver Type") : "";
+  if (!list->isParameter(side))
+    list->set(side,
+              method == "Block GMRES" || method == "Pseudo Block GMRES" || method == "Block CG" || method == "Pseudo Block CG");
   const auto factory = Teuchos::rcp(new Thyra::BelosLinearOpWithSolveFactory<double>());
   try {
     factory->setParameterList(list);
@@ -45,7 +53,8 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, c
   return factory;
 }
 
-Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options, const Teuchos::RCP<NOX::LineSearch::Generic>& search,
+Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options,
+                                                   const Teuchos::RCP<NOX::LineSearch::Generic>& search,
                                                    const Teuchos::ParameterList* nox) {
   const auto list = Teuchos::parameterList("NOX");
   list->set("Nonlinear Solver", "Line Search Based");
@@ -60,7 +69,8 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options,
   lineSearch.set("User Defined Line Search Factory", factory);
   Teuchos::ParameterList& printing = list->sublist("Printing");
   if (options.verbose) {
-    printing.set("Output Information", NOX::Utils::Error + NOX::Utils::Warning + NOX::Utils::OuterIteration + NOX::Utils::OuterIterationStatusTest);
+    printing.set("Output Information",
+                 NOX::Utils::Error + NOX::Utils::Warning + NOX::Utils::OuterIteration + NOX::Utils::OuterIterationStatusTest);
   } else {
     const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream());
     printing.set("Output Information", static_cast<int>(NOX::Utils::Error));
@@ -95,8 +105,8 @@ double scaledResidual(const model::NonlinearProblem& problem, const Vector& scal
 /// One NOX solve with all that has to live as long as it.
 class Newton {
  public:
-  Newton(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options, const Teuchos::ParameterList* nox,
-         const Teuchos::ParameterList* belos)
+  Newton(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options,
+         const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos)
       : options_(options),
         model_(Teuchos::rcp(new ThyraProblem(problem, start, options))),
         smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
@@ -104,8 +114,8 @@ class Newton {
     const Teuchos::RCP<const Thyra::ModelEvaluator<double>> model = model_;
     const Teuchos::RCP<const Thyra::LinearOpWithSolveFactoryBase<double>> solves = belosFactory(problem.size(), options, belos);
     const Teuchos::RCP<Thyra::PreconditionerFactoryBase<double>> noFactory;  // the model itself updates W_prec
-    const auto group = Teuchos::rcp(new NOX::Thyra::Group(NOX::Thyra::Vector(*model_->getNominalValues().get_x()), model, model_->create_W_op(),
-                                                          solves, model_->create_W_prec(), noFactory));
+    const auto group = Teuchos::rcp(new NOX::Thyra::Group(NOX::Thyra::Vector(*model_->getNominalValues().get_x()), model,
+                                                          model_->create_W_op(), solves, model_->create_W_prec(), noFactory));
     const auto smallResidual = Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled));
     const auto solved = Teuchos::rcp(new Combo(Combo::AND, smallResidual, smallStep_));
     const auto tests = Teuchos::rcp(new Combo(Combo::OR));
@@ -113,7 +123,13 @@ class Newton {
     tests->addStatusTest(solved);
     tests->addStatusTest(Teuchos::rcp(new MaxIters(options.maxIterations)));
     const auto search = Teuchos::rcp(new StepSearch(problem, options, record_));
-    solver_ = NOX::Solver::buildSolver(group, tests, noxParameters(options, search, nox));
+    try {
+      solver_ = NOX::Solver::buildSolver(group, tests, noxParameters(options, search, nox));
+    } catch (const std::exception& refused) {
+      throw ModelError(std::string("NOX refuses its parameters: ") + refused.what());
+    } catch (const char* refused) {  // NOX throws character strings
+      throw ModelError(std::string("NOX refuses its parameters: ") + refused);
+    }
   }
 
   void run(NewtonReport& report) {
@@ -155,23 +171,26 @@ class Newton {
   Teuchos::RCP<NOX::Solver::Generic> solver_;
 };
 
-std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record, const std::string& worst) {
+std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record,
+                    const std::string& worst) {
   const std::string state = "the scaled residual is " + scientific(report.residual) + " (largest at " + worst + ") where " +
                             scientific(options.tolerance) + " is asked for, the last relative step " + scientific(report.update) +
                             " where " + scientific(options.updateTolerance) + " is";
-  if (!std::isfinite(report.residual)) return "the residual is not finite at " + worst + " after " + std::to_string(report.iterations) + " iterations.";
+  if (!std::isfinite(report.residual))
+    return "the residual is not finite at " + worst + " after " + std::to_string(report.iterations) + " iterations.";
   if (record.failuresInARow >= options.maxFailedSearches)
     return "no step along the Newton direction reduces the residual any more after " + std::to_string(report.iterations) +
            " iterations: " + state + ".";
   std::string text = std::to_string(report.iterations) + " Newton iterations were not enough: " + state + ".";
-  if (report.linearResidual > 0.1) text += " Some linear systems were badly solved (relative residual " + scientific(report.linearResidual) + ").";
+  if (report.linearResidual > 0.1)
+    text += " Some linear systems were badly solved (relative residual " + scientific(report.linearResidual) + ").";
   return text;
 }
 
 }  // namespace
 
-NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options, const Teuchos::ParameterList* nox,
-                   const Teuchos::ParameterList* belos) {
+NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options,
+                   const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
   if (x.size() != problem.size())
     throw ModelError("A starting point of " + std::to_string(x.size()) + " unknowns was given to a nonlinear problem of " +
                      std::to_string(problem.size()) + ".");
@@ -196,7 +215,7 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   } catch (const std::exception& error) {
     if (newton.model().problemError()) std::rethrow_exception(newton.model().problemError());
     stopped = error.what();
-  } catch (const char* error) {  // NOX throws character strings
+  } catch (const char* error) {
     stopped = error;
   }
   x = newton.solution();
@@ -208,14 +227,16 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   if (!stopped.empty())
     report.message = "stopped after " + std::to_string(report.iterations) + " iterations: " + stopped;
   else if (report.converged)
-    report.message = "converged in " + std::to_string(report.iterations) + " iterations to a scaled residual of " + scientific(report.residual) + ".";
+    report.message = "converged in " + std::to_string(report.iterations) + " iterations to a scaled residual of " +
+                     scientific(report.residual) + ".";
   else
     report.message = explain(report, options, newton.record(), problem.unknownName(worst));
   return report;
 }
 
 void requireConverged(const NewtonReport& report, const std::string& what, const std::string& advice) {
-  if (!report.converged) throw ConvergenceError(what + " did not converge: " + report.message + (advice.empty() ? "" : " " + advice));
+  if (!report.converged)
+    throw ConvergenceError(what + " did not converge: " + report.message + (advice.empty() ? "" : " " + advice));
 }
 
 }  // namespace tooljoint::statics

@@ -26,28 +26,28 @@ struct NewtonOptions {
   double updateFloor = 1e-14;     ///< absolute part of the step test, for solutions near zero
   int maxIterations = 50;
   LineSearch lineSearch = Backtracking;
-  double armijo = 1e-4;             ///< s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual
-  int maxHalvings = 16;             ///< of one step; then the best one tried is taken
-  int maxFailedSearches = 4;        ///< searches in a row that may end without a decrease before the solver gives up
-  int refactorEvery = 1;            ///< Newton steps that share one factored Jacobian as preconditioner (1: each its own)
-  int refactorBeyond = 12;          ///< a lagged factor is renewed when the last linear solve needed more Belos iterations
-  double linearTolerance = 1e-10;   ///< of the preconditioned linear residual
-  int linearIterations = 200;       ///< of Belos per Newton step
-  bool verbose = false;             ///< print what NOX has to say
+  double armijo = 1e-4;            ///< s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual
+  int maxHalvings = 16;            ///< of one step; then the best one tried is taken
+  int maxFailedSearches = 4;       ///< searches in a row that may end without a decrease before the solver gives up
+  int refactorEvery = 1;           ///< Newton steps that share one factored Jacobian as preconditioner (1: each its own)
+  int refactorBeyond = 12;         ///< a lagged factor is renewed when the last linear solve needed more Belos iterations
+  double linearTolerance = 1e-10;  ///< of the preconditioned linear residual
+  int linearIterations = 200;      ///< of Belos per Newton step
+  bool verbose = false;            ///< print what NOX has to say
 };
 
 /// What happened. `converged` is the only sign of success.
 struct NewtonReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;              ///< max_i |scale_i r_i| at the returned x
-  double update = 0;                ///< |dx| / |x| of the last full Newton step
-  std::vector<double> history;      ///< max_i |scale_i r_i| at the start and after each iteration
-  std::string message;              ///< one sentence: converged in ..., or why not
+  double residual = 0;          ///< max_i |scale_i r_i| at the returned x
+  double update = 0;            ///< |dx| / |x| of the last full Newton step
+  std::vector<double> history;  ///< max_i |scale_i r_i| at the start and after each iteration
+  std::string message;          ///< one sentence: converged in ..., or why not
   int factorisations = 0;
-  int linearIterations = 0;         ///< Belos iterations, all steps
-  int halvings = 0;                 ///< by the line search, all steps
-  double linearResidual = 0;        ///< largest true linear residual |J dx + F| / |F| of all steps
+  int linearIterations = 0;   ///< Belos iterations, all steps
+  int halvings = 0;           ///< by the line search, all steps
+  double linearResidual = 0;  ///< largest true linear residual |J dx + F| / |F| of all steps
 };
 
 /// Solves problem.residual(x) = 0 from the x given, which is overwritten with the last iterate, converged or not.

@@ -38,7 +38,8 @@ class StepSearch : public NOX::LineSearch::Generic {
   StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options, SearchRecord& record)
       : problem_(problem), options_(options), record_(record) {}
 
-  bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Solver::Generic& solver) override {
+  bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
+               const NOX::Solver::Generic& solver) override {
     const NOX::Abstract::Group& old = solver.getPreviousSolutionGroup();
     recordLinearResidual(group, direction);
     if (options_.lineSearch == NewtonOptions::FullStep) {
@@ -50,7 +51,8 @@ class StepSearch : public NOX::LineSearch::Generic {
   }
 
  private:
-  bool backtrack(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction, const NOX::Abstract::Group& old) {
+  bool backtrack(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
+                 const NOX::Abstract::Group& old) {
     const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
     const double before = old.getNormF();
     step = x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0;
@@ -104,7 +106,8 @@ class StepSearch : public NOX::LineSearch::Generic {
 class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {
  public:
   explicit StepSearchFactory(Teuchos::RCP<NOX::LineSearch::Generic> search) : search_(std::move(search)) {}
-  Teuchos::RCP<NOX::LineSearch::Generic> buildLineSearch(const Teuchos::RCP<NOX::GlobalData>&, Teuchos::ParameterList&) const override {
+  Teuchos::RCP<NOX::LineSearch::Generic> buildLineSearch(const Teuchos::RCP<NOX::GlobalData>&,
+                                                         Teuchos::ParameterList&) const override {
     return search_;
   }
 

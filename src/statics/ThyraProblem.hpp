@@ -41,6 +41,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     space_ = Thyra::createVectorSpace<double>(map_);
     problem_.jacobian(start, jacobian_);
     scaleJacobian();
+    jacobianAt_ = start;
     MEB::InArgsSetup<double> in;
     in.setModelEvalDescription(this->description());
     in.setSupports(MEB::IN_ARG_x);
@@ -67,7 +68,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     return Thyra::tpetraLinearOp<double>(space_, space_, matrix);
   }
 
-  /// W^-1 (the latest factor), applied from the left. Applications are counted: one more than Belos iterations.
+  /// W^-1 (the latest factor). Applications are counted: about one more than Belos iterations.
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
     const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
       ++applications_;
@@ -75,7 +76,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     }));
     const Teuchos::RCP<const Thyra::LinearOpBase<double>> op = Thyra::tpetraLinearOp<double>(space_, space_, inverse);
     const auto preconditioner = Teuchos::rcp(new Thyra::DefaultPreconditioner<double>());
-    preconditioner->initializeLeft(op);
+    preconditioner->initializeUnspecified(op);
     return preconditioner;
   }
 
@@ -87,7 +88,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  private:
   Thyra::ModelEvaluatorBase::OutArgs<double> createOutArgsImpl() const override { return prototypeOut_; }
 
-  void evalModelImpl(const Thyra::ModelEvaluatorBase::InArgs<double>& in, const Thyra::ModelEvaluatorBase::OutArgs<double>& out) const override {
+  void evalModelImpl(const Thyra::ModelEvaluatorBase::InArgs<double>& in,
+                     const Thyra::ModelEvaluatorBase::OutArgs<double>& out) const override {
     const Vector x = toEigenVector(in.get_x());
     if (out.get_f().get() != nullptr) {
       Vector r(x.size());
@@ -96,8 +98,9 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     }
     if (!out.get_W_op().is_null()) {
       updateJacobian(x);
-      const auto op = Teuchos::rcp_dynamic_cast<Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
-          out.get_W_op(), true);
+      const auto op =
+          Teuchos::rcp_dynamic_cast<Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
+              out.get_W_op(), true);
       linalg::replaceValues(*Teuchos::rcp_dynamic_cast<tpetra::CrsMatrix>(op->getTpetraOperator(), true), jacobian_);
     }
     if (!out.get_W_prec().is_null()) updateFactors(x);
@@ -108,7 +111,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     const Sparse before = jacobian_;
     guarded([&] { problem_.jacobian(x, jacobian_); });
     scaleJacobian();
-    if (!linalg::samePattern(before, jacobian_)) throw std::logic_error("The pattern of the Jacobian changed between two evaluations.");
+    if (!linalg::samePattern(before, jacobian_))
+      throw std::logic_error("The pattern of the Jacobian changed between two evaluations.");
     jacobianAt_ = x;
   }
 
