@@ -26,7 +26,7 @@ struct StaticOptions {
   Recipe recipe = Recipe::Continuation;
   bool exactJacobian = true;
   bool geometricStiffness = true;
-  double tolerance = 1e-9;         ///< on the scaled residual
+  double tolerance = 1e-9;         ///< on the largest scaled residual
   int maxIterations = 200;         ///< per stage
   double lateralStepLimit = 0.05;  ///< [m], `Continuation`
   std::vector<double> lambdas{1e3, 1e4, 1e6};  ///< stages before each point's own lambda [1/m], `Continuation`

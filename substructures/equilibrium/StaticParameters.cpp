@@ -16,7 +16,7 @@ deck::ListSpec parameters() {
               "\"Source\" leaves out how the geometric stiffness changes with the displacement, equation (25).");
   spec.boolean("Geometric Stiffness", true, "Whether axial force and torque of the static state stiffen the string.");
   spec.real("Tolerance", "", 1e-9, Range::positive(),
-            "Scaled residual at convergence: root mean square over the dofs, relative to the largest load.");
+            "Largest residual at convergence, relative to the largest load (moments: to that load on a mean element length).");
   spec.integer("Max Iterations", 200, Range::atLeast(1), "Newton iterations allowed in one stage.");
   spec.real("Lateral Step Limit", "m", 0.05, Range::positive(),
             "Largest change of a lateral displacement in one iteration of \"Continuation\".");

@@ -168,9 +168,8 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
 
 Vector StaticProblem::residualScale() const {
   Vector scale(unknowns_);
-  const double rms = 1.0 / std::sqrt(static_cast<double>(unknowns_));
   for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) scale(index_[i]) = rms / (static_cast<int>(i) % kDofs < 3 ? forceScale_ : momentScale_);
+    if (index_[i] >= 0) scale(index_[i]) = 1.0 / (static_cast<int>(i) % kDofs < 3 ? forceScale_ : momentScale_);
   return scale;
 }
 

@@ -77,10 +77,9 @@ void ImposedNodesProblem::constrain(Sparse& jacobian) const {
 
 void ImposedNodesProblem::constrainScale(Vector& scale) const {
   // misses count in metres
-  const double rms = 1.0 / std::sqrt(static_cast<double>(std::max(size(), 1)));
   for (const int node : imposed_)
     for (int c = 0; c < 2; ++c)
-      scale(unknownOf(node, c)) = imposition_ == Imposition::Elimination ? rms : rms / penalty_;
+      scale(unknownOf(node, c)) = imposition_ == Imposition::Elimination ? 1.0 : 1.0 / penalty_;
 }
 
 }  // namespace tooljoint::path

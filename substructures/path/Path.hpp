@@ -37,7 +37,7 @@ struct PathOptions {
   std::vector<int> nodes;  ///< imposed nodes, 1-based, increasing
   Imposition imposition = Imposition::Elimination;
   double penaltyFactor = 1e6;  ///< times the largest stiffness entry, equation (13)
-  double tolerance = 1e-9;     ///< on the scaled residual
+  double tolerance = 1e-9;     ///< on the largest scaled residual
   int maxIterations = 50;      ///< per load step
 };
 

@@ -23,7 +23,7 @@ deck::ListSpec parameters() {
               "How imposed displacements enter: exactly, or by a stiff spring as in equations (12) and (13).");
   spec.real("Penalty Factor", "", 1e6, Range::atLeast(1.0),
             "Stiffness of that spring over the largest entry of the stiffness matrix.");
-  spec.real("Tolerance", "", 1e-9, Range::positive(), "Scaled residual norm at which a load step has converged.");
+  spec.real("Tolerance", "", 1e-9, Range::positive(), "Largest scaled residual at which a load step has converged.");
   spec.integer("Max Iterations", 50, Range::atLeast(1), "Newton iterations allowed in one load step.");
   spec.passThrough("NOX", "Handed on to NOX.");
   spec.passThrough("Belos", "Handed on to Belos.");

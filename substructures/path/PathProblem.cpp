@@ -2,7 +2,6 @@
 #include "substructures/path/PathProblem.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "substructures/beam/Rotation.hpp"
@@ -163,10 +162,9 @@ void PathProblem::jacobian(const Vector& x, Sparse& jacobian) const {
 
 Vector PathProblem::residualScale() const {
   Vector scale(unknowns_);
-  const double rms = 1.0 / std::sqrt(static_cast<double>(std::max(unknowns_, 1)));
   for (std::size_t i = 0; i < index_.size(); ++i)
     if (index_[i] >= 0)
-      scale(index_[i]) = rms / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
+      scale(index_[i]) = 1.0 / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
   constrainScale(scale);
   return scale;
 }

@@ -17,8 +17,9 @@ inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, 
   const Vector scale = problem.residualScale();
   Vector r;
   problem.residual(x, r);
-  outcome.residual = scale.cwiseProduct(r).norm();
+  outcome.residual = scale.cwiseProduct(r).lpNorm<Eigen::Infinity>();
   Sparse jacobian;
+  double merit = scale.cwiseProduct(r).norm();
   while (outcome.residual > request.tolerance && outcome.iterations < request.maxIterations) {
     problem.jacobian(x, jacobian);
     Eigen::SparseLU<Eigen::SparseMatrix<double, Eigen::ColMajor, int>> lu;
@@ -35,19 +36,19 @@ inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, 
       next = x + factor * dx;
       problem.residual(next, r);
       size = scale.cwiseProduct(r).norm();
-      if (!request.backtracking || size < (1.0 - 1e-4 * factor) * outcome.residual || halvings == 12) break;
+      if (!request.backtracking || size < (1.0 - 1e-4 * factor) * merit || halvings == 12) break;
     }
     x = next;
     ++outcome.iterations;
-    outcome.residual = size;
+    merit = size;
+    outcome.residual = scale.cwiseProduct(r).lpNorm<Eigen::Infinity>();
     outcome.update = dx.norm() / std::max(x.norm(), 1e-300);
     if (!std::isfinite(size)) {
       outcome.message = "the residual is not finite";
       return outcome;
     }
-    if (outcome.update <= request.updateTolerance) break;
   }
-  outcome.converged = outcome.residual <= request.tolerance || outcome.update <= request.updateTolerance;
+  outcome.converged = outcome.residual <= request.tolerance;
   return outcome;
 }
 
