@@ -21,7 +21,7 @@ std::string nameOf(const DofNamer& name, int i);
 struct DirectSolverOptions {
   double tolerance = 1e-10;            ///< largest backward error of a solution that is handed out
   int refinements = 3;                 ///< at most so many steps of iterative refinement per solve
-  double singularTolerance = 7.1e-15;  ///< relative size of A v below which v is a motion nothing resists (32 eps)
+  double singularTolerance = 3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
   bool checkSingular = true;           ///< look for such a v after each factorisation (two extra solves)
 };
 

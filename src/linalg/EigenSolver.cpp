@@ -106,6 +106,27 @@ double bestValue(double nu, double nuMax, double shift, const Vector& phi, const
   return invertedRounding < quotientRounding ? inverted : quotient;
 }
 
+/// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1 / nu_j in mode j, most of
+/// it in directions far above the spectrum that is wanted. An inverse iteration removes those, a projection onto the complement
+/// of the lower modes what it stirs up there, and Rayleigh-Ritz with K separates the rest.
+void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors, double shift) {
+  const int count = modes.count();
+  const double split = std::sqrt((modes.values[0] - shift) * (modes.values[count - 1] - shift));
+  int first = 0;
+  while (first < count && modes.values[first] - shift <= split) ++first;
+  const int upper = count - first;
+  if (upper < 2) return;
+  Matrix phi = factors.solve(pencil.M * modes.vectors.rightCols(upper));
+  const Matrix lower = modes.vectors.leftCols(first), massLower = pencil.M * lower;
+  phi -= lower * (massLower.transpose() * phi);
+  for (int j = 0; j < upper; ++j) phi.col(j) /= std::sqrt(phi.col(j).dot(pencil.M * phi.col(j)));
+  phi -= lower * (massLower.transpose() * phi);
+  const Matrix K = phi.transpose() * (pencil.K * phi), M = phi.transpose() * (pencil.M * phi);
+  const EigenPairs ritz = symmetricModes(0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
+  modes.vectors.rightCols(upper) = phi * ritz.vectors;
+  modes.values.tail(upper) = ritz.values;
+}
+
 /// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not converge.
 EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted, int attempt,
                        const EigenOptions& options) {
@@ -145,6 +166,8 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   double nuMax = 0.0;
   for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(nu(j)));
   for (int j = 0; j < wanted; ++j) modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
+  applyConventions(modes, pencil.M);
+  polishUpperModes(modes, pencil, factors, shift);
   applyConventions(modes, pencil.M);
   return modes;
 }

@@ -73,7 +73,9 @@ TEST(Canary, RanksSolveDifferentSystemsWithoutWaitingForEachOther) {
 
 TEST(Canary, SingularMatricesAreNamedOnEveryRank) {
   EXPECT_THROW(DirectSolver(springChain(50, 1.0, 1.0, true).K), ModelError);
-  if (rank() == 0) EXPECT_THROW(DirectSolver(springChain(20, 1.0, 1.0, true).K), ModelError);  // and on one alone
+  if (rank() == 0) {
+    EXPECT_THROW(DirectSolver(springChain(20, 1.0, 1.0, true).K), ModelError);  // and on one alone
+  }
 }
 
 TEST(Canary, ModesAreTheSameOnEveryRank) {
