@@ -77,6 +77,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   product_ = linalg::BlockProduct(pattern, samples);
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
+  size_ = pattern.size();
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -109,6 +110,16 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
 
 void MatrixSum::addTo(const double* x, double* y) const {
   if (!terms_.empty()) product_.addTo(current(), x, y);
+}
+
+void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const {
+  const int n = size_;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double difference = factor * (last_[i] - then[z(terms_[i].law)]);
+    if (difference == 0.0) continue;
+    for (int k = 0; k < n; ++k) scaled[k] = difference * x[k];
+    terms_[i].product.addTo(terms_[i].values.data(), scaled, y);
+  }
 }
 
 void MatrixSum::combine(double factor, double* values, std::size_t storage) const {
@@ -156,6 +167,7 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   }
   lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
   load_ = Vector::Zero(n);
+  scaled_ = Vector::Zero(n);
   lawValues_.assign(model.laws.size(), 0.0);
   for (const auto& set : model.points) points_.emplace_back(set, pattern_);
 }
@@ -192,6 +204,11 @@ void CompiledModel::setTime(double t) {
   load_.setZero();
   for (std::size_t i = 0; i < loads_.size(); ++i)
     if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
+}
+
+void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {
+  damping_.addChangeSince(then, c, x, scaled_.data(), y);
+  stiffness_.addChangeSince(then, 1.0, x, scaled_.data(), y);
 }
 
 void CompiledModel::combine(double m, double c, double k, double* values) const {

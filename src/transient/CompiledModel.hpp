@@ -32,6 +32,8 @@ class MatrixSum {
   bool empty() const { return terms_.empty(); }
   /// Recombine if a law has another value than last time; true if so.
   bool update(const std::vector<double>& lawValues);
+  /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
+  void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const;
   /// y += A(t) x.
   void addTo(const double* x, double* y) const;
   /// values += factor * A(t).
@@ -48,6 +50,7 @@ class MatrixSum {
   std::vector<double> last_;  ///< law values of sum_
   linalg::BlockValues sum_;
   linalg::BlockProduct product_;
+  int size_ = 0;
   bool constant_ = false;     ///< one term with the law 1: no sum is kept
 };
 
@@ -81,6 +84,10 @@ class CompiledModel {
   void addStiffness(const double* x, double* y) const { stiffness_.addTo(x, y); }
   bool hasDamping() const { return !damping_.empty(); }
 
+  /// Values of the laws at time().
+  const std::vector<double>& lawValues() const { return lawValues_; }
+  /// y += (c (C(t) - C(then)) + K(t) - K(then)) x, where `then` are the law values at another time.
+  void addChangeSince(const std::vector<double>& then, double c, const double* x, double* y);
   /// values = m M + c C(t) + k K(t) on the pattern (storage() doubles).
   void combine(double m, double c, double k, double* values) const;
   /// Diagonal of the same sum.
@@ -110,6 +117,7 @@ class CompiledModel {
   std::vector<double> lastLoadLaws_;
   Vector load_;
   std::vector<double> lawValues_;
+  Vector scaled_;
   std::vector<PointBatch> points_;
   double time_ = 0;
   bool timeSet_ = false;

@@ -21,7 +21,7 @@ double EnergyAccount::residual() const {
 
 void EnergyLedger::allocate(CompiledModel& model) {
   const int n = model.size();
-  for (Vector* x : {&step_, &product_, &internal_, &nextInternal_, &load_}) x->setZero(n);
+  for (Vector* x : {&q_, &step_, &product_, &internal_, &nextInternal_, &load_}) x->setZero(n);
   dissipative_.clear();
   account_.dampingNames.clear();
   for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
@@ -45,37 +45,49 @@ EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, const State
   return sum;
 }
 
-void EnergyLedger::start(CompiledModel& model, const State& state) {
+void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   account_ = {};
+  stride_ = stride;
+  skipped_ = 0;
   allocate(model);
   model.setTime(state.t);
   model.addStiffness(state.q.data(), internal_.data());
   load_ = Eigen::Map<const Vector>(model.load(), model.size());
+  q_ = state.q;
+  time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
   last_ = pointPowers(model, state);
   const EnergyAccount now = account(model, state);
   account_.initial = now.kinetic + now.strain + now.contact;
 }
 
-void EnergyLedger::book(CompiledModel& model, const State& from, const State& to) {
+void EnergyLedger::book(CompiledModel& model, const State& to) {
+  if (++skipped_ < stride_) return;
+  enter(model, to);
+}
+
+void EnergyLedger::enter(CompiledModel& model, const State& to) {
+  skipped_ = 0;
   model.setTime(to.t);
-  const double h = to.t - from.t;
-  step_ = to.q - from.q;
+  const double h = to.t - time_;
+  step_ = to.q - q_;
+  q_ = to.q;
+  time_ = to.t;
   double exchanged = 0;
-  const auto enter = [&exchanged](double& entry, double work) {
-    entry += work;
+  const auto entry = [&exchanged](double& account, double work) {
+    account += work;
     exchanged += std::abs(work);
   };
   // loads: (F_n + F_{n+1}) / 2 . dq
   const Eigen::Map<const Vector> load(model.load(), model.size());
-  enter(account_.loads, 0.5 * (load_.dot(step_) + load.dot(step_)));
+  entry(account_.loads, 0.5 * (load_.dot(step_) + load.dot(step_)));
   load_ = load;
   // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory
   nextInternal_.setZero();
   model.addStiffness(to.q.data(), nextInternal_.data());
   const double strain = 0.5 * to.q.dot(nextInternal_);
   const double work = 0.5 * (internal_.dot(step_) + nextInternal_.dot(step_));
-  enter(account_.circulatory, work - (strain - strain_));
+  entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
   internal_.swap(nextInternal_);
@@ -86,21 +98,22 @@ void EnergyLedger::book(CompiledModel& model, const State& from, const State& to
     if (law == 0.0) continue;
     product_.setZero();
     terms[dissipative_[i]].product.addTo(terms[dissipative_[i]].values.data(), step_.data(), product_.data());
-    enter(account_.damping[i], law * step_.dot(product_) / h);
+    entry(account_.damping[i], law * step_.dot(product_) / h);
   }
   // point laws: mean power times h
   if (!model.points().empty()) {
     const Powers now = pointPowers(model, to);
-    enter(account_.friction, 0.5 * h * (last_.friction + now.friction));
-    enter(account_.contactDamping, 0.5 * h * (last_.damping + now.damping));
-    enter(account_.drive, 0.5 * h * (last_.drive + now.drive));
+    entry(account_.friction, 0.5 * h * (last_.friction + now.friction));
+    entry(account_.contactDamping, 0.5 * h * (last_.damping + now.damping));
+    entry(account_.drive, 0.5 * h * (last_.drive + now.drive));
     exchanged += std::abs(now.stored - last_.stored);
     last_ = now;
   }
   account_.exchanged += exchanged;
 }
 
-EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) const {
+EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
+  if (skipped_ > 0) enter(model, state);
   EnergyAccount result = account_;
   Vector momentum = Vector::Zero(model.size());
   model.addMass(state.v.data(), momentum.data());
@@ -111,21 +124,24 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) co
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {strain_, last_.stored, last_.damping, last_.friction, last_.drive, account_.initial, account_.loads,
-                               account_.drive, account_.friction, account_.contactDamping, account_.circulatory, account_.exchanged});
+  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, last_.stored, last_.damping, last_.friction, last_.drive,
+                               account_.initial, account_.loads, account_.drive, account_.friction, account_.contactDamping,
+                               account_.circulatory, account_.exchanged});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
+  for (const Vector* x : {&q_, &internal_, &load_}) memory.insert(memory.end(), x->begin(), x->end());
 }
 
-void EnergyLedger::restore(CompiledModel& model, const State& state, const double*& memory) {
+void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memory) {
   account_ = {};
+  stride_ = stride;
   allocate(model);
-  model.setTime(state.t);
-  model.addStiffness(state.q.data(), internal_.data());
-  load_ = Eigen::Map<const Vector>(model.load(), model.size());
-  for (double* x : {&strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial, &account_.loads,
+  skipped_ = static_cast<int>(*memory++);
+  for (double* x : {&time_, &strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial, &account_.loads,
                     &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory, &account_.exchanged})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;
+  for (Vector* vector : {&q_, &internal_, &load_})
+    for (double& x : *vector) x = *memory++;
 }
 
 }  // namespace tooljoint::transient

@@ -37,14 +37,15 @@ struct EnergyAccount {
 
 class EnergyLedger {
  public:
-  void start(CompiledModel& model, const State& state);
-  /// Book the step from `from` to `to`. Allocates nothing.
-  void book(CompiledModel& model, const State& from, const State& to);
-  /// The account with the stored energies of `state`.
-  EnergyAccount account(CompiledModel& model, const State& state) const;
+  /// Every `stride`-th step is booked (explicit steps are far shorter than what the sums need).
+  void start(CompiledModel& model, const State& state, int stride);
+  /// Call after every step. Allocates nothing.
+  void book(CompiledModel& model, const State& to);
+  /// The account at `state`, the last one booked or later: what is left is booked first.
+  EnergyAccount account(CompiledModel& model, const State& state);
 
   void save(std::vector<double>& memory) const;
-  void restore(CompiledModel& model, const State& state, const double*& memory);
+  void restore(CompiledModel& model, int stride, const double*& memory);
 
  private:
   struct Powers {
@@ -55,6 +56,12 @@ class EnergyLedger {
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
+  void enter(CompiledModel& model, const State& to);
+
+  int stride_ = 1;
+  int skipped_ = 0;     ///< steps since the last one booked
+  double time_ = 0;     ///< the last one booked
+  Vector q_;
   Vector step_, product_, internal_, nextInternal_, load_;
   Powers last_;
   double strain_ = 0;

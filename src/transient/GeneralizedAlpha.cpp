@@ -29,7 +29,7 @@ deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
       .real("Spectral Radius", "", 0.8, deck::Range::between(0.0, 1.0),
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above the step in one step.")
-      .real("Tolerance", "", 1e-9, deck::Range::positive(),
+      .real("Tolerance", "", 1e-8, deck::Range::positive(),
             "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls below this times the largest force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")
       .integer("Max Halvings", 4, deck::Range::between(0, 16), "Times a step may be halved before the run stops.")
@@ -105,6 +105,7 @@ class GeneralizedAlpha final : public Integrator {
   double factorStep_ = 0;   ///< step, time and matrix stamp the factor belongs to
   double factorTime_ = 0;
   long factorStamp_ = -1;
+  std::vector<double> factorLaws_;  ///< law values at that time
   bool fresh_ = false;      ///< the tangent in the factor is that of the current iterate
   bool wanted_ = false;     ///< convergence was slow: factor anew at the next iterate
 
@@ -128,6 +129,7 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   const int n = model.size();
   for (Vector* x : {&A_, &nextA_, &linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_}) x->setZero(n);
 
+  factorLaws_.assign(model.lawValues().size(), 0.0);
   // |K| row sums bound the rounding of K q.
   model.setTime(state.t);
   rowSize_ = Vector::Zero(n);
@@ -211,22 +213,25 @@ void GeneralizedAlpha::predict(const State& from, State& to, double h) {
 
 /// Residual and its scaled size at the iterate.
 double GeneralizedAlpha::measure(const State& to) {
-  residual_ = linear_;
   scratch_.setZero();
   for (auto& batch : model_->points()) {
     batch.evaluate(to.t, to.q.data(), to.v.data());
     batch.addForce(1.0, scratch_.data());
   }
-  residual_ -= scratch_;
   double largest = 0;
   double square = 0;
   double force = linearReference_;
   const int n = model_->size();
+  const double* f = scratch_.data();
+  const double* linear = linear_.data();
+  const double* w = weight_.data();
+  double* r = residual_.data();
   for (int i = 0; i < n; ++i) {
-    const double scaled = weight_[i] * residual_[i];
+    r[i] = linear[i] - f[i];
+    const double scaled = w[i] * r[i];
     largest = std::max(largest, std::abs(scaled));
     square += scaled * scaled;
-    force = std::max(force, std::abs(weight_[i] * scratch_[i]));
+    force = std::max(force, std::abs(w[i] * f[i]));
   }
   error_ = std::isfinite(square) ? largest : square;
   merit_ = std::sqrt(square);
@@ -243,6 +248,7 @@ void GeneralizedAlpha::refactor(const State& to, double h) {
   factorStep_ = h;
   factorTime_ = to.t;
   factorStamp_ = model_->matrixStamp();
+  factorLaws_ = model_->lawValues();
   buildFactor();
   fresh_ = true;
   wanted_ = false;
@@ -262,18 +268,11 @@ void GeneralizedAlpha::buildFactor() {
 bool GeneralizedAlpha::backtrack(State& to, double h) {
   const double c0 = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
   const double c1 = gamma_ / (beta_ * h);
-  // change_ = (c0 M + c1 C + K) delta. With the factor of the same matrices S delta = -R, so that is -R + R'P R delta.
-  if (factorStamp_ == model_->matrixStamp()) {
-    change_ = -residual_;
-    for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
-  } else {
-    scratch_ = c0 * delta_;
-    change_.setZero();
-    model_->addMass(scratch_.data(), change_.data());
-    scratch_ = c1 * delta_;
-    model_->addDamping(scratch_.data(), change_.data());
-    model_->addStiffness(delta_.data(), change_.data());
-  }
+  // change_ = (c0 M + c1 C + K) delta. The factor S solved S delta = -R, so that is -R + R'P R delta, corrected by what the laws have
+  // changed in C and K since S was built.
+  change_ = -residual_;
+  for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
+  if (factorStamp_ != model_->matrixStamp()) model_->addChangeSince(factorLaws_, c1, delta_.data(), change_.data());
   q0_ = to.q, v0_ = to.v, a0_ = to.a, linear0_ = linear_;
   const double before = merit_;
   double fraction = 1;
@@ -410,6 +409,7 @@ void GeneralizedAlpha::restore(const double*& memory) {
   // The frozen point tangents came back with the batches: the same factor again.
   const double now = model_->time();
   model_->setTime(factorTime_);
+  factorLaws_ = model_->lawValues();
   buildFactor();
   model_->setTime(now);
   factorStamp_ = current ? model_->matrixStamp() : -1;

@@ -150,7 +150,7 @@ class Run {
       return;
     }
     checkFinite(model_, state_, state_);
-    if (options_.ledger) ledger_.start(model_, state_);
+    if (options_.ledger) ledger_.start(model_, state_, bookEvery());
     sampler_.first(state_);
   }
 
@@ -166,7 +166,7 @@ class Run {
     const double* memory = point.memory.data();
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
-    if (options_.ledger) ledger_.restore(model_, state_, memory);
+    if (options_.ledger) ledger_.restore(model_, bookEvery(), memory);
   }
 
   Checkpoint checkpoint() const {
@@ -183,6 +183,8 @@ class Run {
     return point;
   }
 
+  int bookEvery() const { return integrator_->isExplicit() ? 4 : 1; }
+
   /// True when stopped before the end.
   bool loop() {
     std::unique_ptr<Progress> bar;
@@ -195,7 +197,7 @@ class Run {
       }
       integrator_->advance(state_, next_);
       checkFinite(model_, state_, next_);
-      if (options_.ledger) ledger_.book(model_, state_, next_);
+      if (options_.ledger) ledger_.book(model_, next_);
       sampler_.step(state_, next_);
       std::swap(state_, next_);
       if (state_.t >= nextCheckpoint) {
