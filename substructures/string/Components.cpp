@@ -27,7 +27,7 @@ deck::ListSpec materialSpec() {
 /// The parameters of a segment; a component of one segment gives them itself.
 void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Length", "m", length, Range::positive(), "Length along the axis.");
-  spec.integer("Elements", Optional{}, Range::atLeast(1), "Number of beam elements it is cut into; 1 when absent.");
+  spec.integer("Elements", Optional{}, Range::between(1, 10000), "Number of beam elements it is cut into; 1 when absent.");
   spec.real("Outer Radius", "m", Optional{}, Range::positive(), "Outer radius of the body; of a general section for contact and mud only.");
   spec.real("Inner Radius", "m", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
   spec.boolean("Shear Deformation", Optional{}, "Whether a circular section deforms in shear (Timoshenko); true when absent.");

@@ -39,8 +39,7 @@ class Mesher {
   DrillString mesh(const std::vector<AssemblyEntry>& assembly) {
     out_.nodes.emplace_back();
     std::map<std::string, int> occurrences;
-    for (const AssemblyEntry& entry : assembly)
-      for (int i = 0; i < entry.count; ++i) place(entry.name, "", occurrences, where_);
+    for (const AssemblyEntry& entry : assembly) placeAll(entry, "", occurrences, where_);
     if (faults_.empty() && out_.elements.empty()) fault(where_, "The assembly is empty; it needs at least one component.");
     if (faults_.empty()) {
       checkLength();
@@ -58,21 +57,29 @@ class Mesher {
     if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
   }
 
+  /// Appends every occurrence of an entry; the first fault ends it, since the others would only repeat it.
+  bool placeAll(const AssemblyEntry& entry, const std::string& parent, std::map<std::string, int>& occurrences, const std::string& where) {
+    for (int i = 0; i < entry.count; ++i)
+      if (!place(entry.name, parent, occurrences, where)) return false;
+    return true;
+  }
+
   /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array that names it.
-  void place(const std::string& name, const std::string& parent, std::map<std::string, int>& occurrences, const std::string& where) {
+  /// False when there was a fault.
+  bool place(const std::string& name, const std::string& parent, std::map<std::string, int>& occurrences, const std::string& where) {
     const auto found = library_.find(name);
     if (found == library_.end()) {
       fault(where, unknown(name));
-      return;
+      return false;
     }
     const Component& component = found->second;
     if (std::find(stack_.begin(), stack_.end(), name) != stack_.end()) {
       fault(component.where, "The component contains itself (" + join(stack_, " > ") + " > " + name + ").");
-      return;
+      return false;
     }
     if (out_.elementCount() > mostElements) {
       fault(where_, "The string has more than " + std::to_string(mostElements) + " elements; look at the repeat counts.");
-      return;
+      return false;
     }
     const bool top = parent.empty();
     Instance instance;
@@ -86,8 +93,8 @@ class Mesher {
     stack_.push_back(name);
     for (const Segment& segment : component.segments) append(segment);
     std::map<std::string, int> inner;
-    for (const AssemblyEntry& entry : component.parts)
-      for (int i = 0; i < entry.count; ++i) place(entry.name, instance.path + "/", inner, component.where + "/Parts");
+    bool good = true;
+    for (const AssemblyEntry& entry : component.parts) good = placeAll(entry, instance.path + "/", inner, component.where + "/Parts") && good;
     stack_.pop_back();
     instance.lastElement = out_.elementCount() - 1;
     if (component.gaugePosition)
@@ -95,6 +102,7 @@ class Mesher {
                          instance.firstElement, out_.elementCount()});
     if (top) out_.instances.back() = instance;
     else out_.nested[slot] = instance;
+    return good;
   }
 
   std::string unknown(const std::string& name) const {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "tests/unit/contact/Samples.hpp"
+
+using namespace tooljoint::contact;
+using namespace tooljoint::contact::testing;
+
+namespace {
+
+double turning(double) { return 7.0; }
+
+class Energy : public ::testing::TestWithParam<const char*> {};
+
+}  // namespace
+
+// d(stored)/dt + damping + friction - drive = -(force . velocity) at every state
+TEST_P(Energy, PowersBalance) {
+  const auto contact = law(GetParam())->inMotion(batch({steelOnRock(), steelOnRock(5e4)}), turning);
+  for (const double G : {-1e-2, -1e-4, 1e-4, 1.5e-3}) {
+    for (const double angle : {0.3, 2.9}) {
+      State state(0.0285 + G, angle);
+      state.d.insert(state.d.end(), {0.0285 + 2e-4, 1e-3, 0.0});
+      state.v.insert(state.v.end(), {-0.4, 0.2, -3.0});
+      const auto f = force(*contact, 0.0, state.d, state.v);
+      const auto power = contact->power(0.0, state.d.data(), state.v.data());
+      double work = 0.0;
+      for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * state.v[i];
+      const double h = 2e-7;
+      std::vector<double> before = state.d, after = state.d;
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        before[i] -= h * state.v[i];
+        after[i] += h * state.v[i];
+      }
+      const double storing = (contact->power(0.0, after.data(), state.v.data()).stored - contact->power(0.0, before.data(), state.v.data()).stored) / (2.0 * h);
+      const double scale = std::abs(storing) + power.damping + std::abs(power.friction) + std::abs(power.drive) + 1.0;
+      EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale) << GetParam() << " " << G << " " << angle;
+      if (std::string(GetParam()) != "Nguyen") {
+        EXPECT_GE(power.stored, 0.0);
+        EXPECT_GE(power.damping, 0.0);
+        EXPECT_GE(power.friction, 0.0);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
+                         testName);
+
+// The closed form against quadrature of F_n dG, from the wall inwards and outwards.
+TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
+  for (const double lambda : {2e3, 1e5}) {
+    ContactPoint p = steelOnRock(lambda);
+    p.damping = 0.0;
+    p.muStatic = p.muDynamic = 0.0;
+    const auto contact = law(GetParam())->inMotion(batch({p}), turning);
+    const auto rest = law(GetParam())->atRest(batch({p}));
+    const std::vector<double> v = {0.0, 0.0, 0.0};
+    for (const double G : {-1e-2, -3e-4, -1e-7, 1e-7, 3e-4, 1e-2}) {
+      // Simpson in G = x^3 steps, so that the knee at the wall is resolved
+      const int n = 4000;
+      double sum = 0.0;
+      const double edge = std::cbrt(G);
+      for (int i = 0; i <= n; ++i) {
+        const double x = edge * i / n;
+        const double uv[2] = {p.clearance + x * x * x, 0.0};
+        double N = 0.0;
+        rest->normalForce({}, uv, &N);
+        sum += (i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * N * 3.0 * x * x * edge / n / 3.0;
+      }
+      const std::vector<double> d = {p.clearance + G, 0.0, 0.0};
+      EXPECT_NEAR(contact->power(0.0, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15) << GetParam() << " " << lambda << " " << G;
+    }
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Points and states the contact tests share.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "substructures/contact/ContactLaw.hpp"
+
+namespace tooljoint::contact::testing {
+
+inline ContactPoint steelOnRock(double lambda = 2e3) {
+  ContactPoint p;
+  p.node = 7;
+  p.clearance = 0.0285;
+  p.contactRadius = 0.0795;
+  p.stiffness = 1e7;
+  p.damping = 1e4;
+  p.lambdaK = lambda;
+  p.lambdaC = 0.7 * lambda;
+  p.muStatic = 0.2;
+  p.muDynamic = 0.1;
+  p.regularisationVelocity = 0.1;
+  return p;
+}
+
+inline ContactPoints batch(const std::vector<ContactPoint>& list) {
+  ContactPoints points;
+  for (const ContactPoint& p : list) points.add(p);
+  return points;
+}
+
+/// Laws with parameters of their own are taken with theirs.
+std::shared_ptr<const ContactLaw> law(const std::string& name);
+
+/// GoogleTest names hold letters only.
+inline std::string testName(const ::testing::TestParamInfo<const char*>& test) {
+  return std::string(test.param) == "Hunt-Crossley" ? "HuntCrossley" : test.param;
+}
+
+inline std::vector<int> all(const model::PointLaw& law) {
+  std::vector<int> active(static_cast<std::size_t>(law.size()));
+  std::iota(active.begin(), active.end(), 0);
+  return active;
+}
+
+struct Answer {
+  std::vector<double> f, dfdd, dfdv;
+};
+
+inline Answer answer(const model::PointLaw& law, double t, const std::vector<double>& d, const std::vector<double>& v) {
+  Answer a{std::vector<double>(d.size()), std::vector<double>(3 * d.size()), std::vector<double>(3 * d.size())};
+  law.evaluateWithTangent(t, all(law), d.data(), v.data(), a.f.data(), a.dfdd.data(), a.dfdv.data());
+  return a;
+}
+
+inline std::vector<double> force(const model::PointLaw& law, double t, const std::vector<double>& d, const std::vector<double>& v) {
+  std::vector<double> f(d.size());
+  law.evaluate(t, all(law), d.data(), v.data(), f.data());
+  return f;
+}
+
+/// A state at the radius `r`, seen from `angle`, with a general velocity.
+struct State {
+  std::vector<double> d, v;
+  State(double r, double angle) : d{r * std::cos(angle), r * std::sin(angle), 0.3}, v{0.07, -0.11, 0.9} {}
+};
+
+}  // namespace tooljoint::contact::testing

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <Teuchos_ParameterList.hpp>
+#include <functional>
+
+#include "tests/unit/contact/Samples.hpp"
+
+using namespace tooljoint::contact;
+using namespace tooljoint::contact::testing;
+
+std::shared_ptr<const ContactLaw> tooljoint::contact::testing::law(const std::string& name) {
+  Teuchos::ParameterList own;
+  if (name == "Hunt-Crossley") own.set("Exponent", 1.5).set("Dissipation", 2.0);
+  return LawRegistry::instance().make(name, own);
+}
+
+namespace {
+
+double speed(double t) { return 12.0 + t; }
+
+/// Largest difference between a tangent and central differences of the force, over the largest entry of its row.
+void expectTangents(const tooljoint::model::PointLaw& contact, const State& state, const std::string& what) {
+  const Answer exact = answer(contact, 0.5, state.d, state.v);
+  const auto alone = force(contact, 0.5, state.d, state.v);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(exact.f[i], alone[i], 1e-13 * std::abs(alone[i])) << what;
+  for (int column = 0; column < 3; ++column) {
+    for (const bool velocity : {false, true}) {
+      const double h = velocity ? 1e-5 : 1e-8;
+      State plus = state, minus = state;
+      (velocity ? plus.v : plus.d)[static_cast<std::size_t>(column)] += h;
+      (velocity ? minus.v : minus.d)[static_cast<std::size_t>(column)] -= h;
+      const auto fp = force(contact, 0.5, plus.d, plus.v);
+      const auto fm = force(contact, 0.5, minus.d, minus.v);
+      const auto& tangent = velocity ? exact.dfdv : exact.dfdd;
+      for (int row = 0; row < 3; ++row) {
+        double scale = 0.0;
+        for (int c = 0; c < 3; ++c) scale = std::max(scale, std::abs(tangent[static_cast<std::size_t>(3 * row + c)]));
+        const double difference = (fp[static_cast<std::size_t>(row)] - fm[static_cast<std::size_t>(row)]) / (2.0 * h);
+        EXPECT_NEAR(tangent[static_cast<std::size_t>(3 * row + column)], difference, 2e-7 * scale + 1e-5)
+            << what << " row " << row << " column " << column << (velocity ? " velocity" : " position");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+class Tangents : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Tangents, AgreeWithDifferencesInsideOnAndBeyondTheWall) {
+  for (const double mu : {0.0, 0.2}) {
+    ContactPoint point = steelOnRock();
+    point.muStatic = mu;
+    point.muDynamic = 0.5 * mu;
+    const auto contact = law(GetParam())->inMotion(batch({point}), speed);
+    for (const double penetration : {-0.02, -1e-3, -2e-5, 2e-5, 3e-4, 5e-3})
+      for (const double angle : {0.0, 1.1, 2.5, -2.0})
+        expectTangents(*contact, State(point.clearance + penetration, angle),
+                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " + std::to_string(penetration) + " at " + std::to_string(angle));
+  }
+}
+
+TEST_P(Tangents, AgreeWithDifferencesWithoutClearance) {
+  ContactPoint gauge = steelOnRock();
+  gauge.clearance = 0.0;
+  const auto contact = law(GetParam())->inMotion(batch({gauge}), speed);
+  expectTangents(*contact, State(2e-3, 0.7), GetParam());
+}
+
+TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
+  const ContactPoint point = steelOnRock();
+  const auto contact = law(GetParam())->atRest(batch({point}));
+  StaticContact::Options options;
+  options.lambda = 3e3;
+  options.frictionScale = 0.75;
+  options.direction = -1.0;
+  for (const double penetration : {-1e-3, 2e-5, 3e-4, 5e-3}) {
+    const double r = point.clearance + penetration;
+    const double uv[2] = {r * std::cos(2.0), r * std::sin(2.0)};
+    double f[3], tangent[6];
+    contact->evaluate(options, uv, f, tangent);
+    for (int column = 0; column < 2; ++column) {
+      const double h = 1e-7;
+      double plus[2] = {uv[0], uv[1]}, minus[2] = {uv[0], uv[1]}, fp[3], fm[3];
+      plus[column] += h;
+      minus[column] -= h;
+      contact->evaluate(options, plus, fp);
+      contact->evaluate(options, minus, fm);
+      for (int row = 0; row < 3; ++row)
+        EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h), 2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0)) << penetration << row << column;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
+                         testName);
