@@ -65,8 +65,9 @@ class Assembly {
     const auto& first = part(0).componentNames;
     for (int p = 1; p < parts(); ++p)
       if (part(p).componentNames != first)
-        throw ModelError("Parts \"" + name(0) + "\" and \"" + name(p) + "\" do not speak of the same dofs: the components of a node are " +
-                         quotedList(first) + " in the first and " + quotedList(part(p).componentNames) + " in the second.");
+        throw ModelError("Parts \"" + name(0) + "\" and \"" + name(p) +
+                         "\" do not speak of the same dofs: the components of a node are " + quotedList(first) +
+                         " in the first and " + quotedList(part(p).componentNames) + " in the second.");
     out_.model.componentNames = first;
   }
 
@@ -81,7 +82,8 @@ class Assembly {
       for (int i = 0; i < part(p).size(); ++i) {
         const DofLabel label = labelOf(p, i);
         if (!own.emplace(label, i).second)
-          throw ModelError("Part \"" + name(p) + "\" has " + describe(label) + " twice; every dof of a part needs a label of its own.");
+          throw ModelError("Part \"" + name(p) + "\" has " + describe(label) +
+                           " twice; every dof of a part needs a label of its own.");
         if (shared[at(i)]) {
           joints[label].push_back({p, i});
         } else if (const auto [it, fresh] = inner.emplace(label, Place{p, i}); !fresh) {
@@ -92,8 +94,9 @@ class Assembly {
     }
     for (const auto& [label, places] : joints) {
       if (const auto it = inner.find(label); it != inner.end())
-        throw ModelError(describe(label) + " is an interface dof of part \"" + name(places.front().part) + "\" but an inner dof of part \"" +
-                         name(it->second.part) + "\". Declare it an interface dof of both parts.");
+        throw ModelError(describe(label) + " is an interface dof of part \"" + name(places.front().part) +
+                         "\" but an inner dof of part \"" + name(it->second.part) +
+                         "\". Declare it an interface dof of both parts.");
       if (places.size() < 2)
         throw ModelError("The interface dof " + describe(label) + " of part \"" + name(places.front().part) +
                          "\" joins nothing: no other part has it. Check the labels, or take it out of the interface.");
@@ -218,7 +221,8 @@ class Assembly {
     for (int p = 0; p < parts(); ++p)
       for (const auto& load : part(p).loads) {
         const int law = mergedLaw(p, load.law);
-        auto it = std::find_if(loads.begin(), loads.end(), [&](const model::LoadTerm& other) { return other.name == load.name && other.law == law; });
+        auto it = std::find_if(loads.begin(), loads.end(),
+                               [&](const model::LoadTerm& other) { return other.name == load.name && other.law == law; });
         if (it == loads.end()) it = loads.insert(it, {load.name, Vector::Zero(size()), law});
         for (int i = 0; i < part(p).size(); ++i) it->vector[out_.positions[at(p)][at(i)]] += load.vector[i];
       }
@@ -259,8 +263,9 @@ class Assembly {
           first = p;
           all[dof] = value;
         } else if (std::abs(all[dof] - value) > agreement * largest) {
-          throw ModelError("The " + what + " of " + describe(out_.model.dofs[at(dof)]) + " is " + formatNumber(all[dof]) + " in part \"" +
-                           name(first) + "\" and " + formatNumber(value) + " in part \"" + name(p) + "\". " + advice);
+          throw ModelError("The " + what + " of " + describe(out_.model.dofs[at(dof)]) + " is " + formatNumber(all[dof]) +
+                           " in part \"" + name(first) + "\" and " + formatNumber(value) + " in part \"" + name(p) + "\". " +
+                           advice);
         }
       }
     return all;
@@ -301,8 +306,9 @@ class Assembly {
       const SecondOrderModel& m = part(p);
       const auto expected = static_cast<Eigen::Index>(m.recoveryNodes.size()) * components;
       if (expected > 0 && (m.recovery.rows() != expected || m.recovery.cols() != m.size() || m.recoveryOffset.size() != expected))
-        throw ModelError("Part \"" + name(p) + "\": its recovery rows do not match its " + std::to_string(m.recoveryNodes.size()) +
-                         " output nodes with " + std::to_string(components) + " components each.");
+        throw ModelError("Part \"" + name(p) + "\": its recovery rows do not match its " +
+                         std::to_string(m.recoveryNodes.size()) + " output nodes with " + std::to_string(components) +
+                         " components each.");
       rows.push_back(expected > 0 ? moveColumns(p, m.recovery) : Sparse(0, size()));
       for (std::size_t n = 0; n < m.recoveryNodes.size(); ++n) {
         const NodeRows here{p, static_cast<int>(n) * components};
@@ -325,18 +331,21 @@ class Assembly {
     out_.model.recovery.setFromTriplets(entries.begin(), entries.end());
   }
 
-  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b, std::int64_t node, int components) const {
+  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b, std::int64_t node,
+                   int components) const {
     for (int c = 0; c < components; ++c) {
       const Eigen::SparseVector<double> left = rows[at(a.part)].row(a.firstRow + c);
       const Eigen::SparseVector<double> right = rows[at(b.part)].row(b.firstRow + c);
       const double leftOffset = part(a.part).recoveryOffset[a.firstRow + c];
       const double rightOffset = part(b.part).recoveryOffset[b.firstRow + c];
       const double scale = std::max({1.0, left.norm(), right.norm()});
-      const double offsetScale = std::max({std::abs(leftOffset), std::abs(rightOffset), part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
+      const double offsetScale =
+          std::max({std::abs(leftOffset), std::abs(rightOffset), part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
       const Eigen::SparseVector<double> difference = left - right;
       if (difference.norm() > agreement * scale || std::abs(leftOffset - rightOffset) > agreement * offsetScale)
-        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) + " is recovered differently by part \"" + name(a.part) +
-                         "\" and part \"" + name(b.part) + "\". A node that two parts share must be joined in every dof, or recovered by one of them only.");
+        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) + " is recovered differently by part \"" +
+                         name(a.part) + "\" and part \"" + name(b.part) +
+                         "\". A node that two parts share must be joined in every dof, or recovered by one of them only.");
     }
   }
 

@@ -17,10 +17,10 @@ struct Coupling {
   std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is dof i of part p
 };
 
-/// Primal assembly: A' = sum_p L_p' A_p L_p, L_p the Boolean map of part p, for mass, damping, stiffness and loads. Terms of one name
-/// and one law become one term, laws are merged by name, every part keeps its own point sets, recovery rows of a node that several
-/// parts have are taken from the first. Dofs are numbered by a Cuthill-McKee walk over nodes and modes, so a chain is narrow.
-/// Throws ModelError: labels that join nothing, stand twice in a part or mean an inner dof of another part, different
+/// Primal assembly: A' = sum_p L_p' A_p L_p, L_p the Boolean map of part p, for mass, damping, stiffness and loads. Terms of one
+/// name and one law become one term, laws are merged by name, every part keeps its own point sets, recovery rows of a node that
+/// several parts have are taken from the first. Dofs are numbered by a Cuthill-McKee walk over nodes and modes, so a chain is
+/// narrow. Throws ModelError: labels that join nothing, stand twice in a part or mean an inner dof of another part, different
 /// component names, reference or initial states that differ at a shared dof by more than 1e-9 of the largest, recovery rows
 /// of a node that disagree.
 Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts);

@@ -72,7 +72,8 @@ std::vector<int> cuthillMcKee(int size, const std::vector<std::pair<int, int>>& 
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
   }
   for (auto& neighbours : graph)
-    std::stable_sort(neighbours.begin(), neighbours.end(), [&](int a, int b) { return graph[at(a)].size() < graph[at(b)].size(); });
+    std::stable_sort(neighbours.begin(), neighbours.end(),
+                     [&](int a, int b) { return graph[at(a)].size() < graph[at(b)].size(); });
 
   std::vector<int> order;
   std::vector<char> done(at(size), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The interface of a reduction basis. A variant is one file that adds itself to deck::Registry<Basis, const Teuchos::ParameterList&>.
+/// The interface of a reduction basis. A variant is one file that adds itself to deck::Registry<Basis, const
+/// Teuchos::ParameterList&>.
 #pragma once
 
 #include <string>

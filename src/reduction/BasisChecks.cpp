@@ -20,12 +20,13 @@ constexpr double zeroEnergy = 1e-12;
 /// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and two more.
 constexpr int zeroEnergyCandidates = 8;
 
-int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues, const Vector& modalMass) {
+/// Mass-normalised shapes phi with omega^2 = phi' K phi.
+int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues) {
   const Sparse absolute = K.cwiseAbs();
   int found = 0;
   for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
     const Vector shape = shapes.col(k).cwiseAbs();
-    if (std::abs(eigenvalues[k]) * modalMass[k] <= zeroEnergy * shape.dot(absolute * shape)) ++found;
+    if (std::abs(eigenvalues[k]) <= zeroEnergy * shape.dot(absolute * shape)) ++found;
   }
   return found;
 }
@@ -50,7 +51,8 @@ void checkRank(const BasisResult& basis, BasisReport& report) {
 
 /// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all kept dofs (they change no
 /// constraint mode, and let a free part stand). Links that touch no kept dof do not move and are left out.
-void checkStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+void checkStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
+                  BasisReport& report) {
   const Partition& p = basis.partition;
   const int kept = static_cast<int>(p.kept.size());
   if (kept == 0) return;
@@ -84,7 +86,8 @@ void checkStatics(const model::Substructure& part, const BasisResult& basis, con
   for (Eigen::Index i = kept; i < k.rows(); ++i)
     if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
   const linalg::DirectSolver solver(K, [&](int i) {
-    return model::describe(part.model.dofs[static_cast<std::size_t>(positions[static_cast<std::size_t>(i)])], part.model.componentNames);
+    return model::describe(part.model.dofs[static_cast<std::size_t>(positions[static_cast<std::size_t>(i)])],
+                           part.model.componentNames);
   });
   const Matrix exact = solver.solve(full);
   const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
@@ -97,7 +100,8 @@ void checkStatics(const model::Substructure& part, const BasisResult& basis, con
   }
 }
 
-void checkFrequencies(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+void checkFrequencies(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
+                      BasisReport& report) {
   const Matrix m = reduced.mass;
   const Sparse K = symmetricPart(constantStiffness(part.model));
   const Matrix k = symmetricPart(reduced.constantStiffness);
@@ -108,28 +112,35 @@ void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
   } else {
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
-      throw ModelError("Part \"" + part.name + "\": its reduced mass matrix is not positive definite. Give every dof of the part mass, or retain fewer massless dofs.");
-    const linalg::EigenPairs pairs = linalg::symmetricModes(k, m);
-    report.largestOmega = std::sqrt(std::max(0.0, pairs.values.maxCoeff()));
+      throw ModelError("Part \"" + part.name +
+                       "\": its reduced mass matrix is not positive definite. Give every dof of the part mass, or retain fewer "
+                       "massless dofs.");
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
+    if (pairs.info() != Eigen::Success)
+      throw ConvergenceError("Part \"" + part.name + "\": the eigenvalues of the reduced part were not found (QR iteration).");
+    const Matrix& shapes = pairs.eigenvectors();
+    report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    Vector modalMass(pairs.values.size());
-    for (Eigen::Index i = 0; i < modalMass.size(); ++i) modalMass[i] = pairs.vectors.col(i).dot(m * pairs.vectors.col(i));
-    report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors * pairs.vectors, pairs.values, modalMass);
+    report.zeroEnergyReduced = countZeroEnergy(K, basis.vectors * shapes, pairs.eigenvalues());
   }
   const int size = part.model.size();
-  const linalg::EigenPairs lowest = linalg::lowestModes(K, part.model.mass, std::min(zeroEnergyCandidates, size), linalg::EigenOptions());
-  report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values, Vector::Ones(lowest.values.size()));
+  const linalg::EigenPairs lowest =
+      linalg::lowestModes(K, part.model.mass, std::min(zeroEnergyCandidates, size), linalg::EigenOptions());
+  report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
 }
 
 }  // namespace
 
-void checkBasis(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+void checkBasis(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
+                BasisReport& report) {
   checkRank(basis, report);
   if (report.rank < static_cast<int>(basis.vectors.cols()))
-    report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " + std::to_string(basis.vectors.cols()) + " coordinates");
+    report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " +
+                             std::to_string(basis.vectors.cols()) + " coordinates");
   checkStatics(part, basis, reduced, report);
   if (report.staticDefect > 1e-6)
-    report.remarks.push_back("static response to loads on kept dofs is not exact: largest relative difference " + formatNumber(report.staticDefect));
+    report.remarks.push_back("static response to loads on kept dofs is not exact: largest relative difference " +
+                             formatNumber(report.staticDefect));
   checkFrequencies(part, basis, reduced, report);
   if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
     report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) + " zero-energy modes, the reduced part " +

@@ -17,7 +17,7 @@ struct BasisRow {
   double eigenvalue = 0;  ///< omega^2 [rad^2/s^2] (constraint modes: Rayleigh quotient); negative for a part that is buckled
   double residual = 0;    ///< relative residual of the equation that defines the vector, recomputed
   bool kept = true;
-  std::string why;        ///< why it is kept or dropped
+  std::string why;  ///< why it is kept or dropped
 
   /// sqrt(|omega^2|) / (2 pi) [Hz]; look at the sign of `eigenvalue` before calling it a frequency.
   double frequency() const;
@@ -36,27 +36,29 @@ struct BasisReport {
   int negativeModes = 0;   ///< kept modes with omega^2 < 0
   std::vector<BasisRow> rows;
 
-  double orthogonality = 0;         ///< max |Phi_D' M Phi_D - I|
-  double massDefect = 0;            ///< max |m_DD - I| as projected
-  double stiffnessDefect = 0;       ///< largest off-diagonal of sym(k_DD), relative to sqrt(k_ii k_jj), as projected
-  bool structureEnforced = false;   ///< the two defects were below 1e-10 and rounding was removed
-  bool checked = false;             ///< the checks below were made
-  int rank = -1;                    ///< numerical rank of the basis
-  double conditioning = -1;         ///< condition number of the column-scaled basis
-  double staticDefect = -1;         ///< largest relative difference reduced - full for unit loads on kept dofs
-  int zeroEnergyFull = -1;          ///< zero-energy modes of the part
-  int zeroEnergyReduced = -1;       ///< zero-energy modes of the reduced part
-  double largestOmega = -1;         ///< largest eigenfrequency of the reduced part alone [rad/s]; 0 for no dofs
-  double explicitStep = -1;         ///< 2.78 / largestOmega [s]: what RK4 allows; an upper model of parts is never stricter
-  double initialStateDefect = 0;    ///< |D(0) - (offset + Phi q(0))| / |D(0)|, 0 when D(0) = 0
-  std::vector<std::string> remarks; ///< sentences a user should read
+  double orthogonality = 0;        ///< max |Phi_D' M Phi_D - I|
+  double massDefect = 0;           ///< max |m_DD - I| as projected
+  double stiffnessDefect = 0;      ///< largest off-diagonal of sym(k_DD), relative to sqrt(k_ii k_jj), as projected
+  bool structureEnforced = false;  ///< the two defects were below 1e-10 and rounding was removed
+  bool checked = false;            ///< the checks below were made
+  int rank = -1;                   ///< numerical rank of the basis
+  double conditioning = -1;        ///< condition number of the column-scaled basis
+  double staticDefect = -1;        ///< largest relative difference reduced - full for unit loads on kept dofs
+  int zeroEnergyFull = -1;         ///< zero-energy modes of the part
+  int zeroEnergyReduced = -1;      ///< zero-energy modes of the reduced part
+  double largestOmega = -1;        ///< largest eigenfrequency of the reduced part alone [rad/s]; 0 for no dofs
+  double explicitStep =
+      -1;  ///< 2.78 / largestOmega [s]: what RK4 allows; a model coupled of parts allows at least the least of theirs
+  double initialStateDefect = 0;     ///< |D(0) - (offset + Phi q(0))| / |D(0)|, 0 when D(0) = 0
+  std::vector<std::string> remarks;  ///< sentences a user should read
 
   /// Frequency of the highest kept mode [Hz], 0 without modes.
   double cutOffHz() const;
   /// Frequency of the lowest mode that was computed and dropped [Hz], 0 when none was.
   double firstDroppedHz() const;
   int reducedSize() const { return interface + retained + modes; }
-  /// Every row: kind, name, frequency, residual, kept or dropped and why. Constraint modes are one line unless `all`.
+  /// Every row: kind, name, frequency, residual, kept or dropped and why. Unless `all`, constraint modes
+  /// are one line and only the first two dropped modes are listed.
   std::string table(bool all = false) const;
 };
 

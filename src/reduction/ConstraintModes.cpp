@@ -43,7 +43,8 @@ ConstraintModes constraintModes(const model::Substructure& part, const Partition
       phi = solver.solve(-KIC);  // K_II phi_C = -K_IC
     } catch (const ModelError& error) {
       throw ModelError("Part \"" + part.name + "\": its interior is a mechanism while its " + std::to_string(p.kept.size()) +
-                       " interface and retained dofs are held, so it has no constraint modes. Retain more dofs there, or cut the part elsewhere. " +
+                       " interface and retained dofs are held, so it has no constraint modes. Retain more dofs there, or cut the "
+                       "part elsewhere. " +
                        error.what());
     }
     const Matrix defect = KII * phi + KIC;

@@ -55,7 +55,8 @@ class CraigBampton : public Basis {
       row.eigenvalue = mode.eigenvalue;
       row.residual = mode.residual;
       row.kept = k < normal.kept;
-      row.why = row.kept ? (mode.eigenvalue < 0.0 ? "asked for; the part is buckled between its kept dofs" : "asked for") : "above the cut";
+      row.why = row.kept ? (mode.eigenvalue < 0.0 ? "asked for; the part is buckled between its kept dofs" : "asked for")
+                         : "above the cut";
       basis.rows.push_back(row);
       basis.candidates[k] = mode.eigenvalue;
       if (!row.kept) continue;

@@ -146,8 +146,8 @@ void travel(Archive& archive, BasisReport& report) {
   for (auto* number : {&report.interface, &report.retained, &report.interior, &report.modes, &report.negativeModes, &report.rank,
                        &report.zeroEnergyFull, &report.zeroEnergyReduced})
     travel(archive, *number);
-  for (auto* number : {&report.orthogonality, &report.massDefect, &report.stiffnessDefect, &report.conditioning, &report.staticDefect,
-                       &report.largestOmega, &report.explicitStep, &report.initialStateDefect})
+  for (auto* number : {&report.orthogonality, &report.massDefect, &report.stiffnessDefect, &report.conditioning,
+                       &report.staticDefect, &report.largestOmega, &report.explicitStep, &report.initialStateDefect})
     travel(archive, *number);
   travel(archive, report.structureEnforced);
   travel(archive, report.checked);
@@ -179,8 +179,9 @@ bool equal(const model::SecondOrderModel& a, const std::vector<model::MatrixTerm
 }
 
 bool identical(const model::Substructure& a, const model::Substructure& b) {
-  return a.model.size() == b.model.size() && a.interface == b.interface && a.retained == b.retained && equal(a.model.mass, b.model.mass) &&
-         equal(a.model, a.model.stiffness, b.model, b.model.stiffness) && equal(a.model, a.model.damping, b.model, b.model.damping);
+  return a.model.size() == b.model.size() && a.interface == b.interface && a.retained == b.retained &&
+         equal(a.model.mass, b.model.mass) && equal(a.model, a.model.stiffness, b.model, b.model.stiffness) &&
+         equal(a.model, a.model.damping, b.model, b.model.damping);
 }
 
 }  // namespace

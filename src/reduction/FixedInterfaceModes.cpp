@@ -35,7 +35,8 @@ void append(FixedInterfaceModes& result, Link& link, int index, const linalg::Ei
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
     result.modes.push_back({pairs.values[k], index, pairs.vectors.col(k), pairs.residuals[k]});
   result.orthogonality = std::max(result.orthogonality, pairs.orthogonality);
-  const std::string method = pairs.method.substr(0, pairs.method.find(','));  // without shift and block sizes
+  std::string method = pairs.method.substr(0, pairs.method.find_first_of(",("));  // without shift and block sizes
+  while (!method.empty() && method.back() == ' ') method.pop_back();
   if (result.method.find(method) == std::string::npos) result.method += (result.method.empty() ? "" : ", ") + method;
   count("modes computed", static_cast<long>(pairs.values.size()));
 }
@@ -59,7 +60,8 @@ int decide(const FixedInterfaceModes& result, const ModeRequest& request) {
 void remark(FixedInterfaceModes& result, const ModeRequest& request, int interior) {
   if (request.kind != ModeRequest::Kind::Count) return;
   if (request.count > interior)
-    result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, kept all " + std::to_string(interior) + " there are");
+    result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, kept all " + std::to_string(interior) +
+                             " there are");
   else if (result.kept > request.count)
     result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, kept " + std::to_string(result.kept) +
                              " so as not to cut a close pair");
@@ -75,7 +77,8 @@ FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const P
   for (const auto& members : p.links) {
     std::vector<int> inner;
     for (int i : members) inner.push_back(p.interior[static_cast<std::size_t>(i)]);
-    links.push_back({block(symmetricK, inner, inner), block(part.model.mass, inner, inner), static_cast<int>(inner.size()), [&part, inner](int i) {
+    links.push_back({block(symmetricK, inner, inner), block(part.model.mass, inner, inner), static_cast<int>(inner.size()),
+                     [&part, inner](int i) {
                        const auto position = static_cast<std::size_t>(inner[static_cast<std::size_t>(i)]);
                        return model::describe(part.model.dofs[position], part.model.componentNames);
                      },

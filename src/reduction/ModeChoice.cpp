@@ -38,7 +38,8 @@ int roundUp(const Vector& eigenvalues, int count, double pairTolerance) {
   return count;
 }
 
-std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total, double pairTolerance) {
+std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total,
+                            double pairTolerance) {
   std::vector<std::tuple<double, std::size_t, Eigen::Index>> all;
   for (std::size_t p = 0; p < spectra.size(); ++p)
     for (Eigen::Index k = 0; k < spectra[p].size(); ++k) all.emplace_back(spectra[p][k], p, k);

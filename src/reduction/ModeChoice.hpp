@@ -51,9 +51,10 @@ double signedOmega(double eigenvalue);
 /// nearer to each other than to their other neighbours). At most eigenvalues.size().
 int roundUp(const Vector& eigenvalues, int count, double pairTolerance);
 
-/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest eigenvalues of part p in increasing
-/// order, complete[p] says that these are all. Equal ones go to the first part. Rounds up within each part.
-/// An entry is -1 where spectra[p] is too short to decide.
-std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total, double pairTolerance);
+/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest eigenvalues of part p in
+/// increasing order, complete[p] says that these are all. Equal ones go to the first part. Rounds up within each part. An entry
+/// is -1 where spectra[p] is too short to decide.
+std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total,
+                            double pairTolerance);
 
 }  // namespace tooljoint::reduction

@@ -33,7 +33,8 @@ class Sets {
   std::vector<int> parent_;
 };
 
-void checkPositions(const model::Substructure& part, const std::vector<int>& positions, const char* kind, std::vector<char>& seen) {
+void checkPositions(const model::Substructure& part, const std::vector<int>& positions, const char* kind,
+                    std::vector<char>& seen) {
   const int n = part.model.size();
   int last = -1;
   for (int i : positions) {
@@ -111,8 +112,7 @@ void checkPart(const model::Substructure& part) {
     throw ModelError("Part \"" + part.name + "\": its reference state has " + std::to_string(part.reference.size()) +
                      " entries for " + std::to_string(size) + " dofs.");
   if (!part.reference.allFinite()) throw ModelError("Part \"" + part.name + "\": its reference state is not finite.");
-  if (!nearlySymmetric(part.model.mass, 1e-10))
-    throw ModelError("Part \"" + part.name + "\": its mass matrix is not symmetric.");
+  if (!nearlySymmetric(part.model.mass, 1e-10)) throw ModelError("Part \"" + part.name + "\": its mass matrix is not symmetric.");
 }
 
 Partition partition(const model::Substructure& part) {

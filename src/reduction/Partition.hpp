@@ -22,8 +22,8 @@ struct Partition {
   std::vector<std::vector<int>> ends;   ///< per link: indices into `kept` of the dofs it touches, increasing
 };
 
-/// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not symmetric, or interface and retained
-/// positions are out of range, not increasing or named twice.
+/// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not symmetric, or interface and
+/// retained positions are out of range, not increasing or named twice.
 void checkPart(const model::Substructure& part);
 
 /// Sorts the dofs of `part`. Errors of checkPart.

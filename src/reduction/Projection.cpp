@@ -136,7 +136,8 @@ void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& 
   if (!symmetric)
     for (int i = static_cast<int>(kept); i < tidy.rows(); ++i)
       for (Sparse::InnerIterator it(tidy, i); it; ++it)
-        if (it.col() >= kept && it.col() != i && it.value() != 0.0) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+        if (it.col() >= kept && it.col() != i && it.value() != 0.0)
+          entries.emplace_back(i, static_cast<int>(it.col()), it.value());
   k = Sparse(k.rows(), k.cols());
   k.setFromTriplets(entries.begin(), entries.end());
   out.structureEnforced = true;
@@ -162,7 +163,8 @@ std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& mod
 }
 
 Sparse project(const Sparse& A, const Sparse& Phi) {
-  const double filling = static_cast<double>(Phi.nonZeros()) / std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
+  const double filling =
+      static_cast<double>(Phi.nonZeros()) / std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
   if (filling < 0.1) {
     const Sparse transposed = Phi.transpose();
     const Sparse right = A * Phi;
@@ -200,7 +202,8 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
   }
   for (const auto& term : part.model.damping) {
     const auto rayleigh = rayleighCoefficients(term.matrix, part.model.mass, K);
-    Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass + rayleigh->second * out.constantStiffness) : project(term.matrix, Phi);
+    Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass + rayleigh->second * out.constantStiffness)
+                              : project(term.matrix, Phi);
     out.damping.push_back({term.name, reduced, term.law});
   }
   return out;

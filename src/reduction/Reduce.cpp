@@ -107,7 +107,8 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   for (std::size_t j = 0; j < p.kept.size() && j < out.report.rows.size(); ++j)
     if (out.report.rows[j].kind == "constraint") out.report.rows[j].name = model::describe(m.dofs[j], m.componentNames);
   const double size = part.model.initialDisplacement.norm();
-  if (size > 0) out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
+  if (size > 0)
+    out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
   m.validate();
   return out;
 }
@@ -149,7 +150,12 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
 class Team {
  public:
   Team(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options)
-      : parts_(parts), basis_(basis), options_(options), requests_(initialRequests(parts, options)), bases_(parts.size()), cores_(parts.size()) {
+      : parts_(parts),
+        basis_(basis),
+        options_(options),
+        requests_(initialRequests(parts, options)),
+        bases_(parts.size()),
+        cores_(parts.size()) {
     twin_ = findTwins(parts_, requests_);
     std::vector<int> weights;
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -161,16 +167,14 @@ class Team {
       if (first(p)) owner_[p] = owners[next++];
     const int idle = parallel::size() - static_cast<int>(weights.size());
     if (idle > 0)
-      log::warn("There are " + std::to_string(weights.size()) + " different substructures for " + std::to_string(parallel::size()) + " ranks: " +
-                std::to_string(idle) + " of them will be idle during reduction.");
+      log::warn("There are " + std::to_string(weights.size()) + " different substructures for " +
+                std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) + " of them will be idle during reduction.");
   }
 
   std::vector<ReducedSubstructure> run() {
     build(std::vector<char>(parts_.size(), 1));
     if (options_.modes.kind == ModeRule::Kind::Total) shareTotalModes();
-    parallel::agree([&] {
-      forOwned([&](std::size_t p) { cores_[p] = makeCore(parts_[p], bases_[p], options_); });
-    });
+    parallel::agree([&] { forOwned([&](std::size_t p) { cores_[p] = makeCore(parts_[p], bases_[p], options_); }); });
     exchange();
     std::vector<ReducedSubstructure> reduced(parts_.size());
     parallel::agree([&] {
@@ -261,11 +265,13 @@ class Team {
 
 }  // namespace
 
-ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index) {
+ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options,
+                           int index) {
   return finish(part, makeCore(part, basis, options), options, index);
 }
 
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options) {
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
+                                           const ReductionOptions& options) {
   for (const auto& part : parts) checkPart(part);
   return Team(parts, basis, options).run();
 }

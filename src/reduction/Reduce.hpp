@@ -32,16 +32,17 @@ struct ReductionOptions {
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
 };
 
-/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number of
-/// entries of "Modes by Substructure" is not `parts`. The options refer to the list (its sublist "Anasazi"), which must outlive them.
+/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number
+/// of entries of "Modes by Substructure" is not `parts`. The options refer to the list (its sublist "Anasazi"), which must
+/// outlive them.
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.
 std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::ParameterList& reduction);
 
-/// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices are projected full, unsymmetric
-/// parts included (Nguyen et al. 2020, (43)); stiffness terms that are constant in time become one term, every other one stays a
-/// term with its own law. `index` numbers the part in the labels of its modes.
+/// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices are projected full,
+/// unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that are constant in time become one term, every other
+/// one stays a term with its own law. `index` numbers the part in the labels of its modes.
 ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index);
 
 /// Reduces all parts. Every rank passes the same parts and gets the same result; each part is reduced by one rank and sent to the
@@ -51,7 +52,8 @@ std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure
                                            const ReductionOptions& options);
 
 /// The same from a deck list.
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction);
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Teuchos::ParameterList& reduction);
 
 /// summaryTable of the reports.
 std::string summaryTable(const std::vector<ReducedSubstructure>& parts);

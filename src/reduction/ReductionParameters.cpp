@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/Text.hpp"
+#include "deck/Variants.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 
@@ -20,26 +21,29 @@ const std::vector<std::string> modeCounts{"Modes", "Modes by Substructure", "Tot
 
 deck::ListSpec parameters() {
   using deck::Range;
-  deck::ListSpec list("Reduction",
-                      "Component mode synthesis of the substructures; without this list the full model runs. Exactly one of \"Modes\", \"Modes by "
-                      "Substructure\", \"Total Modes\", \"Cut-off Frequency\" and \"All Modes\" must be given; none of them cuts a close pair of "
-                      "modes: the number is rounded up.");
-  list.choice("Basis", std::string("Craig-Bampton"), BasisRegistry::instance().names(),
-              "Family of the reduction basis; its own parameters stand in a sublist of that name.");
+  deck::ListSpec list(
+      "Reduction",
+      "Component mode synthesis of the substructures; without this list the full model runs. Exactly one of \"Modes\", \"Modes "
+      "by "
+      "Substructure\", \"Total Modes\", \"Cut-off Frequency\" and \"All Modes\" must be given; none of them cuts a close pair of "
+      "modes: the number is rounded up.");
+  deck::declareVariants<Basis, const Teuchos::ParameterList&>(list, "Basis", std::string("Craig-Bampton"),
+                                                              "Family of the reduction basis.");
   list.integer("Modes", deck::Optional{}, Range::atLeast(0), "Number of modes of every substructure; 0 is static condensation.");
-  list.integerArray("Modes by Substructure", deck::Optional{}, Range::atLeast(0), "Number of modes of each substructure, in their order.");
+  list.integerArray("Modes by Substructure", deck::Optional{}, Range::atLeast(0),
+                    "Number of modes of each substructure, in their order.");
   list.integer("Total Modes", deck::Optional{}, Range::atLeast(0), "The lowest so many modes over all substructures together.");
-  list.real("Cut-off Frequency", "Hz", deck::Optional{}, Range::nonNegative(), "All modes of each substructure at or below this frequency.");
+  list.real("Cut-off Frequency", "Hz", deck::Optional{}, Range::nonNegative(),
+            "All modes of each substructure at or below this frequency.");
   list.boolean("All Modes", false, "Every mode of every substructure: the reduced model is the full one in other coordinates.");
   list.real("Pair Tolerance", "", defaultPairTolerance, Range::between(0.0, 0.2),
-            "Relative difference in frequency up to which two neighbouring modes count as a pair that is never cut; 0 keeps only equal frequencies together.");
+            "Relative difference in frequency up to which two neighbouring modes count as a pair that is never cut; 0 keeps only "
+            "equal frequencies together.");
   list.choice("Initial State", std::string("Keep static"), {"Keep static", "Least squares"},
               "\"Keep static\" reduces about the static state, which is then exact; \"Least squares\" projects it on the basis "
               "(Nguyen et al. 2020, (42)).");
   list.boolean("Basis Checks", true, "Check rank, static exactness, zero-energy modes and the largest frequency of every basis.");
   list.passThrough("Anasazi", "Parameters of the Anasazi eigensolver, handed on as they are.");
-  for (const auto& [name, entry] : BasisRegistry::instance().entries())
-    if (!entry.parameters.parameters().empty() || !entry.parameters.lists().empty()) list.list(entry.parameters);
   return list;
 }
 
@@ -48,13 +52,16 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   for (const auto& name : modeCounts)
     if (list.isParameter(name) && (name != "All Modes" || list.get<bool>(name))) given.push_back(name);
   if (given.empty())
-    throw DeckError("The list \"Reduction\" does not say how many modes to keep: give exactly one of " + quotedList(modeCounts) + ".");
+    throw DeckError("The list \"Reduction\" does not say how many modes to keep: give exactly one of " + quotedList(modeCounts) +
+                    ".");
   if (given.size() > 1)
-    throw DeckError("The list \"Reduction\" gives " + quotedList(given) + " together: they are different answers to how many modes to keep. Give exactly one.");
+    throw DeckError("The list \"Reduction\" gives " + quotedList(given) +
+                    " together: they are different answers to how many modes to keep. Give exactly one.");
 
   ReductionOptions options;
   options.basis = list.get<std::string>("Basis");
-  options.initialState = list.get<std::string>("Initial State") == "Keep static" ? InitialState::KeepStatic : InitialState::LeastSquares;
+  options.initialState =
+      list.get<std::string>("Initial State") == "Keep static" ? InitialState::KeepStatic : InitialState::LeastSquares;
   options.checks = list.get<bool>("Basis Checks");
   options.modes.pairTolerance = list.get<double>("Pair Tolerance");
   const std::string& choice = given.front();
@@ -65,7 +72,8 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
     options.modes.kind = ModeRule::Kind::PerPart;
     options.modes.counts = list.get<Teuchos::Array<int>>(choice).toVector();
     if (static_cast<int>(options.modes.counts.size()) != parts)
-      throw DeckError("\"Modes by Substructure\" has " + std::to_string(options.modes.counts.size()) + " entries for " + std::to_string(parts) +
+      throw DeckError("\"Modes by Substructure\" has " + std::to_string(options.modes.counts.size()) + " entries for " +
+                      std::to_string(parts) +
                       " substructures; give one number for each, or \"Modes\" for the same number everywhere.");
   } else if (choice == "Total Modes") {
     options.modes.kind = ModeRule::Kind::Total;
@@ -87,7 +95,8 @@ std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::Paramet
   return BasisRegistry::instance().make(name, reduction.isSublist(name) ? reduction.sublist(name) : none);
 }
 
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction) {
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Teuchos::ParameterList& reduction) {
   const ReductionOptions options = readOptions(reduction, static_cast<int>(parts.size()));
   return reduceAll(parts, *makeBasis(options.basis, reduction), options);
 }

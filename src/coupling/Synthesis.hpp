@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Component mode synthesis in one call: reduce, couple, and let the basis improve itself with the coupled model.
+#pragma once
+
+#include <vector>
+
+#include "coupling/Assembler.hpp"
+#include "reduction/Reduce.hpp"
+
+namespace tooljoint::coupling {
+
+/// Reduced parts and the model they make.
+struct Synthesis {
+  std::vector<reduction::ReducedSubstructure> parts;
+  Coupling coupled;
+};
+
+/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else ConvergenceError).
+/// Collective.
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                     const reduction::ReductionOptions& options);
+
+/// The same from the deck list "Reduction".
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction);
+
+}  // namespace tooljoint::coupling

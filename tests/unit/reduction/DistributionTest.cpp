@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Owners, twins, and the journey of a reduced part as bytes.
+#include "reduction/Distribution.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+#include <gtest/gtest.h>
+
+#include "common/Census.hpp"
+#include "common/Error.hpp"
+#include "reduction/Reduce.hpp"
+#include "tests/support/SampleParts.hpp"
+
+namespace {
+
+using namespace tooljoint;
+using namespace tooljoint::reduction;
+
+ReductionOptions perPart(int count) {
+  ReductionOptions options;
+  options.modes.kind = ModeRule::Kind::PerPart;
+  options.modes.counts = {count};
+  return options;
+}
+
+std::unique_ptr<Basis> craigBampton() { return makeBasis("Craig-Bampton", Teuchos::ParameterList()); }
+
+std::vector<model::Substructure> pipes(int count) {
+  std::vector<model::Substructure> parts;
+  for (int p = 0; p < count; ++p) {
+    parts.push_back(samples::bar("pipe " + std::to_string(p + 1), 1 + 8 * p, 8, 3.0, 2.0));
+    std::vector<int> ends;
+    if (p > 0) ends.push_back(1 + 8 * p);
+    if (p + 1 < count) ends.push_back(9 + 8 * p);
+    samples::classify(parts.back(), ends);
+  }
+  return parts;
+}
+
+TEST(AssignOwners, BalancesHeaviestFirst) {
+  EXPECT_EQ(assignOwners({5, 1, 9, 4}, 1), (std::vector<int>{0, 0, 0, 0}));
+  EXPECT_EQ(assignOwners({5, 1, 9, 4}, 2), (std::vector<int>{1, 0, 0, 1}));
+  EXPECT_EQ(assignOwners({7, 7}, 4), (std::vector<int>{0, 1}));
+  EXPECT_TRUE(assignOwners({}, 3).empty());
+}
+
+TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
+  auto parts = pipes(5);
+  parts[2].model.loads.push_back({"weight", Vector::Ones(9), 0});
+  std::vector<ModeRequest> requests(5);
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4})) << "the ends have another interface";
+  requests[3].kind = ModeRequest::Kind::Count;
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another number of modes";
+  requests[3] = requests[1];
+  parts[3].model.stiffness[0].matrix.coeffRef(4, 4) *= 1 + 1e-12;
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another stiffness";
+}
+
+TEST(FindTwins, IdenticalPartsAreReducedOnce) {
+  auto parts = pipes(6);
+  parts[3].model.loads.push_back({"weight", Vector::Ones(9), 0});
+  resetCensus();
+  const auto twins = reduceAll(parts, *craigBampton(), perPart(3));
+  EXPECT_EQ(counted("parts reduced"), 3);
+  EXPECT_EQ(twins[3].report.sharedWith, "pipe 2");
+  EXPECT_EQ(twins[3].report.rows[0].name, "u of node 25");
+  EXPECT_EQ(twins[3].model.loads.size(), 1u);
+  EXPECT_EQ(twins[2].model.loads.size(), 0u);
+  for (std::size_t p = 0; p < parts.size(); ++p) {  // the same as each by itself
+    ModeRequest request;
+    request.kind = ModeRequest::Kind::Count;
+    request.count = 3;
+    const auto alone = reduce(parts[p], craigBampton()->build(parts[p], request), perPart(3), static_cast<int>(p));
+    EXPECT_EQ((Matrix(alone.model.mass) - Matrix(twins[p].model.mass)).norm(), 0.0);
+    EXPECT_TRUE(alone.model.dofs == twins[p].model.dofs);
+    EXPECT_EQ((alone.model.loadAt(0) - twins[p].model.loadAt(0)).norm(), 0.0);
+  }
+}
+
+TEST(Pack, BringsBackEverything) {
+  const auto part = samples::loopFrame(6, true, true)[2];
+  ModeRequest request;
+  request.kind = ModeRequest::Kind::Count;
+  request.count = 4;
+  ReducedCore core;
+  core.basis = craigBampton()->build(part, request);
+  core.matrices = projectMatrices(part, core.basis);
+  const auto reduced = reduce(part, core.basis, perPart(4), 0);
+  core.report = reduced.report;
+  const ReducedCore copy = unpack(pack(core));
+  EXPECT_EQ((Matrix(copy.basis.vectors) - Matrix(core.basis.vectors)).norm(), 0.0);
+  EXPECT_EQ(copy.basis.partition.links, core.basis.partition.links);
+  EXPECT_EQ(copy.basis.partition.kept, core.basis.partition.kept);
+  EXPECT_EQ(copy.basis.modeKind, core.basis.modeKind);
+  EXPECT_EQ(copy.basis.candidates, core.basis.candidates);
+  ASSERT_EQ(copy.matrices.damping.size(), core.matrices.damping.size());
+  for (std::size_t i = 0; i < copy.matrices.damping.size(); ++i) {
+    EXPECT_EQ(copy.matrices.damping[i].name, core.matrices.damping[i].name);
+    EXPECT_EQ(copy.matrices.damping[i].law, core.matrices.damping[i].law);
+    EXPECT_EQ((Matrix(copy.matrices.damping[i].matrix) - Matrix(core.matrices.damping[i].matrix)).norm(), 0.0);
+  }
+  EXPECT_EQ(copy.report.table(true), core.report.table(true));
+  EXPECT_EQ(copy.report.cutOffHz(), core.report.cutOffHz());
+  EXPECT_EQ(pack(copy), pack(core));
+  std::string torn = pack(core);
+  torn.resize(torn.size() / 2);
+  EXPECT_THROW(unpack(torn), Error);
+  EXPECT_THROW(unpack(pack(core) + "x"), Error);
+}
+
+TEST(TotalModes, AreTheLowestOfAllParts) {
+  // Bars of different stiffness: the soft one gets more modes.
+  std::vector<model::Substructure> parts{samples::bar("soft", 1, 30, 1.0, 1.0), samples::bar("stiff", 31, 30, 100.0, 1.0)};
+  samples::classify(parts[0], {31});
+  samples::classify(parts[1], {31});
+  ReductionOptions all;
+  const auto whole = reduceAll(parts, *craigBampton(), all);
+  std::vector<double> spectrum;
+  for (const auto& part : whole) spectrum.insert(spectrum.end(), part.basis.eigenvalues.begin(), part.basis.eigenvalues.end());
+  std::sort(spectrum.begin(), spectrum.end());
+  for (int total : {0, 1, 7, 25, 41, 60, 99}) {
+    ReductionOptions options;
+    options.modes.kind = ModeRule::Kind::Total;
+    options.modes.total = total;
+    options.modes.pairTolerance = 0;
+    const auto reduced = reduceAll(parts, *craigBampton(), options);
+    std::vector<double> kept;
+    for (const auto& part : reduced) kept.insert(kept.end(), part.basis.eigenvalues.begin(), part.basis.eigenvalues.end());
+    std::sort(kept.begin(), kept.end());
+    ASSERT_EQ(kept.size(), std::min<std::size_t>(static_cast<std::size_t>(total), spectrum.size())) << total;
+    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_NEAR(kept[i], spectrum[i], 1e-9 * spectrum[i]);
+    if (total == 25) {
+      EXPECT_GT(reduced[0].modes, reduced[1].modes);
+      EXPECT_NE(reduced[1].report.table().find("above the lowest 25 of all parts"), std::string::npos);
+    }
+  }
+}
+
+TEST(TotalModes, TwinsGetTheSameNumber) {
+  const auto parts = pipes(5);
+  for (int total : {1, 2, 4, 9}) {
+    ReductionOptions options;
+    options.modes.kind = ModeRule::Kind::Total;
+    options.modes.total = total;
+    const auto reduced = reduceAll(parts, *craigBampton(), options);
+    EXPECT_EQ(reduced[1].modes, reduced[2].modes);
+    EXPECT_EQ(reduced[1].modes, reduced[3].modes);
+    int kept = 0;
+    for (const auto& part : reduced) kept += part.modes;
+    EXPECT_GE(kept, total);
+    EXPECT_LE(kept, total + 2);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Keep static against least squares.
+#include "reduction/InitialState.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+#include <gtest/gtest.h>
+
+#include "linalg/DirectSolver.hpp"
+#include "reduction/Reduce.hpp"
+#include "tests/support/SampleParts.hpp"
+
+namespace {
+
+using namespace tooljoint;
+using namespace tooljoint::reduction;
+
+BasisResult basisOf(const model::Substructure& part, int modes) {
+  ModeRequest request;
+  request.kind = ModeRequest::Kind::Count;
+  request.count = modes;
+  return makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(part, request);
+}
+
+ReductionOptions with(InitialState state) {
+  ReductionOptions options;
+  options.initialState = state;
+  return options;
+}
+
+/// A clamped bar under its own weight, at rest in its static state, with cubic springs (which it does not feel there) at two
+/// nodes.
+model::Substructure hangingBar() {
+  auto part = samples::bar("hanging", 0, 12, 3.0, 2.0, {0});
+  auto& m = part.model;
+  const int n = m.size();
+  m.loads.push_back({"weight", m.mass * Vector::Ones(n), 0});
+  part.reference = linalg::DirectSolver(m.stiffness[0].matrix).solve(m.loads[0].vector);
+  m.initialDisplacement = part.reference;
+  samples::classify(part, {}, {12});
+  return part;
+}
+
+TEST(FitState, ZeroStaysExactlyZero) {
+  const auto part = hangingBar();
+  EXPECT_EQ(fitState(basisOf(part, 4), Vector::Zero(12)).norm(), 0.0);
+}
+
+TEST(FitState, IsTheLeastSquaresSolution) {
+  const auto part = hangingBar();
+  const BasisResult basis = basisOf(part, 4);
+  const Vector x = Vector::LinSpaced(12, 1, 3).array().square();
+  const Vector q = fitState(basis, x);
+  EXPECT_EQ(q[0], x[11]) << "q_C = D_C";
+  const Vector rest = x - basis.vectors * q;
+  const Matrix modal = Matrix(basis.vectors).rightCols(4);
+  EXPECT_LT((modal.transpose() * rest).norm(), 1e-12) << "normal equations (39)";
+  const Vector inside = basis.vectors * q;
+  EXPECT_LT((fitState(basis, inside) - q).norm(), 1e-12) << "a state inside the basis is met exactly";
+}
+
+TEST(KeepStatic, StartsAtRestInTheStaticState) {
+  const auto part = hangingBar();
+  const auto cb = reduce(part, basisOf(part, 2), with(InitialState::KeepStatic), 0);
+  EXPECT_EQ(cb.model.initialDisplacement.norm(), 0.0);
+  EXPECT_EQ(cb.report.initialStateDefect, 0.0);
+  const Vector force = cb.model.loadAt(0) - cb.model.stiffnessAt(0) * cb.model.initialDisplacement;
+  EXPECT_LT(force.norm(), 1e-11) << "F - K D_s vanishes also in the basis";
+  ASSERT_EQ(cb.model.loads.size(), 2u);
+  EXPECT_EQ(cb.model.loads[1].name, "reference state: elastic");
+  EXPECT_LT((cb.model.recoveryOffset - part.reference).norm(), 1e-15);
+}
+
+TEST(LeastSquares, ProjectsTheStaticState) {
+  const auto part = hangingBar();
+  const auto cb = reduce(part, basisOf(part, 2), with(InitialState::LeastSquares), 0);
+  EXPECT_EQ(cb.offset.norm(), 0.0);
+  EXPECT_EQ(cb.model.loads.size(), 1u);
+  EXPECT_EQ(cb.model.initialDisplacement[0], part.reference[11]);
+  EXPECT_GT(cb.report.initialStateDefect, 1e-4);
+  const auto more = reduce(part, basisOf(part, 8), with(InitialState::LeastSquares), 0);
+  EXPECT_LT(more.report.initialStateDefect, 0.1 * cb.report.initialStateDefect);
+  const auto all = reduce(part, basisOf(part, 11), with(InitialState::LeastSquares), 0);
+  EXPECT_LT(all.report.initialStateDefect, 1e-13);
+}
+
+TEST(KeepStatic, MeasuresPointsFromTheSameOrigin) {
+  auto part = samples::loopFrame(4, true)[2];
+  samples::addCubicSprings(part, {301, 302});
+  part.reference = 1e-3 * Vector::LinSpaced(part.model.size(), -1, 2);
+  part.model.initialDisplacement = part.reference;
+  const auto basis = basisOf(part, 100);
+  for (const auto state : {InitialState::KeepStatic, InitialState::LeastSquares}) {
+    const auto cb = reduce(part, basis, with(state), 0);
+    const Vector d = cb.model.points[0].offset + cb.model.points[0].rows * cb.model.initialDisplacement;
+    const Vector expected = part.model.points[0].rows * part.reference;
+    EXPECT_LT((d - expected).norm(), 1e-13);
+  }
+}
+
+TEST(KeepStatic, StiffnessThatVariesInTimePullsTowardsZeroNotTowardsTheReference) {
+  auto part = samples::loopFrame(4, true)[2];
+  part.reference = Vector::Ones(part.model.size());
+  part.model.initialDisplacement = part.reference;
+  const auto cb = reduce(part, basisOf(part, 100), with(InitialState::KeepStatic), 0);
+  ASSERT_EQ(cb.model.loads.size(), 2u);
+  EXPECT_EQ(cb.model.loads[1].name, "reference state: gyroscopic rate");
+  EXPECT_EQ(cb.model.laws[static_cast<std::size_t>(cb.model.loads[1].law)].name, "dOmega/dt");
+}
+
+TEST(InitialVelocity, IsProjectedLikeTheDisplacement) {
+  auto part = hangingBar();
+  const BasisResult basis = basisOf(part, 3);
+  Vector q = Vector::LinSpaced(4, 1, 4);
+  part.model.initialVelocity = basis.vectors * q;
+  EXPECT_LT((reduce(part, basis, with(InitialState::KeepStatic), 0).model.initialVelocity - q).norm(), 1e-12);
+}
+
+}  // namespace

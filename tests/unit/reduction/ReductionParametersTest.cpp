@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The deck list "Reduction": every parameter changes what it says it changes.
+#include "reduction/ReductionParameters.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <gtest/gtest.h>
+
+#include "common/Error.hpp"
+#include "reduction/Reduce.hpp"
+#include "tests/support/ListDefaults.hpp"
+#include "tests/support/SampleParts.hpp"
+
+namespace {
+
+using namespace tooljoint;
+using namespace tooljoint::reduction;
+
+Teuchos::ParameterList defaults() { return test::defaultsOf(parameters()); }
+
+std::string refusal(const Teuchos::ParameterList& list, int parts) {
+  try {
+    readOptions(list, parts);
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::vector<int> modesOf(const std::vector<ReducedSubstructure>& parts) {
+  std::vector<int> modes;
+  for (const auto& part : parts) modes.push_back(part.modes);
+  return modes;
+}
+
+std::vector<int> modesFor(const std::function<void(Teuchos::ParameterList&)>& change) {
+  auto list = defaults();
+  change(list);
+  return modesOf(reduceAll(samples::loopFrame(6, false), list));
+}
+
+TEST(ReductionParameters, AreDescribed) {
+  const deck::ListSpec spec = parameters();
+  EXPECT_EQ(spec.name(), "Reduction");
+  for (const auto& parameter : spec.parameters()) EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
+  ASSERT_NE(spec.findParameter("Basis"), nullptr);
+  EXPECT_EQ(spec.findParameter("Basis")->choices, BasisRegistry::instance().names());
+  EXPECT_EQ(spec.findParameter("Cut-off Frequency")->unit, "Hz");
+  ASSERT_NE(spec.findList("Anasazi"), nullptr);
+  EXPECT_TRUE(spec.findList("Anasazi")->passesThrough());
+}
+
+TEST(ReductionParameters, EveryModeCountWorks) {
+  EXPECT_EQ(modesFor([](auto& list) { list.set("Modes", 2); }), (std::vector<int>{2, 2, 2, 2}));
+  EXPECT_EQ(modesFor([](auto& list) { list.set("Modes by Substructure", Teuchos::Array<int>(Teuchos::tuple<int>(1, 2, 3, 4))); }),
+            (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(modesFor([](auto& list) { list.set("All Modes", true); }), (std::vector<int>{15, 15, 15, 18}));
+  const auto total = modesFor([](auto& list) { list.set("Total Modes", 9); });
+  EXPECT_EQ(total[0] + total[1] + total[2] + total[3], 9);
+  const auto low = modesFor([](auto& list) { list.set("Cut-off Frequency", 100.0); });
+  const auto high = modesFor([](auto& list) { list.set("Cut-off Frequency", 1000.0); });
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_LT(low[p], high[p]);
+}
+
+TEST(ReductionParameters, ExactlyOneModeCount) {
+  auto list = defaults();
+  EXPECT_EQ(refusal(list, 4),
+            "The list \"Reduction\" does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
+            "Substructure\", \"Total Modes\", "
+            "\"Cut-off Frequency\", \"All Modes\".");
+  list.set("Modes", 3);
+  EXPECT_EQ(refusal(list, 4), "accepted");
+  list.set("Total Modes", 30);
+  EXPECT_EQ(refusal(list, 4),
+            "The list \"Reduction\" gives \"Modes\", \"Total Modes\" together: they are different answers to how many modes to "
+            "keep. Give exactly one.");
+}
+
+TEST(ReductionParameters, OneEntryForEachSubstructure) {
+  auto list = defaults();
+  list.set("Modes by Substructure", Teuchos::Array<int>(3, 5));
+  EXPECT_EQ(refusal(list, 4),
+            "\"Modes by Substructure\" has 3 entries for 4 substructures; give one number for each, or \"Modes\" for the same "
+            "number everywhere.");
+}
+
+TEST(ReductionParameters, InitialStateChecksAndPairTolerance) {
+  auto list = defaults();
+  list.set("Modes", 3);
+  EXPECT_EQ(readOptions(list, 1).initialState, InitialState::KeepStatic);
+  EXPECT_TRUE(readOptions(list, 1).checks);
+  EXPECT_EQ(readOptions(list, 1).modes.pairTolerance, 0.01);
+  list.set("Initial State", "Least squares");
+  list.set("Basis Checks", false);
+  list.set("Pair Tolerance", 0.1);
+  const auto options = readOptions(list, 1);
+  EXPECT_EQ(options.initialState, InitialState::LeastSquares);
+  EXPECT_FALSE(options.checks);
+  EXPECT_EQ(options.modes.pairTolerance, 0.1);
+  EXPECT_FALSE(reduceAll(samples::loopFrame(4, false), list)[0].report.checked);
+}
+
+TEST(ReductionParameters, AnasaziReachesTheEigensolver) {
+  auto list = defaults();
+  list.set("Modes", 4);
+  auto part = samples::bar("long", 1, 400, 1.0, 1.0);
+  samples::classify(part, {}, {1, 401});
+  list.sublist("Anasazi").set("Block Size", 2);
+  const auto reduced = reduceAll({part}, list);
+  EXPECT_NE(reduced[0].report.method.find("Anasazi"), std::string::npos) << reduced[0].report.method;
+  list.sublist("Anasazi").set("Maximum Restarts", 0).set("Num Blocks", 3);
+  EXPECT_THROW(reduceAll({part}, list), ConvergenceError);
+}
+
+TEST(ReductionParameters, UnknownBasisListsTheKnownOnes) {
+  auto list = defaults();
+  list.set("Modes", 4);
+  list.set("Basis", "Craig");
+  try {
+    reduceAll(samples::loopFrame(4, false), list);
+    FAIL();
+  } catch (const DeckError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"Craig-Bampton\""), std::string::npos);
+  }
+}
+
+}  // namespace
