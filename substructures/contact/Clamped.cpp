@@ -63,8 +63,8 @@ class ClampedKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Clamped", {"Regularised spring and damper that only push: no force without penetration, none that pulls.",
-                deck::ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<ClampedKernel>>(); }});
+    "Clamped", {"Regularised spring and damper that only push: no force without penetration, none that pulls.", deck::ListSpec(),
+                [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<ClampedKernel>>(); }});
 
 }  // namespace
 }  // namespace tooljoint::contact

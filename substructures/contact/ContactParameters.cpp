@@ -31,8 +31,7 @@ void takeValues(const Teuchos::ParameterList& list, ContactPoint& values) {
   take(friction, "Regularisation Velocity", values.regularisationVelocity);
   if (values.muDynamic > values.muStatic)
     throw DeckError(friction.name() + ": the dynamic friction coefficient " + formatNumber(values.muDynamic) +
-                    " is above the static one, " + formatNumber(values.muStatic) +
-                    "; the friction law needs Dynamic <= Static.");
+                    " is above the static one, " + formatNumber(values.muStatic) + "; the friction law needs Dynamic <= Static.");
 }
 
 std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, const ContactPoint& base) {
@@ -43,8 +42,8 @@ std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, c
     ContactInterval interval{name, sub.get<double>("From"), sub.get<double>("To"), base};
     takeValues(sub, interval.values);
     if (!(interval.to > interval.from))
-      throw DeckError(sub.name() + ": To = " + formatNumber(interval.to) + " m must be deeper than From = " +
-                      formatNumber(interval.from) + " m.");
+      throw DeckError(sub.name() + ": To = " + formatNumber(interval.to) +
+                      " m must be deeper than From = " + formatNumber(interval.from) + " m.");
     intervals.push_back(interval);
   }
   std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
@@ -56,11 +55,14 @@ std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, c
 }
 
 deck::ListSpec frictionSpec(bool base) {
-  deck::ListSpec spec("Friction", base ? "Smoothed Coulomb friction (Nguyen et al. 2020, eq. 9); without this list the wall is frictionless."
-                                       : "Friction in this stretch, where it differs; 0 and 0 make it frictionless.");
+  deck::ListSpec spec("Friction",
+                      base ? "Smoothed Coulomb friction (Nguyen et al. 2020, eq. 9); without this list the wall is frictionless."
+                           : "Friction in this stretch, where it differs; 0 and 0 make it frictionless.");
   const auto value = [base](deck::Default standard) { return base ? standard : deck::Default(Optional{}); };
-  spec.real("Static", "", value(Required{}), Range::nonNegative(), "Peak of the friction coefficient, mu_s; also that of the static state.");
-  spec.real("Dynamic", "", value(Required{}), Range::nonNegative(), "Friction coefficient of fast sliding, mu_d; at most Static.");
+  spec.real("Static", "", value(Required{}), Range::nonNegative(),
+            "Peak of the friction coefficient, mu_s; also that of the static state.");
+  spec.real("Dynamic", "", value(Required{}), Range::nonNegative(),
+            "Friction coefficient of fast sliding, mu_d; at most Static.");
   spec.real("Regularisation Velocity", "m/s", value(0.1), Range::positive(),
             "v_r: the coefficient starts with the slope 1/v_r; smaller is sharper.");
   return spec;
@@ -69,7 +71,8 @@ deck::ListSpec frictionSpec(bool base) {
 deck::ListSpec intervalSpec() {
   return deck::ListSpec("Interval", "A stretch of the hole; what it does not give is as outside it.")
       .real("From", "m", Required{}, Range::nonNegative(), "Measured depth of its upper end.")
-      .real("To", "m", Required{}, Range::positive(), "Measured depth of its lower end; a node exactly there belongs to the next stretch.")
+      .real("To", "m", Required{}, Range::positive(),
+            "Measured depth of its lower end; a node exactly there belongs to the next stretch.")
       .real("Stiffness", "N/m", Optional{}, Range::positive(), "Contact stiffness k_c here.")
       .real("Damping", "N s/m", Optional{}, Range::nonNegative(), "Contact damping c_c here.")
       .real("Stiffness Regularisation", "1/m", Optional{}, Range::positive(), "lambda_k here.")

@@ -43,7 +43,7 @@ void ContactPoints::add(const ContactPoint& p) {
 
 ContactPoint ContactPoints::at(int position) const {
   const auto i = static_cast<std::size_t>(position);
-  return {node.at(i),    clearance[i], contactRadius[i], stiffness[i], damping[i],
+  return {node.at(i), clearance[i], contactRadius[i], stiffness[i], damping[i],
           lambdaK[i], lambdaC[i],   muStatic[i],      muDynamic[i], regularisationVelocity[i]};
 }
 

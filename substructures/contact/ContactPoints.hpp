@@ -9,16 +9,16 @@ namespace tooljoint::contact {
 
 /// Parameters of one point.
 struct ContactPoint {
-  int node = 0;                          ///< 1-based
-  double clearance = 0.0;                ///< j0 [m]
-  double contactRadius = 0.0;            ///< R_c, lever arm of the friction torque [m]
-  double stiffness = 0.0;                ///< k_c [N/m]
-  double damping = 0.0;                  ///< c_c [N s/m]
-  double lambdaK = 1e6;                  ///< regularisation of the stiffness [1/m]
-  double lambdaC = 1e6;                  ///< regularisation of the damping [1/m]
-  double muStatic = 0.0;                 ///< 0 = frictionless
-  double muDynamic = 0.0;                ///< not above muStatic
-  double regularisationVelocity = 0.1;   ///< v_r [m/s]
+  int node = 0;                         ///< 1-based
+  double clearance = 0.0;               ///< j0 [m]
+  double contactRadius = 0.0;           ///< R_c, lever arm of the friction torque [m]
+  double stiffness = 0.0;               ///< k_c [N/m]
+  double damping = 0.0;                 ///< c_c [N s/m]
+  double lambdaK = 1e6;                 ///< regularisation of the stiffness [1/m]
+  double lambdaC = 1e6;                 ///< regularisation of the damping [1/m]
+  double muStatic = 0.0;                ///< 0 = frictionless
+  double muDynamic = 0.0;               ///< not above muStatic
+  double regularisationVelocity = 0.1;  ///< v_r [m/s]
 };
 
 /// Batch of points, one array per parameter.

@@ -11,8 +11,8 @@ namespace tooljoint::contact {
 ///
 /// Odd in v; slope 1/v_r at zero, peak mu_s at 2 v_r mu_d/(xi (1-xi)), limit mu_d for fast sliding.
 struct FrictionCurve {
-  double c = 0.0;   ///< [s/m]
-  double h = 0.0;   ///< 1/(2 v_r) [s/m]; 0 without friction
+  double c = 0.0;  ///< [s/m]
+  double h = 0.0;  ///< 1/(2 v_r) [s/m]; 0 without friction
   double xi = 0.0;
 
   FrictionCurve() = default;

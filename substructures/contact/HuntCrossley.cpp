@@ -52,20 +52,19 @@ class HuntCrossleyKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Hunt-Crossley",
-    {"Power-law spring whose damping grows with the penetration (Hunt and Crossley 1975); Damping and the regularisations are not used.",
-     deck::ListSpec("Hunt-Crossley", "Force k G^n (1 + chi dG/dt), only while it pushes.")
-         .real("Exponent", "", 1.0, deck::Range::between(1.0, 3.0),
-               "n; above 1 the Stiffness k is in N/m^n.")
-         .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
-               "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
-     [](const Teuchos::ParameterList& list) {
-       const auto value = [&list](const char* name, double standard) {
-         return list.isParameter(name) ? list.get<double>(name) : standard;
-       };
-       return std::make_unique<ContactLawOf<HuntCrossleyKernel>>(
-           HuntCrossleyKernel(value("Exponent", 1.0), value("Dissipation", 0.0)));
-     }});
+    "Hunt-Crossley", {"Power-law spring whose damping grows with the penetration (Hunt and Crossley 1975); Damping and the "
+                      "regularisations are not used.",
+                      deck::ListSpec("Hunt-Crossley", "Force k G^n (1 + chi dG/dt), only while it pushes.")
+                          .real("Exponent", "", 1.0, deck::Range::between(1.0, 3.0), "n; above 1 the Stiffness k is in N/m^n.")
+                          .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
+                                "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
+                      [](const Teuchos::ParameterList& list) {
+                        const auto value = [&list](const char* name, double standard) {
+                          return list.isParameter(name) ? list.get<double>(name) : standard;
+                        };
+                        return std::make_unique<ContactLawOf<HuntCrossleyKernel>>(
+                            HuntCrossleyKernel(value("Exponent", 1.0), value("Dissipation", 0.0)));
+                      }});
 
 }  // namespace
 }  // namespace tooljoint::contact

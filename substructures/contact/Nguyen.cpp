@@ -70,8 +70,9 @@ class NguyenKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Nguyen", {"The regularised law as printed in Nguyen et al. 2020, eqs. (6), (7): it pulls on rebound and has a tail in the open.",
-               deck::ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<NguyenKernel>>(); }});
+    "Nguyen",
+    {"The regularised law as printed in Nguyen et al. 2020, eqs. (6), (7): it pulls on rebound and has a tail in the open.",
+     deck::ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<NguyenKernel>>(); }});
 
 }  // namespace
 }  // namespace tooljoint::contact

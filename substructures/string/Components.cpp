@@ -28,7 +28,8 @@ deck::ListSpec materialSpec() {
 void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Length", "m", length, Range::positive(), "Length along the axis.");
   spec.integer("Elements", Optional{}, Range::between(1, 10000), "Number of beam elements it is cut into; 1 when absent.");
-  spec.real("Outer Radius", "m", Optional{}, Range::positive(), "Outer radius of the body; of a general section for contact and mud only.");
+  spec.real("Outer Radius", "m", Optional{}, Range::positive(),
+            "Outer radius of the body; of a general section for contact and mud only.");
   spec.real("Inner Radius", "m", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
   spec.boolean("Shear Deformation", Optional{}, "Whether a circular section deforms in shear (Timoshenko); true when absent.");
   spec.real("Area", "m2", Optional{}, Range::positive(), "Area of a general section, which has no shear deformation.");
@@ -108,17 +109,20 @@ class ComponentReader {
     int given = 0;
     std::string missing;
     for (const char* name : generalNames) {
-      if (list.isParameter(name)) ++given;
-      else missing += (missing.empty() ? "" : ", ") + std::string(name);
+      if (list.isParameter(name))
+        ++given;
+      else
+        missing += (missing.empty() ? "" : ", ") + std::string(name);
     }
     const double inner = valueOr(list, "Inner Radius", 0.0);
     if (given == 0) {
       if (!list.isParameter("Outer Radius"))
-        fail(path, "The section is missing: give Outer Radius and Inner Radius, or Area, Inertia X, Inertia Y and Torsion Constant.");
+        fail(path,
+             "The section is missing: give Outer Radius and Inner Radius, or Area, Inertia X, Inertia Y and Torsion Constant.");
       const double outer = list.get<double>("Outer Radius");
       if (!(inner < outer))
-        fail(path + "/Inner Radius", "The inner radius " + formatNumber(inner) + " m must be below the outer radius " +
-                                         formatNumber(outer) + " m.");
+        fail(path + "/Inner Radius",
+             "The inner radius " + formatNumber(inner) + " m must be below the outer radius " + formatNumber(outer) + " m.");
       const beam::Section circular = beam::Section::hollow(outer, inner, material);
       const bool shear = !list.isParameter("Shear Deformation") || list.get<bool>("Shear Deformation");
       return shear ? circular : circular.withoutShear();
@@ -127,8 +131,7 @@ class ComponentReader {
     if (list.isParameter("Shear Deformation"))
       fail(path + "/Shear Deformation", "A general section has no shear deformation; remove this parameter.");
     const double outer = valueOr(list, "Outer Radius", 0.0);
-    if (inner > 0.0 && !(inner < outer))
-      fail(path + "/Inner Radius", "The inner radius must be below the outer radius.");
+    if (inner > 0.0 && !(inner < outer)) fail(path + "/Inner Radius", "The inner radius must be below the outer radius.");
     return beam::Section::general(list.get<double>("Area"), list.get<double>("Inertia X"), list.get<double>("Inertia Y"),
                                   list.get<double>("Torsion Constant"), material, outer, inner);
   }
@@ -179,20 +182,25 @@ AssemblyEntry parseEntry(const std::string& text) {
 }
 
 deck::ListSpec componentParameters() {
-  deck::ListSpec spec("Component", "A component: one segment (Length and a section), several (Segments), or other components (Parts).");
+  deck::ListSpec spec("Component",
+                      "A component: one segment (Length and a section), several (Segments), or other components (Parts).");
   spec.text("Description", Optional{}, "What it is, for people.");
   addSegmentParameters(spec, Optional{});
   deck::ListSpec segment("Segment", "A uniform piece.");
   addSegmentParameters(segment, Required{});
   spec.list(deck::ListSpec("Segments", "The pieces of the component from its top to its bottom.").namedLists(segment));
-  spec.textArray("Parts", Optional{}, {}, "Components it is made of from its top to its bottom, as in {pipe body, 2*joint half}.");
-  spec.real("Gauge Position", "m", Optional{}, Range::nonNegative(), "Distance of a gauge (stabiliser blades, bit) from the top of the component; a node must stand there.");
-  spec.real("Gauge Radius", "m", Optional{}, Range::positive(), "Radius of the gauge; it replaces the outer radius in contact at that node.");
+  spec.textArray("Parts", Optional{}, {},
+                 "Components it is made of from its top to its bottom, as in {pipe body, 2*joint half}.");
+  spec.real("Gauge Position", "m", Optional{}, Range::nonNegative(),
+            "Distance of a gauge (stabiliser blades, bit) from the top of the component; a node must stand there.");
+  spec.real("Gauge Radius", "m", Optional{}, Range::positive(),
+            "Radius of the gauge; it replaces the outer radius in contact at that node.");
   return spec;
 }
 
 deck::ListSpec libraryParameters() {
-  return deck::ListSpec("Components", "Component library: one list per component, named by the user.").namedLists(componentParameters());
+  return deck::ListSpec("Components", "Component library: one list per component, named by the user.")
+      .namedLists(componentParameters());
 }
 
 void readComponents(const ParameterList& list, const beam::Material& standard, const Where& where, ComponentLibrary& library,

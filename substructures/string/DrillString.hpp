@@ -37,7 +37,7 @@ struct Instance {
 
 /// Straight chain of beam elements from the surface (node 0) to the bit (last node).
 struct DrillString {
-  std::vector<Node> nodes;          ///< elements.size() + 1
+  std::vector<Node> nodes;  ///< elements.size() + 1
   std::vector<Element> elements;
   std::vector<Instance> instances;  ///< entries of the assembly, in order; every element belongs to exactly one
   std::vector<Instance> nested;     ///< the components inside them ("stand 2/pipe 1"), outer before inner

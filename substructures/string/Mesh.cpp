@@ -58,7 +58,8 @@ class Mesher {
   }
 
   /// Appends every occurrence of an entry; the first fault ends it, since the others would only repeat it.
-  bool placeAll(const AssemblyEntry& entry, const std::string& parent, std::map<std::string, int>& occurrences, const std::string& where) {
+  bool placeAll(const AssemblyEntry& entry, const std::string& parent, std::map<std::string, int>& occurrences,
+                const std::string& where) {
     for (int i = 0; i < entry.count; ++i)
       if (!place(entry.name, parent, occurrences, where)) return false;
     return true;
@@ -66,7 +67,8 @@ class Mesher {
 
   /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array that names it.
   /// False when there was a fault.
-  bool place(const std::string& name, const std::string& parent, std::map<std::string, int>& occurrences, const std::string& where) {
+  bool place(const std::string& name, const std::string& parent, std::map<std::string, int>& occurrences,
+             const std::string& where) {
     const auto found = library_.find(name);
     if (found == library_.end()) {
       fault(where, unknown(name));
@@ -94,14 +96,17 @@ class Mesher {
     for (const Segment& segment : component.segments) append(segment);
     std::map<std::string, int> inner;
     bool good = true;
-    for (const AssemblyEntry& entry : component.parts) good = placeAll(entry, instance.path + "/", inner, component.where + "/Parts") && good;
+    for (const AssemblyEntry& entry : component.parts)
+      good = placeAll(entry, instance.path + "/", inner, component.where + "/Parts") && good;
     stack_.pop_back();
     instance.lastElement = out_.elementCount() - 1;
     if (component.gaugePosition)
       gauges_.push_back({start + *component.gaugePosition, component.gaugeRadius, &component, *component.gaugePosition,
                          instance.firstElement, out_.elementCount()});
-    if (top) out_.instances.back() = instance;
-    else out_.nested[slot] = instance;
+    if (top)
+      out_.instances.back() = instance;
+    else
+      out_.nested[slot] = instance;
     return good;
   }
 
@@ -110,8 +115,11 @@ class Mesher {
     for (const auto& entry : library_) names.push_back(entry.first);
     std::string sentence = "The component \"" + name + "\" is not defined.";
     const std::string meant = closest(name, names);
-    if (!meant.empty()) sentence += " Did you mean \"" + meant + "\"?";
-    else sentence += names.empty() ? " No components are defined: give a Library or the list Components." : " Known are " + quotedList(names) + ".";
+    if (!meant.empty())
+      sentence += " Did you mean \"" + meant + "\"?";
+    else
+      sentence += names.empty() ? " No components are defined: give a Library or the list Components."
+                                : " Known are " + quotedList(names) + ".";
     return sentence;
   }
 
@@ -156,9 +164,9 @@ class Mesher {
     const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
     if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
     fault(library_.at(instance.component).where,
-          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " + instance.path + " does not fit into the hole of radius " +
-              formatNumber(bore) + " m at " + formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
-              std::to_string(node + 1) + ").");
+          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " + instance.path +
+              " does not fit into the hole of radius " + formatNumber(bore) + " m at " +
+              formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " + std::to_string(node + 1) + ").");
   }
 
   void setGauges() {
@@ -197,16 +205,20 @@ class Mesher {
       distance = std::abs(position - gauge.position);
       nearest = position;
     }
-    fault(gauge.component->where, "The Gauge Position " + formatNumber(gauge.position) + " m is not at a node of the component; the nearest stands at " +
-                                      formatNumber(std::round(nearest * 1e9) / 1e9) + " m. Move the gauge or change the number of Elements.");
+    fault(gauge.component->where,
+          "The Gauge Position " + formatNumber(gauge.position) + " m is not at a node of the component; the nearest stands at " +
+              formatNumber(std::round(nearest * 1e9) / 1e9) + " m. Move the gauge or change the number of Elements.");
   }
 
   void warnOfUnseenBores() const {
     for (const well::BoreInterval& interval : well_.intervals()) {
       if (interval.from > out_.length()) continue;
-      const bool seen = std::any_of(out_.nodes.begin(), out_.nodes.end(),
-                                    [&](const Node& node) { return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace; });
-      if (!seen) log::warn("No node of the string stands in the bore interval \"" + interval.name + "\", so contact does not see it; use shorter elements there.");
+      const bool seen = std::any_of(out_.nodes.begin(), out_.nodes.end(), [&](const Node& node) {
+        return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace;
+      });
+      if (!seen)
+        log::warn("No node of the string stands in the bore interval \"" + interval.name +
+                  "\", so contact does not see it; use shorter elements there.");
     }
   }
 

@@ -14,7 +14,8 @@ const std::vector<std::string> dofNames = {"u", "v", "w", "theta_x", "theta_y", 
 const std::vector<std::string> familyNames = {"lateral", "axial", "torsional"};
 
 /// The words of a text, each looked up in `known`; returns one flag per known name.
-std::vector<bool> flags(const std::string& text, const std::vector<std::string>& known, const std::string& where, const std::string& what) {
+std::vector<bool> flags(const std::string& text, const std::vector<std::string>& known, const std::string& where,
+                        const std::string& what) {
   std::vector<bool> found(known.size(), false);
   std::string blanks = text;
   std::replace(blanks.begin(), blanks.end(), ',', ' ');
@@ -57,8 +58,8 @@ std::vector<char> SupportSettings::held(int nodes) const {
   hold(nodes - 1, bit);
   for (const NamedSupport& support : named) {
     if (support.node < 1 || support.node > nodes)
-      throw DeckError(support.path + "/Node: node " + std::to_string(support.node) + " does not exist; the string has nodes 1 to " +
-                      std::to_string(nodes) + ".");
+      throw DeckError(support.path + "/Node: node " + std::to_string(support.node) +
+                      " does not exist; the string has nodes 1 to " + std::to_string(nodes) + ".");
     hold(support.node - 1, support.dofs);
   }
   return held;
@@ -70,7 +71,8 @@ deck::ListSpec supportParameters() {
   return deck::ListSpec("Supports", "Held degrees of freedom; those of the defaults when the list is absent.")
       .text("Top", standardTop, "Dofs held at the surface, among u v w theta_x theta_y theta_z; \"none\" or \"all\".")
       .text("Bit", standardBit, "Dofs held at the last node.")
-      .text("Dofs", std::string("lateral axial torsional"), "Families of dofs that are modelled; those of the others are held everywhere.")
+      .text("Dofs", std::string("lateral axial torsional"),
+            "Families of dofs that are modelled; those of the others are held everywhere.")
       .namedLists(deck::ListSpec("Support", "A support at another node.")
                       .integer("Node", deck::Required{}, deck::Range::atLeast(1), "Node number, 1 at the surface.")
                       .text("Dofs", deck::Required{}, "Dofs held there."));
@@ -90,7 +92,8 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
     const std::string& name = list.name(it);
     if (!list.isSublist(name)) continue;
     const Teuchos::ParameterList& sub = list.sublist(name);
-    settings.named.push_back({name, sub.get<int>("Node"), parseDofs(sub.get<std::string>("Dofs"), sub.name() + "/Dofs"), sub.name()});
+    settings.named.push_back(
+        {name, sub.get<int>("Node"), parseDofs(sub.get<std::string>("Dofs"), sub.name() + "/Dofs"), sub.name()});
   }
   return settings;
 }

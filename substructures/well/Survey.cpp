@@ -101,8 +101,9 @@ class SurveyReader {
       if (bracket != std::string::npos) unit(k, cells[i].substr(bracket + 1));
     }
     for (std::size_t k = 0; k < 3; ++k)
-      if (!seen[k]) fault(std::string("the header has no column for the ") + columnNames[k] +
-                          " (known names: MD, Measured Depth; Inc, Inclination; Azi, Azimuth).");
+      if (!seen[k])
+        fault(std::string("the header has no column for the ") + columnNames[k] +
+              " (known names: MD, Measured Depth; Inc, Inclination; Azi, Azimuth).");
     if (!faults_.empty()) throw DeckError(faults_);
   }
 
@@ -142,8 +143,9 @@ class SurveyReader {
     if (value[1] < 0.0 || value[1] > pi) fault("the inclination must lie between 0 and 180 degrees.");
     if (std::abs(value[2]) > 2.0 * pi * (1.0 + 1e-12)) fault("the azimuth must lie between -360 and 360 degrees.");
     const Station now{value[0], value[1], value[2]};
-    if (!stations_.empty() && (direction(now.inclination, now.azimuth) +
-                               direction(stations_.back().inclination, stations_.back().azimuth)).norm() < 1e-6)
+    if (!stations_.empty() &&
+        (direction(now.inclination, now.azimuth) + direction(stations_.back().inclination, stations_.back().azimuth)).norm() <
+            1e-6)
       fault("the hole turns back by 180 degrees from the station before, so the arc between them is not defined.");
     stations_.push_back(now);
   }
@@ -171,14 +173,16 @@ const bool registered = TrajectoryRegistry::instance().add(
      deck::ListSpec("Survey", "Survey stations from a CSV file, joined by minimum curvature.")
          .text("File", deck::Required{}, "CSV file with measured depth, inclination and azimuth, relative to the deck.")
          .choice("Depth Unit", std::string("m"), {"m", "ft", "km"}, "Unit of the measured depth where the header gives none.")
-         .choice("Angle Unit", std::string("deg"), {"deg", "rad"}, "Unit of inclination and azimuth where the header gives none."),
+         .choice("Angle Unit", std::string("deg"), {"deg", "rad"},
+                 "Unit of inclination and azimuth where the header gives none."),
      fromList});
 
 }  // namespace
 
 std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit, const std::string& angleUnit) {
   if (depthUnits.count(depthUnit) == 0 || angleUnits.count(angleUnit) == 0)
-    throw DeckError("The survey units \"" + depthUnit + "\", \"" + angleUnit + "\" are not known; known are m, ft, km and deg, rad.");
+    throw DeckError("The survey units \"" + depthUnit + "\", \"" + angleUnit +
+                    "\" are not known; known are m, ft, km and deg, rad.");
   return SurveyReader(file, depthUnit, angleUnit).read();
 }
 

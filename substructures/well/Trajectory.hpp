@@ -73,6 +73,7 @@ std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& station
 /// Stations from a CSV file: measured depth, inclination, azimuth, by default in m and degrees. A header line names the
 /// columns in any order, with units in brackets: `MD [ft], Inc [deg], Azi [deg]`; without a header the order is as above.
 /// Lines starting with # are comments. Throws DeckError with one line "file:line: sentence" per fault.
-std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit = "m", const std::string& angleUnit = "deg");
+std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit = "m",
+                                const std::string& angleUnit = "deg");
 
 }  // namespace tooljoint::well

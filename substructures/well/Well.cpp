@@ -17,8 +17,10 @@ Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius, std:
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const BoreInterval& now = intervals_[i];
     std::ostringstream text;
-    if (!(now.to > now.from)) text << "The bore interval \"" << now.name << "\" ends at " << now.to << " m, above its start at " << now.from << " m.";
-    else if (!(now.radius > 0.0)) text << "The bore interval \"" << now.name << "\" has the radius " << now.radius << " m; it must be above 0.";
+    if (!(now.to > now.from))
+      text << "The bore interval \"" << now.name << "\" ends at " << now.to << " m, above its start at " << now.from << " m.";
+    else if (!(now.radius > 0.0))
+      text << "The bore interval \"" << now.name << "\" has the radius " << now.radius << " m; it must be above 0.";
     else if (i > 0 && now.from < intervals_[i - 1].to - 1e-9)
       text << "The bore intervals \"" << intervals_[i - 1].name << "\" and \"" << now.name << "\" overlap between " << now.from
            << " m and " << std::min(now.to, intervals_[i - 1].to) << " m.";
@@ -51,14 +53,17 @@ double Well::inclination(double s) const {
 deck::ListSpec parameters() {
   deck::ListSpec spec("Well", "The hole: centre line and bore radius.");
   const auto& registry = TrajectoryRegistry::instance();
-  spec.choice("Trajectory", deck::Required{}, registry.names(), "Shape of the centre line; its parameters stand in the sublist of that name.");
-  spec.real("Bore Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole outside the intervals of the list Bore.");
+  spec.choice("Trajectory", deck::Required{}, registry.names(),
+              "Shape of the centre line; its parameters stand in the sublist of that name.");
+  spec.real("Bore Radius", "m", deck::Required{}, deck::Range::positive(),
+            "Radius of the hole outside the intervals of the list Bore.");
   for (const auto& [name, entry] : registry.entries()) spec.list(entry.parameters);
-  spec.list(deck::ListSpec("Bore", "Stretches of the hole with their own radius; where two meet the smaller radius counts.")
-                .namedLists(deck::ListSpec("Interval", "A stretch of the hole.")
-                                .real("From", "m", deck::Required{}, deck::Range::nonNegative(), "Measured depth of its upper end.")
-                                .real("To", "m", deck::Required{}, deck::Range::positive(), "Measured depth of its lower end.")
-                                .real("Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
+  spec.list(
+      deck::ListSpec("Bore", "Stretches of the hole with their own radius; where two meet the smaller radius counts.")
+          .namedLists(deck::ListSpec("Interval", "A stretch of the hole.")
+                          .real("From", "m", deck::Required{}, deck::Range::nonNegative(), "Measured depth of its upper end.")
+                          .real("To", "m", deck::Required{}, deck::Range::positive(), "Measured depth of its lower end.")
+                          .real("Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
   return spec;
 }
 

@@ -32,9 +32,12 @@ TEST_P(Energy, PowersBalance) {
         before[i] -= h * state.v[i];
         after[i] += h * state.v[i];
       }
-      const double storing = (contact->power(0.0, after.data(), state.v.data()).stored - contact->power(0.0, before.data(), state.v.data()).stored) / (2.0 * h);
+      const double storing =
+          (contact->power(0.0, after.data(), state.v.data()).stored - contact->power(0.0, before.data(), state.v.data()).stored) /
+          (2.0 * h);
       const double scale = std::abs(storing) + power.damping + std::abs(power.friction) + std::abs(power.drive) + 1.0;
-      EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale) << GetParam() << " " << G << " " << angle;
+      EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale)
+          << GetParam() << " " << G << " " << angle;
       if (std::string(GetParam()) != "Nguyen") {
         EXPECT_GE(power.stored, 0.0);
         EXPECT_GE(power.damping, 0.0);
@@ -44,8 +47,7 @@ TEST_P(Energy, PowersBalance) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
-                         testName);
+INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"), testName);
 
 // The closed form against quadrature of F_n dG, from the wall inwards and outwards.
 TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
@@ -69,7 +71,8 @@ TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
         sum += (i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * N * 3.0 * x * x * edge / n / 3.0;
       }
       const std::vector<double> d = {p.clearance + G, 0.0, 0.0};
-      EXPECT_NEAR(contact->power(0.0, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15) << GetParam() << " " << lambda << " " << G;
+      EXPECT_NEAR(contact->power(0.0, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15)
+          << GetParam() << " " << lambda << " " << G;
     }
   }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "substructures/contact/FrictionCurve.hpp"
 
@@ -16,7 +15,8 @@ static double printed(double v, double muS, double muD, double vr) {
 
 TEST(FrictionCurve, IsThePrintedOne) {
   const FrictionCurve mu(0.2, 0.1, 0.1);
-  for (const double v : {-3.0, -0.2, 1e-6, 0.05, 0.3, 2.0, 100.0}) EXPECT_NEAR(mu.value(v), printed(v, 0.2, 0.1, 0.1), 1e-15) << v;
+  for (const double v : {-3.0, -0.2, 1e-6, 0.05, 0.3, 2.0, 100.0})
+    EXPECT_NEAR(mu.value(v), printed(v, 0.2, 0.1, 0.1), 1e-15) << v;
 }
 
 TEST(FrictionCurve, StartsWithTheSlopeOneOverTheRegularisationVelocity) {

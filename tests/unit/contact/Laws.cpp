@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-
 #include <limits>
 
 #include "common/Census.hpp"
@@ -40,7 +39,8 @@ TEST(NguyenLaw, IsThePrintedOne) {
 // k_c/(pi^2 lambda) at any gap: 1.4e-6 N, 1 N, 338 N
 TEST(NguyenLaw, PullsOpenNodesWithItsTail) {
   for (const auto& [lambda, pull] : {std::pair{7e11, 1.447e-6}, std::pair{1e6, 1.0132}, std::pair{3e3, 337.7}})
-    for (const double gap : {5e-3, 2e-2}) EXPECT_NEAR(-normal("Nguyen", steelOnRock(lambda), -gap, 0.0), pull, 2e-3 * pull) << lambda;
+    for (const double gap : {5e-3, 2e-2})
+      EXPECT_NEAR(-normal("Nguyen", steelOnRock(lambda), -gap, 0.0), pull, 2e-3 * pull) << lambda;
 }
 
 TEST(NguyenLaw, PullsOnReboundWhereTheOthersDoNot) {
@@ -120,7 +120,8 @@ TEST(Friction, OmittedAtPointsWithoutItAndCounted) {
   const std::vector<double> d = {r, 0.0, 0.0, r, 0.0, 0.0}, v(6, 0.0);
 
   resetCensus();
-  const auto none = law("Clamped")->inMotion(batch({slippery, slippery}), [](double) -> double { throw std::logic_error("speed asked for"); });
+  const auto none =
+      law("Clamped")->inMotion(batch({slippery, slippery}), [](double) -> double { throw std::logic_error("speed asked for"); });
   EXPECT_EQ(force(*none, 0.0, d, v)[2], 0.0);
   EXPECT_EQ(answer(*none, 0.0, d, v).f[2], 0.0);
   EXPECT_EQ(counted("contact evaluations"), 4);
@@ -252,7 +253,8 @@ TEST(StaticContact, IsTheMotionsLimitForFastSlidingWithTheStaticCoefficient) {
   rest->evaluate({}, uv, f);
   rest->normalForce({}, uv, &N);
   EXPECT_NEAR(N, 3000.0, 1e-3);
-  const auto fast = force(*law("Nguyen")->inMotion(batch({p}), [](double) { return 1e9; }), 0.0, {uv[0], uv[1], 0.0}, {0.0, 0.0, 0.0});
+  const auto fast =
+      force(*law("Nguyen")->inMotion(batch({p}), [](double) { return 1e9; }), 0.0, {uv[0], uv[1], 0.0}, {0.0, 0.0, 0.0});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f[i], fast[i], 1e-4) << i;
   EXPECT_NEAR(f[2], -0.2 * N * p.contactRadius, 1e-9);
 }

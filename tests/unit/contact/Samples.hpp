@@ -3,9 +3,8 @@
 /// Points and states the contact tests share.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -59,7 +58,8 @@ inline Answer answer(const model::PointLaw& law, double t, const std::vector<dou
   return a;
 }
 
-inline std::vector<double> force(const model::PointLaw& law, double t, const std::vector<double>& d, const std::vector<double>& v) {
+inline std::vector<double> force(const model::PointLaw& law, double t, const std::vector<double>& d,
+                                 const std::vector<double>& v) {
   std::vector<double> f(d.size());
   law.evaluate(t, all(law), d.data(), v.data(), f.data());
   return f;

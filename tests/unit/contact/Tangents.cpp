@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include <Teuchos_ParameterList.hpp>
 #include <functional>
+#include <gtest/gtest.h>
 
 #include "tests/unit/contact/Samples.hpp"
 
@@ -57,7 +56,8 @@ TEST_P(Tangents, AgreeWithDifferencesInsideOnAndBeyondTheWall) {
     for (const double penetration : {-0.02, -1e-3, -2e-5, 2e-5, 3e-4, 5e-3})
       for (const double angle : {0.0, 1.1, 2.5, -2.0})
         expectTangents(*contact, State(point.clearance + penetration, angle),
-                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " + std::to_string(penetration) + " at " + std::to_string(angle));
+                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " + std::to_string(penetration) + " at " +
+                           std::to_string(angle));
   }
 }
 
@@ -88,10 +88,10 @@ TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
       contact->evaluate(options, plus, fp);
       contact->evaluate(options, minus, fm);
       for (int row = 0; row < 3; ++row)
-        EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h), 2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0)) << penetration << row << column;
+        EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h), 2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0))
+            << penetration << row << column;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
-                         testName);
+INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"), testName);

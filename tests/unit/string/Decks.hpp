@@ -28,9 +28,10 @@ inline std::string list(const std::string& name, const std::string& inside) {
   return "<ParameterList name=\"" + name + "\">\n" + inside + "</ParameterList>\n";
 }
 /// A component of one segment.
-inline std::string tube(const std::string& name, double length, int elements, double outer, double inner, const std::string& more = "") {
-  return list(name, real("Length", std::to_string(length)) + whole("Elements", elements) + real("Outer Radius", std::to_string(outer)) +
-                        real("Inner Radius", std::to_string(inner)) + more);
+inline std::string tube(const std::string& name, double length, int elements, double outer, double inner,
+                        const std::string& more = "") {
+  return list(name, real("Length", std::to_string(length)) + whole("Elements", elements) +
+                        real("Outer Radius", std::to_string(outer)) + real("Inner Radius", std::to_string(inner)) + more);
 }
 
 inline deck::Deck scene(const std::string& drillstring, const std::string& file = "deck.xml") {

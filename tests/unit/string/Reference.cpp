@@ -15,9 +15,10 @@ namespace {
 const double pi = 3.14159265358979323846;
 
 DrillString reference() {
-  const std::string inside = text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/helical_170m.xml") +
-                             array("Assembly", "5*pipe, last pipe, 3*collar, stabiliser, 4*collar, stabiliser, 3*collar, bit") +
-                             list("Material", real("Density", "7900") + real("Young Modulus", "2.03e11") + real("Poisson Ratio", "0.3"));
+  const std::string inside =
+      text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/helical_170m.xml") +
+      array("Assembly", "5*pipe, last pipe, 3*collar, stabiliser, 4*collar, stabiliser, 3*collar, bit") +
+      list("Material", real("Density", "7900") + real("Young Modulus", "2.03e11") + real("Poisson Ratio", "0.3"));
   return build(inside, well::Well(well::helix(85.1, 0.5 * pi, 170.2), 0.108));
 }
 
@@ -70,7 +71,8 @@ TEST(ReferenceString, KnowsItsComponents) {
   int next = 0;
   for (std::size_t i = 0; i < string.instances.size(); ++i) {
     EXPECT_EQ(string.instances[i].firstElement, next);
-    for (int e = next; e <= string.instances[i].lastElement; ++e) EXPECT_EQ(string.elements[static_cast<std::size_t>(e)].instance, static_cast<int>(i));
+    for (int e = next; e <= string.instances[i].lastElement; ++e)
+      EXPECT_EQ(string.elements[static_cast<std::size_t>(e)].instance, static_cast<int>(i));
     next = string.instances[i].lastElement + 1;
   }
   EXPECT_EQ(next, 162);
@@ -100,8 +102,9 @@ TEST(ReferenceString, HasTheMaterialOfTheDeck) {
 
 TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
   const std::string inside = text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/api_pipes.xml") +
-                             array("Assembly", "2*5 in stand, 5 in HWDP stand, 2*8 in collar, under-gauge stabiliser, 3*6.5 in collar, "
-                                               "string stabiliser, 6.5 in collar, near-bit stabiliser, 8.5 in PDC bit");
+                             array("Assembly",
+                                   "2*5 in stand, 5 in HWDP stand, 2*8 in collar, under-gauge stabiliser, 3*6.5 in collar, "
+                                   "string stabiliser, 6.5 in collar, near-bit stabiliser, 8.5 in PDC bit");
   const DrillString string = build(inside);
   const auto weight = [&](const std::string& component) {  // kg/m of the first occurrence
     for (const auto* group : {&string.instances, &string.nested})

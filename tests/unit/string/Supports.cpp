@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/string/Supports.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <gtest/gtest.h>
 
 #include "tests/unit/string/Decks.hpp"
 
@@ -46,7 +45,8 @@ TEST(Supports, DefaultsHoldTheTopAndKeepTheBitOnTheAxis) {
 }
 
 TEST(Supports, ReadsDofsAtEndsAndNamedNodes) {
-  const auto flags = held(text("Top", "all") + text("Bit", "none") + list("clamp", whole("Node", 3) + text("Dofs", "u, theta_x w")), 4);
+  const auto flags =
+      held(text("Top", "all") + text("Bit", "none") + list("clamp", whole("Node", 3) + text("Dofs", "u, theta_x w")), 4);
   EXPECT_EQ(row(flags, 1), "111111");
   EXPECT_EQ(row(flags, 2), "000000");
   EXPECT_EQ(row(flags, 3), "101100");
@@ -62,9 +62,12 @@ TEST(Supports, FamiliesThatAreNotModelledAreHeldEverywhere) {
 }
 
 TEST(Supports, FaultsNameTheirPlace) {
-  EXPECT_NE(faultOf(text("Top", "u v theta_zz")).find("/scene/Supports/Top: \"theta_zz\" is not a degree of freedom. Did you mean \"theta_z\"?"), std::string::npos);
+  EXPECT_NE(faultOf(text("Top", "u v theta_zz"))
+                .find("/scene/Supports/Top: \"theta_zz\" is not a degree of freedom. Did you mean \"theta_z\"?"),
+            std::string::npos);
   EXPECT_NE(faultOf(text("Dofs", "lateral axail")).find("Did you mean \"axial\"?"), std::string::npos);
   EXPECT_NE(faultOf(text("Dofs", "")).find("no family of dofs"), std::string::npos);
-  EXPECT_NE(faultOf(list("guide", whole("Node", 9) + text("Dofs", "u"))).find("/scene/Supports/guide/Node: node 9 does not exist; the string has nodes 1 to 4."),
+  EXPECT_NE(faultOf(list("guide", whole("Node", 9) + text("Dofs", "u")))
+                .find("/scene/Supports/guide/Node: node 9 does not exist; the string has nodes 1 to 4."),
             std::string::npos);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
+#include "substructures/well/Frames.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "substructures/well/Frames.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::well;
@@ -97,7 +97,8 @@ TEST(BishopFrames, DoNotDependOnTheDepthsAskedFor) {
 
 // On circular arcs parallel transport is the smallest rotation from station to station: an exact reference for surveys.
 TEST(BishopFrames, AreExactOnASurvey) {
-  const std::vector<Station> stations = {{0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}};
+  const std::vector<Station> stations = {
+      {0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}};
   const auto well = minimumCurvature(stations);
   Matrix3 expected = smallestRotation(Vector3::UnitZ(), well->at(0.0).tangent);
   for (std::size_t i = 1; i < stations.size(); ++i)

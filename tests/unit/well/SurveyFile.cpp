@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <string>
+#include <unistd.h>
 
 #include "substructures/well/Trajectory.hpp"
 
@@ -19,7 +18,9 @@ const double degree = 3.14159265358979323846 / 180.0;
 /// A CSV file that is removed at the end of the test.
 class CsvFile {
  public:
-  explicit CsvFile(const std::string& text) : name_("survey_" + std::to_string(getpid()) + ".csv") { std::ofstream(name_) << text; }
+  explicit CsvFile(const std::string& text) : name_("survey_" + std::to_string(getpid()) + ".csv") {
+    std::ofstream(name_) << text;
+  }
   ~CsvFile() { std::remove(name_.c_str()); }
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
@@ -35,7 +36,8 @@ std::string errorOf(const std::string& text) {
     readSurvey(file.name());
   } catch (const DeckError& error) {
     std::string message = error.what();
-    for (auto at = message.find(file.name()); at != std::string::npos; at = message.find(file.name())) message.replace(at, file.name().size(), "F");
+    for (auto at = message.find(file.name()); at != std::string::npos; at = message.find(file.name()))
+      message.replace(at, file.name().size(), "F");
     return message;
   }
   return "no error";
@@ -89,7 +91,8 @@ TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {
   EXPECT_NE(errorOf("0,90,0\n10,90,180\n").find("F:2: the hole turns back by 180 degrees"), std::string::npos);
   EXPECT_NE(errorOf("0,0,0\n10,0,400\n").find("F:2: the azimuth must lie"), std::string::npos);
   EXPECT_NE(errorOf("MD,Inc\n0,0\n10,0\n").find("no column for the azimuth"), std::string::npos);
-  EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n").find("the unit \"furlong\" of the measured depth is not known"), std::string::npos);
+  EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n").find("the unit \"furlong\" of the measured depth is not known"),
+            std::string::npos);
   EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("stands twice"), std::string::npos);
   EXPECT_THROW(readSurvey("no_such_file.csv"), DeckError);
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "substructures/well/Trajectory.hpp"
 

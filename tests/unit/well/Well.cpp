@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/well/Well.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "deck/Deck.hpp"
 
@@ -18,8 +17,9 @@ const double pi = 3.14159265358979323846;
 Well fromDeck(const std::string& inside) {
   deck::ListSpec scene("scene", "A scene.");
   scene.requiredList(parameters());
-  const deck::Deck deck = deck::Deck::parse("<ParameterList name=\"scene\"><ParameterList name=\"Well\">" + inside + "</ParameterList></ParameterList>",
-                                            "deck.xml", scene);
+  const deck::Deck deck = deck::Deck::parse(
+      "<ParameterList name=\"scene\"><ParameterList name=\"Well\">" + inside + "</ParameterList></ParameterList>", "deck.xml",
+      scene);
   return readWell(deck.list().sublist("Well"), deck.folder());
 }
 
@@ -47,7 +47,7 @@ std::string list(const std::string& name, const std::string& inside) {
 TEST(Well, BoreRadiusFollowsTheIntervalsAndTheSmallerCountsWhereTwoMeet) {
   const Well well(straight(100.0), 0.1, {{"hole", 50.0, 100.0, 0.15}, {"casing", 20.0, 50.0, 0.2}});
   EXPECT_EQ(well.boreRadius(10.0), 0.1);
-  EXPECT_EQ(well.boreRadius(20.0), 0.1);   // open hole above is narrower
+  EXPECT_EQ(well.boreRadius(20.0), 0.1);  // open hole above is narrower
   EXPECT_EQ(well.boreRadius(20.1), 0.2);
   EXPECT_EQ(well.boreRadius(50.0), 0.15);
   EXPECT_EQ(well.boreRadius(99.0), 0.15);
@@ -66,13 +66,15 @@ TEST(Well, ReadsEveryTrajectoryFromADeck) {
   EXPECT_NEAR(spiral.inclination(0.0) * 180.0 / pi, 51.76, 5e-3);
   EXPECT_EQ(spiral.boreRadius(20.0), 0.108);
 
-  const Well vertical = fromDeck(text("Trajectory", "Vertical") + text("Bore Radius", "10.8 cm") + list("Vertical", real("Length", "1000")));
+  const Well vertical =
+      fromDeck(text("Trajectory", "Vertical") + text("Bore Radius", "10.8 cm") + list("Vertical", real("Length", "1000")));
   EXPECT_EQ(vertical.inclination(500.0), 0.0);
   EXPECT_NEAR(vertical.boreRadius(1.0), 0.108, 1e-15);
 
-  const Well curved = fromDeck(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
-                               list("Arc", real("Kick-off Depth", "100") + text("Build Rate", "3 deg/30m") + text("End Inclination", "60 deg")) +
-                               list("Bore", list("casing", real("From", "0") + real("To", "100") + real("Radius", "0.15"))));
+  const Well curved =
+      fromDeck(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
+               list("Arc", real("Kick-off Depth", "100") + text("Build Rate", "3 deg/30m") + text("End Inclination", "60 deg")) +
+               list("Bore", list("casing", real("From", "0") + real("To", "100") + real("Radius", "0.15"))));
   EXPECT_NEAR(curved.length(), 700.0, 1e-9);
   EXPECT_NEAR(curved.inclination(400.0), pi / 6.0, 1e-12);
   EXPECT_EQ(curved.boreRadius(50.0), 0.15);
@@ -86,16 +88,22 @@ TEST(Well, ReadsEveryTrajectoryFromADeck) {
 TEST(Well, FaultsNameTheirPlaceInTheDeck) {
   EXPECT_NE(errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1")).find("/scene/Well"), std::string::npos);
   EXPECT_NE(errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1") +
-                    list("Helix", real("Radius", "100") + real("Angle", "2") + real("Length", "100"))).find("/scene/Well/Helix: A helix of radius 100 m"),
+                    list("Helix", real("Radius", "100") + real("Angle", "2") + real("Length", "100")))
+                .find("/scene/Well/Helix: A helix of radius 100 m"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") + list("Arc", real("End Inclination", "1"))).find("either Radius or Build Rate"),
+  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") + list("Arc", real("End Inclination", "1")))
+                .find("either Radius or Build Rate"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") + list("Arc", real("End Inclination", "0") + real("Radius", "1"))).find("the same inclination"),
+  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
+                    list("Arc", real("End Inclination", "0") + real("Radius", "1")))
+                .find("the same inclination"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Survey") + real("Bore Radius", "0.1") + list("Survey", text("File", "none.csv"))).find("/scene/Well/Survey/File names a file"),
+  EXPECT_NE(errorOf(text("Trajectory", "Survey") + real("Bore Radius", "0.1") + list("Survey", text("File", "none.csv")))
+                .find("/scene/Well/Survey/File names a file"),
             std::string::npos);
   EXPECT_NE(errorOf(text("Trajectory", "Spiral") + real("Bore Radius", "0.1")).find("\"Helix\""), std::string::npos);
   EXPECT_NE(errorOf(text("Trajectory", "Vertical") + real("Bore Radius", "0.1") + list("Vertical", real("Length", "10")) +
-                    list("Bore", list("a", real("From", "5") + real("To", "4") + real("Radius", "0.1")))).find("/scene/Well/Bore: The bore interval \"a\" ends at 4 m"),
+                    list("Bore", list("a", real("From", "5") + real("To", "4") + real("Radius", "0.1"))))
+                .find("/scene/Well/Bore: The bore interval \"a\" ends at 4 m"),
             std::string::npos);
 }
