@@ -15,6 +15,7 @@ namespace {
 struct Override {
   std::vector<std::string> path;
   std::string value;
+  bool removes = false;  ///< "!PATH": the list is taken out
   Place place;
 };
 
@@ -26,14 +27,16 @@ const ListSpec* declaredList(const ListSpec& spec, const std::string& name) {
 }
 
 Override parseOverride(const std::string& text, int number) {
-  const auto equals = text.find('=');
-  const std::string path = trim(text.substr(0, equals));
+  Override result;
+  result.removes = !text.empty() && text[0] == '!';
+  const auto equals = result.removes ? text.size() : text.find('=');
+  const std::string path = trim(result.removes ? text.substr(1) : text.substr(0, equals));
+  if (result.removes && (path.empty() || path == "/")) throw UsageError("--without needs the path of a list, for example --without Reduction.");
   if (equals == std::string::npos || path.empty() || path == "/") {
     throw UsageError("--set " + text + ": write --set PATH=VALUE, for example --set \"Transient/End Time=20\".");
   }
-  Override result;
   result.path = split(path[0] == '/' ? path.substr(1) : path, '/');
-  result.value = text.substr(equals + 1);
+  if (!result.removes) result.value = text.substr(equals + 1);
   result.place.overrideNumber = number;
   result.place.overrideText = text;
   return result;
@@ -81,9 +84,14 @@ class Applier {
         return;
       }
       if (i + 1 == item.path.size()) break;
+      if (item.removes && !list->holdsList(item.path[i])) {
+        missing(item, path, item.path[i], *list, spec);
+        return;
+      }
       if (!enter(item, item.path[i], path, list, spec)) return;
     }
-    assign(item, path, *list, spec);
+    if (item.removes) remove(item, path, *list, spec);
+    else assign(item, path, *list, spec);
   }
 
  private:
@@ -111,6 +119,16 @@ class Applier {
     path += "/" + name;
     spec = next == nullptr || next->passesThrough() ? nullptr : next;
     return true;
+  }
+
+  /// Take a list out; one that the deck could hold but does not is no fault, so that a switch works on every deck.
+  void remove(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {
+    if (!list.removeList(item.path.back())) missing(item, path, item.path.back(), list, spec);
+  }
+
+  void missing(const Override& item, const std::string& path, const std::string& name, const RawList& list, const ListSpec* spec) {
+    if (spec != nullptr && declaredList(*spec, name) != nullptr) return;
+    findings_.push_back({item.place, spec == nullptr ? path + " holds no list " + name + "." : unknownList(spec_, *spec, path, name, list)});
   }
 
   void assign(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {

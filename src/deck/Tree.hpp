@@ -23,7 +23,7 @@ struct Place {
   }
   /// "deck.xml:42", or "--set Transient/Step=1"
   std::string text(const std::string& file) const {
-    if (overrideNumber > 0) return "--set " + overrideText;
+    if (overrideNumber > 0) return (overrideText[0] == '!' ? "--without " + overrideText.substr(1) : "--set " + overrideText);
     return line > 0 ? file + ":" + std::to_string(line) : file;
   }
 };
@@ -65,6 +65,15 @@ class RawList {
     listIndex_.emplace(list.name, lists_.size());
     lists_.push_back(std::move(list));
     return lists_.back();
+  }
+  /// Take a list out; false when there is none of that name.
+  bool removeList(const std::string& unwanted) {
+    const auto it = listIndex_.find(unwanted);
+    if (it == listIndex_.end()) return false;
+    lists_.erase(lists_.begin() + static_cast<std::ptrdiff_t>(it->second));
+    listIndex_.clear();
+    for (std::size_t i = 0; i < lists_.size(); ++i) listIndex_.emplace(lists_[i].name, i);
+    return true;
   }
 
  private:
