@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the reference scene in all its variants and rewrites the tables of docs/validation.md.
+
+    tools/validation.py --program build/release/tooljoint [--end 20] [--work results/validation] [--only static,motion,source]
+
+Every table stands between two markers in docs/validation.md and names the commands it came from. Runs that are already in the
+work folder are not repeated.
+"""
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+FULL = ["--without", "Reduction", "--without", "Substructures"]
+
+
+def settings(**values):
+    arguments = []
+    for key, value in values.items():
+        arguments += ["--set", f"{key}={value}"]
+    return arguments
+
+
+class Bench:
+    def __init__(self, options):
+        self.program = options.program
+        self.work = pathlib.Path(options.work)
+        self.end = options.end
+        self.commands = []
+
+    def run(self, name, deck, arguments):
+        """Results folder of `tooljoint run`, run now if it is not there yet, and its summary."""
+        folder = self.work / name
+        quoted = [f'"{a}"' if " " in a else a for a in arguments]
+        self.commands.append(" ".join(["tooljoint run", f"xml/{deck}.xml", "--output", name, *quoted]))
+        if not (folder / "summary.json").exists() or json.loads((folder / "summary.json").read_text())["status"] != "finished":
+            print(self.commands[-1], flush=True)
+            command = [self.program, "run", str(PROJECT / f"xml/{deck}.xml"), "--output", str(folder), *arguments, "--set", "Output/XDMF=false"]
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            if done.returncode != 0:
+                print(done.stdout[-2000:])
+                return None
+        return json.loads((folder / "summary.json").read_text())
+
+    def compare(self, name, reference, end):
+        """eps_t max, eps_t mean, eps_n max and dyn over 0..end."""
+        done = subprocess.run([self.program, "compare", str(self.work / name), str(self.work / reference), "--to", str(end)],
+                              stdout=subprocess.PIPE, text=True, check=True)
+        match = re.search(r"eps_t max (\S+) mean (\S+), eps_n max (\S+), dyn (\S+)", done.stdout)
+        return [float(value) for value in match.groups()]
+
+    def taken(self):
+        """The commands since the last call, as a code block."""
+        text = "```\n" + "\n".join(self.commands) + "\n```\n"
+        self.commands = []
+        return text
+
+
+def kilo(value):
+    return f"{value / 1e3:.3f}"
+
+
+def static_table(bench):
+    """Both pre-stress modes and both path modes."""
+    rows = ["| path | pre-stress | nodes in contact | compressed elements | top force [kN] | last element force [kN] | last element torque [kN m] "
+            "| largest contact force [kN] (node) | top torque [kN m] | torque balance defect [N m] |", "|---|---|---|---|---|---|---|---|---|---|"]
+    for path in ("Centre line", "Imposed nodes"):
+        for stress in ("Axial and torque", "Full tangent"):
+            name = f"static_{path.split()[0]}_{stress.split()[0]}".lower()
+            arguments = [*FULL, "--without", "Transient", "--set", f"Path/Mode={path}", "--set", f"Path/Pre-stress={stress}"]
+            summary = bench.run(name, "helical_170m", arguments)
+            if summary is None:
+                rows.append(f"| {path} | {stress} | did not converge |||||||||")
+                continue
+            s = summary["static"]
+            rows.append(f"| {path} | {stress} | {s['contact_nodes']} | {s['compressed_elements']} | {kilo(s['top_axial_force'])} "
+                        f"| {kilo(s['last_element_axial_force'])} | {kilo(s['last_element_torque'])} | {kilo(s['max_normal_force'])} "
+                        f"({s['max_normal_force_node']}) | {kilo(s['top_torque'])} | {s['torque_balance_defect']:.4g} |")
+    return bench.taken() + "\n" + "\n".join(rows) + "\n"
+
+
+def gauge_table(bench):
+    """Contact forces at the gauges, from static_nodes.csv of the two centre-line runs."""
+    rows = ["| node | axial and torque [kN] | full tangent [kN] |", "|---|---|---|"]
+    tables = []
+    for stress in ("axial", "full"):
+        lines = (bench.work / f"static_centre_{stress}" / "static_nodes.csv").read_text().splitlines()
+        column = [h.split(" ")[0] for h in lines[0].split(",")].index("normal_force")
+        tables.append({int(float(line.split(",")[0])): float(line.split(",")[column]) for line in lines[1:]})
+    for node in (86, 130):
+        rows.append(f"| {node} (stabiliser gauge) | {kilo(tables[0][node])} | {kilo(tables[1][node])} |")
+    return "\n".join(rows) + "\n"
+
+
+def reference(bench):
+    return bench.run("full_rk4", "helical_170m", [*FULL, "--set", "Transient/Integrator=RK4", "--set", f"Transient/End Time={bench.end}"])
+
+
+def motion_table(bench):
+    """Range of the bit speed in windows of time for the full model, and the errors of the implicit runs against it."""
+    ref = reference(bench)
+    rows = ["| run | dofs | steps | CPU [s] | CPU per simulated s | bit speed min / max [rpm] | eps_t max, 0-3 s | eps_n max, 0-3 s | dyn, 0-3 s | energy residual |",
+            "|---|---|---|---|---|---|---|---|---|---|"]
+    variants = [("full_rk4", None, "full, RK4, fixed step (reference)"), ("full_rk4a", [*FULL, "--set", "Transient/Integrator=RK4 adaptive"], "full, RK4 adaptive"),
+                ("full_ga_1ms", [*FULL, "--set", "Transient/Step=0.001"], "full, generalized-alpha 1 ms"),
+                ("full_ga", [*FULL], "full, generalized-alpha, step of the deck"),
+                ("reduced_1ms", ["--set", "Transient/Step=0.001"], "reduced, generalized-alpha 1 ms"), ("reduced", [], "reduced, generalized-alpha (the deck as it is)")]
+    for name, arguments, title in variants:
+        summary = ref if arguments is None else bench.run(name, "helical_170m", [*arguments, "--set", f"Transient/End Time={bench.end}"])
+        if summary is None:
+            rows.append(f"| {title} | failed |||||||||")
+            continue
+        t = summary["transient"]
+        errors = ["-"] * 4 if arguments is None else [f"{e:.2e}" for e in bench.compare(name, "full_rk4", min(3.0, bench.end))]
+        dofs = summary["reduction"]["reduced_dofs"] if t["model"] == "reduced" else summary["model"]["free_dofs"]
+        speed = t["bit_speed_rpm"]
+        rows.append(f"| {title} | {dofs} | {t['steps']} | {t['cpu_s']:.2f} | {t['cpu_s'] / bench.end:.3f} | {speed['min']:.1f} / {speed['max']:.1f} "
+                    f"| {errors[0]} | {errors[2]} | {errors[3]} | {t['energy_residual']:.1e} |")
+    return bench.taken() + "\n" + "\n".join(rows) + "\n"
+
+
+def speed_windows(bench):
+    """Bit speed of the full RK4 run in windows of 2.5 s, from motion.csv."""
+    reference(bench)
+    bench.taken()
+    rows = ["| window [s] | min [rpm] | max [rpm] |", "|---|---|---|"]
+    lines = (bench.work / "full_rk4" / "motion.csv").read_text().splitlines()
+    samples = [[float(x) for x in line.split(",")] for line in lines[1:]]
+    begin = 0.0
+    while begin < bench.end - 1e-9:
+        speeds = [s[2] * 60.0 / 6.283185307179586 for s in samples if begin <= s[0] <= begin + 2.5]
+        rows.append(f"| {begin:g} - {begin + 2.5:g} | {min(speeds):.1f} | {max(speeds):.1f} |")
+        begin += 2.5
+    return "\n".join(rows) + "\n"
+
+
+def source_table(bench):
+    """The source's own choices over its mode counts."""
+    published = {0: (147.99, 9.44), 60: (155.97, 8.95), 180: (461.83, 3.02), 220: (1553.48, 0.89), 300: (4475.19, 0.31)}
+    full = bench.run("full_rk4a", "helical_170m", [*FULL, "--set", "Transient/Integrator=RK4 adaptive", "--set", f"Transient/End Time={bench.end}"])
+    reference(bench)
+    window = min(3.0, bench.end)
+    rows = [f"| eta | initial state | dofs | CPU [s] for {bench.end:g} s | full / reduced | published full / reduced | eps_t max | eps_n max | dyn (0-{window:g} s) |",
+            "|---|---|---|---|---|---|---|---|---|"]
+    for state in ("Least squares", "Keep static"):
+        for eta, (_, ratio) in published.items():
+            name = f"source_{eta}_{state.split()[0].lower()}"
+            summary = bench.run(name, "helical_170m_source", ["--set", f"Reduction/Modes={eta}", "--set", f"Reduction/Initial State={state}",
+                                                              "--set", f"Transient/End Time={bench.end}"])
+            if summary is None:
+                rows.append(f"| {eta} | {state} | failed |||||||")
+                continue
+            t = summary["transient"]
+            errors = bench.compare(name, "full_rk4", window)
+            rows.append(f"| {eta} | {state} | {summary['reduction']['reduced_dofs']} | {t['cpu_s']:.2f} | {full['transient']['cpu_s'] / t['cpu_s']:.2f} "
+                        f"| {ratio} | {errors[0]:.2e} | {errors[2]:.2e} | {errors[3]:.2e} |")
+    return bench.taken() + "\n" + "\n".join(rows) + "\n"
+
+
+TABLES = {"static": static_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "source": source_table}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True, help="the tooljoint program")
+    parser.add_argument("--work", default="results/validation", help="folder for the runs")
+    parser.add_argument("--end", type=float, default=20.0, help="simulated time [s]")
+    parser.add_argument("--only", default=",".join(TABLES), help="tables to write")
+    options = parser.parse_args()
+    bench = Bench(options)
+    page = PROJECT / "docs/validation.md"
+    text = page.read_text(encoding="utf-8")
+    for name in options.only.split(","):
+        table = TABLES[name](bench)
+        print(table, flush=True)
+        marked = re.compile(rf"(<!-- table {name} -->\n).*?(<!-- end -->)", re.S)
+        if not marked.search(text):
+            sys.exit(f"{page} has no place for the table \"{name}\".")
+        text = marked.sub(lambda match: match.group(1) + table + match.group(2), text)
+        page.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
