@@ -19,6 +19,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/Log.hpp"
 #include "linalg/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
 
@@ -67,6 +68,7 @@ class GeneralizedAlpha final : public Integrator {
  private:
   /// One step of length to.t - from.t; false when Newton fails (unless `keep`, which accepts the last iterate).
   bool attempt(const State& from, State& to, double h, bool keep);
+  void startAcceleration(State& state);
   void predict(const State& from, State& to, double h);
   double measure(const State& to);
   /// Whether a new factor is cheaper than going on at this rate of convergence.
@@ -143,21 +145,38 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
             rowSize_[pattern.start(b) + i] += std::abs(K[pattern.offset(e) + static_cast<std::size_t>(j * pattern.width(b) + i)]);
   }
 
-  // M q''_0 = F + R'f - C v - K q; dofs without mass start with no acceleration.
   factor_ = linalg::BlockFactor(model.pattern());
-  model.combine(1.0, 0.0, 0.0, factor_.values());
-  ++counters_.factorisations;
-  state.a.setZero();
-  if (factor_.factor() < 0) {
-    for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
-    model.addStiffness(state.q.data(), state.a.data());
-    model.addDamping(state.v.data(), state.a.data());
-    state.a = -state.a;
-    for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
-    model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
-    factor_.solve(state.a.data());
-  }
+  startAcceleration(state);
   A_ = state.a;
+}
+
+/// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
+void GeneralizedAlpha::startAcceleration(State& state) {
+  CompiledModel& model = *model_;
+  const int n = model.size();
+  for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
+  state.a.setZero();
+  model.addStiffness(state.q.data(), state.a.data());
+  model.addDamping(state.v.data(), state.a.data());
+  state.a = -state.a;
+  for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
+  model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
+  model.combine(1.0, 0.0, 0.0, factor_.values());
+  model.diagonal(1.0, 0.0, 0.0, scratch_.data());
+  for (int i = 0; i < n; ++i)
+    if (scratch_[i] == 0.0) {
+      factor_.values()[model.pattern().address(i, i)] = 1.0;
+      state.a[i] = 0.0;
+    }
+  ++counters_.factorisations;
+  const int bad = factor_.factor();
+  if (bad < 0) {
+    factor_.solve(state.a.data());
+    return;
+  }
+  log::warn("The mass matrix is singular at " + model.dofName(bad) +
+            " although there is mass on it: the motion starts without acceleration, with an error of first order in the step.");
+  state.a.setZero();
 }
 
 double GeneralizedAlpha::gridTime() const {

@@ -50,6 +50,9 @@ class Integrator {
   /// True when the step is bounded by the largest frequency of the model.
   virtual bool isExplicit() const { return false; }
 
+  /// Every how many steps the energy ledger has to look, for steps that are short beside what moves.
+  virtual int ledgerStride() const { return 1; }
+
   /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the integrator.
   /// Throws ModelError for a model this integrator cannot treat (a singular mass matrix for an explicit one).
   virtual void prepare(CompiledModel& model, const Window& window, State& state) = 0;

@@ -21,6 +21,7 @@ class RungeKutta4 final : public Integrator {
   explicit RungeKutta4(const Teuchos::ParameterList& own) : safety_(withDefaults(own, specification()).get<double>("Safety")) {}
 
   bool isExplicit() const override { return true; }
+  int ledgerStride() const override { return 4; }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {
     rhs_.bind(model, "RK4");

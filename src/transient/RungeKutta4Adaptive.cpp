@@ -86,6 +86,11 @@ class RungeKutta4Adaptive final : public Integrator {
   [[noreturn]] void giveUp(const State& from, const State& to, double error) {
     qHalf_ = (q1_ - to.q).cwiseAbs() + (v1_ - to.v).cwiseAbs();
     std::ostringstream text;
+    if (!std::isfinite(error)) {
+      text << "The motion is not finite however short the step from t = " << from.t << " s, first at "
+           << rhs_.model().dofName(worstPosition(qHalf_)) << ": a load, a law of time or a point law gives no number there.";
+      throw ConvergenceError(text.str());
+    }
     text << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t << " s: the error " << error << " exceeds the tolerance "
          << tolerance_ << ", most at " << rhs_.model().dofName(worstPosition(qHalf_))
          << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";

@@ -150,7 +150,7 @@ class Run {
       return;
     }
     checkFinite(model_, state_, state_);
-    if (options_.ledger) ledger_.start(model_, state_, bookEvery());
+    if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
     sampler_.first(state_);
   }
 
@@ -161,12 +161,12 @@ class Run {
     if (point.state.q.size() != model_.size() || point.fingerprint != fingerprint(model_))
       throw DeckError("The checkpoint belongs to another model than this deck describes. Restart with the same deck.");
     state_ = point.state;
-    integrator_->counters() = point.counters;
     evaluationsBefore_ = point.contactEvaluations;
     const double* memory = point.memory.data();
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
-    if (options_.ledger) ledger_.restore(model_, bookEvery(), memory);
+    if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
+    integrator_->counters() = point.counters;  // what was done again to get here is not counted twice
   }
 
   Checkpoint checkpoint() const {
@@ -183,8 +183,6 @@ class Run {
     return point;
   }
 
-  int bookEvery() const { return integrator_->isExplicit() ? 4 : 1; }
-
   /// True when stopped before the end.
   bool loop() {
     std::unique_ptr<Progress> bar;
@@ -200,7 +198,7 @@ class Run {
       if (options_.ledger) ledger_.book(model_, next_);
       sampler_.step(state_, next_);
       std::swap(state_, next_);
-      if (state_.t >= nextCheckpoint) {
+      if (state_.t >= nextCheckpoint && state_.t < options_.end) {
         hooks_.keep(checkpoint());
         nextCheckpoint += options_.checkpointInterval;
       }

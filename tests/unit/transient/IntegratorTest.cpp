@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every integrator against closed forms, and its order of convergence.
+/// Every integrator against closed forms, its order of convergence, and what each of its parameters does.
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
@@ -9,8 +9,8 @@
 namespace tooljoint::transient::testing {
 namespace {
 
-/// Error at the end of a damped free vibration with step h: m 2, zeta 0.05, omega 10.
-double freeVibrationError(const std::string& integrator, double h, Teuchos::ParameterList own = {}) {
+/// Largest error of the samples of a damped free vibration with step h: m 2, zeta 0.05, omega 10.
+double freeVibrationError(const std::string& integrator, double h, const Teuchos::ParameterList& own = {}) {
   const double m = 2, omega = 10, zeta = 0.05;
   const auto model = oscillator(m, 2 * zeta * omega * m, omega * omega * m, 0.3, -1.0);
   Keep samples;
@@ -28,6 +28,32 @@ double freeVibrationError(const std::string& integrator, double h, Teuchos::Para
   return error;
 }
 
+TransientReport runFor(const model::SecondOrderModel& model, const std::string& integrator, double end, double step,
+                       const Teuchos::ParameterList& own = {}) {
+  Keep samples;
+  auto o = options(integrator, end, step, end / 10);
+  o.own = own;
+  return integrate(model, o, samples);
+}
+
+template <class T>
+Teuchos::ParameterList with(const std::string& name, T value) {
+  Teuchos::ParameterList list;
+  list.set(name, value);
+  return list;
+}
+
+std::string refusal(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Order of convergence ---------------------------------------------------------------------------------------------------------------
+
 TEST(Integrators, fixedRungeKuttaIsOfFourthOrder) {
   const double coarse = freeVibrationError("RK4", 0.01);
   const double fine = freeVibrationError("RK4", 0.005);
@@ -37,13 +63,264 @@ TEST(Integrators, fixedRungeKuttaIsOfFourthOrder) {
 
 TEST(Integrators, generalizedAlphaIsOfSecondOrderAtEverySpectralRadius) {
   for (double radius : {0.0, 0.5, 0.8, 1.0}) {
-    Teuchos::ParameterList own;
-    own.set("Spectral Radius", radius);
+    const auto own = with("Spectral Radius", radius);
     const double coarse = freeVibrationError("Generalized-alpha", 0.002, own);
     const double fine = freeVibrationError("Generalized-alpha", 0.001, own);
     EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.06) << "spectral radius " << radius;
     EXPECT_LT(fine, 1e-3);
   }
+}
+
+TEST(Integrators, adaptiveRungeKuttaFollowsItsTolerance) {
+  double last = 1;
+  for (double tolerance : {1e-4, 1e-6, 1e-8}) {
+    auto own = with("Tolerance", tolerance);
+    own.set("Growth", 1.2);  // the growth of the source would need a thousand steps to show
+    const double error = freeVibrationError("RK4 adaptive", 0, own);
+    EXPECT_LT(error, last / 5) << "tolerance " << tolerance;
+    last = error;
+  }
+  EXPECT_LT(last, 1e-6);
+}
+
+/// q = sin(3 t) made to solve m q'' + (c + t^2 d) q' + (k + cos(t) e) q = F(t): every law of time is in it.
+model::SecondOrderModel manufactured() {
+  auto model = oscillator(2.0, 0.5, 30.0, 0.0, 3.0);
+  const int square = model.lawIndex({"t^2", [](double t) { return t * t; }});
+  const int cosine = model.lawIndex({"cos t", [](double t) { return std::cos(t); }});
+  const int load = model.lawIndex({"load", [](double t) {
+                                     return -18.0 * std::sin(3 * t) + (0.5 + 1.5 * t * t) * 3 * std::cos(3 * t) +
+                                            (30.0 + 12.0 * std::cos(t)) * std::sin(3 * t);
+                                   }});
+  model.damping.push_back({"growing", scalar(1.5).sparseView(), square});
+  model.stiffness.push_back({"breathing", scalar(12.0).sparseView(), cosine});
+  model.loads.push_back({"load", Vector::Constant(1, 1.0), load});
+  return model;
+}
+
+double manufacturedError(const std::string& integrator, double h) {
+  const auto model = manufactured();
+  Keep samples;
+  integrate(model, options(integrator, 2.0, h, 0.1), samples);
+  double error = 0;
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    error = std::max(error, std::abs(samples.q[i][0] - std::sin(3 * samples.time[i])));
+    error = std::max(error, std::abs(samples.v[i][0] - 3 * std::cos(3 * samples.time[i])));
+  }
+  return error;
+}
+
+TEST(Integrators, keepTheirOrderWhenMatricesAndLoadsChangeWithTime) {
+  EXPECT_NEAR(std::log2(manufacturedError("RK4", 0.02) / manufacturedError("RK4", 0.01)), 4.0, 0.2);
+  EXPECT_NEAR(std::log2(manufacturedError("Generalized-alpha", 0.004) / manufacturedError("Generalized-alpha", 0.002)), 2.0, 0.1);
+  EXPECT_LT(manufacturedError("RK4", 0.01), 1e-6);
+  EXPECT_LT(manufacturedError("Generalized-alpha", 0.002), 1e-4);
+}
+
+TEST(Integrators, accelerationBalancesTheForces) {
+  const auto model = manufactured();
+  for (const char* integrator : {"RK4", "RK4 adaptive", "Generalized-alpha"}) {
+    Keep samples;
+    integrate(model, options(integrator, 1.0, 0.002, 0.1), samples);
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      EXPECT_NEAR(samples.a[i][0], -9 * std::sin(3 * samples.time[i]), 1e-2) << integrator << " at " << samples.time[i];
+  }
+}
+
+// A ball on a spring-damper floor: second order through impacts, on the mean of many --------------------------------------------------
+
+double impactError(double h, double lambda, double damping) {
+  const auto model = droppedBalls(12, 1e6, damping, lambda);
+  Keep reference, samples;
+  auto fine = options("RK4", 0.1, 1e-6, 0.005);
+  fine.ledger = false;
+  integrate(model, fine, reference);
+  integrate(model, options("Generalized-alpha", 0.1, h, 0.005), samples);
+  double error = 0;
+  for (std::size_t i = 0; i < samples.q.size(); ++i) error += (samples.q[i] - reference.q[i]).squaredNorm();
+  return std::sqrt(error);
+}
+
+TEST(Integrators, generalizedAlphaIsOfSecondOrderThroughARegularisedStop) {
+  const double coarse = impactError(2e-4, 3e4, 300);
+  const double fine = impactError(5e-5, 3e4, 300);
+  EXPECT_GT(0.5 * std::log2(coarse / fine), 1.6);
+  EXPECT_LT(fine, 1e-5);
+}
+
+TEST(Integrators, generalizedAlphaIsOfSecondOrderThroughASharpElasticStop) {
+  const double coarse = impactError(4e-4, 7e11, 0);
+  const double fine = impactError(2.5e-5, 7e11, 0);
+  EXPECT_GT(0.25 * std::log2(coarse / fine), 1.6);
+}
+
+/// Damping that sets in at once makes the force jump: where in the step that happens is not resolved, which costs an impulse
+/// proportional to the step.
+TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
+  const double coarse = impactError(4e-4, 7e11, 300);
+  const double fine = impactError(2.5e-5, 7e11, 300);
+  EXPECT_GT(0.25 * std::log2(coarse / fine), 0.8);
+}
+
+// Parameters -------------------------------------------------------------------------------------------------------------------------
+
+TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
+  // Step 0.01 s: 1e4 rad/s is far above it, 10 rad/s far below.
+  const auto amplitude = [](double radius, double omega) {
+    Keep samples;
+    auto o = options("Generalized-alpha", 0.5, 0.01, 0.01);
+    o.own = with("Spectral Radius", radius);
+    integrate(oscillator(1, 0, omega * omega, 1.0, 0), o, samples);
+    double largest = 0;
+    for (std::size_t i = samples.q.size() - 20; i < samples.q.size(); ++i)
+      largest = std::max(largest, std::hypot(samples.q[i][0], samples.v[i][0] / omega));
+    return largest;
+  };
+  EXPECT_GT(amplitude(1.0, 1e4), 0.9);
+  EXPECT_LT(amplitude(0.8, 1e4), 0.05);
+  EXPECT_LT(amplitude(0.2, 1e4), 1e-6);
+  for (double radius : {0.2, 0.8, 1.0}) EXPECT_GT(amplitude(radius, 10), 0.85) << radius;
+}
+
+TEST(Integrators, tighterNewtonToleranceCostsIterationsAndBuysAccuracy) {
+  // A heavy law that bends: a floor regularised over a tenth of its penetration.
+  const auto model = droppedBalls(3, 1e6, 300, 1e4);
+  const auto end = [&](double tolerance, long& iterations) {
+    Keep samples;
+    auto o = options("Generalized-alpha", 0.1, 2e-4, 0.1);
+    o.own = with("Tolerance", tolerance);
+    iterations = integrate(model, o, samples).counters.newtonIterations;
+    return samples.q.back();
+  };
+  long loose, tight, exact;
+  const Vector atLoose = end(1e-2, loose), atTight = end(1e-6, tight), atExact = end(1e-12, exact);
+  EXPECT_LT(loose, tight);
+  EXPECT_LT(tight, exact);
+  EXPECT_LT((atTight - atExact).norm(), 0.01 * (atLoose - atExact).norm());
+}
+
+TEST(Integrators, fewIterationsLeadToHalving) {
+  const auto model = droppedBalls(10, 1e7, 1e4, 7e11, 2e5);
+  const auto full = runFor(model, "Generalized-alpha", 0.2, 1e-3);
+  auto own = with("Max Iterations", 2);
+  own.set("Max Halvings", 12);
+  const auto few = runFor(model, "Generalized-alpha", 0.2, 1e-3, own);
+  EXPECT_GT(few.counters.halved, full.counters.halved);
+  EXPECT_GT(few.counters.steps, full.counters.steps);
+  EXPECT_LT(few.counters.minStep, full.counters.minStep);
+  EXPECT_EQ(few.counters.unconvergedSteps, 0);
+}
+
+TEST(Integrators, withoutHalvingsAFailedStepEndsTheRunWithAdvice) {
+  const auto model = droppedBalls(10, 1e7, 1e4, 7e11, 2e5);
+  auto own = with("Max Iterations", 1);
+  own.set("Max Halvings", 0);
+  try {
+    runFor(model, "Generalized-alpha", 0.2, 1e-3, own);
+    FAIL() << "a run that did not converge ended as if it had";
+  } catch (const ConvergenceError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(error.code(), ExitCode::NotConverged);
+    EXPECT_NE(text.find("Newton did not converge in the step from t = 0.0"), std::string::npos) << text;
+    EXPECT_NE(text.find("u of node "), std::string::npos) << text;
+    EXPECT_NE(text.find("Choose a smaller Transient/Step"), std::string::npos) << text;
+  }
+}
+
+TEST(Integrators, unconvergedStepsAreKeptOnlyOnRequestAndCounted) {
+  const auto model = droppedBalls(10, 1e7, 1e4, 7e11, 2e5);
+  auto own = with("Max Iterations", 1);
+  own.set("Max Halvings", 0);
+  own.set("Accept Unconverged", true);
+  const auto report = runFor(model, "Generalized-alpha", 0.2, 1e-3, own);
+  EXPECT_GT(report.counters.unconvergedSteps, 0);
+  EXPECT_EQ(report.counters.steps, 200);
+}
+
+TEST(Integrators, defaultRungeKuttaStepIsBoundedByTheLargestFrequency) {
+  const int n = 40;
+  const double k = 3e5, m = 2.0;
+  const auto model = springChain(n, m, 0.0, k);
+  const double omega = 2 * std::sqrt(k / m) * std::sin(M_PI * n / (2.0 * (n + 1)));
+  auto report = runFor(model, "RK4", 1.0, 0);
+  const double limit = 2.78 / omega;
+  EXPECT_LE(report.counters.maxStep, 0.9 * limit * (1 + 1e-9));
+  EXPECT_GT(report.counters.maxStep, 0.8 * limit);
+  report = runFor(model, "RK4", 1.0, 0, with("Safety", 0.3));
+  EXPECT_LE(report.counters.maxStep, 0.3 * limit * (1 + 1e-9));
+  EXPECT_GT(report.counters.maxStep, 0.25 * limit);
+}
+
+TEST(Integrators, theFrequencyBoundSeesTheContactOfTheInitialState) {
+  auto model = oscillator(1.0, 0, 100.0, -0.001, 0);
+  addFloor(model, 1e6, 0, 1e6);
+  const auto touching = runFor(model, "RK4", 0.1, 0);
+  model.initialDisplacement[0] = 0.1;
+  const auto apart = runFor(model, "RK4", 0.1, 0);
+  EXPECT_LT(touching.counters.maxStep, 0.02 * apart.counters.maxStep + 1e-3);
+  EXPECT_LE(touching.counters.maxStep, 0.9 * 2.78 / 1e3);
+}
+
+TEST(Integrators, explicitOnesRefuseADofWithoutMass) {
+  auto model = springChain(3, 1.0, 0.0, 10.0);
+  model.mass.coeffRef(1, 1) = 0.0;
+  for (const char* integrator : {"RK4", "RK4 adaptive"}) {
+    const auto text = refusal([&] { runFor(model, integrator, 1.0, 1e-3); });
+    EXPECT_NE(text.find("u of node 2"), std::string::npos) << text;
+    EXPECT_NE(text.find("Generalized-alpha"), std::string::npos) << text;
+  }
+}
+
+TEST(Integrators, generalizedAlphaTakesDofsWithoutMass) {
+  // A massless node between two springs: q2 = q1/2 at all times, and q1 swings on k + k/2.
+  Matrix M = Matrix::Zero(2, 2), K(2, 2);
+  M(0, 0) = 1;
+  K << 200, -100, -100, 200;
+  auto model = denseModel(M, Matrix(), K);
+  model.initialDisplacement << 0.1, 0.05;
+  Keep samples;
+  integrate(model, options("Generalized-alpha", 1.0, 1e-3, 0.1), samples);
+  for (std::size_t i = 0; i < samples.q.size(); ++i) {
+    EXPECT_NEAR(samples.q[i][1], 0.5 * samples.q[i][0], 1e-9);
+    EXPECT_NEAR(samples.q[i][0], 0.1 * std::cos(std::sqrt(150.0) * samples.time[i]), 2e-4);
+  }
+}
+
+TEST(Integrators, adaptiveStepGrowsShrinksAndStartsAsAsked) {
+  const auto model = oscillator(1, 0, 1e4, 1e-3, 0);
+  const auto usual = runFor(model, "RK4 adaptive", 0.2, 0);
+  EXPECT_NEAR(usual.counters.minStep, 1e-5, 1e-12);
+  EXPECT_GT(usual.counters.maxStep, 1e-3);
+  const auto fast = runFor(model, "RK4 adaptive", 0.2, 0, with("Growth", 1.5));
+  EXPECT_LT(fast.counters.steps, usual.counters.steps / 3);
+  const auto still = runFor(model, "RK4 adaptive", 0.02, 0, with("Growth", 1.0));
+  EXPECT_EQ(still.counters.steps, 2000);
+  EXPECT_EQ(still.counters.rejected, 0);
+  // Far too long a first step is shrunk until the error fits: by 1.1 at a time, or at once.
+  const auto shrunk = runFor(model, "RK4 adaptive", 0.2, 0, with("First Step", 0.05));
+  auto own = with("First Step", 0.05);
+  own.set("Shrink", 10.0);
+  const auto atOnce = runFor(model, "RK4 adaptive", 0.2, 0, own);
+  EXPECT_GT(shrunk.counters.rejected, 3 * atOnce.counters.rejected);
+  EXPECT_GT(atOnce.counters.rejected, 0);
+}
+
+TEST(Integrators, adaptiveStepHasASmallestLength) {
+  const auto model = oscillator(1, 0, 1e8, 1.0, 0);
+  auto own = with("Tolerance", 1e-9);
+  own.set("Smallest Step", 1e-5);
+  const auto text = refusal([&] { runFor(model, "RK4 adaptive", 1.0, 0, own); });
+  EXPECT_NE(text.find("needs a step below 1e-05 s at t = 0"), std::string::npos) << text;
+  EXPECT_NE(text.find("u of node 1"), std::string::npos) << text;
+  own.set("Smallest Step", 1e-9);
+  EXPECT_NO_THROW(runFor(model, "RK4 adaptive", 1e-4, 0, own));
+}
+
+TEST(Integrators, fixedStepsDivideTheSamplingInterval) {
+  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 1e-3), 1e-3);
+  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.0019), 0.005 / 3);
+  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.005), 0.005);
+  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.03), 1.0 / 34);  // longer than the interval: samples are interpolated
 }
 
 }  // namespace

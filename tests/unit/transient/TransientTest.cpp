@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The run around an integrator: samples, reports, errors, interrupts, checkpoints, energy, allocation.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "Models.hpp"
+#include "common/Error.hpp"
+#include "common/Interrupt.hpp"
+#include "substructures/contact/ContactLaw.hpp"
+
+// Counts every allocation of this program. The sanitizers bring their own malloc.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
+#define COUNTS_ALLOCATIONS 1
+static long allocations = 0;
+extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* malloc(std::size_t bytes) {
+  ++allocations;
+  return __libc_malloc(bytes);
+}
+#endif
+
+namespace tooljoint::transient::testing {
+namespace {
+
+const std::vector<std::string> allIntegrators = {"Generalized-alpha", "RK4", "RK4 adaptive"};
+
+std::string failure(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Samples ----------------------------------------------------------------------------------------------------------------------------
+
+TEST(Transient, samplesStandAtMultiplesOfTheInterval) {
+  const auto model = oscillator(1, 0.1, 400, 0.1, 0);
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    auto o = options(integrator, 1.7, 0, 0.05);
+    o.start = 0.5;
+    const auto report = integrate(model, o, samples);
+    ASSERT_EQ(samples.time.size(), 25u) << integrator;
+    for (std::size_t i = 0; i < samples.time.size(); ++i) EXPECT_DOUBLE_EQ(samples.time[i], 0.5 + 0.05 * static_cast<double>(i));
+    EXPECT_EQ(report.samples, 25);
+    EXPECT_EQ(report.start, 0.5);
+    EXPECT_EQ(report.end, 1.7);
+  }
+}
+
+TEST(Transient, anEndBetweenSamplesIsReachedButNotSampled) {
+  const auto model = oscillator(1, 0.1, 400, 0.1, 0);
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    const auto report = integrate(model, options(integrator, 0.117, 1e-3, 0.05), samples);
+    EXPECT_EQ(samples.time.size(), 3u);
+    EXPECT_EQ(report.end, 0.117);
+  }
+}
+
+TEST(Transient, samplesBetweenLongStepsAreInterpolated) {
+  const auto model = oscillator(1, 0, 1, 1.0, 0);
+  Keep samples;
+  integrate(model, options("RK4", 2.0, 0.1, 0.01), samples);
+  ASSERT_EQ(samples.time.size(), 201u);
+  for (std::size_t i = 0; i < samples.time.size(); ++i) {
+    EXPECT_NEAR(samples.q[i][0], std::cos(samples.time[i]), 2e-6);
+    EXPECT_NEAR(samples.v[i][0], -std::sin(samples.time[i]), 2e-6);
+    EXPECT_NEAR(samples.a[i][0], -std::cos(samples.time[i]), 2e-3);
+  }
+}
+
+TEST(Transient, samplesAreInTheOrderOfTheModel) {
+  // Dofs of two nodes mixed: the kernel sorts them by node, the sink must not notice.
+  auto model = springChain(4, 1, 0, 50);
+  model.dofs = {model::DofLabel::physical(1, 0), model::DofLabel::physical(2, 0), model::DofLabel::physical(1, 1),
+                model::DofLabel::physical(2, 1)};
+  model.initialDisplacement << 1, 2, 3, 4;
+  model.initialVelocity << 5, 6, 7, 8;
+  Keep samples;
+  integrate(model, options("RK4", 0.1, 1e-3, 0.1), samples);
+  EXPECT_EQ(samples.q[0], model.initialDisplacement);
+  EXPECT_EQ(samples.v[0], model.initialVelocity);
+  EXPECT_LT((samples.a[0] + model.stiffness[0].matrix * model.initialDisplacement).norm(), 1e-12);
+}
+
+TEST(Transient, integratorsAgree) {
+  const auto model = droppedBalls(5, 1e6, 300, 1e6, 2e4);
+  std::vector<Keep> samples(3);
+  integrate(model, options("RK4", 0.05, 1e-6, 0.005), samples[0]);
+  integrate(model, options("Generalized-alpha", 0.05, 1e-5, 0.005), samples[1]);
+  auto o = options("RK4 adaptive", 0.05, 0, 0.005);
+  o.own.set("Tolerance", 1e-7);
+  integrate(model, o, samples[2]);
+  for (std::size_t i = 0; i < samples[0].q.size(); ++i) {
+    EXPECT_LT((samples[1].q[i] - samples[0].q[i]).cwiseAbs().maxCoeff(), 2e-6);
+    EXPECT_LT((samples[2].q[i] - samples[0].q[i]).cwiseAbs().maxCoeff(), 2e-6);
+  }
+}
+
+// Options ----------------------------------------------------------------------------------------------------------------------------
+
+TEST(Transient, readsItsListWithDefaults) {
+  Teuchos::ParameterList list("Transient");
+  list.set("End Time", 2.0);
+  auto o = readOptions(list);
+  EXPECT_EQ(o.integrator, "Generalized-alpha");
+  EXPECT_EQ(o.start, 0.0);
+  EXPECT_EQ(o.sampling, 0.005);
+  EXPECT_EQ(o.step, 0.0);
+  EXPECT_TRUE(o.progress);
+  EXPECT_TRUE(o.ledger);
+  list.set("Integrator", "RK4");
+  list.set("Step", 1e-4);
+  list.sublist("RK4").set("Safety", 0.5);
+  o = readOptions(list);
+  EXPECT_EQ(o.step, 1e-4);
+  EXPECT_EQ(o.own.get<double>("Safety"), 0.5);
+  EXPECT_TRUE(isExplicit(list));
+  list.set("Integrator", "Generalized-alpha");
+  EXPECT_FALSE(isExplicit(list));
+}
+
+TEST(Transient, refusesAnEndBeforeTheStart) {
+  Teuchos::ParameterList list("Transient");
+  list.set("End Time", 1.0);
+  list.set("Start Time", 1.0);
+  EXPECT_NE(failure([&] { readOptions(list); }).find("must be later than Transient/Start Time"), std::string::npos);
+}
+
+TEST(Transient, everyIntegratorDescribesItself) {
+  const auto spec = parameters();
+  for (const auto& integrator : allIntegrators) {
+    const auto* own = spec.findList(integrator);
+    ASSERT_NE(own, nullptr) << integrator;
+    EXPECT_GT(own->doc().size(), 20u);
+    EXPECT_FALSE(own->parameters().empty());
+  }
+  EXPECT_NE(failure([] { IntegratorRegistry::instance().make("Newmark", Teuchos::ParameterList()); }).find("\"RK4 adaptive\""),
+            std::string::npos);
+}
+
+// Failures -----------------------------------------------------------------------------------------------------------------------------
+
+TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
+  auto model = springChain(3, 1.0, 0.0, 100.0);
+  Sparse negative(3, 3);
+  negative.coeffRef(1, 1) = -40.0;  // feeds energy in at node 2
+  model.damping = {{"unstable", negative, 0}};
+  model.initialVelocity[1] = 1.0;
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    const auto text = failure([&] { integrate(model, options(integrator, 100.0, 1e-2, 1.0), samples); });
+    EXPECT_NE(text.find("The motion blew up in the step from t = "), std::string::npos) << integrator << ": " << text;
+    EXPECT_NE(text.find("u of node 2"), std::string::npos) << text;
+  }
+}
+
+TEST(Transient, aStepBeyondTheStabilityLimitIsNotAResult) {
+  auto model = oscillator(1, 0, 1e6, 1e-3, 0);
+  Keep samples;
+  const auto text = failure([&] { integrate(model, options("RK4", 10.0, 4e-3, 1.0), samples); });
+  EXPECT_NE(text.find("blew up"), std::string::npos) << text;
+  for (const auto& q : samples.q) EXPECT_LT(q.cwiseAbs().maxCoeff(), 1e6);
+}
+
+TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
+  auto model = springChain(3, 1.0, 0.5, 100.0);
+  const int law = model.lawIndex({"broken", [](double t) { return t < 0.5 ? 1.0 : std::nan(""); }});
+  model.loads.push_back({"broken", Vector::Unit(3, 2), law});
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    const auto text = failure([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
+    EXPECT_TRUE(text.find("t = 0.4") != std::string::npos || text.find("t = 0.5") != std::string::npos) << integrator << ": " << text;
+    EXPECT_NE(text.find("of node"), std::string::npos) << text;
+    for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
+  }
+}
+
+// Interrupt and restart ----------------------------------------------------------------------------------------------------------------
+
+TEST(Transient, anInterruptStopsCleanly) {
+  const auto model = oscillator(1, 0, 400, 0.1, 0);
+  Keep samples;
+  requestInterrupt();
+  const auto report = integrate(model, options("RK4", 1.0, 1e-3, 0.1), samples);
+  requestInterrupt(false);
+  EXPECT_TRUE(report.interrupted);
+  EXPECT_EQ(report.end, 0.0);
+  EXPECT_EQ(samples.time.size(), 1u);
+}
+
+/// Balls with contact, plus a load and a damping that change with time, so that everything a run remembers matters.
+model::SecondOrderModel eventful() {
+  auto model = droppedBalls(6, 1e6, 2e3, 7e11, 2e4);
+  const int law = model.lawIndex({"swell", [](double t) { return 1 + 0.5 * std::sin(40 * t); }});
+  model.damping.push_back({"swelling", (3.0 * Matrix::Identity(6, 6)).sparseView(), law});
+  model.loads.push_back({"shaking", Vector::LinSpaced(6, -30, 60), law});
+  return model;
+}
+
+class Restart : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Restart, goesOnWithTheSameNumbers) {
+  const auto model = eventful();
+  const auto o = options(GetParam(), 0.3, GetParam() == "RK4" ? 5e-5 : 0, 0.005);
+  Keep whole;
+  const auto reference = integrate(model, o, whole);
+
+  Keep first, second;
+  Checkpoint kept;
+  RunHooks hooks;
+  long calls = 0;
+  hooks.stop = [&] { return ++calls > reference.counters.steps / 2 + 3; };
+  hooks.keep = [&](const Checkpoint& c) { kept = c; };
+  const auto stopped = integrate(model, o, first, hooks);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_GT(stopped.end, 0.005);
+  EXPECT_LT(stopped.end, 0.28);
+
+  const auto file = (std::filesystem::temp_directory_path() / ("checkpoint_" + std::to_string(::getpid()))).string();
+  kept.write(file);
+  const Checkpoint read = Checkpoint::read(file);
+  std::filesystem::remove(file);
+  RunHooks again;
+  again.resume = &read;
+  const auto report = integrate(model, o, second, again);
+  EXPECT_EQ(first.time.size() + second.time.size(), whole.time.size());
+  for (std::size_t i = 0; i < second.time.size(); ++i) {
+    const std::size_t k = first.time.size() + i;
+    EXPECT_EQ(second.time[i], whole.time[k]);
+    EXPECT_EQ(second.q[i], whole.q[k]) << "sample " << k;
+    EXPECT_EQ(second.v[i], whole.v[k]);
+    EXPECT_EQ(second.a[i], whole.a[k]);
+  }
+  EXPECT_EQ(report.counters.steps, reference.counters.steps);
+  EXPECT_EQ(report.counters.newtonIterations, reference.counters.newtonIterations);
+  EXPECT_EQ(report.counters.rejected, reference.counters.rejected);
+  EXPECT_EQ(report.counters.halved, reference.counters.halved);
+  EXPECT_EQ(report.counters.factorisations, reference.counters.factorisations);
+  EXPECT_EQ(report.counters.minStep, reference.counters.minStep);
+  EXPECT_EQ(report.samples, reference.samples);
+  EXPECT_EQ(report.energy.numerical(), reference.energy.numerical());
+  EXPECT_EQ(report.energy.exchanged, reference.energy.exchanged);
+}
+INSTANTIATE_TEST_SUITE_P(Transient, Restart, ::testing::ValuesIn(allIntegrators));
+
+TEST(Checkpoints, comeAtTheirInterval) {
+  const auto model = eventful();
+  auto o = options("Generalized-alpha", 0.3, 1e-3, 0.005);
+  o.checkpointInterval = 0.1;
+  std::vector<double> times;
+  RunHooks hooks;
+  hooks.keep = [&](const Checkpoint& c) { times.push_back(c.state.t); };
+  Keep samples;
+  integrate(model, o, samples, hooks);
+  ASSERT_EQ(times.size(), 2u);  // none at the end
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(times[static_cast<std::size_t>(i)], 0.1 * (i + 1), 1.1e-3);
+  times.clear();
+  o.checkpointInterval = 0;
+  integrate(model, o, samples, hooks);
+  EXPECT_TRUE(times.empty());
+}
+
+TEST(Checkpoints, belongToOneModelAndOneIntegrator) {
+  auto model = eventful();
+  Checkpoint kept;
+  RunHooks hooks;
+  hooks.stop = [&, calls = 0]() mutable { return ++calls > 5; };
+  hooks.keep = [&](const Checkpoint& c) { kept = c; };
+  Keep samples;
+  integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, hooks);
+  RunHooks again;
+  again.resume = &kept;
+  EXPECT_NE(failure([&] { integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again); }).find("written by the integrator \"RK4\""),
+            std::string::npos);
+  model.stiffness[0].matrix.coeffRef(0, 0) *= 1 + 1e-9;
+  EXPECT_NE(failure([&] { integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, again); }).find("another model"), std::string::npos);
+}
+
+TEST(Checkpoints, filesThatAreNoneAreRefused) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto file = (folder / ("none_" + std::to_string(::getpid()))).string();
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("Cannot open"), std::string::npos);
+  std::ofstream(file) << "something else entirely, and long enough to be read as numbers";
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("not a checkpoint"), std::string::npos);
+  Checkpoint point;
+  point.integrator = "RK4";
+  point.state.resize(100);
+  point.memory.assign(50, 1.0);
+  point.write(file);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 64);
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("cut short"), std::string::npos);
+  std::filesystem::remove(file);
+  EXPECT_NE(failure([&] { point.write("/nowhere/at/all"); }).find("Cannot write"), std::string::npos);
+}
+
+// Energy -------------------------------------------------------------------------------------------------------------------------------
+
+TEST(Energy, freeVibrationIsConserved) {
+  const auto model = oscillator(2, 0, 800, 0.1, 1.0);
+  Keep samples;
+  auto o = options("RK4", 1.0, 1e-4, 0.1);
+  const auto report = integrate(model, o, samples);
+  ASSERT_TRUE(report.hasEnergy);
+  EXPECT_NEAR(report.energy.initial, 0.5 * 800 * 0.01 + 0.5 * 2, 1e-12);
+  EXPECT_NEAR(report.energy.kinetic + report.energy.strain, 5.0, 1e-8);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-9);
+  o.ledger = false;
+  EXPECT_FALSE(integrate(model, o, samples).hasEnergy);
+}
+
+TEST(Energy, dampingTakesWhatIsMissing) {
+  const auto model = oscillator(2, 4.0, 800, 0.1, 1.0);
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    const auto report = integrate(model, options(integrator, 3.0, 5e-4, 0.1), samples);
+    ASSERT_EQ(report.energy.damping.size(), 1u);
+    EXPECT_EQ(report.energy.dampingNames[0], "damping");
+    EXPECT_NEAR(report.energy.damping[0], 5.0 - report.energy.kinetic - report.energy.strain, 0.01) << integrator;
+    EXPECT_LT(std::abs(report.energy.residual()), 2e-3) << integrator;
+  }
+}
+
+TEST(Energy, numericalDissipationShowsAsResidual) {
+  // A frequency far above the step: rho 0 removes its energy, rho 1 keeps it.
+  const auto model = oscillator(1, 0, 1e8, 1e-3, 0);
+  const auto lost = [&](double radius) {
+    Keep samples;
+    auto o = options("Generalized-alpha", 0.1, 1e-3, 0.1);
+    o.own.set("Spectral Radius", radius);
+    const auto energy = integrate(model, o, samples).energy;
+    return energy.numerical() / energy.initial;
+  };
+  EXPECT_NEAR(lost(0.0), 1.0, 1e-6);
+  EXPECT_GT(lost(0.8), 0.9);
+  EXPECT_NEAR(lost(1.0), 0.0, 1e-6);
+}
+
+TEST(Energy, loadsAndGyroscopicsAreBooked) {
+  // A rotor pushed by a constant force; the gyroscopic term does no work and appears nowhere.
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), 100 * Matrix::Identity(2, 2), 2);
+  Matrix G(2, 2);
+  G << 0, 3, -3, 0;
+  model.damping.push_back({"gyroscopic", G.sparseView(), 0});
+  model.loads.push_back({"push", Vector::Unit(2, 0) * 7.0, 0});
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 1.0, 1e-3, 0.1), samples);
+  EXPECT_TRUE(report.energy.damping.empty());
+  EXPECT_NEAR(report.energy.loads, 7.0 * samples.q.back()[0], 1e-12);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-5);
+}
+
+TEST(Energy, skewStiffnessIsCirculatory) {
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix::Identity(2, 2), 100 * Matrix::Identity(2, 2), 2);
+  Matrix S(2, 2);
+  S << 0, 5, -5, 0;
+  model.stiffness.push_back({"torque", S.sparseView(), 0});
+  model.initialDisplacement << 0.1, 0;
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 2.0, 1e-3, 0.1), samples);
+  EXPECT_GT(std::abs(report.energy.circulatory), 1e-3);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
+}
+
+TEST(Energy, bouncingBallsBalance) {
+  const auto model = droppedBalls(4, 1e6, 300, 1e6);
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 0.2, 1e-5, 0.1), samples);
+  EXPECT_GT(report.energy.contactDamping, 0.2);
+  EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
+}
+
+TEST(Energy, aDrivenRotorInItsBoreBalances) {
+  auto model = denseModel(Vector(Eigen::Vector3d(10, 10, 0.05)).asDiagonal(), Matrix(),
+                          Vector(Eigen::Vector3d(2e3, 2e3, 500)).asDiagonal(), 3);
+  model.componentNames = {"u", "v", "theta_z"};
+  contact::ContactPoints points;
+  points.add({1, 0.01, 0.1, 1e6, 300, 1e6, 1e6, 0.3, 0.2, 0.1});
+  model::PointSet set;
+  set.name = "contact";
+  set.law = contact::makeLaw("Clamped")->inMotion(points, [](double) { return 10.0; });
+  set.rows.resize(3, 3);
+  set.rows.setIdentity();
+  set.offset = Vector::Zero(3);
+  set.entities = {1};
+  model.points.push_back(set);
+  model.loads.push_back({"weight", Vector::Unit(3, 0) * 98.1, 0});
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 1.0, 2e-5, 0.1), samples);
+  EXPECT_GT(report.energy.friction, 1.0);
+  EXPECT_GT(report.energy.drive, 1.0);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
+}
+
+// Cost ---------------------------------------------------------------------------------------------------------------------------------
+
+#ifdef COUNTS_ALLOCATIONS
+/// Counter of allocations at the first sample and at the last.
+class AllocationProbe final : public SampleSink {
+ public:
+  void sample(double, const Vector&, const Vector&, const Vector&) override {
+    if (first < 0) first = allocations;
+    last = allocations;
+  }
+  long first = -1, last = -1;
+};
+
+TEST(Cost, theStepLoopAllocatesNothing) {
+  auto model = eventful();
+  for (const auto& integrator : allIntegrators) {
+    AllocationProbe probe;
+    auto o = options(integrator, 0.2, integrator == "RK4" ? 5e-5 : 0, 0.005);
+    const auto report = integrate(model, o, probe);
+    EXPECT_GT(report.counters.steps, 100);
+    EXPECT_EQ(probe.last - probe.first, 0) << integrator;
+  }
+  const long before = allocations;
+  auto* something = new std::vector<double>(100);  // the probe itself works
+  delete something;
+  EXPECT_GT(allocations, before);
+}
+#endif
+
+TEST(Cost, onlyPointsNearTheFloorAreEvaluated) {
+  auto model = droppedBalls(10, 1e6, 2e3, 7e11);
+  for (int i = 0; i < 5; ++i) model.initialDisplacement[i] = 10.0 + i;  // five never come down in time
+  Keep samples;
+  const auto report = integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples);
+  EXPECT_GT(report.contactEvaluations, 0);
+  // Five balls, at most a dozen evaluations per step and ball.
+  EXPECT_LT(report.contactEvaluations, 5 * 12 * report.counters.steps);
+  model.initialDisplacement.setConstant(10.0);
+  EXPECT_EQ(integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples).contactEvaluations, 0);
+}
+
+TEST(Cost, reportAddsUp) {
+  const auto model = eventful();
+  Keep samples;
+  const auto report = integrate(model, options("Generalized-alpha", 0.3, 1e-3, 0.005), samples);
+  EXPECT_EQ(report.integrator, "Generalized-alpha");
+  EXPECT_EQ(report.size, 6);
+  EXPECT_GE(report.counters.newtonIterations, report.counters.steps / 2);
+  EXPECT_GE(report.counters.factorisations, 2);
+  EXPECT_GT(report.wall, 0);
+  EXPECT_GT(report.cpu, 0);
+  EXPECT_NEAR(report.realTimeFactor, 0.3 / report.wall, 1e-6 / report.wall);
+  EXPECT_FALSE(report.interrupted);
+}
+
+}  // namespace
+}  // namespace tooljoint::transient::testing
