@@ -11,7 +11,8 @@ namespace tooljoint::app {
 /// Options of the commands that read a deck.
 struct RunOptions {
   std::string deck;                    ///< file
-  std::vector<std::string> overrides;  ///< "PATH=VALUE"
+  std::vector<std::string> overrides;  ///< "PATH=VALUE", or "!PATH" for a list taken out
+  std::vector<std::string> without;    ///< lists taken out before the other overrides
   std::string output;                  ///< results folder; empty: results/<name of the deck>
   std::string restart;                 ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;                  ///< frequencies listed by `modes`

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 
 #include "app/Commands.hpp"
+#include "common/Error.hpp"
 #include "common/Log.hpp"
+#include "common/Text.hpp"
 #include "io/ResultsReader.hpp"
 #include "study/Metrics.hpp"
 
@@ -28,6 +31,15 @@ struct Motion {
 void compare(const CompareOptions& options) {
   const Motion motion(options.folder);
   const Motion reference(options.reference);
+  if (motion.shape.size() != 3 || motion.shape[1] != reference.shape[1])
+    throw UsageError(options.folder + " and " + options.reference + " hold the motion of different strings.");
+  const auto samples = [&](const Motion& of) {
+    return std::count_if(of.time.begin(), of.time.end(), [&](double t) { return t >= options.begin - 1e-9 && t <= options.end + 1e-9; });
+  };
+  if (samples(motion) != samples(reference) || samples(motion) == 0)
+    throw UsageError("Between " + formatNumber(options.begin) + " and " + formatNumber(options.end) + " s " + options.folder + " holds " +
+                     std::to_string(samples(motion)) + " samples and " + options.reference + " " + std::to_string(samples(reference)) +
+                     ". Choose a window that both runs reached, with the same Sampling Interval (--from, --to).");
   const study::Window window{options.begin, options.end};
   const auto overTime = study::errorOverTime(motion.view(), reference.view(), window);
   const auto overNodes = study::errorOverNodes(motion.view(), reference.view(), window);

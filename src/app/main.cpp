@@ -50,12 +50,7 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
   command.add_option("--set", options.overrides, "override one parameter: PATH=VALUE, e.g. --set \"Transient/End Time=5\"")
       ->allow_extra_args(false);
-  command.add_option_function<std::vector<std::string>>(
-             "--without",
-             [&options](const std::vector<std::string>& lists) {
-               for (const auto& list : lists) options.overrides.push_back("!" + list);
-             },
-             "take a list out of the deck, e.g. --without Mud: what it describes is not modelled")
+  command.add_option("--without", options.without, "take a list out of the deck before --set, e.g. --without Mud: what it describes is not modelled")
       ->allow_extra_args(false);
   if (writes) command.add_option("--output,-o", options.output, "folder for the results (default: results/<name of the deck>)");
 }
@@ -123,6 +118,9 @@ int run(int argc, char** argv) {
     say(std::cerr, program.help());
     return code(ExitCode::Usage);
   }
+  std::vector<std::string> edits;
+  for (const auto& list : options.without) edits.push_back("!" + list);
+  options.overrides.insert(options.overrides.begin(), edits.begin(), edits.end());
   tooljoint::installInterruptHandlers();
   return guarded(command);
 }
