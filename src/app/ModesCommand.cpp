@@ -8,7 +8,7 @@
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
 #include "common/Log.hpp"
-#include "coupling/Assembler.hpp"
+#include "coupling/Synthesis.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 
@@ -39,10 +39,10 @@ void modes(const RunOptions& options) {
   const Vector full = eigenvalues(fullModel(stage), options.modeCount);
   Vector coupled;
   if (scene.reduces()) {
-    const auto parts = reduction::reduceAll(cut(scene, stage), scene.list().sublist("Reduction"));
-    for (const auto& part : parts) log::info(part.report.table());
-    log::info(reduction::summaryTable(parts));
-    coupled = eigenvalues(coupling::couple(parts), options.modeCount);
+    const auto synthesis = coupling::synthesise(cut(scene, stage), scene.list().sublist("Reduction"));
+    for (const auto& part : synthesis.parts) log::info(part.report.table());
+    log::info(reduction::summaryTable(synthesis.parts));
+    coupled = eigenvalues(synthesis.coupled.model, options.modeCount);
   }
   log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent):");
   log::info(scene.reduces() ? "  mode       full [Hz]    coupled [Hz]   relative error" : "  mode       full [Hz]");

@@ -16,9 +16,8 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "coupling/Assembler.hpp"
+#include "coupling/Synthesis.hpp"
 #include "io/ResultsReader.hpp"
-#include "reduction/Reduce.hpp"
 
 namespace tooljoint::app {
 
@@ -90,8 +89,9 @@ class Run {
     const auto start = Clock::now();
     const auto parts = cut(scene_, stage_);
     const auto& list = scene_.list().sublist("Reduction");
-    const auto reduced = reduction::reduceAll(parts, list);
-    auto model = coupling::couple(reduced);
+    auto synthesis = coupling::synthesise(parts, list);
+    const auto& reduced = synthesis.parts;
+    auto& model = synthesis.coupled.model;
     const double wall = since(start);
     log::info(describeReduction(reduced, scene_.freeDofs(), model.size(), wall));
     summarise(reduced, list.get<std::string>("Basis"), model.size(), wall, summary_);
@@ -99,7 +99,7 @@ class Run {
       if (scene_.output.csv) stageBasisTable(reduced, *folder_);
       if (scene_.output.reducedBases) writeBases(reduced, *file_);
     });
-    return model;
+    return std::move(model);
   }
 
   void integrate(const model::SecondOrderModel& model) {

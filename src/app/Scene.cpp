@@ -11,6 +11,7 @@
 #include "reduction/ReductionParameters.hpp"
 #include "substructures/string/ContactNodes.hpp"
 #include "substructures/string/DrillstringReader.hpp"
+#include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
 
 namespace tooljoint::app {
@@ -75,6 +76,12 @@ Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const 
   return deck.isSublist(spec.name()) ? deck.sublist(spec.name()) : deck::defaults(spec);
 }
 
+bool stepsExplicitly(const Teuchos::ParameterList& transient) {
+  const auto& integrator = transient::IntegratorRegistry::instance().find(transient.get<std::string>("Integrator"));
+  const auto own = deck::variantList(transient, transient.get<std::string>("Integrator"), integrator.parameters);
+  return integrator.make(own)->isExplicit();
+}
+
 /// What only several lists together can tell.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -126,7 +133,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
   faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
   faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
-  const bool explicitSteps = list.isSublist("Transient") && list.sublist("Transient").get<std::string>("Integrator").rfind("RK4", 0) == 0;
+  const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
   faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();
 

@@ -298,4 +298,14 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
 }
 
 }  // namespace
+TEST(EigenSolver, AFreeCoordinateBesideStiffOnesIsAccepted) {
+  Matrix K = Matrix::Zero(3, 3);
+  K.diagonal() << 0.0, 1e6, 4e10;
+  Matrix M = Matrix::Identity(3, 3);
+  M(0, 1) = M(1, 0) = 0.3;
+  const auto modes = linalg::symmetricModes(K, M);
+  EXPECT_NEAR(modes.values[0], 0.0, 1e-4);
+  EXPECT_NEAR(modes.values[1], 1e6 / (1.0 - 0.09), 1e-3);
+}
+
 }  // namespace tooljoint::linalg
