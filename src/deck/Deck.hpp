@@ -22,8 +22,8 @@ namespace tooljoint::deck {
 class Deck {
  public:
   /// Read `file` on rank 0 and hand its text to all ranks, so that all see the same and fail alike. Collective.
-  /// `overrides` are "PATH=VALUE". Throws FileError (file missing, a folder, unreadable), DeckError, UsageError (override without
-  /// "=").
+  /// `overrides` are "PATH=VALUE", or "!PATH" to take a list out. Throws FileError (file missing, a folder, unreadable), DeckError,
+  /// UsageError (override without "=").
   static Deck read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides = {});
 
   /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder. Collective. A file that

@@ -25,11 +25,12 @@ std::string clause(const std::string& doc) {
   return text;
 }
 
-std::string introduce(const std::string& name, const std::string& words) {
+/// What a person is told about a thing that was named: "It is the ..." where the words begin with an article.
+std::string introduce(const std::string& words) {
   for (const char* article : {"the ", "a ", "an "}) {
     if (words.compare(0, std::char_traits<char>::length(article), article) == 0) return "It is " + words + ".";
   }
-  return "\"" + name + "\": " + words + ".";
+  return "It means: " + words + ".";
 }
 
 double exampleNumber(const Range& range, bool whole) {
@@ -106,17 +107,20 @@ std::string describe(const Default& value) {
 }
 
 std::string describe(const ParameterSpec& parameter) {
-  std::string text = clause(parameter.doc);
+  // Unit and range belong behind the first sentence.
+  const std::string words = clause(parameter.doc);
+  const auto end = words.find(". ");
+  std::string text = words.substr(0, end);
   if (!parameter.unit.empty()) text += ", " + parameter.unit;
   const std::string range = describe(parameter.range);
   if (!range.empty()) text += ", " + range;
   if (!parameter.choices.empty()) text += ", one of " + quotedList(parameter.choices);
-  return text;
+  return end == std::string::npos ? text : text + words.substr(end);
 }
 
-std::string introduce(const ParameterSpec& parameter) { return introduce(parameter.name, describe(parameter)); }
+std::string introduce(const ParameterSpec& parameter) { return introduce(describe(parameter)); }
 
-std::string introduce(const ListSpec& list) { return introduce(list.name(), clause(list.doc())); }
+std::string introduce(const ListSpec& list) { return introduce(clause(list.doc())); }
 
 std::string exampleValue(const ParameterSpec& parameter) {
   if (!std::holds_alternative<Required>(parameter.value) && !std::holds_alternative<Optional>(parameter.value)) {

@@ -20,11 +20,12 @@ bool contains(const Range& range, double value);
 std::string describe(const Default& value);
 std::string describe(double value);
 
-/// Sentence, unit, range or choices of a parameter in one clause: "the nominal contact stiffness, N/m, > 0".
+/// First sentence, unit, range or choices of a parameter in one clause, further sentences behind it:
+/// "the nominal contact stiffness, N/m, > 0".
 std::string describe(const ParameterSpec& parameter);
 
-/// `It is the nominal contact stiffness, N/m, > 0.`, or `"Stiffness": nominal contact stiffness, N/m, > 0.` when the sentence
-/// does not begin with an article.
+/// `It is the nominal contact stiffness, N/m, > 0.`, or `It means: number of modes, >= 0.` when the sentence does not begin with
+/// an article.
 std::string introduce(const ParameterSpec& parameter);
 std::string introduce(const ListSpec& list);
 

@@ -75,7 +75,10 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
 
 [[noreturn]] void refuse(const std::vector<Located>& all, const std::string& topic) {
   std::vector<std::string> names;
-  for (const Located& item : all) names.push_back(lastName(item.path));
+  for (const Located& item : all) {
+    const std::string name = lastName(item.path);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
   std::vector<std::string> candidates = names;
   for (const Located& item : all) {
     for (const ParameterSpec& parameter : item.list->parameters()) candidates.push_back(parameter.name);

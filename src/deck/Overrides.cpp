@@ -31,7 +31,8 @@ Override parseOverride(const std::string& text, int number) {
   result.removes = !text.empty() && text[0] == '!';
   const auto equals = result.removes ? text.size() : text.find('=');
   const std::string path = trim(result.removes ? text.substr(1) : text.substr(0, equals));
-  if (result.removes && (path.empty() || path == "/")) throw UsageError("--without needs the path of a list, for example --without Reduction.");
+  if (result.removes && (path.empty() || path == "/"))
+    throw UsageError("--without needs the path of a list, for example --without Reduction.");
   if (equals == std::string::npos || path.empty() || path == "/") {
     throw UsageError("--set " + text + ": write --set PATH=VALUE, for example --set \"Transient/End Time=20\".");
   }
@@ -90,8 +91,10 @@ class Applier {
       }
       if (!enter(item, item.path[i], path, list, spec)) return;
     }
-    if (item.removes) remove(item, path, *list, spec);
-    else assign(item, path, *list, spec);
+    if (item.removes)
+      remove(item, path, *list, spec);
+    else
+      assign(item, path, *list, spec);
   }
 
  private:
@@ -126,9 +129,11 @@ class Applier {
     if (!list.removeList(item.path.back())) missing(item, path, item.path.back(), list, spec);
   }
 
-  void missing(const Override& item, const std::string& path, const std::string& name, const RawList& list, const ListSpec* spec) {
+  void missing(const Override& item, const std::string& path, const std::string& name, const RawList& list,
+               const ListSpec* spec) {
     if (spec != nullptr && declaredList(*spec, name) != nullptr) return;
-    findings_.push_back({item.place, spec == nullptr ? path + " holds no list " + name + "." : unknownList(spec_, *spec, path, name, list)});
+    findings_.push_back(
+        {item.place, spec == nullptr ? path + " holds no list " + name + "." : unknownList(spec_, *spec, path, name, list)});
   }
 
   void assign(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/Template.hpp"
 
+#include <algorithm>
+
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"
 
@@ -59,12 +61,27 @@ class Writer {
   /// `active` lines stand as they are, the others are commented out (an XML comment must not hold "--").
   void element(int depth, const std::string& content, bool active) { line(depth, active ? content : "<!-- " + content + " -->"); }
 
+  static bool asksForSomething(const ListSpec& list) {
+    const auto& parameters = list.parameters();
+    return std::any_of(parameters.begin(), parameters.end(),
+                       [](const ParameterSpec& p) { return std::holds_alternative<Required>(p.value); }) ||
+           std::any_of(list.lists().begin(), list.lists().end(), [](const ListSpec& l) { return l.required(); });
+  }
+
+  /// Does the example of a choice in `list` name the variant `sublist`, which cannot do without values?
+  static bool chosen(const ListSpec& list, const ListSpec& sublist) {
+    const auto& parameters = list.parameters();
+    return asksForSomething(sublist) && std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) {
+             return p.kind == Kind::Choice && !std::holds_alternative<Optional>(p.value) && exampleValue(p) == sublist.name();
+           });
+  }
+
   void writeList(const ListSpec& list, const std::string& name, int depth, bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
     for (const ParameterSpec& parameter : list.parameters()) writeParameter(parameter, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
       line(depth + 1, remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") + sublist.doc()));
-      writeList(sublist, sublist.name(), depth + 1, active && sublist.required());
+      writeList(sublist, sublist.name(), depth + 1, active && (sublist.required() || chosen(list, sublist)));
     }
     if (list.pattern() != nullptr) {
       line(depth + 1, remark("any number of lists with names of your own: " + list.pattern()->doc()));

@@ -125,8 +125,14 @@ TEST(Describe, IntroducesAParameterInASentence) {
   const ListSpec other = ListSpec("a", "A.")
                              .integer("Modes", 1, Range::atLeast(0), "Number of modes kept.")
                              .real("W", "N", 1.0, Range::any(), "WOB at the bit.");
-  EXPECT_EQ(introduce(other.parameters()[0]), "\"Modes\": number of modes kept, >= 0.");
-  EXPECT_EQ(introduce(other.parameters()[1]), "\"W\": WOB at the bit, N.");
+  EXPECT_EQ(introduce(other.parameters()[0]), "It means: number of modes kept, >= 0.");
+  EXPECT_EQ(introduce(other.parameters()[1]), "It means: WOB at the bit, N.");
+}
+
+TEST(Describe, UnitAndRangeStandBehindTheFirstSentence) {
+  const ListSpec list = ListSpec("a", "A.").real("Step", "s", 1.0, Range::positive(),
+                                                 "The fixed step. By default 0.001 s for RK4. Not for others.");
+  EXPECT_EQ(introduce(list.parameters()[0]), "It is the fixed step, s, > 0. By default 0.001 s for RK4. Not for others.");
 }
 
 TEST(Describe, ExamplesLieInRangeAndAmongTheChoices) {

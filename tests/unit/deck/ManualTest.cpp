@@ -168,6 +168,24 @@ TEST(Template, HasTheSentenceOfEachParameter) {
   EXPECT_NE(text.find("  <!-- Contact (optional): The contact with the borehole wall. -->\n"), std::string::npos) << text;
 }
 
+/// A chosen variant that needs values has its list in the template; others, and a chosen one that needs none, are commented out.
+TEST(Template, HoldsTheListOfAChosenVariantThatNeedsValues) {
+  const auto needs = [](const std::string& name) { return ListSpec(name, "N.").real("x", "m", Required{}, Range::any(), "X."); };
+  const ListSpec scene = ListSpec("s", "S.")
+                             .choice("Required Law", Required{}, {"A", "B"}, "L.")
+                             .choice("Default Law", "C", {"C", "D", "E"}, "L.")
+                             .choice("Other Law", "E", {"E"}, "L.")
+                             .list(needs("A"))
+                             .list(needs("B"))
+                             .list(needs("C"))
+                             .list(ListSpec("E", "E.").real("x", "m", 1.0, Range::any(), "X."));
+  const auto list = Deck::parse(templateXml(scene, "t"), "t.xml", scene).list();
+  EXPECT_TRUE(list.isSublist("A"));
+  EXPECT_FALSE(list.isSublist("B"));
+  EXPECT_TRUE(list.isSublist("C"));
+  EXPECT_FALSE(list.isSublist("E"));
+}
+
 TEST(Template, EscapesWhatXmlWouldMisread) {
   const ListSpec odd =
       ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
