@@ -16,12 +16,14 @@ std::string braces(const std::vector<T>& values, Write write) {
   return "{" + result + "}";
 }
 
-/// "The axial load." -> "the axial load"; "WOB at the bit" and "RK4 step" keep their capitals.
+/// "The axial load." -> "the axial load"; "WOB at the bit" and "RK4 step" keep their capitals, and so does "Young's modulus".
 std::string clause(const std::string& doc) {
   std::string text = trim(doc);
   while (!text.empty() && text.back() == '.') text.pop_back();
   const bool word = text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0;
-  if (word || text.compare(0, 2, "A ") == 0) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+  const bool person = text.substr(0, text.find(' ')).find('\'') != std::string::npos;
+  if ((word && !person) || text.compare(0, 2, "A ") == 0)
+    text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
 }
 

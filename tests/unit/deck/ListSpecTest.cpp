@@ -129,6 +129,11 @@ TEST(Describe, IntroducesAParameterInASentence) {
   EXPECT_EQ(introduce(other.parameters()[1]), "It means: WOB at the bit, N.");
 }
 
+TEST(Describe, NamesOfPeopleKeepTheirCapitals) {
+  const ListSpec list = ListSpec("a", "A.").real("E", "Pa", 1.0, Range::positive(), "Young's modulus.");
+  EXPECT_EQ(introduce(list.parameters()[0]), "It means: Young's modulus, Pa, > 0.");
+}
+
 TEST(Describe, UnitAndRangeStandBehindTheFirstSentence) {
   const ListSpec list = ListSpec("a", "A.").real("Step", "s", 1.0, Range::positive(),
                                                  "The fixed step. By default 0.001 s for RK4. Not for others.");
