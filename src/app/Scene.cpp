@@ -57,7 +57,7 @@ class Faults {
     try {
       read();
     } catch (const DeckError& error) {
-      for (const auto& line : split(error.what(), '\n')) lines_.push_back(deck_.located(line));
+      for (const auto& line : split(error.what(), '\n')) lines_.push_back(deck_.located(rooted(line)));
     }
   }
   void add(const std::string& path, const std::string& sentence) { lines_.push_back(deck_.error(path, sentence)); }
@@ -67,6 +67,14 @@ class Faults {
   }
 
  private:
+  /// "Loads/Unbalance/a needs ..." -> "/scene/Loads/Unbalance/a needs ...".
+  std::string rooted(const std::string& line) const {
+    const auto spec = sceneSpec();
+    for (const auto& list : spec.lists())
+      if (line.rfind(list.name() + "/", 0) == 0 || line.rfind(list.name() + " ", 0) == 0) return "/" + deck_.name() + "/" + line;
+    return line;
+  }
+
   const deck::Deck& deck_;
   std::vector<std::string> lines_;
 };
@@ -133,6 +141,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
   faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
   faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
+  if (list.isSublist("Transient")) faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
   const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
   faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();
@@ -144,10 +153,10 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
   if (scene.reduces()) {
     faults.attempt([&] {
+      string_::requireKnownNodes(scene.string, partition);
       const auto parts = string_::cutParts(scene.string, partition);
       reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
     });
-    faults.attempt([&] { string_::requireKnownNodes(scene.string, partition); });
   }
   crossCheck(scene, faults);
   faults.raise();

@@ -52,10 +52,10 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   for (const auto& name : modeCounts)
     if (list.isParameter(name) && (name != "All Modes" || list.get<bool>(name))) given.push_back(name);
   if (given.empty())
-    throw DeckError("The list \"Reduction\" does not say how many modes to keep: give exactly one of " + quotedList(modeCounts) +
+    throw DeckError("Reduction does not say how many modes to keep: give exactly one of " + quotedList(modeCounts) +
                     ".");
   if (given.size() > 1)
-    throw DeckError("The list \"Reduction\" gives " + quotedList(given) +
+    throw DeckError("Reduction gives " + quotedList(given) +
                     " together: they are different answers to how many modes to keep. Give exactly one.");
 
   ReductionOptions options;

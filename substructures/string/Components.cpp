@@ -21,7 +21,7 @@ deck::ListSpec materialSpec() {
   return deck::ListSpec("Material", "Material of this piece, where it differs from Drillstring/Material.")
       .real("Density", "kg/m3", Optional{}, Range::positive(), "Density.")
       .real("Young Modulus", "Pa", Optional{}, Range::positive(), "Young's modulus E.")
-      .real("Poisson Ratio", "", Optional{}, Range{-1.0, 0.5, true, false}, "Poisson's ratio.");
+      .real("Poisson Ratio", "", Optional{}, Range{-1.0, 0.5, true, false}, "Ratio of lateral contraction to stretch (Poisson).");
 }
 
 /// The parameters of a segment; a component of one segment gives them itself.

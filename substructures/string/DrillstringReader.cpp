@@ -34,7 +34,7 @@ deck::ListSpec drillstringParameters() {
       .list(deck::ListSpec("Material", "Material of components that give none; steel when absent.")
                 .real("Density", "kg/m3", steel.density, Range::positive(), "Density.")
                 .real("Young Modulus", "Pa", steel.youngModulus, Range::positive(), "Young's modulus E.")
-                .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false}, "Poisson's ratio."));
+                .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false}, "Ratio of lateral contraction to stretch (Poisson)."));
 }
 
 StringSettings readDrillstring(const deck::Deck& deck) {

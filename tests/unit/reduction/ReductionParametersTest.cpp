@@ -66,14 +66,14 @@ TEST(ReductionParameters, EveryModeCountWorks) {
 TEST(ReductionParameters, ExactlyOneModeCount) {
   auto list = defaults();
   EXPECT_EQ(refusal(list, 4),
-            "The list \"Reduction\" does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
+            "Reduction does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
             "Substructure\", \"Total Modes\", "
             "\"Cut-off Frequency\", \"All Modes\".");
   list.set("Modes", 3);
   EXPECT_EQ(refusal(list, 4), "accepted");
   list.set("Total Modes", 30);
   EXPECT_EQ(refusal(list, 4),
-            "The list \"Reduction\" gives \"Modes\", \"Total Modes\" together: they are different answers to how many modes to "
+            "Reduction gives \"Modes\", \"Total Modes\" together: they are different answers to how many modes to "
             "keep. Give exactly one.");
 }
 
