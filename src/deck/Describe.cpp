@@ -28,11 +28,11 @@ std::string clause(const std::string& doc) {
 }
 
 /// What a person is told about a thing that was named: "It is the ..." where the words begin with an article.
-std::string introduce(const std::string& words) {
+std::string introduce(const std::string& name, const std::string& words) {
   for (const char* article : {"the ", "a ", "an "}) {
     if (words.compare(0, std::char_traits<char>::length(article), article) == 0) return "It is " + words + ".";
   }
-  return "It means: " + words + ".";
+  return "\"" + name + "\": " + words + ".";
 }
 
 double exampleNumber(const Range& range, bool whole) {
@@ -120,9 +120,9 @@ std::string describe(const ParameterSpec& parameter) {
   return end == std::string::npos ? text : text + words.substr(end);
 }
 
-std::string introduce(const ParameterSpec& parameter) { return introduce(describe(parameter)); }
+std::string introduce(const ParameterSpec& parameter) { return introduce(parameter.name, describe(parameter)); }
 
-std::string introduce(const ListSpec& list) { return introduce(clause(list.doc())); }
+std::string introduce(const ListSpec& list) { return introduce(list.name(), clause(list.doc())); }
 
 std::string exampleValue(const ParameterSpec& parameter) {
   if (!std::holds_alternative<Required>(parameter.value) && !std::holds_alternative<Optional>(parameter.value)) {

@@ -24,7 +24,7 @@ std::string describe(double value);
 /// "the nominal contact stiffness, N/m, > 0".
 std::string describe(const ParameterSpec& parameter);
 
-/// `It is the nominal contact stiffness, N/m, > 0.`, or `It means: number of modes, >= 0.` when the sentence does not begin with
+/// `It is the nominal contact stiffness, N/m, > 0.`, or `"Modes": number of modes, >= 0.` when the sentence does not begin with
 /// an article.
 std::string introduce(const ParameterSpec& parameter);
 std::string introduce(const ListSpec& list);

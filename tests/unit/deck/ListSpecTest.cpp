@@ -125,13 +125,13 @@ TEST(Describe, IntroducesAParameterInASentence) {
   const ListSpec other = ListSpec("a", "A.")
                              .integer("Modes", 1, Range::atLeast(0), "Number of modes kept.")
                              .real("W", "N", 1.0, Range::any(), "WOB at the bit.");
-  EXPECT_EQ(introduce(other.parameters()[0]), "It means: number of modes kept, >= 0.");
-  EXPECT_EQ(introduce(other.parameters()[1]), "It means: WOB at the bit, N.");
+  EXPECT_EQ(introduce(other.parameters()[0]), "\"Modes\": number of modes kept, >= 0.");
+  EXPECT_EQ(introduce(other.parameters()[1]), "\"W\": WOB at the bit, N.");
 }
 
 TEST(Describe, NamesOfPeopleKeepTheirCapitals) {
   const ListSpec list = ListSpec("a", "A.").real("E", "Pa", 1.0, Range::positive(), "Young's modulus.");
-  EXPECT_EQ(introduce(list.parameters()[0]), "It means: Young's modulus, Pa, > 0.");
+  EXPECT_EQ(introduce(list.parameters()[0]), "\"E\": Young's modulus, Pa, > 0.");
 }
 
 TEST(Describe, UnitAndRangeStandBehindTheFirstSentence) {

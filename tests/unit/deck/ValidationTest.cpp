@@ -182,9 +182,9 @@ INSTANTIATE_TEST_SUITE_P(
             "\"Winkler\"."},
         Row{s + parameter("Smooth", "string", "true"), "",
             "deck.xml:4: /well/Contact/Smooth must be type=\"bool\", not type=\"string\": write type=\"bool\" value=\"true\". "
-            "It means: whether the law is rounded"},
+            "\"Smooth\": whether the law is rounded"},
         Row{s + parameter("Smooth", "int", "1"), "",
-            "deck.xml:4: /well/Contact/Smooth must be type=\"bool\", not type=\"int\". It means: whether the law is rounded"},
+            "deck.xml:4: /well/Contact/Smooth must be type=\"bool\", not type=\"int\". \"Smooth\": whether the law is rounded"},
         Row{"", e + parameter("Samples", "double", "5"),
             "deck.xml:7: /well/Transient/Samples must be type=\"int\", not type=\"double\": write type=\"int\" value=\"5\". It "
             "is the number of samples, >= 1."},
