@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A drillstring of the size and make of the reference scene (163 nodes, 972 dofs, contact and friction at 161 nodes, gyroscopic and
-/// two mud damping terms), put together without path and static stage so that a benchmark starts at once: the string lies in a bore
-/// that curves at 1/108 m, inclined 52 degrees, and is bent into nodal frames element by element. Its motion is not that of the
-/// reference scene; its arithmetic is.
+/// A drillstring of the size and make of the reference scene (163 nodes, 972 dofs, contact and friction at 161 nodes, gyroscopic
+/// and two mud damping terms), put together without path and static stage so that a benchmark starts at once: the string lies in
+/// a bore that curves at 1/108 m, inclined 52 degrees, and is bent into nodal frames element by element. Its motion is not that
+/// of the reference scene; its arithmetic is.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,11 +17,13 @@
 
 namespace tooljoint::benchmarks {
 
-/// Element lengths and outer radii from the surface down: six pipes with tool joints between them, 15 parts of bottom-hole assembly.
+/// Element lengths and outer radii from the surface down: six pipes with tool joints between them, 15 parts of bottom-hole
+/// assembly.
 struct Mesh {
   std::vector<double> length, outer, inner;
   void add(int elements, double total, double outerRadius, double innerRadius) {
-    for (int i = 0; i < elements; ++i) length.push_back(total / elements), outer.push_back(outerRadius), inner.push_back(innerRadius);
+    for (int i = 0; i < elements; ++i)
+      length.push_back(total / elements), outer.push_back(outerRadius), inner.push_back(innerRadius);
   }
 };
 
@@ -36,7 +38,8 @@ inline Mesh referenceMesh() {
   }
   for (int collars : {3, 4, 3}) {
     for (int c = 0; c < collars; ++c) mesh.add(10, 10.0, 0.0795, 0.0355);
-    mesh.add(collars == 3 && mesh.length.size() > 120 ? 1 : 4, collars == 3 && mesh.length.size() > 120 ? 0.5 : 5.0, 0.0795, 0.0355);
+    mesh.add(collars == 3 && mesh.length.size() > 120 ? 1 : 4, collars == 3 && mesh.length.size() > 120 ? 0.5 : 5.0, 0.0795,
+             0.0355);
   }
   return mesh;
 }
@@ -61,7 +64,9 @@ inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
   std::vector<double> clearance(static_cast<std::size_t>(nodes), 1.0), radius(static_cast<std::size_t>(nodes), 0.1);
   double s = 0;
   for (int i = 0; i < nodes; ++i) {
-    frame.push_back((Eigen::AngleAxisd(0.3 + 0.002 * s, Vector3::UnitX()) * Eigen::AngleAxisd(0.9 + curvature * s, Vector3::UnitY())).toRotationMatrix());
+    frame.push_back(
+        (Eigen::AngleAxisd(0.3 + 0.002 * s, Vector3::UnitX()) * Eigen::AngleAxisd(0.9 + curvature * s, Vector3::UnitY()))
+            .toRotationMatrix());
     if (i < elements) s += mesh.length[static_cast<std::size_t>(i)];
     for (int e : {i - 1, i})
       if (e >= 0 && e < elements && bore - mesh.outer[static_cast<std::size_t>(e)] < clearance[static_cast<std::size_t>(i)]) {
@@ -103,8 +108,11 @@ inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
     const beam::Matrix12 G = beam::gyroscopic(section, l);
     scatter(gyroscopic, e, nodal(G.transpose() - G));
     scatter(drag, e, nodal(2.0 * beam::lateralMass(l)));
-    scatter(k, e, nodal(beam::stiffness(section, l) + (2e4 - 300.0 * e) * beam::geometricAxial(l) - 2e3 * beam::geometricTorque(l)));
-    const beam::Vector12 load = R.transpose() * beam::distributedLoad(triad.transpose() * Vector3(0, 0, 9.81 * (section.massPerLength() - fluid * area)), l);
+    scatter(k, e,
+            nodal(beam::stiffness(section, l) + (2e4 - 300.0 * e) * beam::geometricAxial(l) - 2e3 * beam::geometricTorque(l)));
+    const beam::Vector12 load =
+        R.transpose() *
+        beam::distributedLoad(triad.transpose() * Vector3(0, 0, 9.81 * (section.massPerLength() - fluid * area)), l);
     for (int i = 0; i < 12; ++i)
       if (dof[static_cast<std::size_t>(6 * e + i)] >= 0) weight[dof[static_cast<std::size_t>(6 * e + i)]] += load[i];
   }

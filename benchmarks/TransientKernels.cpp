@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Cost of the pieces of a time step on a string of the size of the reference scene (972 dofs, contact looked at at 161 nodes), and
-/// of longer ones. Figures depend on the machine: docs/validation.md records some with theirs.
+/// Cost of the pieces of a time step on a string of the size of the reference scene (972 dofs, contact looked at at 161 nodes),
+/// and of longer ones. Figures depend on the machine: docs/validation.md records some with theirs.
 #include <benchmark/benchmark.h>
 
 #include "HelicalString.hpp"
@@ -64,7 +64,8 @@ struct Kernel {
   }
 };
 
-/// One acceleration: residual with speed-dependent damping, contact, mass solve. The argument tells whether the rotary speed is steady.
+/// One acceleration: residual with speed-dependent damping, contact, mass solve. The argument tells whether the rotary speed is
+/// steady.
 void rightHandSide(benchmark::State& bench) {
   Kernel kernel(settled(bench.range(0) != 0));
   double t = 1.0;
@@ -166,11 +167,19 @@ void generalizedAlphaStep(benchmark::State& bench) {
     steps += report.counters.steps;
   }
   bench.counters["us/step"] = 1e6 * seconds / static_cast<double>(steps);
-  bench.counters["newton/step"] = static_cast<double>(report.counters.newtonIterations) / static_cast<double>(report.counters.steps);
-  bench.counters["factorisations/step"] = static_cast<double>(report.counters.factorisations) / static_cast<double>(report.counters.steps);
+  bench.counters["newton/step"] =
+      static_cast<double>(report.counters.newtonIterations) / static_cast<double>(report.counters.steps);
+  bench.counters["factorisations/step"] =
+      static_cast<double>(report.counters.factorisations) / static_cast<double>(report.counters.steps);
   bench.counters["halved"] = static_cast<double>(report.counters.halved);
 }
-BENCHMARK(generalizedAlphaStep)->Args({1, 0})->Args({1, 1})->Args({0, 0})->Args({0, 1})->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(generalizedAlphaStep)
+    ->Args({1, 0})
+    ->Args({1, 1})
+    ->Args({0, 0})
+    ->Args({0, 1})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// One step of RK4 (4 right-hand sides); 0.02 s each time. Argument: energy ledger.
 void rungeKuttaStep(benchmark::State& bench) {

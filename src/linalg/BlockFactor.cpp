@@ -68,8 +68,13 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   int widest = 0;
   std::size_t panel = 0;
   for (int k : sequence) {
-    Pivot pivot{pattern.start(k), pattern.width(k), place(k, k), static_cast<int>(couplings_.size()), 0,
-                static_cast<int>(updates_.size()), 0};
+    Pivot pivot{pattern.start(k),
+                pattern.width(k),
+                place(k, k),
+                static_cast<int>(couplings_.size()),
+                0,
+                static_cast<int>(updates_.size()),
+                0};
     widest = std::max(widest, pivot.width);
     for (int i : later[z(k)]) {
       couplings_.push_back({pattern.start(i), pattern.width(i), place(i, k), place(k, i)});

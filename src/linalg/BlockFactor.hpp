@@ -35,10 +35,10 @@ class BlockFactor {
 
  private:
   struct Coupling {
-    int start;           ///< first position of the later block i
+    int start;  ///< first position of the later block i
     int width;
-    std::size_t lower;   ///< A_ik
-    std::size_t upper;   ///< A_ki, becomes W_ki = D_k^-1 A_ki
+    std::size_t lower;  ///< A_ik
+    std::size_t upper;  ///< A_ki, becomes W_ki = D_k^-1 A_ki
   };
   struct Update {
     std::size_t target;  ///< A_ij -= A_ik W_kj

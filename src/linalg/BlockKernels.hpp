@@ -154,15 +154,24 @@ void solveLarge(int n, int columns, const double* lu, const int* pivots, double*
 /// Factor a diagonal block: explicit inverse up to largestInverse, LU above. Returns -1 or the position of the bad pivot.
 inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots) {
   switch (n) {
-    case 1: return invert<1>(a, scale);
-    case 2: return invert<2>(a, scale);
-    case 3: return invert<3>(a, scale);
-    case 4: return invert<4>(a, scale);
-    case 5: return invert<5>(a, scale);
-    case 6: return invert<6>(a, scale);
-    case 7: return invert<7>(a, scale);
-    case 8: return invert<8>(a, scale);
-    default: return factorLarge(n, a, scale, workScale, pivots);
+    case 1:
+      return invert<1>(a, scale);
+    case 2:
+      return invert<2>(a, scale);
+    case 3:
+      return invert<3>(a, scale);
+    case 4:
+      return invert<4>(a, scale);
+    case 5:
+      return invert<5>(a, scale);
+    case 6:
+      return invert<6>(a, scale);
+    case 7:
+      return invert<7>(a, scale);
+    case 8:
+      return invert<8>(a, scale);
+    default:
+      return factorLarge(n, a, scale, workScale, pivots);
   }
 }
 

@@ -55,7 +55,8 @@ std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices
 
 }  // namespace
 
-BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group, const std::vector<int>& kind) {
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group,
+                             const std::vector<int>& kind) {
   const int n = static_cast<int>(group.size());
   Families families(n);
   for (const Sparse* matrix : matrices)
@@ -96,7 +97,8 @@ BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const s
   return partition;
 }
 
-BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Sparse*>& matrices) : partition_(std::move(partition)) {
+BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Sparse*>& matrices)
+    : partition_(std::move(partition)) {
   const int n = size();
   blockOf_.resize(z(n));
   for (int b = 0; b < blocks(); ++b)

@@ -30,7 +30,8 @@ struct BlockPartition {
 /// \param matrices  patterns to unite, all of one size
 /// \param group     group number per dof
 /// \param kind      class per dof; only groups of one class may be merged
-BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group, const std::vector<int>& kind);
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group,
+                             const std::vector<int>& kind);
 
 /// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row then column.
 class BlockPattern {

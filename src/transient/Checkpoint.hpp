@@ -13,12 +13,12 @@ namespace tooljoint::transient {
 
 struct Checkpoint {
   std::string integrator;
-  double fingerprint = 0;       ///< of the model: a checkpoint goes on only with the model it came from
-  State state;                  ///< in positions of the compiled model
+  double fingerprint = 0;  ///< of the model: a checkpoint goes on only with the model it came from
+  State state;             ///< in positions of the compiled model
   Counters counters;
   long contactEvaluations = 0;
-  long samples = 0;             ///< samples handed out so far
-  std::vector<double> memory;   ///< of the integrator, the point batches and the ledger
+  long samples = 0;            ///< samples handed out so far
+  std::vector<double> memory;  ///< of the integrator, the point batches and the ledger
 
   /// Write to / read from a file (numbers in the byte order of this machine). Throw FileError; the file is complete or not there.
   void write(const std::string& file) const;

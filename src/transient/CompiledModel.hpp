@@ -24,11 +24,12 @@ class MatrixSum {
     int law = 0;                 ///< index of the model's law
     linalg::BlockValues values;  ///< on the common pattern
     linalg::BlockProduct product;
-    bool skew = false;           ///< does no work (gyroscopics): x'Ax = 0 to rounding
+    bool skew = false;  ///< does no work (gyroscopics): x'Ax = 0 to rounding
   };
 
   MatrixSum() = default;
-  MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws, const linalg::BlockPattern& pattern);
+  MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
+            const linalg::BlockPattern& pattern);
   bool empty() const { return terms_.empty(); }
   /// Recombine if a law has another value than last time; true if so.
   bool update(const std::vector<double>& lawValues);
@@ -51,7 +52,7 @@ class MatrixSum {
   linalg::BlockValues sum_;
   linalg::BlockProduct product_;
   int size_ = 0;
-  bool constant_ = false;     ///< one term with the law 1: no sum is kept
+  bool constant_ = false;  ///< one term with the law 1: no sum is kept
 };
 
 class CompiledModel {

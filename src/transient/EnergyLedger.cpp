@@ -59,6 +59,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   last_ = pointPowers(model, state);
   const EnergyAccount now = account(model, state);
   account_.initial = now.kinetic + now.strain + now.contact;
+  account_.supplied = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.contact);
 }
 
 void EnergyLedger::book(CompiledModel& model, const State& to) {
@@ -70,6 +71,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   skipped_ = 0;
   model.setTime(to.t);
   const double h = to.t - time_;
+  const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
   step_ = to.q - q_;
   q_ = to.q;
   time_ = to.t;
@@ -110,23 +112,37 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     last_ = now;
   }
   account_.exchanged += exchanged;
+  account_.supplied +=
+      std::abs(account_.loads - given) + std::abs(account_.drive - driven) + std::abs(account_.circulatory - turned);
+}
+
+double EnergyLedger::kinetic(CompiledModel& model, const State& state) {
+  product_.setZero();
+  model.addMass(state.v.data(), product_.data());
+  return 0.5 * state.v.dot(product_);
+}
+
+bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
+  if (skipped_ > 0) enter(model, state);
+  account_.kinetic = kinetic(model, state);
+  account_.strain = strain_;
+  account_.contact = last_.stored;
+  return account_.runaway();
 }
 
 EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
   EnergyAccount result = account_;
-  Vector momentum = Vector::Zero(model.size());
-  model.addMass(state.v.data(), momentum.data());
-  result.kinetic = 0.5 * state.v.dot(momentum);
+  result.kinetic = kinetic(model, state);
   result.strain = strain_;
   result.contact = last_.stored;
   return result;
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, last_.stored, last_.damping, last_.friction, last_.drive,
-                               account_.initial, account_.loads, account_.drive, account_.friction, account_.contactDamping,
-                               account_.circulatory, account_.exchanged});
+  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, last_.stored, last_.damping, last_.friction,
+                               last_.drive, account_.initial, account_.loads, account_.drive, account_.friction,
+                               account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
   for (const Vector* x : {&q_, &internal_, &load_}) memory.insert(memory.end(), x->begin(), x->end());
 }
@@ -136,8 +152,9 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   stride_ = stride;
   allocate(model);
   skipped_ = static_cast<int>(*memory++);
-  for (double* x : {&time_, &strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial, &account_.loads,
-                    &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory, &account_.exchanged})
+  for (double* x : {&time_, &strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial,
+                    &account_.loads, &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory,
+                    &account_.exchanged, &account_.supplied})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;
   for (Vector* vector : {&q_, &internal_, &load_})

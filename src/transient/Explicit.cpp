@@ -15,8 +15,9 @@ void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integr
   model.combine(1.0, 0.0, 0.0, mass_.values());
   const int bad = mass_.factor();
   if (bad >= 0)
-    throw ModelError("The mass matrix is singular at " + model.dofName(bad) + ": the explicit integrator \"" + integrator +
-                     "\" needs a mass on every degree of freedom. Use \"Generalized-alpha\", or give that degree of freedom a mass.");
+    throw ModelError(
+        "The mass matrix is singular at " + model.dofName(bad) + ": the explicit integrator \"" + integrator +
+        "\" needs a mass on every degree of freedom. Use \"Generalized-alpha\", or give that degree of freedom a mass.");
 }
 
 void ExplicitRightHandSide::acceleration(double t, const double* q, const double* v, double* a) {
@@ -108,8 +109,8 @@ void RungeKuttaStep::resize(int n) {
   for (Vector* x : {&qi_, &vi_, &vj_, &a2_, &a3_, &a4_}) x->setZero(n);
 }
 
-void RungeKuttaStep::take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0, Vector& q,
-                          Vector& v) {
+void RungeKuttaStep::take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0,
+                          Vector& q, Vector& v) {
   // k1 = (v0, a0);  q += h/6 (k1 + 2 k2 + 2 k3 + k4) gathers in q and v as the stages come
   qi_ = q0 + 0.5 * h * v0;
   vi_ = v0 + 0.5 * h * a0;

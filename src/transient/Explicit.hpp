@@ -38,7 +38,8 @@ class RungeKuttaStep {
  public:
   void resize(int n);
   /// q, v at t+h from (t, q0, v0), a0 = acceleration there.
-  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0, Vector& q, Vector& v);
+  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0, Vector& q,
+            Vector& v);
 
  private:
   Vector qi_, vi_, vj_, a2_, a3_, a4_;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `Generalized-alpha`: Chung and Hulbert (1993) in the form of Arnold and Bruels (2007). All forces, contact included, are balanced
-/// at t_{n+1}:
+/// `Generalized-alpha`: Chung and Hulbert (1993) in the form of Arnold and Bruels (2007). All forces, contact included, are
+/// balanced at t_{n+1}:
 ///
 ///     M q''_{n+1} + C v_{n+1} + K q_{n+1} = F(t_{n+1}) + R' f(q_{n+1}, v_{n+1}, t_{n+1})
 ///     (1 - am) A_{n+1} + am A_n = (1 - af) q''_{n+1} + af q''_n
 ///     q_{n+1} = q_n + h v_n + h^2 ((1/2 - b) A_n + b A_{n+1}),   v_{n+1} = v_n + h ((1 - g) A_n + g A_{n+1})
 ///
-/// with am = (2r - 1)/(r + 1), af = r/(r + 1), g = 1/2 - am + af, b = (1 + af - am)^2 / 4 and r the spectral radius at infinite frequency.
-/// For a constant M this is the scheme that averages forces: second order in q and v, unconditionally stable for linear problems.
+/// with am = (2r - 1)/(r + 1), af = r/(r + 1), g = 1/2 - am + af, b = (1 + af - am)^2 / 4 and r the spectral radius at infinite
+/// frequency. For a constant M this is the scheme that averages forces: second order in q and v, unconditionally stable for
+/// linear problems.
 ///
 /// The nonlinear equations are solved by modified Newton with exact tangents: the factor of the effective matrix is kept until
 /// convergence is slow, each update is backtracked on the residual scaled by the diagonal of that matrix, and a step that still
@@ -22,6 +23,7 @@
 #include "common/Log.hpp"
 #include "linalg/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/NodalCorrection.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -29,12 +31,16 @@ namespace {
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
       .real("Spectral Radius", "", 0.8, deck::Range::between(0.0, 1.0),
-            "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above the step in one step.")
+            "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above the step in one step. Walls "
+            "too stiff for the "
+            "step (more than about 1 rad of contact frequency per step) need 0.2 or less.")
       .real("Tolerance", "", 1e-8, deck::Range::positive(),
-            "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls below this times the largest force scaled alike.")
+            "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls below this times the largest "
+            "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")
       .integer("Max Halvings", 4, deck::Range::between(0, 16), "Times a step may be halved before the run stops.")
-      .boolean("Accept Unconverged", false, "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
+      .boolean("Accept Unconverged", false,
+               "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
 }
 
 /// Largest step of the default when the deck gives none.
@@ -43,6 +49,10 @@ constexpr double defaultStep = 1e-3;
 constexpr double slowestRate = 0.5;
 /// ... and so does one that would need more iterations than this to converge: a factorisation costs about as much.
 constexpr double patience = 5;
+/// Iterations in a row that hardly change the residual before the step is given up, and times in a step that points are solved by
+/// themselves.
+constexpr int maxStalled = 3;
+constexpr int maxRescues = 5;
 
 class GeneralizedAlpha final : public Integrator {
  public:
@@ -82,8 +92,13 @@ class GeneralizedAlpha final : public Integrator {
   void refactor(const State& to, double h);
   void buildFactor();
   bool backtrack(State& to, double h);
-  bool bracket(State& to, double beyond, double c0, double c1);
-  void place(State& to, double fraction, double c0, double c1);
+  bool solveTroubledPoints(State& to, double h, double before);
+  bool bracket(State& to, double beyond, double h);
+  void place(State& to, double fraction, double h);
+  void findChange(double h);
+  /// dv/dq and dq''/dq of the scheme over a step.
+  double velocityFactor(double h) const { return gamma_ / (beta_ * h); }
+  double accelerationFactor(double h) const { return (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h); }
   void finish(const State& from, State& to);
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
@@ -97,29 +112,32 @@ class GeneralizedAlpha final : public Integrator {
   CompiledModel* model_ = nullptr;
   Window window_;
   double step_ = 0;
-  long units_ = 16;      ///< sub-steps a full step may be cut into
-  long index_ = 0;       ///< full steps done
-  long done_ = 0;        ///< units done of the step under way
-  int level_ = 0;        ///< halvings in force
+  long units_ = 16;  ///< sub-steps a full step may be cut into
+  long index_ = 0;   ///< full steps done
+  long done_ = 0;    ///< units done of the step under way
+  int level_ = 0;    ///< halvings in force
 
   linalg::BlockFactor factor_;
   bool factored_ = false;
-  double factorStep_ = 0;   ///< step, time and matrix stamp the factor belongs to
+  double factorStep_ = 0;  ///< step, time and matrix stamp the factor belongs to
   double factorTime_ = 0;
   long factorStamp_ = -1;
   std::vector<double> factorLaws_;  ///< law values at that time
-  bool fresh_ = false;      ///< the tangent in the factor is that of the current iterate
-  bool wanted_ = false;     ///< convergence was slow: factor anew at the next iterate
+  bool fresh_ = false;              ///< the tangent in the factor is that of the current iterate
+  bool wanted_ = false;             ///< convergence was slow: factor anew at the next iterate
 
-  Vector A_, nextA_;                  ///< algorithmic acceleration at t_n, t_{n+1}
+  Vector A_, nextA_;  ///< algorithmic acceleration at t_n, t_{n+1}
   Vector linear_, residual_, delta_, change_;
-  Vector q0_, v0_, a0_, linear0_;     ///< iterate to go back to in the line search
+  NodalCorrection nodal_;
+  int rescues_ = 0;  ///< its uses in this step
+  Vector base_, saved_, savedChange_;
+  Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
   double error_ = 0;      ///< max |w R|
   double merit_ = 0;      ///< |w R|_2
   double reference_ = 0;  ///< largest scaled force of this step
   double linearReference_ = 0;
-  double floor_ = 0;      ///< rounding of K q, scaled alike
+  double floor_ = 0;  ///< rounding of K q, scaled alike
   double worstError_ = 0;
   int worst_ = 0;
 };
@@ -129,7 +147,9 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   window_ = window;
   step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
   const int n = model.size();
-  for (Vector* x : {&A_, &nextA_, &linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_}) x->setZero(n);
+  for (Vector* x : {&A_, &nextA_, &linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_,
+                    &base_, &saved_, &savedChange_})
+    x->setZero(n);
 
   factorLaws_.assign(model.lawValues().size(), 0.0);
   // |K| row sums bound the rounding of K q.
@@ -145,6 +165,7 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
             rowSize_[pattern.start(b) + i] += std::abs(K[pattern.offset(e) + static_cast<std::size_t>(j * pattern.width(b) + i)]);
   }
 
+  nodal_.bind(model);
   factor_ = linalg::BlockFactor(model.pattern());
   startAcceleration(state);
   A_ = state.a;
@@ -262,7 +283,7 @@ double GeneralizedAlpha::measure(const State& to) {
 void GeneralizedAlpha::refactor(const State& to, double h) {
   for (auto& batch : model_->points()) {
     batch.evaluateWithTangent(to.t, to.q.data(), to.v.data());
-    batch.freezeTangent(1.0, gamma_ / (beta_ * h));
+    batch.freezeTangent(1.0, velocityFactor(h));
   }
   factorStep_ = h;
   factorTime_ = to.t;
@@ -274,47 +295,73 @@ void GeneralizedAlpha::refactor(const State& to, double h) {
 }
 
 void GeneralizedAlpha::buildFactor() {
-  const double h = factorStep_;
-  const double c0 = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-  const double c1 = gamma_ / (beta_ * h);
-  model_->combine(c0, c1, 1.0, factor_.values());
+  model_->combine(accelerationFactor(factorStep_), velocityFactor(factorStep_), 1.0, factor_.values());
   for (auto& batch : model_->points()) batch.subtractTangent(factor_.values());
   ++counters_.factorisations;
   factored_ = factor_.factor() < 0;
 }
 
+/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force: -R + force + R'P R delta, corrected by what the
+/// laws have changed in C and K since S was built.
+void GeneralizedAlpha::findChange(double h) {
+  change_ -= residual_;
+  for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
+  if (factorStamp_ != model_->matrixStamp())
+    model_->addChangeSince(factorLaws_, velocityFactor(h), delta_.data(), change_.data());
+}
+
 /// Take the step delta_, halving it until the scaled residual falls. False when it does not.
 bool GeneralizedAlpha::backtrack(State& to, double h) {
-  const double c0 = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-  const double c1 = gamma_ / (beta_ * h);
-  // change_ = (c0 M + c1 C + K) delta. The factor S solved S delta = -R, so that is -R + R'P R delta, corrected by what the laws have
-  // changed in C and K since S was built.
-  change_ = -residual_;
-  for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
-  if (factorStamp_ != model_->matrixStamp()) model_->addChangeSince(factorLaws_, c1, delta_.data(), change_.data());
+  change_.setZero();
+  findChange(h);
   q0_ = to.q, v0_ = to.v, a0_ = to.a, linear0_ = linear_;
   const double before = merit_;
   double fraction = 1;
   double beyond = 0;  // a fraction at which the residual along delta has changed sign
-  for (int cut = 0; cut < 8; ++cut, fraction *= 0.5) {
-    place(to, fraction, c0, c1);
-    if (converged() || merit_ <= (1 - 1e-4 * fraction) * before) return true;
+  for (int cut = 0; cut < (fresh_ ? 5 : 3); ++cut, fraction *= 0.5) {
+    place(to, fraction, h);
+    if (converged() || merit_ <= (1 - 0.1 * fraction) * before) return true;
     if (delta_.dot(residual_) > 0) beyond = fraction;
   }
-  if (fresh_ && beyond > 0) return bracket(to, beyond, c0, c1);
-  place(to, 0, c0, c1);
+  if (fresh_ && rescues_++ < maxRescues && solveTroubledPoints(to, h, before)) return true;
+  if (fresh_ && beyond > 0) return bracket(to, beyond, h);
+  place(to, 0, h);
   return false;
 }
 
-/// Contact that switches within the step, or friction that reverses, is a jump of the residual that no decrease of its norm can find:
-/// search for the sign change of delta . R between 0 and `beyond` by bisection. The law is continuous, so there is a root, and at the
-/// root the tangent knows the steep branch.
-bool GeneralizedAlpha::bracket(State& to, double beyond, double c0, double c1) {
+/// The points that spoil the Newton step are solved as what they are. False, with the iterate and its step restored, when that
+/// does not help.
+bool GeneralizedAlpha::solveTroubledPoints(State& to, double h, double before) {
+  saved_ = delta_, savedChange_ = change_;
+  place(to, 0, h);
+  base_ = residual_;
+  nodal_.begin();
+  place(to, 1, h);
+  bool good = false;
+  for (int attempt = 0; attempt < 4 && !good && nodal_.addTroubled(delta_.data(), weight_.data()); ++attempt) {
+    buildFactor();
+    if (!factored_ || !nodal_.solve(to.t, velocityFactor(h), factor_, base_, delta_, change_)) break;
+    ++counters_.newtonIterations;
+    residual_ = base_;
+    findChange(h);
+    place(to, 1, h);
+    good = converged() || merit_ <= 0.9 * before;
+  }
+  wanted_ = true;  // the factor lacks tangents now
+  factored_ = false;
+  if (!good) delta_ = saved_, change_ = savedChange_;
+  return good;
+}
+
+/// Contact that switches within the step, or friction that reverses, is a jump of the residual that no decrease of its norm can
+/// find: search for the sign change of delta . R between 0 and `beyond` by bisection. The law is continuous, so there is a root,
+/// and at the root the tangent knows the steep branch.
+bool GeneralizedAlpha::bracket(State& to, double beyond, double h) {
   double low = 0;
   double high = beyond;
   for (int i = 0; i < 60 && high - low > 1e-15 * beyond; ++i) {
     const double middle = 0.5 * (low + high);
-    place(to, middle, c0, c1);
+    place(to, middle, h);
     if (converged()) return true;
     (delta_.dot(residual_) > 0 ? high : low) = middle;
   }
@@ -322,10 +369,10 @@ bool GeneralizedAlpha::bracket(State& to, double beyond, double c0, double c1) {
 }
 
 /// The iterate at a fraction of delta from where the line search began, measured.
-void GeneralizedAlpha::place(State& to, double fraction, double c0, double c1) {
+void GeneralizedAlpha::place(State& to, double fraction, double h) {
   to.q = q0_ + fraction * delta_;
-  to.v = v0_ + fraction * c1 * delta_;
-  to.a = a0_ + fraction * c0 * delta_;
+  to.v = v0_ + fraction * velocityFactor(h) * delta_;
+  to.a = a0_ + fraction * accelerationFactor(h) * delta_;
   linear_ = linear0_ + fraction * change_;
   measure(to);
 }
@@ -334,6 +381,8 @@ void GeneralizedAlpha::place(State& to, double fraction, double c0, double c1) {
 bool GeneralizedAlpha::iterate(State& to, double h) {
   measure(to);
   fresh_ = false;
+  rescues_ = 0;
+  int stalled = 0;
   for (int iteration = 0;; ++iteration) {
     if (converged()) {
       bool missed = false;
@@ -357,7 +406,9 @@ bool GeneralizedAlpha::iterate(State& to, double h) {
       wanted_ = true;
       continue;
     }
-    wanted_ = isSlow(merit_ / before);
+    stalled = merit_ > 0.99 * before ? stalled + 1 : 0;
+    if (stalled == maxStalled) return false;
+    wanted_ = wanted_ || isSlow(merit_ / before);
     fresh_ = false;
   }
 }
@@ -365,9 +416,8 @@ bool GeneralizedAlpha::iterate(State& to, double h) {
 bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool keep) {
   if (weight_[0] == 0.0 || factorStep_ != h) {
     // Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as displacements.
-    const double c0 = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
     model_->setTime(to.t);
-    model_->diagonal(c0, gamma_ / (beta_ * h), 1.0, weight_.data());
+    model_->diagonal(accelerationFactor(h), velocityFactor(h), 1.0, weight_.data());
     const double smallest = 1e-12 * weight_.cwiseAbs().maxCoeff();
     for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
   }
@@ -407,8 +457,9 @@ void GeneralizedAlpha::giveUp(const State& from, double h) const {
 }
 
 void GeneralizedAlpha::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_), static_cast<double>(level_), factored_ ? 1.0 : 0.0,
-                               factorStep_, factorTime_, factorStamp_ == model_->matrixStamp() ? 1.0 : 0.0, wanted_ ? 1.0 : 0.0});
+  memory.insert(memory.end(),
+                {static_cast<double>(index_), static_cast<double>(done_), static_cast<double>(level_), factored_ ? 1.0 : 0.0,
+                 factorStep_, factorTime_, factorStamp_ == model_->matrixStamp() ? 1.0 : 0.0, wanted_ ? 1.0 : 0.0});
   memory.insert(memory.end(), A_.begin(), A_.end());
   memory.insert(memory.end(), weight_.begin(), weight_.end());
 }
@@ -436,7 +487,8 @@ void GeneralizedAlpha::restore(const double*& memory) {
 
 const bool registered = IntegratorRegistry::instance().add(
     "Generalized-alpha",
-    {"Implicit, second order, with numerical damping of high frequencies only (Chung and Hulbert 1993, Arnold and Bruels 2007); contact is balanced at the end of each step.",
+    {"Implicit, second order, with numerical damping of high frequencies only (Chung and Hulbert 1993, Arnold and Bruels 2007); "
+     "contact is balanced at the end of each step.",
      specification(), [](const Teuchos::ParameterList& own) { return std::make_unique<GeneralizedAlpha>(own); }});
 
 }  // namespace

@@ -74,8 +74,8 @@ class Integrator {
 /// Arguments: the sublist named after the integrator (defaults filled in by ownParameters()).
 using IntegratorRegistry = deck::Registry<Integrator, const Teuchos::ParameterList&>;
 
-/// The fixed step that divides the sampling interval: interval / ceil(interval / asked), or, for steps above the interval, the one that
-/// divides the whole duration.
+/// The fixed step that divides the sampling interval: interval / ceil(interval / asked), or, for steps above the interval, the
+/// one that divides the whole duration.
 double fittedStep(const Window& window, double asked);
 
 /// A copy of `given` with the defaults of `spec` filled in where it is silent.

@@ -73,6 +73,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   gap_.assign(z(points_), 0.0);
   lastGap_.assign(z(points_), 0.0);
   check_.assign(z(points_), 0.0);
+  one_.assign(1, 0);
 }
 
 double PointBatch::rowTimes(int row, const double* x) const {
@@ -236,6 +237,51 @@ void PointBatch::addTangentTimes(const double* x, double* y) const {
       }
     }
   }
+}
+
+void PointBatch::dropTangent(int point) {
+  const int entries = width_ * width_;
+  std::fill(P_.begin() + point * entries, P_.begin() + (point + 1) * entries, 0.0);
+}
+
+double PointBatch::frozenTimes(int row, const double* x) const {
+  const int point = row / width_;
+  if (std::find(frozen_.begin(), frozen_.end(), point) == frozen_.end()) return 0.0;
+  double sum = 0;
+  for (int k = 0; k < width_; ++k) sum += P_[z(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
+  return sum;
+}
+
+double PointBatch::rowTimesVector(int row, const double* x) const {
+  if (single_) return index_[z(row)] < 0 ? 0.0 : x[index_[z(row)]];
+  return rowTimes(row, x);
+}
+
+void PointBatch::addRow(int row, double factor, double* y) const {
+  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i) y[column_[z(i)]] += factor * value_[z(i)];
+}
+
+double PointBatch::rowWeight(int row, const double* weight) const {
+  double largest = 0;
+  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
+    largest = std::max(largest, std::abs(value_[z(i)]) * weight[column_[z(i)]]);
+  return largest;
+}
+
+void PointBatch::evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv) {
+  const int first = point * width_;
+  std::copy(d, d + width_, d_.begin() + first);
+  std::copy(v, v + width_, v_.begin() + first);
+  one_[0] = point;
+  ++evaluations_;
+  if (dfdd == nullptr) {
+    law_->evaluate(t, one_, d_.data(), v_.data(), f_.data());
+  } else {
+    law_->evaluateWithTangent(t, one_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+    std::copy_n(dfdd_.begin() + first * width_, width_ * width_, dfdd);
+    std::copy_n(dfdv_.begin() + first * width_, width_ * width_, dfdv);
+  }
+  std::copy_n(f_.begin() + first, width_, f);
 }
 
 void PointBatch::save(std::vector<double>& memory) const {

@@ -48,6 +48,19 @@ class PointBatch {
   void addTangentTimes(const double* x, double* y) const;
   void forgetTangent() { frozen_.clear(); }
 
+  // One point or one row (point * width() + coordinate) at a time, for what looks at single points.
+  /// Take the tangent of a point out of the frozen one.
+  void dropTangent(int point);
+  /// Row of P R x with the frozen P; 0 for a point that is not in it.
+  double frozenTimes(int row, const double* x) const;
+  /// R_row x and y += factor R_row'.
+  double rowTimesVector(int row, const double* x) const;
+  void addRow(int row, double factor, double* y) const;
+  /// Largest |R_row,i| weight_i.
+  double rowWeight(int row, const double* weight) const;
+  /// The law at one point for width() coordinates d, v; tangents row-major, both null if not wanted.
+  void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv);
+
   /// Position, velocity of all points for recording (all of them are gathered).
   void gatherAll(const double* q, const double* v);
   const double* d() const { return d_.data(); }
@@ -68,9 +81,9 @@ class PointBatch {
   std::vector<std::int64_t> entities_;
   int points_ = 0;
   int width_ = 0;
-  bool single_ = false;               ///< every row has at most one entry, and it is 1
-  std::vector<int> index_;            ///< single: position per row, -1 for none
-  std::vector<int> rowBegin_;         ///< otherwise: rows as CSR in positions
+  bool single_ = false;        ///< every row has at most one entry, and it is 1
+  std::vector<int> index_;     ///< single: position per row, -1 for none
+  std::vector<int> rowBegin_;  ///< otherwise: rows as CSR in positions
   std::vector<int> column_;
   std::vector<double> value_;
   std::vector<double> offset_;
@@ -84,19 +97,20 @@ class PointBatch {
   std::vector<int> touchBegin_;
   std::vector<Touch> touches_;
   std::vector<double> touchRows_;
-  std::vector<int> pairBegin_;              ///< per point into pairOffset_
-  std::vector<std::size_t> pairOffset_;     ///< block offsets for all pairs of touches (general rows)
-  std::vector<std::size_t> entryAddress_;   ///< single: address per point of (row, column), width x width; npos for none
+  std::vector<int> pairBegin_;             ///< per point into pairOffset_
+  std::vector<std::size_t> pairOffset_;    ///< block offsets for all pairs of touches (general rows)
+  std::vector<std::size_t> entryAddress_;  ///< single: address per point of (row, column), width x width; npos for none
 
   std::vector<int> active_;
   std::vector<char> isActive_;
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;
-  int gapsSeen_ = 0;                        ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
-  std::vector<int> frozen_;                 ///< points of the frozen tangent
+  int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
+  std::vector<int> frozen_;  ///< points of the frozen tangent
   std::vector<double> P_;
   mutable std::vector<double> small_;
+  std::vector<int> one_;
   long evaluations_ = 0;
 };
 

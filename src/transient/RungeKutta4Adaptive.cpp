@@ -16,9 +16,11 @@ namespace {
 
 deck::ListSpec specification() {
   return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
-      .real("Tolerance", "", 1e-2, deck::Range::positive(), "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
+      .real("Tolerance", "", 1e-2, deck::Range::positive(),
+            "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
       .real("First Step", "s", 1e-5, deck::Range::positive(), "Length of the first step.")
-      .real("Growth", "", 1.01, deck::Range::atLeast(1.0), "Factor on the step after an error below a hundredth of the tolerance.")
+      .real("Growth", "", 1.01, deck::Range::atLeast(1.0),
+            "Factor on the step after an error below a hundredth of the tolerance.")
       .real("Shrink", "", 1.1, deck::Range{1.0, 100.0, true, false}, "Divisor of the step after an error above the tolerance.")
       .real("Smallest Step", "s", 1e-9, deck::Range::positive(), "A step that would have to be shorter than this ends the run.");
 }
@@ -91,8 +93,8 @@ class RungeKutta4Adaptive final : public Integrator {
            << rhs_.model().dofName(worstPosition(qHalf_)) << ": a load, a law of time or a point law gives no number there.";
       throw ConvergenceError(text.str());
     }
-    text << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t << " s: the error " << error << " exceeds the tolerance "
-         << tolerance_ << ", most at " << rhs_.model().dofName(worstPosition(qHalf_))
+    text << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t << " s: the error " << error
+         << " exceeds the tolerance " << tolerance_ << ", most at " << rhs_.model().dofName(worstPosition(qHalf_))
          << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
     throw ConvergenceError(text.str());
   }
@@ -105,7 +107,8 @@ class RungeKutta4Adaptive final : public Integrator {
 
 const bool registered = IntegratorRegistry::instance().add(
     "RK4 adaptive",
-    {"Runge-Kutta of fourth order, its step controlled by comparing one step with two half steps (Nguyen et al. 2020, appendix B).",
+    {"Runge-Kutta of fourth order, its step controlled by comparing one step with two half steps (Nguyen et al. 2020, appendix "
+     "B).",
      specification(), [](const Teuchos::ParameterList& own) { return std::make_unique<RungeKutta4Adaptive>(own); }});
 
 }  // namespace

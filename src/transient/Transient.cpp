@@ -18,6 +18,8 @@ namespace {
 
 /// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
 constexpr double blowUp = 1e6;
+/// Samples in a row with more energy made than given after which a run is refused.
+constexpr int sustained = 10;
 
 double cpuSeconds() {
   timespec time{};
@@ -84,9 +86,10 @@ void checkFinite(const CompiledModel& model, const State& from, const State& to)
   const int v = worstPosition(to.v);
   const int worst = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]) ? v : q;
   std::ostringstream text;
-  text << "The motion blew up in the step from t = " << from.t << " s to " << to.t << " s: " << model.dofName(worst) << " reached "
-       << (worst == q ? to.q[worst] : to.v[worst])
-       << ". Choose a smaller Transient/Step (or Tolerance), or the integrator \"Generalized-alpha\"; if it happens at any step, the model itself "
+  text << "The motion blew up in the step from t = " << from.t << " s to " << to.t << " s: " << model.dofName(worst)
+       << " reached " << (worst == q ? to.q[worst] : to.v[worst])
+       << ". Choose a smaller Transient/Step (or Tolerance), or the integrator \"Generalized-alpha\"; if it happens at any step, "
+          "the model itself "
           "is unstable there.";
   throw ConvergenceError(text.str());
 }
@@ -156,8 +159,8 @@ class Run {
 
   void resume(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
-      throw DeckError("The checkpoint was written by the integrator \"" + point.integrator + "\", the deck asks for \"" + options_.integrator +
-                      "\". Restart with the same deck.");
+      throw DeckError("The checkpoint was written by the integrator \"" + point.integrator + "\", the deck asks for \"" +
+                      options_.integrator + "\". Restart with the same deck.");
     if (point.state.q.size() != model_.size() || point.fingerprint != fingerprint(model_))
       throw DeckError("The checkpoint belongs to another model than this deck describes. Restart with the same deck.");
     state_ = point.state;
@@ -187,7 +190,8 @@ class Run {
   bool loop() {
     std::unique_ptr<Progress> bar;
     if (options_.progress) bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
-    double nextCheckpoint = options_.checkpointInterval > 0 && hooks_.keep ? state_.t + options_.checkpointInterval : 2 * std::abs(options_.end) + 1e300;
+    double nextCheckpoint = options_.checkpointInterval > 0 && hooks_.keep ? state_.t + options_.checkpointInterval
+                                                                           : 2 * std::abs(options_.end) + 1e300;
     while (state_.t < options_.end) {
       if (hooks_.stop ? hooks_.stop() : interruptRequested()) {
         if (hooks_.keep) hooks_.keep(checkpoint());
@@ -196,7 +200,9 @@ class Run {
       integrator_->advance(state_, next_);
       checkFinite(model_, state_, next_);
       if (options_.ledger) ledger_.book(model_, next_);
+      const long before = sampler_.count();
       sampler_.step(state_, next_);
+      if (options_.ledger && sampler_.count() > before) watchEnergy();
       std::swap(state_, next_);
       if (state_.t >= nextCheckpoint && state_.t < options_.end) {
         hooks_.keep(checkpoint());
@@ -205,7 +211,24 @@ class Run {
       if (bar && bar->due(state_.t)) bar->update(state_.t, suffix());
     }
     if (bar) bar->finish();
+    if (runawaySamples_ > 0) runaway();
     return false;
+  }
+
+  /// A start far off balance may overshoot and is damped again: energy made out of nothing counts when it stays.
+  void watchEnergy() {
+    runawaySamples_ = ledger_.runaway(model_, next_) ? runawaySamples_ + 1 : 0;
+    if (runawaySamples_ == sustained) std::swap(state_, next_), runaway();
+  }
+
+  [[noreturn]] void runaway() {
+    const auto account = ledger_.account(model_, state_);
+    std::ostringstream text;
+    text << "By t = " << state_.t << " s the integrator had made " << -account.numerical() << " J out of nothing, more than the "
+         << account.supplied
+         << " J the model was given: the motion is an artefact of the step, not a result. Choose a smaller Transient/Step"
+         << (integrator_->isExplicit() ? "." : ", or a smaller Transient/Generalized-alpha/Spectral Radius.");
+    throw ConvergenceError(text.str());
   }
 
   std::string suffix() const {
@@ -225,11 +248,13 @@ class Run {
   EnergyLedger ledger_;
   State state_, next_;
   long evaluationsBefore_ = 0;
+  int runawaySamples_ = 0;
 };
 
 }  // namespace
 
-TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink, const RunHooks& hooks) {
+TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
+                          const RunHooks& hooks) {
   return Run(model, options, sink, hooks).go();
 }
 

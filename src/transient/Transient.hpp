@@ -28,30 +28,31 @@ class SampleSink {
 /// What happened; counts and seconds of this run (a restarted run counts on from its checkpoint).
 struct TransientReport {
   std::string integrator;
-  int size = 0;              ///< dofs of the model
-  double start = 0;          ///< [s]
-  double end = 0;            ///< time reached [s]
+  int size = 0;      ///< dofs of the model
+  double start = 0;  ///< [s]
+  double end = 0;    ///< time reached [s]
   bool interrupted = false;
   Counters counters;
   long contactEvaluations = 0;  ///< points evaluated, summed over all force evaluations
   long samples = 0;
-  double wall = 0;           ///< [s]
-  double cpu = 0;            ///< [s]
-  double realTimeFactor = 0; ///< simulated seconds per second of wall time
+  double wall = 0;            ///< [s]
+  double cpu = 0;             ///< [s]
+  double realTimeFactor = 0;  ///< simulated seconds per second of wall time
   bool hasEnergy = false;
   EnergyAccount energy;
 };
 
 /// What a run may be given beyond its model and its list.
 struct RunHooks {
-  std::string title = "transient";                      ///< in front of the progress bar
-  const Checkpoint* resume = nullptr;                   ///< go on from here instead of the initial state
-  std::function<void(const Checkpoint&)> keep;          ///< called at every checkpoint and at an interrupt
-  std::function<bool()> stop;                           ///< looked at each step; default: the interrupt flag
+  std::string title = "transient";              ///< in front of the progress bar
+  const Checkpoint* resume = nullptr;           ///< go on from here instead of the initial state
+  std::function<void(const Checkpoint&)> keep;  ///< called at every checkpoint and at an interrupt
+  std::function<bool()> stop;                   ///< looked at each step; default: the interrupt flag
 };
 
 /// Integrate. Samples go to `sink`; with hooks.resume only those after the checkpoint.
-/// Throws ModelError (a model the integrator cannot treat), ConvergenceError naming time and dof (Newton, blow-up, not a number), DeckError.
+/// Throws ModelError (a model the integrator cannot treat), ConvergenceError naming time and dof (Newton, blow-up, not a number),
+/// DeckError.
 TransientReport integrate(const model::SecondOrderModel& model, const Teuchos::ParameterList& transient, SampleSink& sink,
                           const RunHooks& hooks = {});
 TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,

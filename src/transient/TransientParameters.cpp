@@ -9,15 +9,19 @@ namespace tooljoint::transient {
 deck::ListSpec parameters() {
   const auto& registry = IntegratorRegistry::instance();
   deck::ListSpec spec("Transient", "Motion in time. Without this list a run stops at the static state.");
-  spec.choice("Integrator", std::string("Generalized-alpha"), registry.names(), "Time integration method; its own parameters stand in the sublist of that name.")
+  spec.choice("Integrator", std::string("Generalized-alpha"), registry.names(),
+              "Time integration method; its own parameters stand in the sublist of that name.")
       .real("Start Time", "s", 0.0, deck::Range::any(), "Time at which the motion starts.")
       .real("End Time", "s", deck::Required{}, deck::Range::any(), "Time at which the motion ends; later than Start Time.")
       .real("Step", "s", deck::Optional{}, deck::Range::positive(),
-            "Fixed step; shortened so that it divides the sampling interval. By default 0.001 s for Generalized-alpha and 0.9 of the "
+            "Fixed step; shortened so that it divides the sampling interval. By default 0.001 s for Generalized-alpha and 0.9 of "
+            "the "
             "stability limit for RK4; RK4 adaptive chooses its own.")
-      .real("Sampling Interval", "s", 0.005, deck::Range::positive(), "Time between two recorded states; both ends of the motion are recorded when they fall on it.")
+      .real("Sampling Interval", "s", 0.005, deck::Range::positive(),
+            "Time between two recorded states; both ends of the motion are recorded when they fall on it.")
       .boolean("Progress", true, "Show a progress bar, or a line per 10 % when the output is not a terminal.")
-      .boolean("Energy Ledger", true, "Keep account of kinetic, strain and contact energy, of the work of all loads and of every dissipation.")
+      .boolean("Energy Ledger", true,
+               "Keep account of kinetic, strain and contact energy, of the work of all loads and of every dissipation.")
       .real("Checkpoint Interval", "s", 1.0, deck::Range::nonNegative(),
             "Simulated time between two states saved for a restart; 0 saves one only when the run is interrupted.");
   for (const auto& [name, entry] : registry.entries()) {

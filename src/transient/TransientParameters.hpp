@@ -16,14 +16,14 @@ deck::ListSpec parameters();
 /// The list as values.
 struct TransientOptions {
   std::string integrator = "Generalized-alpha";
-  double start = 0;              ///< [s]
-  double end = 0;                ///< [s]
-  double step = 0;               ///< [s]; 0: the integrator's own
-  double sampling = 0.005;       ///< [s]
+  double start = 0;         ///< [s]
+  double end = 0;           ///< [s]
+  double step = 0;          ///< [s]; 0: the integrator's own
+  double sampling = 0.005;  ///< [s]
   bool progress = true;
   bool ledger = true;
-  double checkpointInterval = 0; ///< simulated time between checkpoints [s]; 0: none but at an interrupt
-  Teuchos::ParameterList own;    ///< the integrator's sublist
+  double checkpointInterval = 0;  ///< simulated time between checkpoints [s]; 0: none but at an interrupt
+  Teuchos::ParameterList own;     ///< the integrator's sublist
 };
 
 /// Read a validated list. Throws DeckError for what the registry cannot check alone (End Time not after Start Time).

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and anything else.
-#include <gtest/gtest.h>
+#include "linalg/BlockFactor.hpp"
 
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 #include <random>
-
-#include "linalg/BlockFactor.hpp"
 
 namespace tooljoint::linalg {
 namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
 
-/// A random unsymmetric matrix with blocks of these widths and couplings along the edges, strong on the diagonal; rows and columns
-/// differ in size by up to 1e10, as forces and moments do. Dofs of a group are scattered over the numbering.
+/// A random unsymmetric matrix with blocks of these widths and couplings along the edges, strong on the diagonal; rows and
+/// columns differ in size by up to 1e10, as forces and moments do. Dofs of a group are scattered over the numbering.
 struct Sample {
   Matrix dense;
   Sparse sparse;
@@ -40,7 +39,8 @@ struct Sample {
     for (int i = 0; i < n; ++i) size[i] = std::pow(10.0, 5 * uniform(random) / 2);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
-        if (coupled(group[static_cast<std::size_t>(i)], group[static_cast<std::size_t>(j)])) dense(i, j) = uniform(random) + (i == j ? 4.0 : 0.0);
+        if (coupled(group[static_cast<std::size_t>(i)], group[static_cast<std::size_t>(j)]))
+          dense(i, j) = uniform(random) + (i == j ? 4.0 : 0.0);
     dense = size.asDiagonal() * dense * size.asDiagonal();
     sparse = dense.sparseView();
   }

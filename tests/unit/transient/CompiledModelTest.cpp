@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The compiled model says what the model says: laws, products, loads, point forces and their tangents.
-#include <gtest/gtest.h>
+#include "transient/CompiledModel.hpp"
 
+#include <gtest/gtest.h>
 #include <random>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
 #include "linalg/BlockFactor.hpp"
 #include "substructures/contact/ContactLaw.hpp"
-#include "transient/CompiledModel.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -153,10 +153,11 @@ TEST(CompiledModel, refusesAnInconsistentModel) {
   EXPECT_THROW(CompiledModel{source}, ModelError);
 }
 
-// Point laws ------------------------------------------------------------------------------------------------------------------------
+// Point laws
+// ------------------------------------------------------------------------------------------------------------------------
 
-/// Contact with friction at the nodes of `source` (three dofs u, v, theta_z each); with `general` every row mixes several dofs, as the
-/// rows of a reduced model do.
+/// Contact with friction at the nodes of `source` (three dofs u, v, theta_z each); with `general` every row mixes several dofs,
+/// as the rows of a reduced model do.
 void addBore(model::SecondOrderModel& source, bool general, double lambda = 2e3) {
   const int n = source.size();
   contact::ContactPoints points;
@@ -206,8 +207,9 @@ TEST(PointBatch, tangentsMatchDifferences) {
     const Vector q = sampleVector(n, 0.2), v = sampleVector(n, 1.2), x = sampleVector(n, 2.2);
     const double cd = 1.0, cv = 0.3, eps = 1e-6;
     // Directional derivative of the forces along (cd x, cv x).
-    const Vector expected =
-        (source.pointForce(0.4, q + eps * cd * x, v + eps * cv * x) - source.pointForce(0.4, q - eps * cd * x, v - eps * cv * x)) / (2 * eps);
+    const Vector expected = (source.pointForce(0.4, q + eps * cd * x, v + eps * cv * x) -
+                             source.pointForce(0.4, q - eps * cd * x, v - eps * cv * x)) /
+                            (2 * eps);
     Vector qp, vp, xp, back;
     model.toPositions(q, qp);
     model.toPositions(v, vp);

@@ -21,7 +21,8 @@ double freeVibrationError(const std::string& integrator, double h, const Teuchos
   double error = 0;
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     const double t = samples.time[i];
-    const double exact = std::exp(-zeta * omega * t) * (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
+    const double exact =
+        std::exp(-zeta * omega * t) * (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
     error = std::max(error, std::abs(samples.q[i][0] - exact));
   }
   EXPECT_EQ(samples.time.size(), 5u);
@@ -52,7 +53,8 @@ std::string refusal(const std::function<void()>& work) {
   return "";
 }
 
-// Order of convergence ---------------------------------------------------------------------------------------------------------------
+// Order of convergence
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST(Integrators, fixedRungeKuttaIsOfFourthOrder) {
   const double coarse = freeVibrationError("RK4", 0.01);
@@ -127,7 +129,8 @@ TEST(Integrators, accelerationBalancesTheForces) {
   }
 }
 
-// A ball on a spring-damper floor: second order through impacts, on the mean of many --------------------------------------------------
+// A ball on a spring-damper floor: second order through impacts, on the mean of many
+// --------------------------------------------------
 
 double impactError(double h, double lambda, double damping) {
   const auto model = droppedBalls(12, 1e6, damping, lambda);
@@ -162,7 +165,8 @@ TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
   EXPECT_GT(0.25 * std::log2(coarse / fine), 0.8);
 }
 
-// Parameters -------------------------------------------------------------------------------------------------------------------------
+// Parameters
+// -------------------------------------------------------------------------------------------------------------------------
 
 TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
   // Step 0.01 s: 1e4 rad/s is far above it, 10 rad/s far below.

@@ -80,7 +80,9 @@ class Floor final : public model::PointLaw {
     }
     return sum;
   }
-  std::vector<model::Channel> channels() const override { return {{"force", "N", "Force of the floor."}, {"penetration", "m", "Depth below the floor."}}; }
+  std::vector<model::Channel> channels() const override {
+    return {{"force", "N", "Force of the floor."}, {"penetration", "m", "Depth below the floor."}};
+  }
   void record(double t, const double* d, const double* v, double* out) const override {
     std::vector<int> all;
     for (int p = 0; p < points_; ++p) all.push_back(p);

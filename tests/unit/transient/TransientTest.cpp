@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The run around an integrator: samples, reports, errors, interrupts, checkpoints, energy, allocation.
-#include <gtest/gtest.h>
-
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
@@ -39,7 +37,8 @@ std::string failure(const std::function<void()>& work) {
   return "";
 }
 
-// Samples ----------------------------------------------------------------------------------------------------------------------------
+// Samples
+// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Transient, samplesStandAtMultiplesOfTheInterval) {
   const auto model = oscillator(1, 0.1, 400, 0.1, 0);
@@ -106,7 +105,8 @@ TEST(Transient, integratorsAgree) {
   }
 }
 
-// Options ----------------------------------------------------------------------------------------------------------------------------
+// Options
+// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Transient, readsItsListWithDefaults) {
   Teuchos::ParameterList list("Transient");
@@ -148,7 +148,8 @@ TEST(Transient, everyIntegratorDescribesItself) {
             std::string::npos);
 }
 
-// Failures -----------------------------------------------------------------------------------------------------------------------------
+// Failures
+// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
   auto model = springChain(3, 1.0, 0.0, 100.0);
@@ -179,13 +180,15 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
   for (const auto& integrator : allIntegrators) {
     Keep samples;
     const auto text = failure([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
-    EXPECT_TRUE(text.find("t = 0.4") != std::string::npos || text.find("t = 0.5") != std::string::npos) << integrator << ": " << text;
+    EXPECT_TRUE(text.find("t = 0.4") != std::string::npos || text.find("t = 0.5") != std::string::npos)
+        << integrator << ": " << text;
     EXPECT_NE(text.find("of node"), std::string::npos) << text;
     for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
   }
 }
 
-// Interrupt and restart ----------------------------------------------------------------------------------------------------------------
+// Interrupt and restart
+// ----------------------------------------------------------------------------------------------------------------
 
 TEST(Transient, anInterruptStopsCleanly) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);
@@ -280,10 +283,13 @@ TEST(Checkpoints, belongToOneModelAndOneIntegrator) {
   integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, hooks);
   RunHooks again;
   again.resume = &kept;
-  EXPECT_NE(failure([&] { integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again); }).find("written by the integrator \"RK4\""),
+  EXPECT_NE(failure([&] {
+              integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again);
+            }).find("written by the integrator \"RK4\""),
             std::string::npos);
   model.stiffness[0].matrix.coeffRef(0, 0) *= 1 + 1e-9;
-  EXPECT_NE(failure([&] { integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, again); }).find("another model"), std::string::npos);
+  EXPECT_NE(failure([&] { integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, again); }).find("another model"),
+            std::string::npos);
 }
 
 TEST(Checkpoints, filesThatAreNoneAreRefused) {
@@ -303,7 +309,8 @@ TEST(Checkpoints, filesThatAreNoneAreRefused) {
   EXPECT_NE(failure([&] { point.write("/nowhere/at/all"); }).find("Cannot write"), std::string::npos);
 }
 
-// Energy -------------------------------------------------------------------------------------------------------------------------------
+// Energy
+// -------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Energy, freeVibrationIsConserved) {
   const auto model = oscillator(2, 0, 800, 0.1, 1.0);
@@ -379,6 +386,19 @@ TEST(Energy, bouncingBallsBalance) {
   EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
 }
 
+TEST(Energy, aRunThatLivesOnEnergyMadeByTheStepIsRefused) {
+  // A string of balls between floor and springs with walls far too stiff for the step and no numerical damping.
+  auto model = droppedBalls(10, 1e9, 0, 7e11, 2e5);
+  model.loads[0].vector *= 20;
+  Keep samples;
+  auto o = options("Generalized-alpha", 5.0, 2e-3, 0.01);
+  o.own.set("Spectral Radius", 1.0);
+  o.own.set("Accept Unconverged", true);
+  const auto text = failure([&] { integrate(model, o, samples); });
+  EXPECT_NE(text.find("J out of nothing"), std::string::npos) << text;
+  EXPECT_NE(text.find("Spectral Radius"), std::string::npos) << text;
+}
+
 TEST(Energy, aDrivenRotorInItsBoreBalances) {
   auto model = denseModel(Vector(Eigen::Vector3d(10, 10, 0.05)).asDiagonal(), Matrix(),
                           Vector(Eigen::Vector3d(2e3, 2e3, 500)).asDiagonal(), 3);
@@ -401,7 +421,8 @@ TEST(Energy, aDrivenRotorInItsBoreBalances) {
   EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
 }
 
-// Cost ---------------------------------------------------------------------------------------------------------------------------------
+// Cost
+// ---------------------------------------------------------------------------------------------------------------------------------
 
 #ifdef COUNTS_ALLOCATIONS
 /// Counter of allocations at the first sample and at the last.
