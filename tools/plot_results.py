@@ -24,6 +24,7 @@ def draw_well(axes, results):
     axes.plot(*position.T, color="0.8", linewidth=4, zorder=0)
     points = axes.scatter(*position.T, c=force, cmap="inferno_r", s=8, depthshade=False)
     axes.invert_zaxis()
+    axes.view_init(elev=18, azim=-150)
     axes.set_xlabel("X [m]"), axes.set_ylabel("Y [m]"), axes.set_zlabel("Z [m]")
     axes.set_title("string in its well")
     plt.colorbar(points, ax=axes, shrink=0.6, pad=0.12, label="static contact force [kN]")
