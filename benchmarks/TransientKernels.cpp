@@ -200,6 +200,24 @@ void rungeKuttaStep(benchmark::State& bench) {
 }
 BENCHMARK(rungeKuttaStep)->Arg(0)->Arg(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 
+/// Cost of a step against length: the string repeated end to end; 20 steps of 1 ms from the centre line. Argument: elements.
+void longString(benchmark::State& bench) {
+  const auto model = helicalString(longMesh(static_cast<std::size_t>(bench.range(0))), true);
+  auto o = options("Generalized-alpha", 0, 0.02, 1e-3);
+  NoSink sink;
+  double seconds = 0;
+  long iterations = 0;
+  for (auto _ : bench) {
+    const auto report = transient::integrate(model, o, sink);
+    bench.SetIterationTime(report.cpu);
+    seconds += report.cpu;
+    iterations += report.counters.newtonIterations;
+  }
+  bench.counters["dofs"] = model.size();
+  bench.counters["ns/iteration/dof"] = 1e9 * seconds / static_cast<double>(iterations) / model.size();
+}
+BENCHMARK(longString)->Arg(162)->Arg(1620)->Arg(16200)->UseManualTime()->Unit(benchmark::kMillisecond);
+
 }  // namespace
 
 BENCHMARK_MAIN();

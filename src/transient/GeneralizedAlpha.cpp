@@ -70,6 +70,7 @@ class GeneralizedAlpha final : public Integrator {
     units_ = 1L << maxHalvings_;
   }
 
+  int ledgerStride() const override { return 2; }
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
   void save(std::vector<double>& memory) const override;
