@@ -6,6 +6,8 @@
 #include <set>
 
 #include "app/NoxSolver.hpp"
+#include "common/Error.hpp"
+#include "linalg/DirectSolver.hpp"
 #include "substructures/string/EquationBuilder.hpp"
 
 namespace tooljoint::app {
@@ -58,6 +60,25 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
   return input;
 }
 
+/// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it can touch, is singular.
+/// Throws ModelError naming the dof that moves most.
+void requireHeld(const Scene& scene, const string_::StringModel& equations) {
+  const auto model = string_::assemble(equations);
+  Triplets walls;
+  for (int i = 0; i < scene.contactPoints.size(); ++i)
+    for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
+      if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] && model.dofs[dof].component < 2)
+        walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof), scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
+  Sparse wall(model.size(), model.size());
+  wall.setFromTriplets(walls.begin(), walls.end());
+  try {
+    linalg::DirectSolver(Sparse(model.stiffnessAt(0.0) + wall),
+                         [&](int dof) { return model::describe(model.dofs[static_cast<std::size_t>(dof)], model.componentNames); });
+  } catch (const ModelError& error) {
+    throw ModelError(std::string("The string floats: nothing holds it. ") + error.what() + " Hold that dof in the Supports list.");
+  }
+}
+
 }  // namespace
 
 StaticStage settle(const Scene& scene) {
@@ -65,6 +86,7 @@ StaticStage settle(const Scene& scene) {
   stage.path = bend(scene);
   const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
   stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
+  requireHeld(scene, stage.equations);
   const auto input = staticInput(scene, stage.path, stage.equations);
   stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
   string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement, scene.damping);

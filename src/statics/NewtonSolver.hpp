@@ -19,6 +19,7 @@ namespace tooljoint::statics {
 struct NewtonOptions {
   enum LineSearch {
     FullStep,     ///< x + dx always; the step limit of the problem is ignored
+    LimitedStep,  ///< x + s dx with s the step limit of the problem, whatever the residual does
     Backtracking  ///< x + s dx with s = step limit, s/2, s/4 ... until the scaled residual decreases (Armijo)
   };
   double tolerance = 1e-8;        ///< largest scaled residual max_i |scale_i r_i| accepted ...

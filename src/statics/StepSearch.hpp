@@ -32,7 +32,7 @@ inline Vector vectorOf(const NOX::Abstract::Vector& x) {
   return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
 }
 
-/// Full step, or backtracking on the scaled residual from the step limit of the problem.
+/// Full step, the step limit of the problem, or backtracking on the scaled residual from that limit.
 class StepSearch : public NOX::LineSearch::Generic {
  public:
   StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options, SearchRecord& record)
@@ -42,8 +42,8 @@ class StepSearch : public NOX::LineSearch::Generic {
                const NOX::Solver::Generic& solver) override {
     const NOX::Abstract::Group& old = solver.getPreviousSolutionGroup();
     recordLinearResidual(group, direction);
-    if (options_.lineSearch == NewtonOptions::FullStep) {
-      record_.step = step = 1.0;
+    if (options_.lineSearch != NewtonOptions::Backtracking) {
+      record_.step = step = options_.lineSearch == NewtonOptions::FullStep ? 1.0 : limit(vectorOf(old.getX()), vectorOf(direction));
       group.computeX(old, direction, step);
       return group.computeF() == NOX::Abstract::Group::Ok;
     }
@@ -51,11 +51,13 @@ class StepSearch : public NOX::LineSearch::Generic {
   }
 
  private:
+  double limit(const Vector& x, const Vector& dx) const { return x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0; }
+
   bool backtrack(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
                  const NOX::Abstract::Group& old) {
     const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
     const double before = old.getNormF();
-    step = x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0;
+    step = limit(x, dx);
     double bestStep = 0.0, best = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= options_.maxHalvings; ++k) {
       group.computeX(old, direction, step);

@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Changes every parameter of a deck and looks whether the answer changes, and in the known direction.
+
+    check_effects.py PROGRAM [--shard I/N]
+
+effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
+"set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
+"effect": "up", "down", "changes" or "same"}. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
+"files" for the list of files. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
+an effect cannot be seen in a run, and names the test that shows it.
+"""
+import argparse
+import hashlib
+import json
+import pathlib
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+
+
+def parameters(description, path=""):
+    """Paths of all parameters of a list of the manual."""
+    for parameter in description["parameters"]:
+        yield f"{path}{parameter['name']}"
+    for sublist in description["lists"]:
+        yield from parameters(sublist, f"{path}{sublist['name']}/")
+    if description.get("named_lists"):
+        yield from parameters(description["named_lists"], f"{path}*/")
+
+
+class Runs:
+    def __init__(self, program):
+        self.program = program
+        self.done = {}
+
+    def folder(self, overrides):
+        """Results of the scene with these overrides; each set of overrides runs once."""
+        key = json.dumps(overrides)
+        if key not in self.done:
+            folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
+            command = [self.program, "run", str(HERE / "scene.xml"), "--output", str(folder)]
+            for override in overrides:
+                command += ["--without", override[1:]] if override.startswith("!") else ["--set", override]
+            result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            if result.returncode != 0:
+                raise RuntimeError(result.stdout.strip().splitlines()[-1])
+            self.done[key] = folder
+        return self.done[key]
+
+    def value(self, overrides, key):
+        folder = self.folder(overrides)
+        if key.startswith("file:"):
+            return (folder / key[5:]).read_bytes()
+        if key == "size":
+            return (folder / "results.h5").stat().st_size
+        value = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        for step in key.split("."):
+            value = value[int(step)] if isinstance(value, list) else value[step]
+        return value
+
+
+def holds(effect, before, after):
+    if effect == "same":
+        return before == after
+    if not all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (before, after)):
+        return effect == "changes" and before != after
+    margin = 1e-9 * max(abs(before), abs(after))
+    return {"up": after > before + margin, "down": after < before - margin, "changes": abs(after - before) > margin}[effect]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--shard", default="1/1", help="I/N: every N-th row, beginning with the I-th")
+    options = parser.parse_args()
+    table = json.loads((HERE / "effects.json").read_text(encoding="utf-8"))
+    manual = json.loads(subprocess.run([options.program, "doc", "--format", "json"], stdout=subprocess.PIPE, text=True, check=True).stdout)
+    known = set(parameters(manual[0] if isinstance(manual, list) else manual))
+    covered = {row["parameter"] for row in table["effects"]} | set(table["exempt"])
+    faults = [f"{name}: no row in effects.json" for name in sorted(known - covered)]
+    faults += [f"{name}: no such parameter" for name in sorted(covered - known)]
+
+    runs = Runs(options.program)
+    shard, shards = (int(x) for x in options.shard.split("/"))
+    rows = table["effects"][shard - 1::shards]
+    for row in rows:
+        try:
+            before = runs.value(row.get("base", []), row["key"])
+            after = runs.value(row.get("base", []) + row["set"], row["key"])
+        except (RuntimeError, KeyError, TypeError, OSError) as problem:
+            faults.append(f"{row['parameter']} {row['set']}: {problem}")
+            continue
+        good = holds(row["effect"], before, after)
+        shown = "" if isinstance(before, bytes) else f": {row['key']} {before} -> {after}"
+        print(f"{'ok    ' if good else 'FAILED'} {row['parameter']} {row['effect']}{shown}", flush=True)
+        if not good:
+            faults.append(f"{row['parameter']} {row['set']}: {row['key']} should be {row['effect']}{shown}")
+    print(f"\n{len(rows)} effects looked at, {len(faults)} faults.")
+    for fault in faults:
+        print("  " + fault)
+    return 1 if faults or not rows else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

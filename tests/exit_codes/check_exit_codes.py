@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What ends how: check_exit_codes.py PROGRAM MPIEXEC DECK
+
+Runs the program into every kind of end and compares exit code and message, on one rank and on two; shows that a failed run spoils no
+finished result, and that an interrupted run goes on to the same numbers.
+"""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
+FAULTS = []
+
+
+def tooljoint(*arguments, ranks=1):
+    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120)
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def ends(what, code, sentence, *arguments, ranks=(1, 2)):
+    for count in ranks:
+        done = tooljoint(*arguments, ranks=count)
+        said = done.stderr.count(sentence)
+        expect(f"{what}, {count} rank(s): exit code {code}", done.returncode == code, f"(found {done.returncode})")
+        expect(f"{what}, {count} rank(s): says \"{sentence}\" once", said == 1, "" if said == 1 else done.stderr[-600:])
+
+
+def summary(folder):
+    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
+
+
+def exit_codes():
+    free = ["--set", "Supports/Top=none", "--set", "Supports/Bit=none", "--without", "Supports/guide", "--without", "Contact", "--without", "Transient",
+            "--without", "Reduction", "--without", "Substructures"]
+    ends("no deck", 1, "DECK is required", "run", ranks=(1,))
+    ends("unknown option", 1, "--nonsense", "run", DECK, "--nonsense", ranks=(1,))
+    ends("missing deck", 5, "nowhere.xml", "run", "nowhere.xml")
+    ends("misspelt parameter", 2, "Did you mean", "run", DECK, "--set", "Contact/Stiffnes=1")
+    ends("floating string", 3, "The string floats", "run", DECK, "--output", "floating", *free)
+    ends("static state not reached", 4, "The static equilibrium did not converge", "run", DECK, "--output", "unconverged", "--set", "Static/Max Iterations=1")
+    ends("motion not solved", 4, "Step", "run", DECK, "--output", "lost", "--set", "Transient/Step=0.1", "--set", "Transient/Sampling Interval=0.1",
+         "--set", "Transient/Generalized-alpha/Max Iterations=2", "--set", "Transient/Generalized-alpha/Max Halvings=0")
+    pathlib.Path("a_file").write_text("not a folder", encoding="utf-8")
+    ends("folder that cannot be made", 5, "a_file", "run", DECK, "--output", "a_file/results")
+
+
+def failed_run_spoils_nothing():
+    tooljoint("run", DECK, "--output", "kept")
+    before = {path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir() if not path.name.endswith(".part")}
+    done = tooljoint("run", DECK, "--output", "kept", "--set", "Static/Max Iterations=1")
+    after = {path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir() if not path.name.endswith(".part")}
+    expect("a failed run leaves finished results as they were", done.returncode == 4 and "results.h5" in before and before == after)
+
+
+def interrupted_run_goes_on():
+    long = ["--set", "Transient/End Time=40", "--set", "Output/XDMF=false", "--set", "Transient/Checkpoint Interval=0.5"]
+    tooljoint("run", DECK, "--output", "whole", *long)
+    process = subprocess.Popen([PROGRAM, "run", DECK, "--output", "broken", *long], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not pathlib.Path("broken/checkpoint.bin").exists():
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    expect("an interrupted run ends with 130 and says how to go on", process.returncode == 130 and "--restart" in said, f"({process.returncode})")
+    expect("its summary says interrupted", summary("broken")["status"] == "interrupted")
+    done = tooljoint("run", DECK, "--restart", "broken", *long)
+    expect("it goes on", done.returncode == 0, done.stderr[-400:])
+    lines = [pathlib.Path(folder, "motion.csv").read_text(encoding="utf-8").splitlines() for folder in ("whole", "broken")]
+    expect("and ends with the same numbers", lines[0] == lines[1], f"({len(lines[0])} and {len(lines[1])} lines)")
+
+
+def main():
+    exit_codes()
+    failed_run_spoils_nothing()
+    interrupted_run_goes_on()
+    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
+    return 1 if FAULTS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
