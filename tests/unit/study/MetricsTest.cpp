@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// eps_t, eps_n and dyn on histories small enough to work out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "common/Error.hpp"
+#include "study/Metrics.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+/// Two nodes with three components at two times; the second node is held in u.
+struct TwoNodes {
+  std::vector<double> time{0.0, 1.0};
+  std::vector<double> reference{3.0, 1.0, 2.0, 0.0, 1.0, 2.0, 4.0, 1.0, 2.0, 0.0, 1.0, 2.0};
+  study::HistoryView view(const std::vector<double>& d) const { return {time.data(), d.data(), 2, 2, 3}; }
+};
+
+TEST(Metrics, AHistoryHasNoErrorAgainstItself) {
+  const TwoNodes h;
+  EXPECT_EQ(study::errorOverTime(h.view(h.reference), h.view(h.reference)).max(), 0.0);
+  EXPECT_EQ(study::errorOverNodes(h.view(h.reference), h.view(h.reference)).max(), 0.0);
+}
+
+TEST(Metrics, ErrorOverTimeIsTheMeanOfTheComponents) {
+  const TwoNodes h;
+  auto changed = h.reference;
+  changed[0] += 0.3;  // u of node 1 at t = 0: |du|/|u| = 0.3/3
+  const auto error = study::errorOverTime(h.view(changed), h.view(h.reference));
+  ASSERT_EQ(error.value.size(), 2u);
+  EXPECT_NEAR(error.value[0], 0.1 / 3.0, 1e-15);
+  EXPECT_EQ(error.value[1], 0.0);
+}
+
+TEST(Metrics, AComponentThatNeverMovesIsLeftOut) {
+  const TwoNodes h;
+  auto changed = h.reference;
+  changed[4] += 0.1;  // v of node 2 at t = 0; its u is zero at all times and not judged: the mean is over v and w
+  const auto error = study::errorOverNodes(h.view(changed), h.view(h.reference));
+  ASSERT_EQ(error.value.size(), 2u);
+  EXPECT_NEAR(error.value[1], 0.1 / std::sqrt(2.0) / 2.0, 1e-15);
+}
+
+TEST(Metrics, VibrationErrorDoesNotDivideByTheStaticOffset) {
+  const TwoNodes h;
+  const std::vector<double> still{3.0, 1.0, 2.0, 0.0, 1.0, 2.0};
+  auto changed = h.reference;
+  changed[6] += 0.5;  // the reference moves by 1 in u of node 1, from 3 to 4
+  EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still), 0.5, 1e-15);
+  EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still, {1.0, 1.0}), 0.5, 1e-15);
+}
+
+TEST(Metrics, DifferentHistoriesAreRefused) {
+  const TwoNodes h;
+  const study::HistoryView shorter{h.time.data(), h.reference.data(), 1, 2, 3};
+  EXPECT_THROW(study::errorOverTime(shorter, h.view(h.reference)), Error);
+  EXPECT_THROW(study::errorOverTime(h.view(h.reference), h.view(h.reference), {5.0, 6.0}), Error);
+}
+
+}  // namespace
