@@ -9,12 +9,15 @@ import argparse
 import pathlib
 import sys
 
-import h5py
-import matplotlib
+try:
+    import h5py
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
 
 def draw_well(axes, results):
@@ -60,6 +63,8 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, help="results folder of a run")
     parser.add_argument("--output", type=pathlib.Path, help="picture (default: DIR/results.png)")
     options = parser.parse_args()
+    if not (options.folder / "results.h5").is_file():
+        sys.exit(f"{options.folder} holds no results.h5: name the folder of a run that ended.")
     with h5py.File(options.folder / "results.h5") as results:
         moves = "/transient/velocity" in results
         figure = plt.figure(figsize=(11, 8 if moves else 6), constrained_layout=True)
