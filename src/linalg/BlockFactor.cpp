@@ -68,7 +68,8 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   int widest = 0;
   std::size_t panel = 0;
   for (int k : sequence) {
-    Pivot pivot{pattern.start(k),
+    Pivot pivot{k,
+                pattern.start(k),
                 pattern.width(k),
                 place(k, k),
                 static_cast<int>(couplings_.size()),
@@ -77,7 +78,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
                 0};
     widest = std::max(widest, pivot.width);
     for (int i : later[z(k)]) {
-      couplings_.push_back({pattern.start(i), pattern.width(i), place(i, k), place(k, i)});
+      couplings_.push_back({i, pattern.start(i), pattern.width(i), place(i, k), place(k, i)});
       panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
       solveWork_ += 2.0 * pivot.width * pattern.width(i);
     }
@@ -157,6 +158,62 @@ void BlockFactor::solve(double* x) const {
   for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p)
     for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
       kernel::multiplySubtract(p->width, couplings[c].width, values + couplings[c].upper, x + couplings[c].start, x + p->start);
+}
+
+void BlockFactor::invert(const std::vector<char>& wanted) {
+  if (inverse_.empty()) {
+    inverse_.assign(values_.size(), 0.0);
+    std::size_t widest = 0;
+    for (const Pivot& p : pivots_) widest = std::max(widest, z(p.width) * z(p.width));
+    panel_.resize(std::max(panel_.size(), widest));
+  }
+  // A pivot is needed when it is wanted or couples to an earlier one that is needed.
+  std::vector<char>& needed = inverted_;
+  needed.assign(wanted.begin(), wanted.end());
+  for (const Pivot& p : pivots_)
+    if (needed[z(p.block)])
+      for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[z(couplings_[z(c)].block)] = 1;
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p)
+    if (needed[z(p->block)]) invertPivot(*p);
+}
+
+void BlockFactor::invertPivot(const Pivot& p) {
+  const double* values = values_.data();
+  double* Z = inverse_.data();
+  const int w = p.width;
+  // D_k^-1
+  double* diagonal = Z + p.diagonal;
+  if (w <= kernel::largestInverse) {
+    std::copy(values + p.diagonal, values + p.diagonal + w * w, diagonal);
+  } else {
+    std::fill(diagonal, diagonal + w * w, 0.0);
+    for (int i = 0; i < w; ++i) diagonal[i * (w + 1)] = 1.0;
+    kernel::solveLarge(w, w, values + p.diagonal, &swaps_[z(p.start)], diagonal);
+  }
+  const int count = p.couplingEnd - p.couplingBegin;
+  const Update* updates = updates_.data() + p.updateBegin;  // count x count, row by row
+  for (int a = 0; a < count; ++a) {
+    const Coupling& at = couplings_[z(p.couplingBegin + a)];
+    std::fill(Z + at.lower, Z + at.lower + at.width * w, 0.0);
+    std::fill(Z + at.upper, Z + at.upper + at.width * w, 0.0);
+  }
+  // Z_ak = -sum_b Z_ab (A_bk D_k^-1),  Z_kb = -sum_a W_ka Z_ab
+  for (int b = 0; b < count; ++b) {
+    const Coupling& from = couplings_[z(p.couplingBegin + b)];
+    std::fill(panel_.begin(), panel_.begin() + from.width * w, 0.0);
+    kernel::multiplySubtract(from.width, w, w, values + from.lower, diagonal, panel_.data());
+    for (int a = 0; a < count; ++a) {
+      const Coupling& to = couplings_[z(p.couplingBegin + a)];
+      const double* Zab = Z + updates[a * count + b].target;
+      kernel::multiplyAddTo(to.width, from.width, w, Zab, panel_.data(), Z + to.lower);
+      kernel::multiplySubtract(w, to.width, from.width, values + to.upper, Zab, Z + from.upper);
+    }
+  }
+  // Z_kk = D_k^-1 - sum_b W_kb Z_bk
+  for (int b = 0; b < count; ++b) {
+    const Coupling& at = couplings_[z(p.couplingBegin + b)];
+    kernel::multiplySubtract(w, at.width, w, values + at.upper, Z + at.lower, diagonal);
+  }
 }
 
 }  // namespace tooljoint::linalg

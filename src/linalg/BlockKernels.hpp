@@ -101,6 +101,15 @@ inline void multiplySubtract(int rows, int inner, int columns, const double* A, 
   }
 }
 
+/// C += A B with A rows x inner, B inner x columns.
+inline void multiplyAddTo(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+  if (rows <= 12 && inner <= 12) {
+    for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
+  } else {
+    MutableBlock(C, rows, columns).noalias() += ConstBlock(A, rows, inner) * ConstBlock(B, inner, columns);
+  }
+}
+
 /// C = A B, both small enough for an explicit inverse.
 inline void multiplySmall(int rows, int inner, int columns, const double* A, const double* B, double* C) {
   std::memset(C, 0, sizeof(double) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/NodalCorrection.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +24,7 @@ void NodalCorrection::bind(CompiledModel& model) {
     for (auto* arrays : {&d_, &v_, &f_}) arrays->emplace_back(size, 0.0);
     coordinates += batch.points() * batch.width();
   }
-  const int room = std::min(coordinates, mostPoints * widest);
+  const int room = std::min(coordinates, mostPoints * NodalProblem::widest);
   points_.reserve(mostPoints);
   columns_.resize(model.size(), room);
   compliance_.resize(room, room);
@@ -42,7 +41,7 @@ void NodalCorrection::begin() {
 }
 
 bool NodalCorrection::isIn(int batch, int point) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) { return at.batch == batch && at.point == point; });
+  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) { return at.batch == batch && at.problem.point == point; });
 }
 
 /// max_r |w_r (f - f0 - P R delta)_r|, w_r by the strongest dof of the row.
@@ -65,88 +64,24 @@ bool NodalCorrection::addTroubled(const double* delta, const double* weight) {
   bool any = false;
   for (std::size_t b = 0; b < d_.size(); ++b) {
     auto& batch = model_->points()[b];
-    if (batch.width() > widest) continue;
+    if (batch.width() > NodalProblem::widest) continue;
     for (int p : batch.active()) {
       if (isIn(static_cast<int>(b), p) || error(batch, static_cast<int>(b), p, delta, weight) < troubledShare * worst) continue;
-      const int first = points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().d.size());
+      const int first = points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
       if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
       const int w = batch.width();
-      Point at{static_cast<int>(b), p, first, {}, {}, {}, Local::Zero(w), Local::Zero(w)};
-      at.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][z(p * w)], w);
-      at.v = Eigen::Map<const Eigen::VectorXd>(&v_[b][z(p * w)], w);
-      at.f = Eigen::Map<const Eigen::VectorXd>(&f_[b][z(p * w)], w);
+      Point at{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
+      at.problem.point = p;
+      at.problem.P = NodalProblem::LocalMatrix::Zero(w, w);
+      at.problem.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][z(p * w)], w);
+      at.problem.v = Eigen::Map<const Eigen::VectorXd>(&v_[b][z(p * w)], w);
+      at.problem.f0 = Eigen::Map<const Eigen::VectorXd>(&f_[b][z(p * w)], w);
       points_.push_back(at);
       any = true;
     }
   }
-  for (const Point& at : points_) model_->points()[z(at.batch)].dropTangent(at.point);
+  for (const Point& at : points_) model_->points()[z(at.batch)].dropTangent(at.problem.point);
   return any;
-}
-
-NodalCorrection::Local NodalCorrection::defect(double t, double c, Point& at, const Local& free, const LocalMatrix& G,
-                                               const Local& y, LocalMatrix* slope) {
-  auto& batch = model_->points()[z(at.batch)];
-  const Local d = at.d + y;
-  const Local v = at.v + c * y;
-  Local f(y.size());
-  if (slope != nullptr) {
-    LocalMatrix dfdd(y.size(), y.size()), dfdv(y.size(), y.size());
-    batch.evaluateOne(t, at.point, d.data(), v.data(), f.data(), dfdd.data(), dfdv.data());
-    *slope = dfdd.transpose() + c * dfdv.transpose();  // the law's arrays are row-major
-  } else {
-    batch.evaluateOne(t, at.point, d.data(), v.data(), f.data(), nullptr, nullptr);
-  }
-  at.phi = f - at.f;
-  return y - free - G * at.phi;
-}
-
-/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is found, the sign change of
-/// step . G^-1 defect is bracketed, as in the global iteration but on a few numbers.
-bool NodalCorrection::solvePoint(double t, double c, Point& at, const Local& free, const LocalMatrix& G) {
-  const Eigen::Index w = free.size();
-  Local scale(w);
-  for (Eigen::Index i = 0; i < w; ++i) scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), 1e-300));
-  const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
-  LocalMatrix slope(w, w);
-  Local best = at.y;
-  double bestSize = INFINITY;
-  for (int start = 0; start < 2; ++start) {
-    Local y = start == 0 ? at.y : free;
-    for (int iteration = 0; iteration < 30; ++iteration) {
-      const Local now = defect(t, c, at, free, G, y, &slope);
-      const double before = size(now);
-      if (!std::isfinite(before)) break;
-      if (before < bestSize) best = y, bestSize = before;
-      if (before <= 1e-11 * (size(free) + size(y)) + 1e-300) break;
-      const LocalMatrix J = LocalMatrix::Identity(w, w) - G * slope;
-      const Local step = -J.partialPivLu().solve(now);
-      if (!step.allFinite()) break;
-      double fraction = 1, beyond = 0;
-      bool decreased = false;
-      for (int cut = 0; cut < 10 && !decreased; ++cut, fraction *= 0.5) {
-        const Local trial = defect(t, c, at, free, G, y + fraction * step, nullptr);
-        if (size(trial) <= (1 - 1e-4 * fraction) * before) {
-          y += fraction * step;
-          decreased = true;
-        } else if (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0) {
-          beyond = fraction;
-        }
-      }
-      if (decreased) continue;
-      if (beyond == 0) break;
-      double low = 0, high = beyond;
-      for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        const Local trial = defect(t, c, at, free, G, y + middle * step, nullptr);
-        (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0 ? high : low) = middle;
-      }
-      y += high * step;
-    }
-    if (bestSize <= 1e-9 * (size(free) + size(best))) break;
-  }
-  at.y = best;
-  defect(t, c, at, free, G, at.y, nullptr);
-  return std::isfinite(bestSize);
 }
 
 bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& factor, const Vector& residual, Vector& delta,
@@ -158,32 +93,34 @@ bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& facto
     for (int k = 0; k < batch.width(); ++k) {
       double* column = columns_.col(at.first + k).data();
       std::fill(column, column + model_->size(), 0.0);
-      batch.addRow(at.point * batch.width() + k, 1.0, column);
+      batch.addRow(at.problem.point * batch.width() + k, 1.0, column);
       factor.solve(column);
     }
   }
-  const int total = points_.back().first + static_cast<int>(points_.back().d.size());
+  const int total = points_.back().first + static_cast<int>(points_.back().y.size());
   for (const Point& at : points_) {
     const auto& batch = model_->points()[z(at.batch)];
     for (int k = 0; k < batch.width(); ++k)
       for (int j = 0; j < total; ++j)
-        compliance_(at.first + k, j) = batch.rowTimesVector(at.point * batch.width() + k, columns_.col(j).data());
+        compliance_(at.first + k, j) = batch.rowTimesVector(at.problem.point * batch.width() + k, columns_.col(j).data());
   }
   bool settled = false;
   for (int sweep = 0; sweep < mostSweeps && !settled; ++sweep) {
     settled = true;
     for (Point& at : points_) {
       const auto& batch = model_->points()[z(at.batch)];
-      const auto w = static_cast<int>(at.d.size());
-      Local free(w);
-      for (int k = 0; k < w; ++k) free[k] = batch.rowTimesVector(at.point * w + k, delta.data());
+      const auto w = static_cast<int>(at.y.size());
+      Local& free = at.problem.free;
+      free.resize(w);
+      for (int k = 0; k < w; ++k) free[k] = batch.rowTimesVector(at.problem.point * w + k, delta.data());
       for (const Point& other : points_) {
         if (&other == &at) continue;
-        const auto columns = static_cast<int>(other.d.size());
+        const auto columns = static_cast<int>(other.y.size());
         free += compliance_.block(at.first, other.first, w, columns) * other.phi;
       }
       const Local before = at.y;
-      if (!solvePoint(t, c, at, free, compliance_.block(at.first, at.first, w, w))) return false;
+      at.problem.G = compliance_.block(at.first, at.first, w, w);
+      if (!at.problem.solve(model_->points()[z(at.batch)], t, c, at.y, at.phi)) return false;
       if ((at.y - before).norm() > 1e-10 * (at.y.norm() + free.norm())) settled = false;
     }
     if (points_.size() == 1) settled = true;
@@ -193,7 +130,7 @@ bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& facto
     const auto& batch = model_->points()[z(at.batch)];
     for (int k = 0; k < batch.width(); ++k) {
       delta += at.phi[k] * columns_.col(at.first + k);
-      batch.addRow(at.point * batch.width() + k, at.phi[k], force.data());
+      batch.addRow(at.problem.point * batch.width() + k, at.phi[k], force.data());
     }
   }
   return delta.allFinite();

@@ -9,11 +9,11 @@
 /// of a few points, swept node by node; each node is solved by Newton with backtracking and a bracket on its own few coordinates.
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "linalg/BlockFactor.hpp"
 #include "transient/CompiledModel.hpp"
+#include "transient/NodalProblem.hpp"
 
 namespace tooljoint::transient {
 
@@ -32,20 +32,15 @@ class NodalCorrection {
   bool solve(double t, double c, const linalg::BlockFactor& factor, const Vector& residual, Vector& delta, Vector& force);
 
  private:
-  static constexpr int widest = 6;  ///< coordinates of a point
-  using Local = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest, 1>;
-  using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest, widest>;
+  using Local = NodalProblem::Local;
   struct Point {
     int batch;
-    int point;
     int first;  ///< its first column
-    Local d, v, f, y, phi;
+    NodalProblem problem;
+    Local y, phi;
   };
   bool isIn(int batch, int point) const;
   double error(const PointBatch& batch, int b, int p, const double* delta, const double* weight) const;
-  bool solvePoint(double t, double c, Point& at, const Local& free, const LocalMatrix& G);
-  /// y - free - G phi(y); phi and, if asked, its derivative in y.
-  Local defect(double t, double c, Point& at, const Local& free, const LocalMatrix& G, const Local& y, LocalMatrix* slope);
 
   CompiledModel* model_ = nullptr;
   std::vector<std::vector<double>> d_, v_, f_;  ///< per batch, at begin()

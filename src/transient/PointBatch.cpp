@@ -68,6 +68,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   active_.reserve(z(points_));
   frozen_.reserve(z(points_));
   isActive_.assign(z(points_), 0);
+  isFrozen_.assign(z(points_), 0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
   for (auto* array : {&dfdd_, &dfdv_, &P_}) array->assign(z(rows) * z(width_), 0.0);
   gap_.assign(z(points_), 0.0);
@@ -126,7 +127,8 @@ void PointBatch::look(double t, double h, const double* q) {
   active_.clear();
   for (int p = 0; p < points_; ++p) {
     const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
-    isActive_[z(p)] = !(gap_[z(p)] > reach * closing);
+    // What stands in a factored matrix has to be looked at as long as it stands there.
+    isActive_[z(p)] = isFrozen_[z(p)] || !(gap_[z(p)] > reach * closing);
     if (isActive_[z(p)]) active_.push_back(p);
   }
 }
@@ -171,11 +173,79 @@ void PointBatch::addForce(double factor, double* y) const {
     }
 }
 
+void PointBatch::gather(const double* x, double* rows) const {
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r)
+      rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+}
+
+void PointBatch::scatter(const double* rows, double* y) const {
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) {
+      if (single_) {
+        if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
+      } else {
+        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * rows[r];
+      }
+    }
+}
+
+void PointBatch::evaluateRows(double t, const double* d, const double* v, bool tangent) {
+  for (int p : active_)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] = offset_[z(r)] + d[r], v_[z(r)] = v[r];
+  if (tangent)
+    law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+  else
+    law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
+  evaluations_ += static_cast<long>(active_.size());
+}
+
+void PointBatch::project(int point, const double* values, double* block) const {
+  const int w = width_;
+  if (single_) {
+    for (int i = 0; i < w * w; ++i) {
+      const std::size_t address = entryAddress_[z(point * w * w + i)];
+      block[i] = address == none ? 0.0 : values[address];
+    }
+    return;
+  }
+  std::fill(block, block + w * w, 0.0);
+  const int first = touchBegin_[z(point)];
+  const int count = touchBegin_[z(point + 1)] - first;
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) {
+      const Touch& row = touches_[z(first + a)];
+      const Touch& column = touches_[z(first + b)];
+      const double* Z = values + pairOffset_[z(pairBegin_[z(point)] + a * count + b)];
+      for (int j = 0; j < column.width; ++j)
+        for (int i = 0; i < row.width; ++i)
+          for (int k = 0; k < w; ++k) {
+            const double left = touchRows_[row.rows + z(i * w + k)] * Z[j * row.width + i];
+            for (int l = 0; l < w; ++l) block[k * w + l] += left * touchRows_[column.rows + z(j * w + l)];
+          }
+    }
+}
+
+void PointBatch::markBlocks(const linalg::BlockPattern& pattern, std::vector<char>& blocks) const {
+  for (int position : column_) blocks[z(pattern.blockOf(position))] = 1;
+}
+
 void PointBatch::freezeTangent(double cd, double cv) {
-  frozen_ = active_;
   const int entries = width_ * width_;
+  forgetTangent();
+  frozen_ = active_;
+  for (int p : frozen_) isFrozen_[z(p)] = 1;
   for (int p : frozen_)
     for (int i = p * entries; i < (p + 1) * entries; ++i) P_[z(i)] = cd * dfdd_[z(i)] + cv * dfdv_[z(i)];
+}
+
+void PointBatch::forgetTangent() {
+  const int entries = width_ * width_;
+  for (int p : frozen_) {
+    std::fill(P_.begin() + p * entries, P_.begin() + (p + 1) * entries, 0.0);
+    isFrozen_[z(p)] = 0;
+  }
+  frozen_.clear();
 }
 
 void PointBatch::subtractTangent(double* values) const {
@@ -307,9 +377,11 @@ void PointBatch::restore(const double*& memory) {
     isActive_[z(p)] = *memory++ != 0.0;
     if (isActive_[z(p)]) active_.push_back(p);
   }
+  forgetTangent();
   frozen_.assign(z(static_cast<int>(*memory++)), 0);
   for (int& p : frozen_) {
     p = static_cast<int>(*memory++);
+    isFrozen_[z(p)] = 1;
     for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) P_[z(i)] = *memory++;
   }
 }

@@ -40,13 +40,30 @@ class PointBatch {
   /// y += factor R' f.
   void addForce(double factor, double* y) const;
 
+  // The same in rows (point * width() + coordinate), for iterations that never form q and v; active points only.
+  /// rows = R x.
+  void gather(const double* x, double* rows) const;
+  /// y += R' rows.
+  void scatter(const double* rows, double* y) const;
+  /// Forces and tangents at the positions and velocities offset + d, v in rows.
+  void evaluateRows(double t, const double* d, const double* v, bool tangent);
+  /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
+  const double* dfdd() const { return dfdd_.data(); }
+  const double* dfdv() const { return dfdv_.data(); }
+  /// P of the last freezeTangent(); zero for points that are not in it.
+  const double* frozen() const { return P_.data(); }
+  /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
+  void project(int point, const double* values, double* block) const;
+  /// Blocks of the pattern the rows of any point touch.
+  void markBlocks(const linalg::BlockPattern& pattern, std::vector<char>& blocks) const;
+
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
   void freezeTangent(double cd, double cv);
   /// Matrix -= R' P R on the pattern.
   void subtractTangent(double* values) const;
   /// y += R' P R x.
   void addTangentTimes(const double* x, double* y) const;
-  void forgetTangent() { frozen_.clear(); }
+  void forgetTangent();
 
   // One point or one row (point * width() + coordinate) at a time, for what looks at single points.
   /// Take the tangent of a point out of the frozen one.
@@ -103,6 +120,7 @@ class PointBatch {
 
   std::vector<int> active_;
   std::vector<char> isActive_;
+  std::vector<char> isFrozen_;  ///< in the frozen tangent
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;

@@ -58,6 +58,21 @@ Vector inPositions(const BlockPattern& pattern, const Vector& x) {
   return y;
 }
 
+/// Entries of the inverse on the pattern, rows and columns scaled by the diagonal.
+void expectInverse(const BlockPattern& pattern, const double* inverse, const Matrix& dense) {
+  const Vector scale = dense.diagonal().cwiseAbs().cwiseSqrt();
+  const Matrix scaled = scale.cwiseInverse().asDiagonal() * dense * scale.cwiseInverse().asDiagonal();
+  const Matrix expected = scaled.inverse();
+  const double tolerance = 1e-9 * expected.cwiseAbs().maxCoeff();
+  const auto& dof = pattern.partition().dof;
+  for (int p = 0; p < pattern.size(); ++p)
+    for (int q = 0; q < pattern.size(); ++q) {
+      if (pattern.find(pattern.blockOf(p), pattern.blockOf(q)) < 0) continue;
+      const int i = dof[static_cast<std::size_t>(p)], j = dof[static_cast<std::size_t>(q)];
+      ASSERT_NEAR(inverse[pattern.address(p, q)] * scale[i] * scale[j], expected(i, j), tolerance) << i << " " << j;
+    }
+}
+
 /// Largest backward error of the solution and error of the product.
 void expectSolves(const Sample& sample) {
   const BlockPattern pattern(partitionDofs({&sample.sparse}, sample.group, sample.kind), {&sample.sparse});
@@ -78,6 +93,9 @@ void expectSolves(const Sample& sample) {
   const Vector residual = (sample.dense * back - b).cwiseAbs();
   const Vector scale = sample.dense.cwiseAbs() * back.cwiseAbs() + b.cwiseAbs();
   EXPECT_LT(residual.cwiseQuotient(scale).maxCoeff(), 1e-11);
+
+  factor.invert(std::vector<char>(static_cast<std::size_t>(pattern.blocks()), 1));
+  expectInverse(pattern, factor.inverse(), sample.dense);
 
   const BlockProduct product(pattern, {&values});
   const Vector in = inPositions(pattern, x);
@@ -136,6 +154,24 @@ TEST(BlockFactor, workIsLinearInTheLengthOfAChain) {
   const double shorter = BlockFactor(patternOf(Sample(std::vector<int>(20, 6), chain(20), 1))).solveWork();
   const double longer = BlockFactor(patternOf(Sample(std::vector<int>(40, 6), chain(40), 1))).solveWork();
   EXPECT_NEAR(longer / shorter, 2.0, 0.06);
+}
+
+TEST(BlockFactor, invertsWhatIsWanted) {
+  const Sample sample({6, 6, 6, 6, 12, 25, 7}, {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 6);
+  const auto pattern = patternOf(sample);
+  BlockValues values(pattern.storage(), 0.0);
+  pattern.add(sample.sparse, 1.0, values);
+  BlockFactor factor(pattern);
+  std::copy(values.begin(), values.end(), factor.values());
+  ASSERT_EQ(factor.factor(), -1);
+  std::vector<char> wanted(static_cast<std::size_t>(pattern.blocks()), 0);
+  wanted[2] = 1;
+  factor.invert(wanted);
+  const Matrix expected = sample.dense.inverse();
+  for (int p = pattern.start(2); p < pattern.start(3); ++p) {
+    const int i = pattern.partition().dof[static_cast<std::size_t>(p)];
+    EXPECT_NEAR(factor.inverse()[pattern.address(p, p)], expected(i, i), 1e-9 * std::abs(expected(i, i)));
+  }
 }
 
 TEST(BlockFactor, namesTheSingularPosition) {

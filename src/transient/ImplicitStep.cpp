@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/ImplicitStep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// Relaxations before Newton takes over, and what four of them must make of the error.
+constexpr int maxRelaxations = 24;
+constexpr double slowestRelaxation = 0.25;
+/// A factorisation with its compliance costs about as much as this many relaxations ...
+constexpr double factorPrice = 14;
+/// ... and with fresh tangents a step takes about this many.
+constexpr int freshRelaxations = 3;
+
+/// max_i w_i sum_j |A_ij|
+double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
+  rows.setZero();
+  for (int b = 0; b < pattern.blocks(); ++b)
+    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
+      for (int j = 0; j < pattern.width(pattern.column(e)); ++j)
+        for (int i = 0; i < pattern.width(b); ++i)
+          rows[pattern.start(b) + i] += std::abs(values[pattern.offset(e) + z(j * pattern.width(b) + i)]);
+  return rows.cwiseProduct(weight).maxCoeff();
+}
+
+}  // namespace
+
+void ImplicitStep::bind(CompiledModel& model, const Options& options) {
+  model_ = &model;
+  options_ = options;
+  const int n = model.size();
+  for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
+                    &savedChange_, &guess_, &drift_, &rowSize_})
+    x->setZero(n);
+  factorLaws_.assign(model.lawValues().size(), 0.0);
+  nodal_.bind(model);
+  relaxation_.bind(model);
+  relaxes_ = !model.points().empty();
+  for (const auto& batch : model.points()) relaxes_ = relaxes_ && batch.width() <= PointRelaxation::widest;
+  factor_ = linalg::BlockFactor(model.pattern());
+}
+
+/// Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as displacements.
+void ImplicitStep::scale(const StepScheme& scheme, double t) {
+  model_->setTime(t);
+  model_->diagonal(scheme.acceleration, scheme.velocity, 1.0, weight_.data());
+  const double smallest = 1e-12 * weight_.cwiseAbs().maxCoeff();
+  for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
+  relaxation_.setWeights(weight_);
+  const auto& pattern = model_->pattern();
+  dampingNorms_.clear();
+  stiffnessNorms_.clear();
+  for (const auto& term : model_->damping().terms())
+    dampingNorms_.push_back(rowNorm(pattern, term.values.data(), weight_, scratch_));
+  for (const auto& term : model_->stiffness().terms())
+    stiffnessNorms_.push_back(rowNorm(pattern, term.values.data(), weight_, scratch_));
+  // |K| row sums bound the rounding of K q.
+  rowSize_.setZero();
+  if (!model_->stiffness().empty()) rowNorm(pattern, model_->stiffness().current(), weight_, rowSize_);
+  rowSize_ = 4e-16 * rowSize_.cwiseProduct(weight_);
+}
+
+/// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of.
+void ImplicitStep::linearResidual(const State& to) {
+  CompiledModel& model = *model_;
+  linear_.setZero();
+  scratch_.setZero();
+  model.addMass(to.a.data(), linear_.data());
+  model.addStiffness(to.q.data(), scratch_.data());
+  const int n = model.size();
+  const double* load = model.load();
+  const double* w = weight_.data();
+  const double* q = to.q.data();
+  const double* rounding = rowSize_.data();
+  double* sum = linear_.data();
+  const double* stiff = scratch_.data();
+  double size = 0, floor = 0;
+  for (int i = 0; i < n; ++i) {
+    const double forces = std::max({std::abs(sum[i]), std::abs(stiff[i]), std::abs(load[i])});
+    size = std::max(size, w[i] * forces);
+    floor = std::max(floor, rounding[i] * std::abs(q[i]));
+    sum[i] += stiff[i] - load[i];
+  }
+  model.addDamping(to.v.data(), linear_.data());
+  linearReference_ = reference_ = size;
+  floor_ = floor;
+}
+
+bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters) {
+  counters_ = &counters;
+  if (scheme_.h != scheme.h) {
+    scale(scheme, to.t);
+    guess_.setZero();
+    scheme_ = scheme;
+  }
+  model_->setTime(to.t);
+  linearResidual(to);
+  return (relaxes_ && relax(to)) || iterate(to);
+}
+
+/// y += (S(now) - S(then)) delta for what the laws have changed since S was factored.
+void ImplicitStep::addDrift(const Vector& delta, Vector& y) {
+  model_->addChangeSince(factorLaws_, scheme_.velocity, delta.data(), y.data());
+}
+
+/// A bound of max |w (S(now) - S(then)) x| / max |x|.
+double ImplicitStep::driftNorm() const {
+  double norm = 0;
+  const auto& laws = model_->lawValues();
+  const auto& damping = model_->damping().terms();
+  for (std::size_t i = 0; i < damping.size(); ++i)
+    norm += scheme_.velocity * std::abs(laws[z(damping[i].law)] - factorLaws_[z(damping[i].law)]) * dampingNorms_[i];
+  const auto& stiffness = model_->stiffness().terms();
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    norm += std::abs(laws[z(stiffness[i].law)] - factorLaws_[z(stiffness[i].law)]) * stiffnessNorms_[i];
+  return norm;
+}
+
+/// Relaxation of the point forces. False, with `to` and linear_ at the predicted state, when it does not get there.
+bool ImplicitStep::relax(State& to) {
+  if (!factored_ || factorScheme_.h != scheme_.h || wanted_) {
+    refactor(to);
+    if (!factored_) return false;
+  }
+  if (!compliant_) relaxation_.setCompliance(factor_);
+  compliant_ = true;
+  for (;;) {
+    relaxation_.start(to.q, to.v, linear_);
+    if (!settle(to)) {
+      wanted_ = true;
+      return false;
+    }
+    q0_ = to.q + delta_;
+    bool missed = false;
+    for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data()) || missed;
+    guess_ = delta_;
+    if (!missed) break;
+  }
+  to.q.swap(q0_);
+  to.v += scheme_.velocity * delta_;
+  to.a += scheme_.acceleration * delta_;
+  return true;
+}
+
+/// The iteration itself: delta_ from guess_.
+bool ImplicitStep::settle(State& to) {
+  const double c = scheme_.velocity;
+  const double norm = drifted() ? driftNorm() : 0.0;
+  drift_.setZero();
+  if (norm > 0) addDrift(guess_, drift_);
+  delta_ = guess_;
+  relaxation_.guess(to.t, c, delta_);
+  double last = 0;
+  for (int iteration = 1; iteration <= maxRelaxations; ++iteration) {
+    relaxation_.solve(factor_, drift_, delta_);
+    ++counters_->newtonIterations;
+    relaxation_.evaluate(to.t, c, delta_);
+    double force = linearReference_;
+    error_ = relaxation_.error(tolerance(), force);
+    reference_ = force;
+    bool good = converged();
+    if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > 0.1 * tolerance()) {
+      drift_.setZero();
+      addDrift(delta_, drift_);
+      guess_ = delta_;
+      good = false;
+    }
+    if (good) {
+      account(iteration);
+      return true;
+    }
+    if (!std::isfinite(error_)) return false;
+    if (iteration % 4 == 0) {
+      if (iteration > 4 && error_ > slowestRelaxation * last) return false;
+      last = error_;
+    }
+    relaxation_.correct(to.t, c);
+  }
+  return false;
+}
+
+/// A step took this many relaxations: ask for a new factorisation once that would have paid.
+void ImplicitStep::account(int iterations) {
+  debt_ += std::max(0, iterations - freshRelaxations);
+  if (debt_ > factorPrice) wanted_ = true;
+}
+
+/// S = ca M + cv (C - df/dv) + K - df/dd at the current iterate.
+void ImplicitStep::refactor(const State& to) {
+  for (auto& batch : model_->points()) {
+    batch.evaluateWithTangent(to.t, to.q.data(), to.v.data());
+    batch.freezeTangent(1.0, scheme_.velocity);
+  }
+  factorScheme_ = scheme_;
+  factorTime_ = to.t;
+  factorStamp_ = model_->matrixStamp();
+  factorLaws_ = model_->lawValues();
+  buildFactor();
+  ++counters_->factorisations;
+  fresh_ = true;
+  wanted_ = false;
+  debt_ = 0;
+}
+
+void ImplicitStep::buildFactor() {
+  model_->combine(factorScheme_.acceleration, factorScheme_.velocity, 1.0, factor_.values());
+  for (auto& batch : model_->points()) batch.subtractTangent(factor_.values());
+  factored_ = factor_.factor() < 0;
+  compliant_ = false;
+}
+
+double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
+
+int ImplicitStep::worstPosition() const { return transient::worstPosition(residual_.cwiseProduct(weight_)); }
+
+void ImplicitStep::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {scheme_.h, scheme_.velocity, scheme_.acceleration, factored_ ? 1.0 : 0.0, factorScheme_.h,
+                               factorScheme_.velocity, factorScheme_.acceleration, factorTime_, drifted() ? 0.0 : 1.0,
+                               wanted_ ? 1.0 : 0.0, debt_});
+  for (const Vector* x : {&weight_, &guess_}) memory.insert(memory.end(), x->begin(), x->end());
+  memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
+}
+
+void ImplicitStep::restore(const double*& memory) {
+  StepScheme scheme;
+  scheme.h = *memory++;
+  scheme.velocity = *memory++;
+  scheme.acceleration = *memory++;
+  const bool factored = *memory++ != 0.0;
+  factorScheme_.h = *memory++;
+  factorScheme_.velocity = *memory++;
+  factorScheme_.acceleration = *memory++;
+  factorTime_ = *memory++;
+  const bool current = *memory++ != 0.0;
+  wanted_ = *memory++ != 0.0;
+  debt_ = *memory++;
+  const double now = model_->time();
+  if (scheme.h > 0) scale(scheme, now);
+  scheme_ = scheme;
+  for (Vector* vector : {&weight_, &guess_})
+    for (double& x : *vector) x = *memory++;
+  if (scheme.h > 0) relaxation_.setWeights(weight_);
+  for (double& x : factorLaws_) x = *memory++;
+  if (!factored) return;
+  // The frozen point tangents came back with the batches: the same factor again.
+  model_->setTime(factorTime_);
+  buildFactor();
+  model_->setTime(now);
+  factorStamp_ = current ? model_->matrixStamp() : -1;
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The nonlinear equations of one implicit step. From a predicted q, v, a,
+///
+///     M (a + ca delta) + C (v + cv delta) + K (q + delta) = F + R' f(q + delta, v + cv delta, t)
+///
+/// is solved for delta, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
+/// once (PointRelaxation), and where that is slow by modified Newton with exact tangents: the factor is renewed, each update
+/// backtracked on the residual scaled by the diagonal of S, points whose force jumps are solved by themselves
+/// (NodalCorrection), and a jump along the search direction is bracketed.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "linalg/BlockFactor.hpp"
+#include "transient/CompiledModel.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/NodalCorrection.hpp"
+#include "transient/PointRelaxation.hpp"
+
+namespace tooljoint::transient {
+
+/// Derivatives of a scheme's velocity and acceleration with respect to its displacement over a step of length h.
+struct StepScheme {
+  double h = 0;
+  double velocity = 0;      ///< cv
+  double acceleration = 0;  ///< ca
+};
+
+class ImplicitStep {
+ public:
+  struct Options {
+    double tolerance = 1e-8;  ///< on max |w R| over the largest scaled force
+    int maxIterations = 25;
+  };
+
+  void bind(CompiledModel& model, const Options& options);
+
+  /// Completes the predicted `to`; false when nothing converged (`to` then holds the last iterate).
+  bool solve(State& to, const StepScheme& scheme, Counters& counters);
+
+  /// Whether the iterate left by a failed solve() is made of numbers.
+  bool isFinite() const { return std::isfinite(merit_); }
+  /// max |w R| over the largest scaled force, and where, at the end of the last solve().
+  double relativeError() const;
+  int worstPosition() const;
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  void scale(const StepScheme& scheme, double t);
+  void linearResidual(const State& to);
+  bool relax(State& to);
+  bool settle(State& to);
+  void account(int iterations);
+  bool iterate(State& to);
+  double measure(const State& to);
+  bool isSlow(double rate) const;
+  bool converged() const { return error_ <= tolerance(); }
+  double tolerance() const { return options_.tolerance * reference_ + floor_; }
+  void refactor(const State& to);
+  void buildFactor();
+  bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
+  void addDrift(const Vector& delta, Vector& y);
+  double driftNorm() const;
+  bool backtrack(State& to);
+  bool solveTroubledPoints(State& to, double before);
+  bool bracket(State& to, double beyond);
+  void place(State& to, double fraction);
+  void findChange();
+
+  CompiledModel* model_ = nullptr;
+  Options options_;
+  StepScheme scheme_;
+  Counters* counters_ = nullptr;
+
+  linalg::BlockFactor factor_;
+  bool factored_ = false;
+  StepScheme factorScheme_;  ///< scheme, time and matrix stamp the factor belongs to
+  double factorTime_ = 0;
+  long factorStamp_ = -1;
+  std::vector<double> factorLaws_;  ///< law values at that time
+  bool fresh_ = false;              ///< the tangent in the factor is that of the current iterate
+  bool wanted_ = false;             ///< convergence was slow: factor anew
+
+  PointRelaxation relaxation_;
+  bool relaxes_ = false;    ///< points have few enough coordinates for it
+  bool compliant_ = false;  ///< its compliance belongs to the factor
+  double debt_ = 0;         ///< iterations beyond what a fresh factor would have taken, since the last one
+  Vector guess_, drift_;
+
+  Vector linear_, residual_, delta_, change_;
+  NodalCorrection nodal_;
+  int rescues_ = 0;  ///< its uses in this step
+  Vector base_, saved_, savedChange_;
+  Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
+  Vector weight_, rowSize_, scratch_;
+  std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
+  double error_ = 0;      ///< max |w R|
+  double merit_ = 0;      ///< |w R|_2
+  double reference_ = 0;  ///< largest scaled force of this step
+  double linearReference_ = 0;
+  double floor_ = 0;  ///< rounding of K q, scaled alike
+};
+
+}  // namespace tooljoint::transient

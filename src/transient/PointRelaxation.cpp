@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/PointRelaxation.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// A point whose error shrinks by less in an iteration is solved by itself.
+constexpr double slowestRate = 0.5;
+
+/// A x = b for three unknowns by cofactors, A row-major; false when A is singular to rounding.
+bool solveThree(const double* A, const double* b, double* x) {
+  const double c0 = A[4] * A[8] - A[5] * A[7], c1 = A[5] * A[6] - A[3] * A[8], c2 = A[3] * A[7] - A[4] * A[6];
+  const double determinant = A[0] * c0 + A[1] * c1 + A[2] * c2;
+  const double size = std::abs(A[0] * c0) + std::abs(A[1] * c1) + std::abs(A[2] * c2);
+  if (!(std::abs(determinant) > 1e-12 * size)) return false;
+  const double r = 1.0 / determinant;
+  x[0] = r * (c0 * b[0] + (A[2] * A[7] - A[1] * A[8]) * b[1] + (A[1] * A[5] - A[2] * A[4]) * b[2]);
+  x[1] = r * (c1 * b[0] + (A[0] * A[8] - A[2] * A[6]) * b[1] + (A[2] * A[3] - A[0] * A[5]) * b[2]);
+  x[2] = r * (c2 * b[0] + (A[1] * A[6] - A[0] * A[7]) * b[1] + (A[0] * A[4] - A[1] * A[3]) * b[2]);
+  return true;
+}
+
+/// The same for up to six unknowns.
+bool solveFew(int n, const double* A, const double* b, double* x) {
+  if (n == 3) return solveThree(A, b, x);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+  const Rows matrix = Eigen::Map<const Rows>(A, n, n);
+  const Column solution = matrix.partialPivLu().solve(Eigen::Map<const Column>(b, n));
+  if (!solution.allFinite()) return false;
+  std::copy_n(solution.data(), n, x);
+  return true;
+}
+
+}  // namespace
+
+void PointRelaxation::bind(CompiledModel& model) {
+  model_ = &model;
+  sets_.clear();
+  blocks_.assign(z(model.pattern().blocks()), 0);
+  for (const auto& batch : model.points()) {
+    Set set;
+    const std::size_t rows = z(batch.points()) * z(batch.width());
+    for (auto* array : {&set.d, &set.v, &set.y, &set.dNow, &set.vNow, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
+    set.compliance.assign(rows * z(batch.width()), 0.0);
+    set.error.assign(z(batch.points()), 0.0);
+    set.exact.assign(z(batch.points()), 0);
+    sets_.push_back(std::move(set));
+    batch.markBlocks(model.pattern(), blocks_);
+  }
+  residual_.setZero(model.size());
+}
+
+void PointRelaxation::setWeights(const Vector& weight) {
+  for (std::size_t b = 0; b < sets_.size(); ++b)
+    for (std::size_t r = 0; r < sets_[b].weight.size(); ++r)
+      sets_[b].weight[r] = model_->points()[b].rowWeight(static_cast<int>(r), weight.data());
+}
+
+void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
+  factor.invert(blocks_);
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const auto& batch = model_->points()[b];
+    const int entries = batch.width() * batch.width();
+    for (int p = 0; p < batch.points(); ++p) batch.project(p, factor.inverse(), &sets_[b].compliance[z(p * entries)]);
+  }
+}
+
+void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& residual) {
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    model_->points()[b].gather(q.data(), sets_[b].d.data());
+    model_->points()[b].gather(v.data(), sets_[b].v.data());
+  }
+  residual_ = residual;
+  for (auto& set : sets_) {
+    std::fill(set.exact.begin(), set.exact.end(), 0);
+    std::fill(set.error.begin(), set.error.end(), std::numeric_limits<double>::infinity());
+  }
+}
+
+void PointRelaxation::evaluate(double t, double c, const Vector& delta) {
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    Set& set = sets_[b];
+    PointBatch& batch = model_->points()[b];
+    if (batch.active().empty()) continue;
+    batch.gather(delta.data(), set.y.data());
+    const int w = batch.width();
+    for (int p : batch.active())
+      for (int r = p * w; r < (p + 1) * w; ++r) {
+        set.dNow[z(r)] = set.d[z(r)] + set.y[z(r)];
+        set.vNow[z(r)] = set.v[z(r)] + c * set.y[z(r)];
+      }
+    batch.evaluateRows(t, set.dNow.data(), set.vNow.data(), true);
+    // f - P y - p
+    const double* f = batch.force();
+    const double* P = batch.frozen();
+    for (int p : batch.active())
+      for (int r = p * w; r < (p + 1) * w; ++r) {
+        double known = set.p[z(r)];
+        for (int k = 0; k < w; ++k) known += P[r * w + k] * set.y[z(p * w + k)];
+        set.defect[z(r)] = f[r] - known;
+      }
+  }
+}
+
+void PointRelaxation::guess(double t, double c, const Vector& delta) {
+  for (auto& set : sets_) std::fill(set.p.begin(), set.p.end(), 0.0);
+  evaluate(t, c, delta);
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const int w = model_->points()[b].width();
+    for (int p : model_->points()[b].active())
+      for (int r = p * w; r < (p + 1) * w; ++r) sets_[b].p[z(r)] = sets_[b].defect[z(r)];
+  }
+}
+
+void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const {
+  delta = -residual_ - extra;
+  for (std::size_t b = 0; b < sets_.size(); ++b) model_->points()[b].scatter(sets_[b].p.data(), delta.data());
+  factor.solve(delta.data());
+}
+
+double PointRelaxation::error(double small, double& force) {
+  double worst = 0;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const PointBatch& batch = model_->points()[b];
+    Set& set = sets_[b];
+    const int w = batch.width();
+    for (int p : batch.active()) {
+      double wrong = 0;
+      for (int r = p * w; r < (p + 1) * w; ++r) {
+        const double size =
+            set.exact[z(p)] ? std::abs(set.y[z(r)] - set.target[z(r)]) : set.weight[z(r)] * std::abs(set.defect[z(r)]);
+        if (!(size <= wrong)) wrong = size;  // keeps a NaN
+        force = std::max(force, set.weight[z(r)] * std::abs(batch.force()[r]));
+      }
+      if (wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
+      set.error[z(p)] = wrong;
+      if (!(wrong <= worst)) worst = wrong;
+    }
+  }
+  return worst;
+}
+
+/// y = free + G p is what the point does for a force p while the others keep theirs.
+void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double t, double c) {
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  const int w = batch.width();
+  const int first = point * w;
+  const auto local = [&](const std::vector<double>& rows) { return Eigen::Map<const Vector>(&rows[z(first)], w); };
+  problem_.point = point;
+  problem_.d = Eigen::Map<const Vector>(batch.d() + first, w) - local(set.y);  // with the offset
+  problem_.v = local(set.v);
+  problem_.f0 = NodalProblem::Local::Zero(w);
+  problem_.P = Rows(batch.frozen() + first * w, w, w);
+  problem_.G = Rows(&set.compliance[z(first * w)], w, w);
+  problem_.free = local(set.y) - problem_.G * local(set.p);
+  y_ = local(set.y);
+  if (!problem_.solve(batch, t, c, y_, phi_)) return;
+  for (int i = 0; i < w; ++i) set.p[z(first + i)] = phi_[i], set.target[z(first + i)] = y_[i];
+}
+
+void PointRelaxation::correct(double t, double c) {
+  double A[36];
+  double step[6];
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    Set& set = sets_[b];
+    PointBatch& batch = model_->points()[b];
+    const int w = batch.width();
+    for (int p : batch.active()) {
+      if (set.exact[z(p)]) {
+        solvePoint(set, batch, p, t, c);
+        continue;
+      }
+      const double* dfdd = batch.dfdd() + p * w * w;
+      const double* dfdv = batch.dfdv() + p * w * w;
+      const double* P = batch.frozen() + p * w * w;
+      const double* G = &set.compliance[z(p * w * w)];
+      double change[36];
+      for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
+      for (int i = 0; i < w; ++i)
+        for (int j = 0; j < w; ++j) {
+          double sum = i == j ? 1.0 : 0.0;
+          for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
+          A[i * w + j] = sum;
+        }
+      double* target = &set.p[z(p * w)];
+      const double* defect = &set.defect[z(p * w)];
+      const bool solved = solveFew(w, A, defect, step);
+      for (int i = 0; i < w; ++i) target[i] += solved ? step[i] : defect[i];
+    }
+  }
+}
+
+}  // namespace tooljoint::transient

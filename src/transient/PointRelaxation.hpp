@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The fast way through an implicit step: the effective matrix S is factored once, and the point forces are found by nodal
+/// compliance. With f = P y + p, P the tangents frozen in S and y = R delta,
+///
+///     S delta = -R0 + R'p,      p = f(y) - P y
+///
+/// holds at the solution, the residual of any other p is R'(p - f + P y), and each point knows how its own motion answers its
+/// force: y_i = ... + G_ii p_i with G_ii = R_i S^-1 R_i'. So
+///
+///     p_i += (I - (J_i - P_i) G_ii)^-1 (f_i - P_i y_i - p_i),     J_i = df_i/dy_i
+///
+/// is Newton point by point: one solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
+/// by what the points feel of each other's change of tangent. A point whose force jumps (contact that switches within the step,
+/// friction that reverses) is solved as what it is, see NodalProblem; its error is then measured in y.
+#pragma once
+
+#include <vector>
+
+#include "linalg/BlockFactor.hpp"
+#include "transient/CompiledModel.hpp"
+#include "transient/NodalProblem.hpp"
+
+namespace tooljoint::transient {
+
+class PointRelaxation {
+ public:
+  static constexpr int widest = NodalProblem::widest;
+
+  void bind(CompiledModel& model);
+  /// Scale of each dof's force.
+  void setWeights(const Vector& weight);
+  /// The compliance of every point, from the factor of the effective matrix (invert() is called).
+  void setCompliance(linalg::BlockFactor& factor);
+
+  /// Remember where the step starts: predicted q, v, the residual R0 of all linear terms there and a guess of delta.
+  void start(const Vector& q, const Vector& v, const Vector& residual);
+  /// Evaluate the laws at delta and set p so that it is consistent with them.
+  void guess(double t, double c, const Vector& delta);
+  /// delta for the present p; `extra` is added to the residual.
+  void solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const;
+  /// Evaluate the laws at delta (v changes by c per unit of delta), with tangents.
+  void evaluate(double t, double c, const Vector& delta);
+  /// max |w R'(f - P y - p)| by rows; `force` becomes max |w f|. `small` is an error that needs no care.
+  double error(double small, double& force);
+  /// One Newton step at every point, and the whole way at those where Newton does not help.
+  void correct(double t, double c);
+
+ private:
+  struct Set {
+    std::vector<double> d, v;     ///< rows at delta = 0, without offset
+    std::vector<double> y;        ///< rows of delta
+    std::vector<double> dNow, vNow;
+    std::vector<double> p;
+    std::vector<double> defect;   ///< f - P y - p
+    std::vector<double> weight;   ///< per row: largest weight of the dofs it acts on
+    std::vector<double> compliance;
+    std::vector<double> error;  ///< per point, of the last iteration
+    std::vector<char> exact;    ///< per point: solved by itself in this step
+    std::vector<double> target; ///< y of the points solved by themselves
+  };
+  void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
+
+
+  CompiledModel* model_ = nullptr;
+  std::vector<Set> sets_;
+  std::vector<char> blocks_;
+  Vector residual_;
+  NodalProblem problem_;
+  NodalProblem::Local y_, phi_;
+};
+
+}  // namespace tooljoint::transient
