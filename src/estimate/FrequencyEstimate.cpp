@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate/FrequencyEstimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+
+#include "common/Parallel.hpp"
+#include "estimate/ResidualFlexibility.hpp"
+#include "linalg/EigenSolver.hpp"
+#include "reduction/Distribution.hpp"
+
+namespace tooljoint::estimate {
+
+namespace {
+
+constexpr double twoPi = 6.28318530717958647692;
+/// A frequency below this fraction of the largest diagonal one is a rigid body's.
+constexpr double rigid = 1e-7;
+
+/// What one part says about one mode.
+struct Share {
+  ResidualFlexibility::Step step;
+  double work = 0;  ///< D' r
+  double mass = 0;  ///< D' M D
+};
+constexpr Eigen::Index numbers = sizeof(Share) / sizeof(double);
+
+std::vector<Share> shares(const model::Substructure& part, const reduction::BasisResult& basis, const Matrix& shapes,
+                          const Vector& eigenvalues) {
+  const Sparse K = linearisedStiffness(part.model);
+  const ResidualFlexibility flexibility(part, basis, K);
+  const Matrix inertia = part.model.mass * shapes;
+  const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
+  const auto interior = [&](const Matrix& rows, Eigen::Index j) {
+    Vector inner(static_cast<Eigen::Index>(flexibility.interior().size()));
+    for (Eigen::Index i = 0; i < inner.size(); ++i) inner[i] = rows(flexibility.interior()[static_cast<std::size_t>(i)], j);
+    return inner;
+  };
+  std::vector<Share> result(static_cast<std::size_t>(shapes.cols()));
+  for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
+    Share& share = result[static_cast<std::size_t>(j)];
+    share.step = flexibility.step(interior(residual, j), interior(inertia, j));
+    share.work = shapes.col(j).dot(residual.col(j));
+    share.mass = shapes.col(j).dot(inertia.col(j));
+  }
+  return result;
+}
+
+/// The owner's shares on every rank.
+void exchange(std::vector<Share>& values, Eigen::Index count, int owner) {
+  values.resize(static_cast<std::size_t>(count));
+  Vector raw(count * numbers);
+  if (count > 0) std::memcpy(raw.data(), values.data(), sizeof(Share) * values.size());
+  parallel::broadcast(raw, owner);
+  if (count > 0) std::memcpy(static_cast<void*>(values.data()), raw.data(), sizeof(Share) * values.size());
+}
+
+/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole: Rayleigh-Ritz on the mode and the Krylov
+/// vectors of all parts. The left side minus the right one falls from plus to minus there.
+double improvedEigenvalue(double lambda, double mass, const std::vector<ResidualFlexibility::Step>& steps) {
+  double pole = std::numeric_limits<double>::infinity();
+  double first = 0;
+  for (const auto& step : steps) pole = std::min(pole, step.pole());
+  const auto surplus = [&](double mu) {
+    double value = mass * (lambda - mu);
+    for (const auto& step : steps) value -= step.excess(lambda, mu);
+    return value;
+  };
+  double high = std::min(lambda, pole - 1e-12 * std::abs(pole));
+  if (surplus(high) >= 0) return high;
+  first = std::max(1e-300, std::abs(surplus(high)) / mass);
+  double low = high - first;
+  while (surplus(low) < 0) low -= (first *= 2.0);
+  for (int i = 0; i < 200 && high - low > 1e-15 * std::abs(low); ++i) {
+    const double middle = 0.5 * (low + high);
+    (surplus(middle) < 0 ? high : low) = middle;
+  }
+  return low;
+}
+
+/// f / f_full - 1 of the eigenvalues; where they differ in sign, their difference in units of `full` itself.
+double signedRatio(double lambda, double full) {
+  if (lambda * full > 0) return std::copysign(1.0, lambda) * (std::expm1(0.5 * std::log1p((lambda - full) / full)));
+  return (lambda - full) / (2.0 * std::abs(lambda));
+}
+
+/// Coupled coordinates of one part, coordinates x modes.
+Matrix localShapes(const std::vector<int>& positions, const Matrix& shapes) {
+  Matrix local(static_cast<Eigen::Index>(positions.size()), shapes.cols());
+  for (std::size_t i = 0; i < positions.size(); ++i) local.row(static_cast<Eigen::Index>(i)) = shapes.row(positions[i]);
+  return local;
+}
+
+/// Below this eigenvalue a mode is a rigid body's, and has no relative error.
+double smallestEigenvalue(const Sparse& K, const Sparse& M) {
+  double scale = 0;
+  for (int i = 0; i < K.rows(); ++i)
+    if (M.coeff(i, i) > 0) scale = std::max(scale, K.coeff(i, i) / M.coeff(i, i));
+  return rigid * rigid * scale;
+}
+
+/// Error and its shares of the j-th mode.
+void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all) {
+  const double lambda = e.eigenvalue;
+  double mass = 0;
+  double work = 0;
+  std::vector<ResidualFlexibility::Step> steps;
+  for (const auto& part : all) {
+    const Share& share = part[static_cast<std::size_t>(j)];
+    mass += share.mass;
+    work += share.work;
+    steps.push_back(share.step);
+    e.definite = e.definite && share.step.pole() > lambda;
+  }
+  const double mu = improvedEigenvalue(lambda, mass, steps);
+  double sum = 0;
+  for (std::size_t p = 0; p < steps.size(); ++p) sum += e.byPart[static_cast<Eigen::Index>(p)] = steps[p].excess(lambda, mu);
+  // f = sqrt(lambda): f / f_full - 1 with lambda_full = mu + D' (K - lambda M) D / D' M D
+  const double full = mu + work / mass;
+  const double truncation = signedRatio(lambda, mu);
+  if (sum > 0) e.byPart *= truncation / sum;
+  e.error = signedRatio(lambda, full);
+}
+
+}  // namespace
+
+double FrequencyEstimate::frequency() const { return std::copysign(std::sqrt(std::abs(eigenvalue)) / twoPi, eigenvalue); }
+
+Sparse linearisedStiffness(const model::SecondOrderModel& model) {
+  return reduction::symmetricPart(model.stiffnessAt(0.0) +
+                                  model.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity));
+}
+
+std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
+                                                   const coupling::Synthesis& synthesis, const FrequencyWindow& window) {
+  const auto& coupled = synthesis.coupled.model;
+  const Sparse K = linearisedStiffness(coupled);
+  const Sparse M = reduction::symmetricPart(coupled.mass);
+  const auto pairs = window.belowHz > 0 ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
+                                        : linalg::lowestModes(K, M, std::min(window.count, coupled.size()));
+  std::vector<int> weights;
+  for (const auto& part : parts) weights.push_back(part.model.size());
+  const auto owners = reduction::assignOwners(weights, parallel::size());
+  std::vector<std::vector<Share>> all(parts.size());
+  parallel::agree([&] {
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (owners[p] == parallel::rank()) {
+        const Matrix shapes = synthesis.parts[p].basis.vectors * localShapes(synthesis.coupled.positions[p], pairs.vectors);
+        all[p] = shares(parts[p], synthesis.parts[p].basis, shapes, pairs.values);
+      }
+  });
+  for (std::size_t p = 0; p < parts.size(); ++p) exchange(all[p], pairs.values.size(), owners[p]);
+
+  const double smallest = smallestEigenvalue(K, M);
+  std::vector<FrequencyEstimate> estimates(static_cast<std::size_t>(pairs.values.size()));
+  for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
+    FrequencyEstimate& e = estimates[static_cast<std::size_t>(j)];
+    e.eigenvalue = pairs.values[j];
+    e.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
+    if (std::abs(e.eigenvalue) <= smallest) continue;
+    assess(e, j, all);
+  }
+  return estimates;
+}
+
+std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates, const std::vector<model::Substructure>& parts) {
+  std::string text = "Estimated errors of the coupled frequencies:\n  mode    coupled [Hz]   estimated error   most of it from\n";
+  for (std::size_t j = 0; j < estimates.size(); ++j) {
+    const auto& e = estimates[j];
+    Eigen::Index worst = 0;
+    if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
+    char line[256];
+    std::snprintf(line, sizeof line, "  %4zu  %14.8g  %16.2e   %s%s\n", j + 1, e.frequency(), e.error,
+                  e.byPart.size() > 0 && e.byPart[worst] > 0 ? parts[static_cast<std::size_t>(worst)].name.c_str() : "-",
+                  e.definite ? "" : " (a part lacks a mode below this frequency)");
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace tooljoint::estimate

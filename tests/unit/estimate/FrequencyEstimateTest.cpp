@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Estimated errors of coupled frequencies against true ones: chains of bars, a frame with a loop, rigid bodies.
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <gtest/gtest.h>
+
+#include "coupling/Assembler.hpp"
+#include "estimate/FrequencyEstimate.hpp"
+#include "linalg/EigenSolver.hpp"
+#include "tests/support/SampleParts.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int modes) {
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {modes};
+  return coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+}
+
+/// Three bars in a row, clamped at the left.
+std::vector<model::Substructure> bars() {
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 20, 100.0, 0.2, {1}), samples::bar("middle", 21, 20, 140.0, 0.25),
+                                         samples::bar("right", 41, 20, 90.0, 0.2)};
+  samples::classify(parts[0], {21});
+  samples::classify(parts[1], {21, 41});
+  samples::classify(parts[2], {41});
+  return parts;
+}
+
+Vector frequencies(const model::SecondOrderModel& model, int count) {
+  const Sparse K = estimate::linearisedStiffness(model);
+  return linalg::lowestModes(K, reduction::symmetricPart(model.mass), count).values.cwiseMax(0.0).cwiseSqrt();
+}
+
+/// Estimate over true error, for every mode whose true error is above rounding; prints the table.
+std::vector<double> effectivities(const std::vector<model::Substructure>& parts, int modes, int count) {
+  const auto synthesis = reduced(parts, modes);
+  count = std::min(count, synthesis.coupled.model.size());
+  const Vector full = frequencies(coupling::couple(parts), count);
+  const Vector coupled = frequencies(synthesis.coupled.model, count);
+  const auto estimates = estimate::estimateFrequencies(parts, synthesis, {count, 0});
+  std::vector<double> ratios;
+  for (int j = 0; j < count; ++j) {
+    const double truth = coupled[j] / full[j] - 1.0;
+    const auto& e = estimates[static_cast<std::size_t>(j)];
+    std::printf("modes %2d, frequency %2d: true %.2e, estimated %.2e%s\n", modes, j + 1, truth, e.error, e.definite ? "" : " (a mode is missing below)");
+    if (truth > 1e-11 && e.definite) ratios.push_back(e.error / truth);
+  }
+  return ratios;
+}
+
+TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
+  int counted = 0;
+  for (int modes : {1, 2, 4, 8})
+    for (const auto& parts : {bars(), samples::loopFrame(12, false), samples::loopFrame(12, false, true)})
+      for (double ratio : effectivities(parts, modes, 8)) {
+        EXPECT_GT(ratio, 1.0 / 3.0);
+        EXPECT_LT(ratio, 3.0);
+        ++counted;
+      }
+  EXPECT_GT(counted, 60);
+}
+
+TEST(FrequencyEstimate, IsZeroWithAllModes) {
+  const auto parts = samples::loopFrame(8, false);
+  for (const auto& e : estimate::estimateFrequencies(parts, reduced(parts, 1000), {6, 0})) EXPECT_LT(std::abs(e.error), 1e-9);
+}
+
+TEST(FrequencyEstimate, FindsThePartThatLacksModes) {
+  const auto parts = bars();
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {8, 0, 8};
+  const auto synthesis = coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  for (const auto& e : estimate::estimateFrequencies(parts, synthesis, {3, 0})) {
+    Eigen::Index worst = 0;
+    e.byPart.maxCoeff(&worst);
+    EXPECT_EQ(worst, 1);
+  }
+}
+
+TEST(FrequencyEstimate, LeavesRigidBodiesAlone) {
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 10, 100.0, 0.2), samples::bar("right", 11, 10, 140.0, 0.25)};
+  samples::classify(parts[0], {11});
+  samples::classify(parts[1], {11});
+  const auto estimates = estimate::estimateFrequencies(parts, reduced(parts, 2), {3, 0});
+  EXPECT_EQ(estimates[0].error, 0.0);
+  EXPECT_GT(estimates[2].error, 0.0);
+}
+
+TEST(FrequencyEstimate, TellsAFrequencyAboveAMissingMode) {
+  const auto estimates = estimate::estimateFrequencies(bars(), reduced(bars(), 0), {2, 0});
+  EXPECT_TRUE(estimates[0].definite);
+  EXPECT_FALSE(estimates[1].definite);
+}
+
+}  // namespace
