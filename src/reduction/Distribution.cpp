@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <numeric>
 #include <type_traits>
 
@@ -155,33 +156,76 @@ void travel(Archive& archive, BasisReport& report) {
   travel(archive, report.remarks);
 }
 
-bool equal(const Sparse& a, const Sparse& b) {
-  if (a.rows() != b.rows() || a.cols() != b.cols()) return false;
-  double largest = 0;
+/// Relative difference of two parts up to which they are the same part: lengths that are differences of depths of some kilometres
+/// carry 1e-13, their cube as stiffness somewhat more.
+constexpr double sameEntry = 1e-11;
+
+/// Raises size_i to the largest entry of row i.
+void raiseToRows(const Sparse& a, Vector& size) {
+  if (a.rows() != size.size()) return;
   for (int i = 0; i < a.outerSize(); ++i)
-    for (Sparse::InnerIterator it(a, i); it; ++it) largest = std::max(largest, std::abs(it.value()));
-  const Sparse difference = a - b;
-  for (int i = 0; i < difference.outerSize(); ++i)
-    for (Sparse::InnerIterator it(difference, i); it; ++it)
-      if (std::abs(it.value()) > 1e-13 * largest) return false;
+    for (Sparse::InnerIterator it(a, i); it; ++it) size[i] = std::max(size[i], std::abs(it.value()));
+}
+
+/// |a_ij - b_ij| <= sameEntry sqrt(r_i r_j), r the size of the rows: as strict for moments as for forces.
+bool equal(const Sparse& a, const Sparse& b, const Vector& size) {
+  if (a.rows() != size.size() || b.rows() != a.rows() || a.cols() != a.rows() || b.cols() != a.cols()) return false;
+  const auto near = [&](double difference, int i, Eigen::Index j) {
+    return difference * difference <= sameEntry * sameEntry * size[i] * size[j];
+  };
+  for (int i = 0; i < a.outerSize(); ++i) {
+    Sparse::InnerIterator x(a, i), y(b, i);
+    while (x || y) {
+      const Eigen::Index column = std::min(x ? x.col() : a.cols(), y ? y.col() : a.cols());
+      const double left = x && x.col() == column ? x.value() : 0.0;
+      const double right = y && y.col() == column ? y.value() : 0.0;
+      if (left != right && !near(left - right, i, column)) return false;
+      if (x && x.col() == column) ++x;
+      if (y && y.col() == column) ++y;
+    }
+  }
   return true;
 }
 
+/// Terms of one law are measured together: a geometric stiffness that is rounding beside the elastic one is rounding.
 bool equal(const model::SecondOrderModel& a, const std::vector<model::MatrixTerm>& left, const model::SecondOrderModel& b,
            const std::vector<model::MatrixTerm>& right) {
   if (left.size() != right.size()) return false;
   for (std::size_t i = 0; i < left.size(); ++i)
-    if (left[i].law != right[i].law || left[i].name != right[i].name ||
-        a.laws[static_cast<std::size_t>(left[i].law)].name != b.laws[static_cast<std::size_t>(right[i].law)].name ||
-        !equal(left[i].matrix, right[i].matrix))
+    if (left[i].law != right[i].law || left[i].name != right[i].name || left[i].law < 0 ||
+        left[i].law >= static_cast<int>(std::min(a.laws.size(), b.laws.size())) ||
+        a.laws[static_cast<std::size_t>(left[i].law)].name != b.laws[static_cast<std::size_t>(right[i].law)].name)
       return false;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    Vector size = Vector::Zero(a.size());
+    for (const auto& term : right)
+      if (term.law == right[i].law) raiseToRows(term.matrix, size);
+    if (!equal(left[i].matrix, right[i].matrix, size)) return false;
+  }
   return true;
 }
 
 bool identical(const model::Substructure& a, const model::Substructure& b) {
-  return a.model.size() == b.model.size() && a.interface == b.interface && a.retained == b.retained &&
-         equal(a.model.mass, b.model.mass) && equal(a.model, a.model.stiffness, b.model, b.model.stiffness) &&
+  if (a.model.size() != b.model.size() || a.interface != b.interface || a.retained != b.retained) return false;
+  Vector size = Vector::Zero(b.model.size());
+  raiseToRows(b.model.mass, size);
+  return equal(a.model.mass, b.model.mass, size) && equal(a.model, a.model.stiffness, b.model, b.model.stiffness) &&
          equal(a.model, a.model.damping, b.model, b.model.damping);
+}
+
+/// Sum of the entries of all matrices in units that parts with equal ones share: what differs here by more than rounding is not
+/// looked at any closer.
+double signature(const model::SecondOrderModel& model) {
+  const auto sum = [](const Sparse& a) {
+    double total = 0;
+    for (int i = 0; i < a.outerSize(); ++i)
+      for (Sparse::InnerIterator it(a, i); it; ++it) total += std::abs(it.value());
+    return total;
+  };
+  double total = sum(model.mass);
+  for (const auto* terms : {&model.stiffness, &model.damping})
+    for (const auto& term : *terms) total += sum(term.matrix);
+  return total;
 }
 
 }  // namespace
@@ -202,14 +246,20 @@ std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
 }
 
 std::vector<int> findTwins(const std::vector<model::Substructure>& parts, const std::vector<ModeRequest>& requests) {
+  // By increasing signature: a part is compared with the first ones of its own size only, however many different ones there are.
   std::vector<int> twin(parts.size());
+  std::multimap<double, std::size_t> firsts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     twin[i] = static_cast<int>(i);
-    for (std::size_t j = 0; j < i; ++j)
-      if (twin[j] == static_cast<int>(j) && requests[i] == requests[j] && identical(parts[j], parts[i])) {
-        twin[i] = static_cast<int>(j);
-        break;
-      }
+    const double mine = signature(parts[i].model);
+    if (!std::isfinite(mine)) continue;
+    const double room = 1e-8 * mine;
+    for (auto it = firsts.lower_bound(mine - room); it != firsts.end() && it->first <= mine + room; ++it) {
+      const std::size_t j = it->second;
+      if (requests[i] == requests[j] && identical(parts[j], parts[i])) twin[i] = std::min(twin[i], static_cast<int>(j));
+      if (twin[i] != static_cast<int>(i)) break;
+    }
+    if (twin[i] == static_cast<int>(i)) firsts.emplace(mine, i);
   }
   return twin;
 }

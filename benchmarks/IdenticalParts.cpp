@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Reduction of 1, 10 and 100 identical pipes that carry no load, cut from a string in a straight inclined well: parts that are
+/// identical but for rounding are found and reduced once.
+#include <Teuchos_ParameterList.hpp>
+#include <Tpetra_Core.hpp>
+#include <benchmark/benchmark.h>
+#include <string>
+#include <vector>
+
+#include "app/Scene.hpp"
+#include "app/Stages.hpp"
+#include "reduction/Reduce.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+/// The pipes between the first and the last, which other supports hold.
+const std::vector<model::Substructure>& pipes() {
+  static const std::vector<model::Substructure> inner = [] {
+    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml", {});
+    const auto parts = app::cut(scene, app::settle(scene));
+    return std::vector<model::Substructure>(parts.begin() + 1, parts.end() - 1);
+  }();
+  return inner;
+}
+
+void reduceIdenticalPipes(benchmark::State& state) {
+  const std::vector<model::Substructure> parts(pipes().begin(), pipes().begin() + state.range(0));
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {static_cast<int>(state.range(1))};
+  const auto basis = reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList());
+  int shared = 0;
+  for (auto _ : state) {
+    const auto reduced = reduction::reduceAll(parts, *basis, options);
+    shared = 0;
+    for (const auto& part : reduced) shared += part.report.sharedWith.empty() ? 0 : 1;
+    benchmark::DoNotOptimize(reduced.data());
+  }
+  if (shared != state.range(0) - 1) state.SkipWithError("identical pipes were not found");
+}
+BENCHMARK(reduceIdenticalPipes)->ArgNames({"pipes", "modes"})->ArgsProduct({{1, 10, 100}, {12}})->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tpetra::ScopeGuard scope(&argc, &argv);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
