@@ -40,6 +40,9 @@ struct BasisResult {
 /// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped with the reason `why`.
 void truncate(BasisResult& basis, int modes, const std::string& why);
 
+/// Keep only the modal columns with keep[k] != 0; their rows say `kept`, the others are marked dropped with the reason `dropped`.
+void select(BasisResult& basis, const std::vector<char>& keep, const std::string& kept, const std::string& dropped);
+
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on several ranks.
 class Basis {
  public:

@@ -9,6 +9,7 @@ Vector fitState(const BasisResult& basis, const Vector& x) {
   const auto& kept = basis.partition.kept;
   const auto& interior = basis.partition.interior;
   Vector q = Vector::Zero(basis.vectors.cols());
+  if (x.isZero(0.0)) return q;
   for (std::size_t j = 0; j < kept.size(); ++j) q[static_cast<Eigen::Index>(j)] = x[kept[j]];
   const int modes = basis.modes();
   if (modes == 0 || interior.empty()) return q;

@@ -38,6 +38,16 @@ int roundUp(const Vector& eigenvalues, int count, double pairTolerance) {
   return count;
 }
 
+std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep, double pairTolerance) {
+  const auto size = static_cast<Eigen::Index>(keep.size());
+  const auto follow = [&](Eigen::Index from, Eigen::Index to) {
+    if (keep[static_cast<std::size_t>(from)] && together(eigenvalues, std::min(from, to), pairTolerance)) keep[static_cast<std::size_t>(to)] = 1;
+  };
+  for (Eigen::Index k = 0; k + 1 < size; ++k) follow(k, k + 1);
+  for (Eigen::Index k = size - 1; k > 0; --k) follow(k, k - 1);
+  return keep;
+}
+
 std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total,
                             double pairTolerance) {
   std::vector<std::tuple<double, std::size_t, Eigen::Index>> all;

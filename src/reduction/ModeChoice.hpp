@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, or all. No choice cuts a close
-/// pair (the u and v mode of a shaft): it rounds up.
+/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, all, what the neighbours of the part
+/// feel (InterfaceCriteria), or what a tolerance needs (src/estimate). No choice cuts a close pair (the u and v mode of a shaft): it
+/// rounds up.
 #pragma once
 
 #include <memory>
@@ -22,11 +23,15 @@ constexpr double clusterTolerance = 1e-6;
 
 /// The user's choice for a list of parts.
 struct ModeRule {
-  enum class Kind { PerPart, Total, CutOff, All };
+  enum class Kind { PerPart, Total, CutOff, All, InterfaceMass, InterfaceMoment, Tolerance };
   Kind kind = Kind::All;
   std::vector<int> counts;  ///< PerPart: one entry for every part, or a single one for all
   int total = 0;            ///< Total: the lowest `total` over all parts
   double cutOffHz = 0;      ///< CutOff: all modes at or below
+  double fraction = 0;      ///< InterfaceMass, InterfaceMoment: the share of the whole, in (0, 1]
+  double frequencyTolerance = 0;  ///< Tolerance: relative error of the coupled frequencies; 0: they are not looked at
+  double motionTolerance = 0;     ///< Tolerance: dyn of the transient; 0: it is not looked at
+  double safety = 1.5;            ///< Tolerance: the estimate times this stays below it
   double pairTolerance = defaultPairTolerance;
 };
 
@@ -50,6 +55,9 @@ double signedOmega(double eigenvalue);
 /// part a cluster (neighbours equal to clusterTolerance) or a pair (two modes closer than pairTolerance to each other and
 /// nearer to each other than to their other neighbours). At most eigenvalues.size().
 int roundUp(const Vector& eigenvalues, int count, double pairTolerance);
+
+/// `keep` (1 for a mode that is kept) with the partners of its clusters and close pairs.
+std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep, double pairTolerance);
 
 /// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest eigenvalues of part p in
 /// increasing order, complete[p] says that these are all. Equal ones go to the first part. Rounds up within each part. An entry

@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "common/Census.hpp"
+#include "common/Error.hpp"
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "reduction/BasisChecks.hpp"
 #include "reduction/Distribution.hpp"
 #include "reduction/InitialState.hpp"
+#include "reduction/InterfaceCriteria.hpp"
 #include "reduction/Projection.hpp"
 
 namespace tooljoint::reduction {
@@ -17,6 +21,8 @@ namespace tooljoint::reduction {
 namespace {
 
 constexpr double twoPi = 6.28318530717958647692;
+/// Modes looked at first when the interface decides how many are kept.
+constexpr int firstCandidates = 12;
 
 ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options) {
   ReducedCore core;
@@ -51,6 +57,7 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
 }
 
 void reduceLoads(const model::Substructure& part, const Sparse& Phi, const Vector& offset, model::SecondOrderModel& reduced) {
+  if (part.model.loads.empty() && offset.isZero(0.0)) return;
   const Sparse transposed = Phi.transpose();
   for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, transposed * load.vector, load.law});
   if (offset.isZero(0.0)) return;
@@ -61,7 +68,22 @@ void reduceLoads(const model::Substructure& part, const Sparse& Phi, const Vecto
   }
 }
 
-void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, model::SecondOrderModel& reduced) {
+/// Equal entry by entry.
+bool same(const Sparse& a, const Sparse& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() && a.isCompressed() && b.isCompressed() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+/// A part that was finished before, with the same basis.
+struct Twin {
+  const model::Substructure* part = nullptr;
+  const ReducedSubstructure* reduced = nullptr;
+};
+
+void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, const Twin& twin,
+                  model::SecondOrderModel& reduced) {
   for (const auto& set : part.model.points) {
     model::PointSet points = set;
     points.rows = set.rows * Phi;
@@ -70,12 +92,16 @@ void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vect
   }
   reduced.recoveryNodes = part.model.recoveryNodes;
   if (part.model.recoveryNodes.empty()) return;
-  reduced.recovery = part.model.recovery * Phi;
+  if (twin.part != nullptr && same(part.model.recovery, twin.part->model.recovery))
+    reduced.recovery = twin.reduced->model.recovery;
+  else
+    reduced.recovery = part.model.recovery * Phi;
   reduced.recoveryOffset = part.model.recoveryOffset + part.model.recovery * offset;
 }
 
 /// The reduced part from what its owner (or the owner of its twin) computed.
-ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index) {
+ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index,
+                           const Twin& twin = {}) {
   ReducedSubstructure out;
   out.name = part.name;
   out.basis = core.basis;
@@ -98,7 +124,7 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   const bool keepStatic = options.initialState == InitialState::KeepStatic;
   out.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(p.size));
   reduceLoads(part, Phi, out.offset, m);
-  reducePoints(part, Phi, out.offset, m);
+  reducePoints(part, Phi, out.offset, twin, m);
   m.initialDisplacement = fitState(core.basis, part.model.initialDisplacement - out.offset);
   m.initialVelocity = fitState(core.basis, part.model.initialVelocity);
 
@@ -109,7 +135,7 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   const double size = part.model.initialDisplacement.norm();
   if (size > 0)
     out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
-  m.validate();
+  if (twin.part == nullptr) m.validate();
   return out;
 }
 
@@ -141,51 +167,140 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
       case ModeRule::Kind::All:
         request.kind = ModeRequest::Kind::All;
         break;
+      case ModeRule::Kind::InterfaceMass:
+      case ModeRule::Kind::InterfaceMoment:
+        // Asked again for twice as many until they hold the fraction.
+        request.kind = ModeRequest::Kind::Count;
+        request.count = firstCandidates;
+        break;
+      case ModeRule::Kind::Tolerance:
+        throw Error(ExitCode::Internal, "A tolerance of the coupled model cannot be met part by part: use estimate::synthesise.");
     }
   }
   return requests;
 }
 
+/// First part with the same matrices and the same request.
+std::vector<int> twins(const std::vector<int>& classes, const std::vector<ModeRequest>& requests) {
+  std::vector<int> twin(classes.size());
+  std::map<int, std::vector<int>> firsts;  // of each class, one for each request
+  for (std::size_t p = 0; p < classes.size(); ++p) {
+    auto& candidates = firsts[classes[p]];
+    const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                    [&](int q) { return requests[static_cast<std::size_t>(q)] == requests[p]; });
+    twin[p] = found != candidates.end() ? *found : static_cast<int>(p);
+    if (found == candidates.end()) candidates.push_back(twin[p]);
+  }
+  return twin;
+}
+
+/// checkPart for the first of identical parts; of the others what may differ from it.
+void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& m = parts[p].model;
+    const auto fits = [&](const Vector& x) { return x.size() == m.size() && x.allFinite(); };
+    const bool like = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.loads.empty() &&
+                      m.points.empty() && parts[p].reference.size() == 0 && fits(m.initialDisplacement) && fits(m.initialVelocity);
+    if (!like) checkPart(parts[p]);
+  }
+}
+
 /// The reduction of a list of parts by the ranks of MPI_COMM_WORLD.
 class Team {
  public:
-  Team(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options)
+  Team(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options, ReductionCache& cache)
       : parts_(parts),
         basis_(basis),
         options_(options),
+        cache_(cache),
         requests_(initialRequests(parts, options)),
         bases_(parts.size()),
         cores_(parts.size()) {
-    twin_ = findTwins(parts_, requests_);
+    if (cache_.classes.empty()) {
+      cache_.classes = findTwins(parts_, std::vector<ModeRequest>(parts_.size()));
+      checkParts(parts_, cache_.classes);
+    }
+    twin_ = twins(cache_.classes, requests_);
+    recall();
     std::vector<int> weights;
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      if (first(p)) weights.push_back(static_cast<int>(parts_[p].interior().size()));
+      if (open(p)) weights.push_back(static_cast<int>(parts_[p].interior().size()));
     const auto owners = assignOwners(weights, parallel::size());
     owner_.assign(parts_.size(), -1);
     std::size_t next = 0;
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      if (first(p)) owner_[p] = owners[next++];
+      if (open(p)) owner_[p] = owners[next++];
     const int idle = parallel::size() - static_cast<int>(weights.size());
-    if (idle > 0)
+    if (idle > 0 && !cache_.remembers)
       log::warn("There are " + std::to_string(weights.size()) + " different substructures for " +
                 std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) + " of them will be idle during reduction.");
   }
 
   std::vector<ReducedSubstructure> run() {
     build(std::vector<char>(parts_.size(), 1));
-    if (options_.modes.kind == ModeRule::Kind::Total) shareTotalModes();
-    parallel::agree([&] { forOwned([&](std::size_t p) { cores_[p] = makeCore(parts_[p], bases_[p], options_); }); });
+    const auto kind = options_.modes.kind;
+    if (kind == ModeRule::Kind::Total) shareTotalModes();
+    if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment) chooseByInterface();
+    parallel::agree([&] {
+      forOwned([&](std::size_t p) { cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_)); });
+    });
     exchange();
+    remember();
     std::vector<ReducedSubstructure> reduced(parts_.size());
     parallel::agree([&] {
-      for (std::size_t p = 0; p < parts_.size(); ++p)
-        reduced[p] = finish(parts_[p], cores_[static_cast<std::size_t>(twin_[p])], options_, static_cast<int>(p));
+      for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto t = static_cast<std::size_t>(twin_[p]);
+        const Twin twin = first(p) ? Twin{} : Twin{&parts_[t], &reduced[t]};
+        reduced[p] = finish(parts_[p], *cores_[t], options_, static_cast<int>(p), twin);
+      }
     });
     return reduced;
   }
 
  private:
   bool first(std::size_t p) const { return twin_[p] == static_cast<int>(p); }
+  /// To be reduced now.
+  bool open(std::size_t p) const { return first(p) && !cores_[p]; }
+
+  /// Takes what was reduced in an earlier round with the same number of modes.
+  void recall() {
+    for (std::size_t p = 0; p < parts_.size() && cache_.remembers; ++p) {
+      const auto found = cache_.cores.find({cache_.classes[p], requests_[p].count});
+      if (first(p) && found != cache_.cores.end()) cores_[p] = found->second;
+    }
+  }
+
+  void remember() {
+    for (std::size_t p = 0; p < parts_.size() && cache_.remembers; ++p)
+      if (first(p)) cache_.cores[{cache_.classes[p], requests_[p].count}] = cores_[p];
+  }
+
+  /// What the neighbours feel: enough modes are computed to hold the fraction, and those with the largest shares are kept.
+  void chooseByInterface() {
+    const auto& rule = options_.modes;
+    parallel::agree([&] {
+      forOwned([&](std::size_t p) {
+        for (;;) {
+          if (!bases_[p].orthonormal)
+            throw DeckError("The basis \"" + options_.basis +
+                            "\" has no modes with fixed interface for an interface criterion to choose from. Give \"Modes\", or take "
+                            "the basis \"Craig-Bampton\".");
+          const Vector shares = interfaceShares(parts_[p], bases_[p], rule.kind);
+          auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
+          if (keep.empty() && (bases_[p].complete || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
+            keep.assign(static_cast<std::size_t>(shares.size()), shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
+          else if (keep.empty()) {
+            requests_[p].count *= 2;
+            bases_[p] = basis_.build(parts_[p], requests_[p]);
+            continue;
+          }
+          bases_[p].remarks.clear();  // they were about the number looked at
+          select(bases_[p], keep, "couples to the interface", "couples little to the interface");
+          break;
+        }
+      });
+    });
+  }
 
   template <class Work>
   void forOwned(const Work& work) const {
@@ -245,22 +360,23 @@ class Team {
 
   void exchange() {
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (!first(p) || parallel::size() == 1) continue;
+      if (owner_[p] < 0 || parallel::size() == 1) continue;
       std::string bytes;
-      if (owner_[p] == parallel::rank()) bytes = pack(cores_[p]);
+      if (owner_[p] == parallel::rank()) bytes = pack(*cores_[p]);
       parallel::broadcast(bytes, owner_[p]);
-      if (owner_[p] != parallel::rank()) cores_[p] = unpack(bytes);
+      if (owner_[p] != parallel::rank()) cores_[p] = std::make_shared<const ReducedCore>(unpack(bytes));
     }
   }
 
   const std::vector<model::Substructure>& parts_;
   const Basis& basis_;
   const ReductionOptions& options_;
+  ReductionCache& cache_;
   std::vector<ModeRequest> requests_;
   std::vector<int> twin_;   ///< first identical part
-  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin
+  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin or an earlier round
   std::vector<BasisResult> bases_;
-  std::vector<ReducedCore> cores_;
+  std::vector<std::shared_ptr<const ReducedCore>> cores_;
 };
 
 }  // namespace
@@ -272,8 +388,14 @@ ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& b
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
                                            const ReductionOptions& options) {
-  for (const auto& part : parts) checkPart(part);
-  return Team(parts, basis, options).run();
+  ReductionCache none;
+  none.remembers = false;
+  return Team(parts, basis, options, none).run();
+}
+
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
+                                           const ReductionOptions& options, ReductionCache& cache) {
+  return Team(parts, basis, options, cache).run();
 }
 
 std::string summaryTable(const std::vector<ReducedSubstructure>& parts) {

@@ -3,8 +3,10 @@
 /// Reduction of parts: basis, projection, checks; distributed over the MPI ranks.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/Substructure.hpp"
@@ -16,6 +18,8 @@ class ParameterList;
 }
 
 namespace tooljoint::reduction {
+
+struct ReducedCore;
 
 /// How the state at t = 0 is put into reduced coordinates.
 enum class InitialState {
@@ -50,6 +54,18 @@ ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& b
 /// An error on one rank is thrown on all. Throws ModelError, ConvergenceError.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
                                            const ReductionOptions& options);
+
+/// What rounds of reduction of the same parts share: which parts are identical, and every part reduced so far by its number of
+/// modes. The same on every rank.
+struct ReductionCache {
+  bool remembers = true;
+  std::vector<int> classes;                                                     ///< findTwins; empty before the first round
+  std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>> cores;  ///< by class and number of modes asked for
+};
+
+/// The same with what earlier rounds have reduced: only parts whose number of modes is new are. Needs ModeRule::Kind::PerPart.
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
+                                           const ReductionOptions& options, ReductionCache& cache);
 
 /// The same from a deck list.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
