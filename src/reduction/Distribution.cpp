@@ -167,61 +167,89 @@ void raiseToRows(const Sparse& a, Vector& size) {
     for (Sparse::InnerIterator it(a, i); it; ++it) size[i] = std::max(size[i], std::abs(it.value()));
 }
 
-/// |a_ij - b_ij| <= sameEntry sqrt(r_i r_j), r the size of the rows: as strict for moments as for forces.
-bool equal(const Sparse& a, const Sparse& b, const Vector& size) {
-  if (a.rows() != size.size() || b.rows() != a.rows() || a.cols() != a.rows() || b.cols() != a.cols()) return false;
-  const auto near = [&](double difference, int i, Eigen::Index j) {
-    return difference * difference <= sameEntry * sameEntry * size[i] * size[j];
-  };
+bool samePattern(const Sparse& a, const Sparse& b) {
+  return a.isCompressed() && b.isCompressed() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+}
+
+/// |a_ij - b_ij| <= s_i s_j with s_i^2 = sameEntry r_i, r the size of the rows: as strict for moments as for forces.
+bool equal(const Sparse& a, const Sparse& b, const Vector& s) {
+  if (a.rows() != s.size() || b.rows() != a.rows() || a.cols() != a.rows() || b.cols() != b.rows()) return false;
+  if (samePattern(a, b)) {
+    const double* x = a.valuePtr();
+    const double* y = b.valuePtr();
+    const int* column = a.innerIndexPtr();
+    for (int i = 0; i < a.rows(); ++i)
+      for (int k = a.outerIndexPtr()[i]; k < a.outerIndexPtr()[i + 1]; ++k)
+        if (!(std::abs(x[k] - y[k]) <= s[i] * s[column[k]])) return false;
+    return true;
+  }
   for (int i = 0; i < a.outerSize(); ++i) {
     Sparse::InnerIterator x(a, i), y(b, i);
     while (x || y) {
       const Eigen::Index column = std::min(x ? x.col() : a.cols(), y ? y.col() : a.cols());
-      const double left = x && x.col() == column ? x.value() : 0.0;
-      const double right = y && y.col() == column ? y.value() : 0.0;
-      if (left != right && !near(left - right, i, column)) return false;
-      if (x && x.col() == column) ++x;
-      if (y && y.col() == column) ++y;
+      double difference = 0;
+      if (x && x.col() == column) difference += x.value(), ++x;
+      if (y && y.col() == column) difference -= y.value(), ++y;
+      if (!(std::abs(difference) <= s[i] * s[column])) return false;
     }
   }
   return true;
 }
 
-/// Terms of one law are measured together: a geometric stiffness that is rounding beside the elastic one is rounding.
-bool equal(const model::SecondOrderModel& a, const std::vector<model::MatrixTerm>& left, const model::SecondOrderModel& b,
-           const std::vector<model::MatrixTerm>& right) {
-  if (left.size() != right.size()) return false;
-  for (std::size_t i = 0; i < left.size(); ++i)
-    if (left[i].law != right[i].law || left[i].name != right[i].name || left[i].law < 0 ||
-        left[i].law >= static_cast<int>(std::min(a.laws.size(), b.laws.size())) ||
-        a.laws[static_cast<std::size_t>(left[i].law)].name != b.laws[static_cast<std::size_t>(right[i].law)].name)
-      return false;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    Vector size = Vector::Zero(a.size());
-    for (const auto& term : right)
-      if (term.law == right[i].law) raiseToRows(term.matrix, size);
-    if (!equal(left[i].matrix, right[i].matrix, size)) return false;
+/// A part others are compared with, and the sizes s of the rows of its matrices. Terms of one law are measured together: a geometric
+/// stiffness that is rounding beside the elastic one is rounding.
+class Pattern {
+ public:
+  explicit Pattern(const model::Substructure& part) : part_(part) {
+    const auto& m = part.model;
+    sizes_.assign(1, Vector::Zero(m.size()));
+    raiseToRows(m.mass, sizes_[0]);
+    for (const auto* terms : {&m.stiffness, &m.damping})
+      for (const auto& term : *terms) {
+        sizes_.push_back(Vector::Zero(m.size()));
+        for (const auto& other : *terms)
+          if (other.law == term.law) raiseToRows(other.matrix, sizes_.back());
+      }
+    for (auto& size : sizes_) size = (sameEntry * size).cwiseSqrt();
   }
-  return true;
-}
 
-bool identical(const model::Substructure& a, const model::Substructure& b) {
-  if (a.model.size() != b.model.size() || a.interface != b.interface || a.retained != b.retained) return false;
-  Vector size = Vector::Zero(b.model.size());
-  raiseToRows(b.model.mass, size);
-  return equal(a.model.mass, b.model.mass, size) && equal(a.model, a.model.stiffness, b.model, b.model.stiffness) &&
-         equal(a.model, a.model.damping, b.model, b.model.damping);
-}
+  bool matches(const model::Substructure& other) const {
+    const auto& a = part_.model;
+    const auto& b = other.model;
+    if (a.size() != b.size() || part_.interface != other.interface || part_.retained != other.retained) return false;
+    if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b) || !equal(a.mass, b.mass, sizes_[0])) return false;
+    auto size = sizes_.begin();
+    for (std::size_t i = 0; i < a.stiffness.size(); ++i)
+      if (!equal(a.stiffness[i].matrix, b.stiffness[i].matrix, *++size)) return false;
+    for (std::size_t i = 0; i < a.damping.size(); ++i)
+      if (!equal(a.damping[i].matrix, b.damping[i].matrix, *++size)) return false;
+    return true;
+  }
+
+ private:
+  bool sameTerms(const std::vector<model::MatrixTerm>& left, const std::vector<model::MatrixTerm>& right,
+                 const model::SecondOrderModel& b) const {
+    if (left.size() != right.size()) return false;
+    const auto& laws = part_.model.laws;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const int law = left[i].law;
+      if (law != right[i].law || left[i].name != right[i].name || law < 0 || law >= static_cast<int>(std::min(laws.size(), b.laws.size())) ||
+          laws[static_cast<std::size_t>(law)].name != b.laws[static_cast<std::size_t>(law)].name)
+        return false;
+    }
+    return true;
+  }
+
+  const model::Substructure& part_;
+  std::vector<Vector> sizes_;  ///< of the mass, the stiffness terms and the damping terms
+};
 
 /// Sum of the entries of all matrices in units that parts with equal ones share: what differs here by more than rounding is not
 /// looked at any closer.
 double signature(const model::SecondOrderModel& model) {
-  const auto sum = [](const Sparse& a) {
-    double total = 0;
-    for (int i = 0; i < a.outerSize(); ++i)
-      for (Sparse::InnerIterator it(a, i); it; ++it) total += std::abs(it.value());
-    return total;
-  };
+  const auto sum = [](const Sparse& a) { return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum() : 0.0; };
   double total = sum(model.mass);
   for (const auto* terms : {&model.stiffness, &model.damping})
     for (const auto& term : *terms) total += sum(term.matrix);
@@ -248,18 +276,22 @@ std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
 std::vector<int> findTwins(const std::vector<model::Substructure>& parts, const std::vector<ModeRequest>& requests) {
   // By increasing signature: a part is compared with the first ones of its own size only, however many different ones there are.
   std::vector<int> twin(parts.size());
-  std::multimap<double, std::size_t> firsts;
+  struct First {
+    std::size_t index;
+    Pattern pattern;
+  };
+  std::multimap<double, First> firsts;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     twin[i] = static_cast<int>(i);
     const double mine = signature(parts[i].model);
     if (!std::isfinite(mine)) continue;
     const double room = 1e-8 * mine;
     for (auto it = firsts.lower_bound(mine - room); it != firsts.end() && it->first <= mine + room; ++it) {
-      const std::size_t j = it->second;
-      if (requests[i] == requests[j] && identical(parts[j], parts[i])) twin[i] = std::min(twin[i], static_cast<int>(j));
-      if (twin[i] != static_cast<int>(i)) break;
+      if (!(requests[i] == requests[it->second.index]) || !it->second.pattern.matches(parts[i])) continue;
+      twin[i] = static_cast<int>(it->second.index);
+      break;
     }
-    if (twin[i] == static_cast<int>(i)) firsts.emplace(mine, i);
+    if (twin[i] == static_cast<int>(i)) firsts.emplace(mine, First{i, Pattern(parts[i])});
   }
   return twin;
 }

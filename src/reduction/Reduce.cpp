@@ -56,15 +56,23 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   return core;
 }
 
-void reduceLoads(const model::Substructure& part, const Sparse& Phi, const Vector& offset, model::SecondOrderModel& reduced) {
-  if (part.model.loads.empty() && offset.isZero(0.0)) return;
-  const Sparse transposed = Phi.transpose();
-  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, transposed * load.vector, load.law});
+/// What identical parts share beside their core.
+struct Shared {
+  explicit Shared(const model::Substructure& like, const Sparse& Phi)
+      : part(like), transposed(Phi.transpose()), stiffness(stiffnessTerms(like.model)) {}
+  const model::Substructure& part;
+  Sparse transposed;                          ///< Phi'
+  std::vector<model::MatrixTerm> stiffness;  ///< stiffnessTerms
+  Sparse recovery;                            ///< of the part times Phi
+};
+
+void reduceLoads(const model::Substructure& part, const Shared& shared, const Vector& offset, model::SecondOrderModel& reduced) {
+  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, shared.transposed * load.vector, load.law});
   if (offset.isZero(0.0)) return;
   // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
-  for (const auto& term : stiffnessTerms(part.model)) {
+  for (const auto& term : shared.stiffness) {
     const Vector residual = -(term.matrix * offset);
-    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, transposed * residual, term.law});
+    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.transposed * residual, term.law});
   }
 }
 
@@ -76,13 +84,7 @@ bool same(const Sparse& a, const Sparse& b) {
          std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
 }
 
-/// A part that was finished before, with the same basis.
-struct Twin {
-  const model::Substructure* part = nullptr;
-  const ReducedSubstructure* reduced = nullptr;
-};
-
-void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, const Twin& twin,
+void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, Shared& shared,
                   model::SecondOrderModel& reduced) {
   for (const auto& set : part.model.points) {
     model::PointSet points = set;
@@ -92,16 +94,14 @@ void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vect
   }
   reduced.recoveryNodes = part.model.recoveryNodes;
   if (part.model.recoveryNodes.empty()) return;
-  if (twin.part != nullptr && same(part.model.recovery, twin.part->model.recovery))
-    reduced.recovery = twin.reduced->model.recovery;
-  else
-    reduced.recovery = part.model.recovery * Phi;
+  if (shared.recovery.size() == 0) shared.recovery = shared.part.model.recovery * Phi;
+  reduced.recovery = same(part.model.recovery, shared.part.model.recovery) ? shared.recovery : Sparse(part.model.recovery * Phi);
   reduced.recoveryOffset = part.model.recoveryOffset + part.model.recovery * offset;
 }
 
 /// The reduced part from what its owner (or the owner of its twin) computed.
 ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index,
-                           const Twin& twin = {}) {
+                           Shared& shared) {
   ReducedSubstructure out;
   out.name = part.name;
   out.basis = core.basis;
@@ -123,8 +123,8 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
 
   const bool keepStatic = options.initialState == InitialState::KeepStatic;
   out.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(p.size));
-  reduceLoads(part, Phi, out.offset, m);
-  reducePoints(part, Phi, out.offset, twin, m);
+  reduceLoads(part, shared, out.offset, m);
+  reducePoints(part, Phi, out.offset, shared, m);
   m.initialDisplacement = fitState(core.basis, part.model.initialDisplacement - out.offset);
   m.initialVelocity = fitState(core.basis, part.model.initialVelocity);
 
@@ -135,7 +135,7 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   const double size = part.model.initialDisplacement.norm();
   if (size > 0)
     out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
-  if (twin.part == nullptr) m.validate();
+  if (&part == &shared.part) m.validate();
   return out;
 }
 
@@ -199,9 +199,10 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& m = parts[p].model;
     const auto fits = [&](const Vector& x) { return x.size() == m.size() && x.allFinite(); };
-    const bool like = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.loads.empty() &&
-                      m.points.empty() && parts[p].reference.size() == 0 && fits(m.initialDisplacement) && fits(m.initialVelocity);
-    if (!like) checkPart(parts[p]);
+    bool good = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.points.empty() &&
+                (parts[p].reference.size() == 0 || fits(parts[p].reference)) && fits(m.initialDisplacement) && fits(m.initialVelocity);
+    for (const auto& load : m.loads) good = good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
+    if (!good) checkPart(parts[p]);
   }
 }
 
@@ -247,11 +248,12 @@ class Team {
     exchange();
     remember();
     std::vector<ReducedSubstructure> reduced(parts_.size());
+    std::map<std::size_t, Shared> shared;
     parallel::agree([&] {
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
-        const Twin twin = first(p) ? Twin{} : Twin{&parts_[t], &reduced[t]};
-        reduced[p] = finish(parts_[p], *cores_[t], options_, static_cast<int>(p), twin);
+        auto& common = shared.try_emplace(t, parts_[t], cores_[t]->basis.vectors).first->second;
+        reduced[p] = finish(parts_[p], *cores_[t], options_, static_cast<int>(p), common);
       }
     });
     return reduced;
@@ -383,7 +385,9 @@ class Team {
 
 ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options,
                            int index) {
-  return finish(part, makeCore(part, basis, options), options, index);
+  const ReducedCore core = makeCore(part, basis, options);
+  Shared shared(part, core.basis.vectors);
+  return finish(part, core, options, index, shared);
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
