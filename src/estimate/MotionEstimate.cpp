@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate/MotionEstimate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "estimate/PartResidual.hpp"
+#include "linalg/BlockFactor.hpp"
+#include "transient/CompiledModel.hpp"
+
+namespace tooljoint::estimate {
+
+namespace {
+
+/// LU of a matrix on the pattern of a compiled model; vectors in positions.
+class Factor {
+ public:
+  explicit Factor(const linalg::BlockPattern& pattern) : factor_(pattern), storage_(pattern.storage()) {}
+  /// The matrix to fill, all zero.
+  double* clear() {
+    std::fill(factor_.values(), factor_.values() + storage_, 0.0);
+    return factor_.values();
+  }
+  int factor() { return factor_.factor(); }
+  Vector solve(Vector b) const {
+    factor_.solve(b.data());
+    return b;
+  }
+
+ private:
+  linalg::BlockFactor factor_;
+  std::size_t storage_;
+};
+
+}  // namespace
+
+struct MotionEstimator::Impl {
+  Impl(const std::vector<model::Substructure>& parts_, const coupling::Synthesis& synthesis_, Vector rest_, MotionOptions options_)
+      : parts(parts_),
+        model(synthesis_.coupled.model),
+        rest(std::move(rest_)),
+        options(std::move(options_)),
+        compiled(model),
+        mass(compiled.pattern()),
+        step(compiled.pattern()) {
+    std::size_t set = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.positions[p]);
+      for (const auto& points : parts[p].model.points) pointSets.push_back({p, &points.rows, set++, {}, {}});
+    }
+    energies.assign(parts.size(), 0.0);
+    w.assign(parts.size(), Vector());
+    values.resize(compiled.pattern().storage());
+    compiled.combine(1, 0, 0, mass.clear());
+    const int bad = mass.factor();
+    if (bad >= 0)
+      throw ModelError("The error of the motion cannot be estimated: the mass matrix of the coupled model is singular at " +
+                       compiled.dofName(bad) + ". Leave \"Error Estimate\" at \"Frequencies\".");
+    mapRecovery();
+    u = uDot = s = Vector::Zero(model.size());
+  }
+
+  /// Row of the coupled recovery of every recovered row of a part.
+  void mapRecovery() {
+    const auto width = static_cast<int>(model.componentNames.size());
+    std::map<std::int64_t, int> first;
+    for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i) first[model.recoveryNodes[i]] = static_cast<int>(i) * width;
+    for (const auto& part : parts) {
+      std::vector<int> rows;
+      for (auto node : part.model.recoveryNodes)
+        for (int c = 0; c < width; ++c) rows.push_back(first.at(node) + c);
+      recovered.push_back(rows);
+    }
+  }
+
+  const std::vector<model::Substructure>& parts;
+  const model::SecondOrderModel& model;
+  Vector rest;
+  MotionOptions options;
+  std::vector<PartResidual> residuals;
+  std::vector<std::vector<int>> recovered;
+  /// The points of a part, and what the truncated motion does at them.
+  struct PartPoints {
+    std::size_t part;
+    const Sparse* rows;  ///< of the part
+    std::size_t batch;   ///< in the coupled model, which keeps the points of every part
+    Vector motion, rate;
+  };
+  std::vector<PartPoints> pointSets;
+  transient::CompiledModel compiled;
+  Factor mass, step;
+  linalg::BlockValues values;
+
+  double time = 0;
+  Vector q, qDot;         ///< at the last sample, dofs
+  Vector u, uDot;         ///< error equation, positions
+  std::vector<Vector> w;  ///< truncated motion of each part, mean of the last interval
+  Vector s;               ///< P w of the last interval, positions
+  std::vector<double> energies;
+  double errors = 0, motions = 0, worst = 0;
+  long samples = 0;
+  double wall = 0;
+
+  void begin(double t);
+  void advance(double t, const Vector& qNew, const Vector& qDotNew);
+  void measure(const Vector& qNew);
+  Vector positions(const Vector& dofs) const {
+    Vector x(dofs.size());
+    compiled.toPositions(dofs, x);
+    return x;
+  }
+  Vector pull(double t, double h, const std::vector<Vector>& wNew, const Vector& sNew);
+};
+
+MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis, Vector rest,
+                                 MotionOptions options)
+    : impl_(std::make_unique<Impl>(parts, synthesis, std::move(rest), std::move(options))) {}
+MotionEstimator::~MotionEstimator() = default;
+
+void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot, const Vector& /*qDDot*/) {
+  const auto start = std::chrono::steady_clock::now();
+  Impl& m = *impl_;
+  if (m.samples > 0 && t > m.time) m.advance(t, q, qDot);
+  m.time = t;
+  m.q = q;
+  m.qDot = qDot;
+  if (m.samples == 0) m.begin(t);
+  m.measure(q);
+  m.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The error of the initial state: u = P e.
+void MotionEstimator::Impl::begin(double t) {
+  compiled.setTime(t);
+  Vector g = Vector::Zero(model.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const PartMotion state = residuals[p].motion(q, qDot, qDot);
+    residuals[p].scatter(parts[p].model.mass * (parts[p].model.initialDisplacement - state.displacement), g);
+  }
+  u = mass.solve(positions(g));
+}
+
+/// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
+Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>& wNew, const Vector& sNew) {
+  const bool rated = samples > 1;  // there is an interval before
+  const Vector sDot = rated ? Vector((sNew - s) / h) : Vector(Vector::Zero(s.size()));
+  Vector own = Vector::Zero(model.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (residuals[p].complete()) continue;
+    Vector local = residuals[p].stiffnessTimes(t, wNew[p]);
+    if (rated) local += residuals[p].dampingTimes(t, (wNew[p] - w[p]) / h);
+    residuals[p].scatter(local, own);
+  }
+  Vector force = -positions(own);
+  compiled.addStiffness(sNew.data(), force.data());
+  compiled.addDamping(sDot.data(), force.data());
+  for (auto& points : pointSets) {
+    auto& batch = compiled.points()[points.batch];
+    points.motion.setZero(points.rows->rows());
+    points.rate.setZero(points.rows->rows());
+    batch.gather(sNew.data(), points.motion.data());
+    batch.gather(sDot.data(), points.rate.data());
+    if (!residuals[points.part].complete()) {
+      points.motion -= *points.rows * wNew[points.part];
+      if (rated) points.rate -= *points.rows * (wNew[points.part] - w[points.part]) / h;
+    }
+    const int width = batch.width();
+    Vector f = Vector::Zero(points.motion.size());
+    for (int point : batch.active())
+      for (int i = 0; i < width; ++i)
+        for (int j = 0; j < width; ++j) {
+          const int entry = (point * width + i) * width + j;
+          f[point * width + i] -= batch.dfdd()[entry] * points.motion[point * width + j] + batch.dfdv()[entry] * points.rate[point * width + j];
+        }
+    batch.scatter(f.data(), force.data());
+  }
+  return force;
+}
+
+void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& qDotNew) {
+  const double h = t - time;
+  const double middle = 0.5 * (time + t);
+  // Means over the interval: of the acceleration and the velocity exactly, of the displacement by the Hermite cubic.
+  const Vector acceleration = (qDotNew - qDot) / h;
+  const Vector velocity = (qNew - q) / h;
+  const Vector displacement = 0.5 * (q + qNew) - h / 12.0 * (qDotNew - qDot);
+
+  // w of all parts, s = P w
+  std::vector<Vector> wNew(parts.size());
+  Vector g = Vector::Zero(model.size());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (residuals[p].complete()) continue;
+    wNew[p] = residuals[p].truncated(middle, residuals[p].motion(displacement, velocity, acceleration));
+    if (w[p].size() == 0) w[p] = wNew[p];
+    energies[p] += h * residuals[p].energy(wNew[p]);
+    residuals[p].scatter(parts[p].model.mass * wNew[p], g);
+  }
+  const Vector sNew = mass.solve(positions(g));
+
+  compiled.setTime(middle);
+  const Vector at = positions(displacement), rate = positions(velocity);
+  for (auto& batch : compiled.points()) {
+    batch.look(middle, h, at.data());
+    batch.evaluateWithTangent(middle, at.data(), rate.data());
+  }
+  Vector force = pull(middle, h, wNew, sNew);
+
+  // M (u1' - u0')/h + C u' + K u = force with u' = (1-a) u0' + a u1', u = u0 + a h u'
+  const double a = options.damping;
+  double* A = step.clear();
+  compiled.combine(1.0 / (a * h), 1.0, a * h, A);
+  for (auto& batch : compiled.points()) {
+    batch.freezeTangent(a * h, 1.0);
+    batch.subtractTangent(A);
+  }
+  const int bad = step.factor();
+  if (bad >= 0)
+    throw ConvergenceError("The error equation of the motion is singular at t = " + formatNumber(t) + " s, " + compiled.dofName(bad) + ".");
+  Vector minus = -u;
+  compiled.addStiffness(minus.data(), force.data());
+  for (auto& batch : compiled.points()) {
+    batch.freezeTangent(1.0, 0.0);
+    batch.addTangentTimes(u.data(), force.data());
+  }
+  const Vector momentum = uDot / (a * h);
+  compiled.addMass(momentum.data(), force.data());
+  const Vector mean = step.solve(force);
+  u += h * mean;
+  uDot += (mean - uDot) / a;
+  w = wNew;
+  s = sNew;
+}
+
+void MotionEstimator::Impl::measure(const Vector& qNew) {
+  ++samples;
+  // e = Phi (u - P w) + w
+  Vector correction(u.size());
+  compiled.toDofs(u - s, correction);
+  Vector error = model.recovery * correction;
+  for (std::size_t p = 0; p < w.size(); ++p) {
+    if (w[p].size() == 0) continue;
+    const Vector local = parts[p].model.recovery * w[p];
+    for (std::size_t i = 0; i < recovered[p].size(); ++i) error[recovered[p][i]] += local[static_cast<Eigen::Index>(i)];
+  }
+  const Vector motion = model.recoveryOffset + model.recovery * qNew - rest;
+  const auto width = static_cast<Eigen::Index>(model.componentNames.size());
+  double e = 0, x = 0;
+  for (Eigen::Index node = 0; node < error.size() / width; ++node)
+    for (int c : options.components) {
+      const Eigen::Index row = node * width + c;
+      e += error[row] * error[row];
+      x += motion[row] * motion[row];
+    }
+  errors += e;
+  motions += x;
+  worst = std::max(worst, e);
+}
+
+MotionEstimate MotionEstimator::result() const {
+  const Impl& m = *impl_;
+  MotionEstimate estimate;
+  estimate.samples = m.samples;
+  estimate.wall = m.wall;
+  if (m.motions > 0) {
+    estimate.error = std::sqrt(m.errors / m.motions);
+    estimate.largest = std::sqrt(m.worst * static_cast<double>(m.samples) / m.motions);
+  }
+  estimate.byPart = Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
+  if (estimate.byPart.size() > 0 && estimate.byPart.sum() > 0) estimate.byPart /= estimate.byPart.sum();
+  return estimate;
+}
+
+}  // namespace tooljoint::estimate

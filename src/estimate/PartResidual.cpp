@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate/PartResidual.hpp"
+
+#include <utility>
+
+namespace tooljoint::estimate {
+
+PartResidual::PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, std::vector<int> positions)
+    : part_(part),
+      reduced_(reduced),
+      positions_(std::move(positions)),
+      constant_(reduction::constantStiffness(part.model)),
+      transposed_(reduced.basis.vectors.transpose()),
+      flexibility_(part, reduced.basis, reduction::symmetricPart(constant_)) {}
+
+PartMotion PartResidual::motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const {
+  const auto local = [&](const Vector& x) {
+    Vector y(static_cast<Eigen::Index>(positions_.size()));
+    for (std::size_t i = 0; i < positions_.size(); ++i) y[static_cast<Eigen::Index>(i)] = x[positions_[i]];
+    return Vector(reduced_.basis.vectors * y);
+  };
+  return {reduced_.offset + local(q), local(qDot), local(qDDot)};
+}
+
+Vector PartResidual::stiffnessTimes(double t, const Vector& x) const {
+  Vector y = Vector::Zero(x.size());
+  for (const auto& term : part_.model.stiffness) y += law(term.law, t) * (term.matrix * x);
+  return y;
+}
+
+Vector PartResidual::dampingTimes(double t, const Vector& x) const {
+  Vector y = Vector::Zero(x.size());
+  for (const auto& term : part_.model.damping) y += law(term.law, t) * (term.matrix * x);
+  return y;
+}
+
+Vector PartResidual::truncated(double t, const PartMotion& mean) const {
+  Vector r = part_.model.mass * mean.acceleration + dampingTimes(t, mean.velocity) + stiffnessTimes(t, mean.displacement);
+  for (const auto& load : part_.model.loads) r -= law(load.law, t) * load.vector;
+  r -= part_.model.pointForce(t, mean.displacement, mean.velocity);
+  const auto& interior = flexibility_.interior();
+  Vector inner(static_cast<Eigen::Index>(interior.size()));
+  for (std::size_t i = 0; i < interior.size(); ++i) inner[static_cast<Eigen::Index>(i)] = r[interior[i]];
+  const Vector answer = flexibility_.apply(inner);
+  Vector w = Vector::Zero(r.size());
+  for (std::size_t i = 0; i < interior.size(); ++i) w[interior[i]] = -answer[static_cast<Eigen::Index>(i)];
+  return w;
+}
+
+void PartResidual::scatter(const Vector& force, Vector& coupled) const {
+  const Vector local = transposed_ * force;
+  for (std::size_t i = 0; i < positions_.size(); ++i) coupled[positions_[i]] += local[static_cast<Eigen::Index>(i)];
+}
+
+}  // namespace tooljoint::estimate

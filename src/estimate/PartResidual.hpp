@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What one part's basis leaves out of a motion, and how that pulls on the coupled model.
+#pragma once
+
+#include <vector>
+
+#include "coupling/Synthesis.hpp"
+#include "estimate/ResidualFlexibility.hpp"
+
+namespace tooljoint::estimate {
+
+/// State of a part, or its means over an interval.
+struct PartMotion {
+  Vector displacement, velocity, acceleration;
+};
+
+/// One part with modes left out.
+class PartResidual {
+ public:
+  PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, std::vector<int> positions);
+
+  bool complete() const { return flexibility_.truncated() == 0; }
+  const std::vector<int>& positions() const { return positions_; }
+  const model::Substructure& part() const { return part_; }
+  const reduction::ReducedSubstructure& reduced() const { return reduced_; }
+
+  /// D = offset + Phi q and its derivatives from coupled coordinates.
+  PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
+  /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where dofs are kept.
+  Vector truncated(double t, const PartMotion& mean) const;
+  /// Phi' (M w), Phi' (K(t) w) and so on: into coupled dofs.
+  void scatter(const Vector& force, Vector& coupled) const;
+  /// sum of terms times x at time t.
+  Vector stiffnessTimes(double t, const Vector& x) const;
+  Vector dampingTimes(double t, const Vector& x) const;
+  /// Strain energy of w.
+  double energy(const Vector& w) const { return w.dot(constant_ * w); }
+
+ private:
+  double law(int index, double t) const { return part_.model.laws[static_cast<std::size_t>(index)].value(t); }
+
+  const model::Substructure& part_;
+  const reduction::ReducedSubstructure& reduced_;
+  std::vector<int> positions_;
+  Sparse constant_;
+  Sparse transposed_;  ///< Phi'
+  ResidualFlexibility flexibility_;
+};
+
+}  // namespace tooljoint::estimate
