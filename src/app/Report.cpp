@@ -49,6 +49,11 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
   return format("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s", parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
+std::string describeMotionError(const estimate::MotionEstimate& error) {
+  return format("estimate    error of the motion by the reduction: dyn %.2e, worst sample %.2e, from %ld samples in %.2f s", error.error,
+                error.largest, error.samples, error.wall);
+}
+
 std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures) {
   const auto& c = report.counters;
   std::string text = format("transient   %s, %g to %g s: %ld steps of %.3g to %.3g s in %.2f s wall, %.2f s CPU: %.3g times real time\n",

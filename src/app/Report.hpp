@@ -9,6 +9,7 @@
 #include "app/Recording.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
+#include "estimate/MotionEstimate.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 #include "transient/Transient.hpp"
 
@@ -17,6 +18,7 @@ namespace tooljoint::app {
 std::string describeScene(const Scene& scene);
 std::string describeStatic(const StaticStage& stage);
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts, int fullDofs, int reducedDofs, double wall);
+std::string describeMotionError(const estimate::MotionEstimate& error);
 std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures);
 
 }  // namespace tooljoint::app

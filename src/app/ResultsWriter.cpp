@@ -156,6 +156,27 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
   summary.set("reduction.wall_s", wall);
 }
 
+void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary) {
+  if (!outcome.rounds.empty()) summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
+  if (outcome.frequencies.empty()) return;
+  for (const auto& e : outcome.frequencies) {
+    Eigen::Index worst = 0;
+    if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
+    io::SummaryRow row;
+    row.set("hz", e.frequency()).set("error", e.error).set("complete", e.definite);
+    if (e.byPart.size() > 0 && e.byPart[worst] > 0) row.set("part", parts[static_cast<std::size_t>(worst)].name);
+    summary.append("reduction.estimate.frequencies", row);
+  }
+  summary.set("reduction.estimate.frequency_error", estimate::largestError(outcome.frequencies));
+  summary.set("reduction.estimate.wall_s", outcome.wall);
+}
+
+void summarise(const estimate::MotionEstimate& error, io::Summary& summary) {
+  summary.set("reduction.estimate.motion_error", error.error);
+  summary.set("reduction.estimate.motion_worst_sample", error.largest);
+  summary.set("reduction.estimate.motion_wall_s", error.wall);
+}
+
 void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary) {
   summary.set("transient.model", reduced ? "reduced" : "full");
   summary.set("transient.integrator", report.integrator);

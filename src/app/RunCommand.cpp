@@ -16,7 +16,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "coupling/Synthesis.hpp"
+#include "estimate/AdaptiveReduction.hpp"
 #include "io/ResultsReader.hpp"
 
 namespace tooljoint::app {
@@ -42,6 +42,20 @@ std::string resultsFolder(const RunOptions& options, const Scene& scene) {
   if (!scene.output.folder.empty()) return scene.output.folder;
   return (std::filesystem::path("results") / std::filesystem::path(options.deck).stem()).string();
 }
+
+/// Hands every sample to two sinks.
+class Both : public transient::SampleSink {
+ public:
+  Both(transient::SampleSink& first, transient::SampleSink& second) : first_(first), second_(second) {}
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
+    first_.sample(t, q, qDot, qDDot);
+    second_.sample(t, q, qDot, qDDot);
+  }
+
+ private:
+  transient::SampleSink& first_;
+  transient::SampleSink& second_;
+};
 
 /// One run of one scene into one folder.
 class Run {
@@ -81,25 +95,53 @@ class Run {
       file_->flush();
     });
     if (!scene_.moves()) return;
-    const auto model = scene_.reduces() ? reduce() : fullModel(stage_);
-    parallel::agree([&] { integrate(model); });
+    if (scene_.reduces()) {
+      reduce();
+      parallel::agree([&] { integrate(outcome_.synthesis.coupled.model); });
+    } else {
+      const auto model = fullModel(stage_);
+      parallel::agree([&] { integrate(model); });
+    }
   }
 
-  model::SecondOrderModel reduce() {
+  void reduce() {
     const auto start = Clock::now();
-    const auto parts = cut(scene_, stage_);
+    parts_ = cut(scene_, stage_);
     const auto& list = scene_.list().sublist("Reduction");
-    auto synthesis = coupling::synthesise(parts, list);
-    const auto& reduced = synthesis.parts;
-    auto& model = synthesis.coupled.model;
+    outcome_ = estimate::synthesise(parts_, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); });
+    const auto& reduced = outcome_.synthesis.parts;
+    const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
-    log::info(describeReduction(reduced, scene_.freeDofs(), model.size(), wall));
-    summarise(reduced, list.get<std::string>("Basis"), model.size(), wall, summary_);
+    if (!outcome_.rounds.empty()) log::info(estimate::roundTable(outcome_.rounds));
+    log::info(describeReduction(reduced, scene_.freeDofs(), dofs, wall));
+    if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
+    summarise(reduced, list.get<std::string>("Basis"), dofs, wall, summary_);
+    summarise(outcome_, parts_, summary_);
+    estimatesMotion_ = estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
+    if (!estimatesMotion_) parts_.clear();
     parallel::agree([&] {
       if (scene_.output.csv) stageBasisTable(reduced, *folder_);
       if (scene_.output.reducedBases) writeBases(reduced, *file_);
     });
-    return std::move(model);
+  }
+
+  /// The motion of a candidate of the reduction, for its error only.
+  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis) {
+    estimate::MotionEstimator estimator(parts_, synthesis, stage_.state.displacement);
+    transient::RunHooks hooks;
+    hooks.title = "choice of modes";
+    transient::integrate(synthesis.coupled.model, scene_.list().sublist("Transient"), estimator, hooks);
+    return estimator.result();
+  }
+
+  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model, const transient::RunHooks& hooks) {
+    estimate::MotionEstimator estimator(parts_, outcome_.synthesis, stage_.state.displacement);
+    Both both(*recorder_, estimator);
+    const auto report = transient::integrate(model, scene_.list().sublist("Transient"), both, hooks);
+    const auto error = estimator.result();
+    log::info(describeMotionError(error));
+    summarise(error, summary_);
+    return report;
   }
 
   void integrate(const model::SecondOrderModel& model) {
@@ -115,7 +157,10 @@ class Run {
       file_->flush();
       if (parallel::rank() == 0) checkpoint.write(checkpointFile());
     };
-    const auto report = transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
+    if (estimatesMotion_ && restart_)
+      log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
+    const auto report = estimatesMotion_ && !restart_ ? integrateEstimating(model, hooks)
+                                                      : transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
     summarise(report, recorder_->figures(), scene_.reduces(), summary_);
     if (report.interrupted)
       throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " + folder_->folder() +
@@ -196,6 +241,9 @@ class Run {
   std::unique_ptr<RecordedMotion> restart_;
   io::Summary summary_;
   StaticStage stage_;
+  std::vector<model::Substructure> parts_;  ///< kept while the motion is estimated
+  estimate::Outcome outcome_;
+  bool estimatesMotion_ = false;
   std::unique_ptr<MotionRecorder> recorder_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "estimate/AdaptiveReduction.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "substructures/string/ContactNodes.hpp"
@@ -97,6 +98,14 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Substructures", "has no effect without a Reduction list. Add one, or leave Substructures out.");
   if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
     faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
+  if (scene.reduces() && !scene.moves()) {
+    const auto& reduction = list.sublist("Reduction");
+    if (reduction.isParameter("Motion Tolerance"))
+      faults.add("Reduction/Motion Tolerance", "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
+    const auto estimated = reduction.get<std::string>("Error Estimate");
+    if (estimated == "Transient" || estimated == "Both")
+      faults.add("Reduction/Error Estimate", "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
+  }
   if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
     faults.add("Contact/Friction", "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
   if (scene.loads.weightOnBit < 0.0)
@@ -156,6 +165,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
       string_::requireKnownNodes(scene.string, partition);
       const auto parts = string_::cutParts(scene.string, partition);
       reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+      estimate::readEstimateOptions(list.sublist("Reduction"));
     });
   }
   crossCheck(scene, faults);

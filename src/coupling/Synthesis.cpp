@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/Synthesis.hpp"
 
+#include <utility>
+
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 
 namespace tooljoint::coupling {
 
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options) {
+namespace {
+
+/// Couples reduced parts and lets the basis improve them.
+Synthesis join(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+               const reduction::ReductionOptions& options, std::vector<reduction::ReducedSubstructure> reduced) {
   Synthesis result;
-  result.parts = reduction::reduceAll(parts, basis, options);
+  result.parts = std::move(reduced);
   result.coupled = coupleWithPositions(result.parts);
   constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {
@@ -26,6 +31,18 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduct
   }
   throw ConvergenceError("The basis \"" + options.basis + "\" still changed after " + std::to_string(rounds) +
                          " rounds of improvement with the coupled model.");
+}
+
+}  // namespace
+
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                     const reduction::ReductionOptions& options) {
+  return join(parts, basis, options, reduction::reduceAll(parts, basis, options));
+}
+
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache) {
+  return join(parts, basis, options, reduction::reduceAll(parts, basis, options, cache));
 }
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction) {

@@ -21,6 +21,10 @@ struct Synthesis {
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
                      const reduction::ReductionOptions& options);
 
+/// The same in rounds over the same parts, which share what they have reduced.
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache);
+
 /// The same from the deck list "Reduction".
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction);
 

@@ -15,7 +15,49 @@ namespace tooljoint::reduction {
 
 namespace {
 
-const std::vector<std::string> modeCounts{"Modes", "Modes by Substructure", "Total Modes", "Cut-off Frequency", "All Modes"};
+const std::vector<std::string> modeCounts{"Modes",      "Modes by Substructure",   "Total Modes",      "Cut-off Frequency",
+                                          "All Modes",  "Effective Interface Mass", "Interface Moment", "Frequency Tolerance",
+                                          "Motion Tolerance"};
+
+/// The share of a criterion, or the tolerances; false when `choice` is none of them.
+bool readCriterion(const Teuchos::ParameterList& list, const std::string& choice, ModeRule& rule) {
+  if (choice == "Effective Interface Mass" || choice == "Interface Moment") {
+    rule.kind = choice == "Interface Moment" ? ModeRule::Kind::InterfaceMoment : ModeRule::Kind::InterfaceMass;
+    rule.fraction = list.get<double>(choice);
+    return true;
+  }
+  if (choice != "Frequency Tolerance" && choice != "Motion Tolerance") return false;
+  rule.kind = ModeRule::Kind::Tolerance;
+  if (list.isParameter("Frequency Tolerance")) rule.frequencyTolerance = list.get<double>("Frequency Tolerance");
+  if (list.isParameter("Motion Tolerance")) rule.motionTolerance = list.get<double>("Motion Tolerance");
+  rule.safety = list.get<double>("Tolerance Safety");
+  return true;
+}
+
+void declareCriteria(deck::ListSpec& list) {
+  using deck::Range;
+  const auto fraction = Range{0.0, 1.0, true, false};
+  const auto tolerance = Range{0.0, 0.5, true, false};
+  list.real("Effective Interface Mass", "", deck::Optional{}, fraction,
+            "The modes of each substructure that couple most to its kept dofs, until they hold this fraction of the coupling mass (Kammer and "
+            "Triller 1996).");
+  list.real("Interface Moment", "", deck::Optional{}, fraction,
+            "The same with the first moment of the coupling, which weighs low frequencies more (Liao, Bai and Gao 2007).");
+  list.real("Frequency Tolerance", "", deck::Optional{}, tolerance,
+            "As many modes of each substructure as the estimated relative errors of the coupled frequencies need to stay below this; which "
+            "frequencies: \"Estimated Frequencies\" or \"Estimated Below\".");
+  list.real("Motion Tolerance", "", deck::Optional{}, tolerance,
+            "As many modes as the estimated error dyn of the transient needs to stay below this, alone or with \"Frequency Tolerance\"; the "
+            "transient is run once for every round of the choice.");
+  list.real("Tolerance Safety", "", 1.5, Range::atLeast(1.0),
+            "What an estimate is multiplied by before it is compared with a tolerance; that of the motion, which is less sharp, by twice "
+            "this.");
+  list.choice("Error Estimate", std::string("None"), {"None", "Frequencies", "Transient", "Both"},
+              "Errors that are estimated a posteriori, from residuals: of the coupled frequencies about the static state, of the motion "
+              "(dyn, while it is computed), or of both.");
+  list.integer("Estimated Frequencies", 20, Range::atLeast(1), "How many of the lowest coupled frequencies estimates and tolerances look at.");
+  list.real("Estimated Below", "Hz", deck::Optional{}, Range::positive(), "Look at all coupled frequencies below this instead.");
+}
 
 }  // namespace
 
@@ -23,10 +65,9 @@ deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec list(
       "Reduction",
-      "Component mode synthesis of the substructures; without this list the full model runs. Exactly one of \"Modes\", \"Modes "
-      "by "
-      "Substructure\", \"Total Modes\", \"Cut-off Frequency\" and \"All Modes\" must be given; none of them cuts a close pair of "
-      "modes: the number is rounded up.");
+      "Component mode synthesis of the substructures; without this list the full model runs. Exactly one answer to how many modes are "
+      "kept must be given: \"Modes\", \"Modes by Substructure\", \"Total Modes\", \"Cut-off Frequency\", \"All Modes\", \"Effective Interface "
+      "Mass\", \"Interface Moment\", or a tolerance; none of them cuts a close pair of modes: the number is rounded up.");
   deck::declareVariants<Basis, const Teuchos::ParameterList&>(list, "Basis", std::string("Craig-Bampton"),
                                                               "Family of the reduction basis.");
   list.integer("Modes", deck::Optional{}, Range::atLeast(0), "Number of modes of every substructure; 0 is static condensation.");
@@ -36,6 +77,7 @@ deck::ListSpec parameters() {
   list.real("Cut-off Frequency", "Hz", deck::Optional{}, Range::nonNegative(),
             "All modes of each substructure at or below this frequency.");
   list.boolean("All Modes", false, "Every mode of every substructure: the reduced model is the full one in other coordinates.");
+  declareCriteria(list);
   list.real("Pair Tolerance", "", defaultPairTolerance, Range::between(0.0, 0.2),
             "Relative difference in frequency up to which two neighbouring modes count as a pair that is never cut; 0 keeps only "
             "equal frequencies together.");
@@ -54,6 +96,7 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   if (given.empty())
     throw DeckError("Reduction does not say how many modes to keep: give exactly one of " + quotedList(modeCounts) +
                     ".");
+  if (given == std::vector<std::string>{"Frequency Tolerance", "Motion Tolerance"}) given.pop_back();  // both hold
   if (given.size() > 1)
     throw DeckError("Reduction gives " + quotedList(given) +
                     " together: they are different answers to how many modes to keep. Give exactly one.");
@@ -81,6 +124,8 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   } else if (choice == "Cut-off Frequency") {
     options.modes.kind = ModeRule::Kind::CutOff;
     options.modes.cutOffHz = list.get<double>(choice);
+  } else if (!readCriterion(list, choice, options.modes)) {
+    options.modes.kind = ModeRule::Kind::All;
   }
   if (list.isSublist("Anasazi")) {
     auto eigen = std::make_shared<linalg::EigenOptions>();

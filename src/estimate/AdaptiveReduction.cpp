@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate/AdaptiveReduction.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint::estimate {
+
+namespace {
+
+/// Modes every part starts with.
+constexpr int firstModes = 2;
+/// Estimates of motions are less sharp than those of frequencies: twice the safety.
+constexpr double motionSafety = 2.0;
+/// Rounds after which something is wrong: each adds two modes at least and half of what there is to some part.
+constexpr int mostRounds = 60;
+
+double since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The parts without which the others would make up at most `rest` of the sum, largest first.
+std::vector<std::size_t> mark(const Vector& shares, double rest) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(shares.size()));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return shares[static_cast<Eigen::Index>(a)] > shares[static_cast<Eigen::Index>(b)];
+  });
+  double left = shares.sum();
+  std::size_t taken = 0;
+  while (taken < order.size() && left > rest && shares[static_cast<Eigen::Index>(order[taken])] > 0)
+    left -= shares[static_cast<Eigen::Index>(order[taken++])];
+  order.resize(taken);
+  return order;
+}
+
+/// The rounds of a tolerance.
+class Rounds {
+ public:
+  Rounds(const std::vector<model::Substructure>& parts, const reduction::Basis& basis, const reduction::ReductionOptions& options,
+         const EstimateOptions& estimates, const MotionProbe& probe)
+      : parts_(parts), basis_(basis), rule_(options.modes), options_(options), estimates_(estimates), probe_(probe) {
+    options_.modes.kind = reduction::ModeRule::Kind::PerPart;
+    options_.modes.counts.assign(parts.size(), firstModes);
+  }
+
+  Outcome run() {
+    for (int round = 0; round < mostRounds; ++round) {
+      outcome_.synthesis = coupling::synthesise(parts_, basis_, options_, cache_);
+      outcome_.rounds.emplace_back();
+      outcome_.rounds.back().modes = modes();
+      std::vector<char> wanted(parts_.size(), 0);
+      if (rule_.frequencyTolerance > 0) lookAtFrequencies(wanted);
+      if (rule_.motionTolerance > 0 && std::count(wanted.begin(), wanted.end(), 1) == 0) lookAtMotion(wanted);
+      if (std::count(wanted.begin(), wanted.end(), 1) == 0) return std::move(outcome_);
+      if (!grow(wanted)) refuse();
+    }
+    refuse();
+  }
+
+ private:
+  int modes() const {
+    int sum = 0;
+    for (const auto& part : outcome_.synthesis.parts) sum += part.modes;
+    return sum;
+  }
+
+  void lookAtFrequencies(std::vector<char>& wanted) {
+    const auto start = std::chrono::steady_clock::now();
+    outcome_.frequencies = estimateFrequencies(parts_, outcome_.synthesis, estimates_.window);
+    const double allowed = rule_.frequencyTolerance / rule_.safety;
+    for (const auto& e : outcome_.frequencies)
+      if (!e.definite || std::abs(e.error) > allowed)
+        for (std::size_t p : mark(e.byPart, 0.5 * allowed)) wanted[p] = 1;
+    outcome_.rounds.back().frequencyError = largestError(outcome_.frequencies);
+    outcome_.wall += since(start);
+  }
+
+  void lookAtMotion(std::vector<char>& wanted) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto estimate = probe_(outcome_.synthesis);
+    outcome_.rounds.back().motionError = estimate.error;
+    outcome_.wall += since(start);
+    if (!(estimate.error * motionSafety * rule_.safety <= rule_.motionTolerance))
+      for (std::size_t p : mark(estimate.byPart, 0.1 * estimate.byPart.sum())) wanted[p] = 1;
+  }
+
+  /// Half as many modes again (as many again while the error is far off), two at least. False when every wanted part has all it
+  /// has.
+  bool grow(const std::vector<char>& wanted) {
+    const auto& round = outcome_.rounds.back();
+    const bool far = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300), round.motionError / std::max(rule_.motionTolerance, 1e-300)) > 10;
+    bool grown = false;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const auto& reduced = outcome_.synthesis.parts[p];
+      const int interior = reduced.report.interior;
+      if (!wanted[p] || reduced.modes >= interior) continue;
+      const int more = std::max(2, far ? reduced.modes : (reduced.modes + 1) / 2);
+      options_.modes.counts[p] = std::min(interior, reduced.modes + more);
+      grown = true;
+    }
+    return grown;
+  }
+
+  [[noreturn]] void refuse() const {
+    const auto& round = outcome_.rounds.back();
+    std::string what;
+    if (round.frequencyError >= 0) what += "of the frequencies " + formatNumber(round.frequencyError);
+    if (round.motionError >= 0) what += std::string(what.empty() ? "" : ", ") + "of the motion " + formatNumber(round.motionError);
+    throw ConvergenceError("The tolerance of the reduction is not met although its parts have all the modes that would lower the estimate: "
+                           "errors " + what + " with " + std::to_string(round.modes) + " modes after " + std::to_string(outcome_.rounds.size()) +
+                           " rounds. Allow a larger tolerance, or retain more nodes.");
+  }
+
+  const std::vector<model::Substructure>& parts_;
+  const reduction::Basis& basis_;
+  const reduction::ModeRule rule_;
+  reduction::ReductionOptions options_;
+  const EstimateOptions estimates_;
+  const MotionProbe& probe_;
+  reduction::ReductionCache cache_;
+  Outcome outcome_;
+};
+
+}  // namespace
+
+double largestError(const std::vector<FrequencyEstimate>& estimates) {
+  double largest = 0;
+  for (const auto& e : estimates) largest = std::max({largest, std::abs(e.error), e.definite ? 0.0 : 1.0});
+  return largest;
+}
+
+EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
+  EstimateOptions options;
+  const auto& choice = list.get<std::string>("Error Estimate");
+  options.frequencies = choice == "Frequencies" || choice == "Both";
+  options.motion = choice == "Transient" || choice == "Both";
+  options.window.count = list.get<int>("Estimated Frequencies");
+  if (list.isParameter("Estimated Below")) {
+    options.window.belowHz = list.get<double>("Estimated Below");
+    if (!options.frequencies && !list.isParameter("Frequency Tolerance"))
+      throw DeckError("Reduction gives \"Estimated Below\", but nothing looks at frequencies: set \"Error Estimate\" to \"Frequencies\", give a "
+                      "\"Frequency Tolerance\", or leave it out.");
+  }
+  return options;
+}
+
+Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe) {
+  Outcome outcome;
+  if (options.modes.kind == reduction::ModeRule::Kind::Tolerance) {
+    if (options.modes.motionTolerance > 0 && !probe)
+      throw DeckError("\"Motion Tolerance\" needs a motion: give the scene a Transient list, or take \"Frequency Tolerance\".");
+    outcome = Rounds(parts, basis, options, estimates, probe).run();
+  } else {
+    outcome.synthesis = coupling::synthesise(parts, basis, options);
+  }
+  if (!estimates.frequencies || !outcome.frequencies.empty()) return outcome;
+  const auto start = std::chrono::steady_clock::now();
+  outcome.frequencies = estimateFrequencies(parts, outcome.synthesis, estimates.window);
+  outcome.wall += since(start);
+  return outcome;
+}
+
+Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& list, const MotionProbe& probe) {
+  const auto options = reduction::readOptions(list, static_cast<int>(parts.size()));
+  return synthesise(parts, *reduction::makeBasis(options.basis, list), options, readEstimateOptions(list), probe);
+}
+
+std::string roundTable(const std::vector<Round>& rounds) {
+  std::string text = "Modes by tolerance:\n  round   modes   error of frequencies   error of motion\n";
+  const auto number = [](double value) {
+    char field[32];
+    std::snprintf(field, sizeof field, value < 0 ? "-" : "%.2e", value);
+    return std::string(field);
+  };
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    char line[128];
+    std::snprintf(line, sizeof line, "  %5zu  %6d  %21s  %16s\n", i + 1, rounds[i].modes, number(rounds[i].frequencyError).c_str(),
+                  number(rounds[i].motionError).c_str());
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace tooljoint::estimate

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Reduction with what the deck asks for beyond it: error estimates, and modes chosen by a tolerance.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "coupling/Synthesis.hpp"
+#include "estimate/FrequencyEstimate.hpp"
+#include "estimate/MotionEstimate.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::estimate {
+
+/// What the list "Reduction" says about estimates.
+struct EstimateOptions {
+  bool frequencies = false;
+  bool motion = false;
+  FrequencyWindow window;
+};
+/// Throws DeckError when the choices contradict each other.
+EstimateOptions readEstimateOptions(const Teuchos::ParameterList& reduction);
+
+/// One round of the choice of modes by a tolerance.
+struct Round {
+  int modes = 0;              ///< of all parts
+  double frequencyError = -1;  ///< largest estimate over the window; negative when it was not looked at
+  double motionError = -1;     ///< estimate of dyn, likewise
+};
+
+struct Outcome {
+  coupling::Synthesis synthesis;
+  std::vector<FrequencyEstimate> frequencies;  ///< empty unless asked for
+  std::vector<Round> rounds;                   ///< of a tolerance; empty otherwise
+  double wall = 0;                             ///< of the estimates [s]
+};
+
+/// Moves the coupled model through the window of the scene and returns the estimated error of that motion.
+using MotionProbe = std::function<MotionEstimate(const coupling::Synthesis&)>;
+
+/// Reduces, couples and estimates. With ModeRule::Kind::Tolerance every part starts with few modes; then the coupled frequencies are
+/// estimated (and, with a motion tolerance, the motion is computed and estimated by `probe`), and the parts that
+/// contribute most get more modes until the estimate times the safety factor is below the tolerance: those without which the rest
+/// would make half of it (W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124). Only parts whose number of modes changes are reduced
+/// again. The same on every rank; collective. ConvergenceError when the tolerance is not met with all modes.
+Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe = {});
+/// The same from the deck list "Reduction".
+Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction,
+                   const MotionProbe& probe = {});
+
+/// Largest error of the estimates, 0 for none. Where a part lacks a mode below a frequency it counts as 1 at least.
+double largestError(const std::vector<FrequencyEstimate>& estimates);
+
+/// A table of the rounds.
+std::string roundTable(const std::vector<Round>& rounds);
+
+}  // namespace tooljoint::estimate
