@@ -3,6 +3,7 @@
 /// What each subcommand does. All of them throw tooljoint::Error; main turns that into the exit code.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct RunOptions {
   std::string output;                  ///< results folder; empty: results/<name of the deck>
   std::string restart;                 ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;                  ///< frequencies listed by `modes`
+  std::optional<double> modeTime;      ///< when `modes` looks at the laws of time [s]; the end of the motion
 };
 
 /// Two results folders and the window of time to compare them in [s].
@@ -30,7 +32,8 @@ struct CompareOptions {
 void run(const RunOptions& options);
 /// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates; runs nothing.
 void check(const RunOptions& options);
-/// `tooljoint modes`: eigenfrequencies of the full model, of the parts (fixed interface) and of the coupled model.
+/// `tooljoint modes`: bases of the parts; undamped and damped modes of the full and the coupled model with MAC values, true and estimated
+/// errors; modes.csv and damped_modes.csv in the output folder, if one is given.
 void modes(const RunOptions& options);
 /// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run against another.
 void compare(const CompareOptions& options);

@@ -78,9 +78,10 @@ int run(int argc, char** argv) {
   addDeckOptions(*checkCommand, options, false);
   checkCommand->callback([&] { command = [&] { app::check(options); }; });
 
-  auto* modesCommand = program.add_subcommand("modes", "eigenfrequencies: full, fixed-interface, coupled");
+  auto* modesCommand = program.add_subcommand("modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
   addDeckOptions(*modesCommand, options, true);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")->check(CLI::PositiveNumber);
+  modesCommand->add_option("--time", options.modeTime, "when the laws of time (rotary speed) are looked at for damped modes [s] (default: the end of the motion)");
   modesCommand->callback([&] { command = [&] { app::modes(options); }; });
 
   app::CompareOptions comparison;

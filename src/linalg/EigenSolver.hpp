@@ -67,4 +67,8 @@ struct QuadraticModes {
 /// (ModelError). ConvergenceError when the QR iteration fails or a residual exceeds 1e-8.
 QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K);
 
+/// The `count` modes of smallest |s|, one of each conjugate pair (Im s >= 0), by |s|: Anasazi BlockKrylovSchur on the inverse of the
+/// linearised problem at zero, or near it for a free body; small ones dense. The same vectors, residuals and errors as dampedModes.
+QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count, const DofNamer& name = {});
+
 }  // namespace tooljoint::linalg

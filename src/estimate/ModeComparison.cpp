@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate/ModeComparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+#include "common/Error.hpp"
+#include "estimate/FrequencyEstimate.hpp"
+#include "estimate/ResidualFlexibility.hpp"
+
+namespace tooljoint::estimate {
+
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexMatrix = Eigen::MatrixXcd;
+using ComplexVector = Eigen::VectorXcd;
+constexpr double twoPi = 6.28318530717958647692;
+/// Coupled modes computed beyond the full ones, among which a shape is looked for.
+constexpr int moreModes = 6;
+
+/// -sum R' (df/dv) R of the point laws about the initial state.
+Sparse pointDamping(const model::SecondOrderModel& model, double t) {
+  Sparse sum(model.size(), model.size());
+  for (const auto& set : model.points) {
+    std::vector<int> active(static_cast<std::size_t>(set.law->size()));
+    std::iota(active.begin(), active.end(), 0);
+    const int width = set.law->width();
+    const Vector d = set.offset + set.rows * model.initialDisplacement;
+    const Vector v = set.rows * model.initialVelocity;
+    Vector f = Vector::Zero(d.size()), dfdd = Vector::Zero(d.size() * width), dfdv = Vector::Zero(d.size() * width);
+    set.law->evaluateWithTangent(t, active, d.data(), v.data(), f.data(), dfdd.data(), dfdv.data());
+    Triplets entries;
+    for (int row = 0; row < d.size(); ++row)
+      for (int c = 0; c < width; ++c)
+        if (dfdv[row * width + c] != 0) entries.emplace_back(row, row / width * width + c, dfdv[row * width + c]);
+    Sparse tangent(d.size(), d.size());
+    tangent.setFromTriplets(entries.begin(), entries.end());
+    sum -= Sparse(Sparse(set.rows.transpose()) * Sparse(tangent * set.rows));
+  }
+  return sum;
+}
+
+ComplexMatrix localShapes(const std::vector<int>& positions, const ComplexMatrix& shapes) {
+  ComplexMatrix local(static_cast<Eigen::Index>(positions.size()), shapes.cols());
+  for (std::size_t i = 0; i < positions.size(); ++i) local.row(static_cast<Eigen::Index>(i)) = shapes.row(positions[i]);
+  return local;
+}
+
+/// The coupled mode with the largest MAC for every full mode.
+void match(const Matrix& mac, std::vector<ModeComparison>& modes) {
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    Eigen::Index best = 0;
+    modes[i].mac = mac.row(static_cast<Eigen::Index>(i)).maxCoeff(&best);
+    modes[i].coupledMode = static_cast<int>(best);
+  }
+}
+
+ComplexVector times(const Sparse& A, const ComplexVector& x) {
+  const Matrix parts = (Matrix(x.size(), 2) << x.real(), x.imag()).finished();
+  const Matrix y = A * parts;
+  return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
+}
+
+ComplexVector answer(const ResidualFlexibility& flexibility, const ComplexVector& r) {
+  const Matrix y = flexibility.apply((Matrix(r.size(), 2) << r.real(), r.imag()).finished());
+  return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
+}
+
+/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic flexibility, summed as a geometric series.
+Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass, const ComplexVector& l, const ComplexVector& r, Complex s) {
+  const ComplexVector first = answer(flexibility, r);
+  const Complex still = l.cwiseProduct(first).sum();
+  const Complex next = -s * s * l.cwiseProduct(answer(flexibility, times(mass, first))).sum();
+  return std::abs(next) < 0.5 * std::abs(still) ? still * still / (still - next) : still + next;
+}
+
+/// s - s_full per coupled mode.
+ComplexVector dampedErrors(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+                           const linalg::QuadraticModes& right, const ComplexMatrix& left, double t) {
+  const auto count = right.values.size();
+  ComplexVector work = ComplexVector::Zero(count);
+  ComplexVector slope = ComplexVector::Zero(count);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& basis = synthesis.parts[p].basis;
+    const Linearised part = linearise(parts[p].model, t);
+    const ResidualFlexibility flexibility(parts[p], basis, reduction::symmetricPart(part.stiffness));
+    const auto& interior = flexibility.interior();
+    const Sparse mass = reduction::block(part.mass, interior, interior);
+    const Sparse damping = part.damping.transpose(), stiffness = part.stiffness.transpose();
+    const auto rows = [&](const ComplexVector& x) {
+      ComplexVector inner(static_cast<Eigen::Index>(interior.size()));
+      for (std::size_t i = 0; i < interior.size(); ++i) inner[static_cast<Eigen::Index>(i)] = x[interior[i]];
+      return inner;
+    };
+    const ComplexMatrix y = localShapes(synthesis.coupled.positions[p], right.vectors);
+    const ComplexMatrix z = localShapes(synthesis.coupled.positions[p], left);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Complex s = right.values[j];
+      const ComplexVector D = times(basis.vectors, y.col(j)), E = times(basis.vectors, z.col(j));
+      const ComplexVector MD = times(part.mass, D), CD = times(part.damping, D);
+      const ComplexVector r = s * s * MD + s * CD + times(part.stiffness, D);
+      const ComplexVector l = s * s * times(part.mass, E) + s * times(damping, E) + times(stiffness, E);
+      slope[j] += E.cwiseProduct(2.0 * s * MD + CD).sum();
+      if (flexibility.truncated() > 0) work[j] += truncatedWork(flexibility, mass, rows(l), rows(r), s);
+    }
+  }
+  for (Eigen::Index j = 0; j < count; ++j) work[j] = slope[j] != 0.0 ? -work[j] / slope[j] : Complex(0);
+  return work;
+}
+
+/// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest value.
+ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right) {
+  const int count = static_cast<int>(right.values.size());
+  const auto modes = linalg::lowestDampedModes(m.mass, Sparse(m.damping.transpose()), Sparse(m.stiffness.transpose()), count);
+  ComplexMatrix left(right.vectors.rows(), count);
+  std::vector<char> taken(static_cast<std::size_t>(modes.values.size()), 0);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    Eigen::Index best = -1;
+    for (Eigen::Index i = 0; i < modes.values.size(); ++i)
+      if (!taken[static_cast<std::size_t>(i)] &&
+          (best < 0 || std::abs(modes.values[i] - right.values[j]) < std::abs(modes.values[best] - right.values[j])))
+        best = i;
+    taken[static_cast<std::size_t>(best)] = 1;
+    left.col(j) = modes.vectors.col(best);
+  }
+  return left;
+}
+
+}  // namespace
+
+double ModeComparison::fullHz() const { return (full.imag() < 0 ? -1.0 : 1.0) * std::abs(full) / twoPi; }
+double ModeComparison::coupledHz() const { return (coupled.imag() < 0 ? -1.0 : 1.0) * std::abs(coupled) / twoPi; }
+
+Linearised linearise(const model::SecondOrderModel& model, double t) {
+  return {reduction::symmetricPart(model.mass), model.dampingAt(t) + pointDamping(model, t),
+          model.stiffnessAt(t) + model.pointStiffness(t, model.initialDisplacement, model.initialVelocity)};
+}
+
+ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
+                      const coupling::Synthesis& synthesis, const ComplexMatrix& shapes) {
+  std::map<model::DofLabel, Eigen::Index> position;
+  for (std::size_t i = 0; i < full.dofs.size(); ++i) position[full.dofs[i]] = static_cast<Eigen::Index>(i);
+  ComplexMatrix out = ComplexMatrix::Zero(full.size(), shapes.cols());
+  std::vector<char> found(full.dofs.size(), 0);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const ComplexMatrix q = localShapes(synthesis.coupled.positions[p], shapes);
+    const ComplexMatrix D = synthesis.parts[p].basis.vectors.cast<Complex>() * q;
+    for (std::size_t i = 0; i < parts[p].model.dofs.size(); ++i) {
+      const auto it = position.find(parts[p].model.dofs[i]);
+      if (it == position.end()) continue;
+      out.row(it->second) = D.row(static_cast<Eigen::Index>(i));
+      found[static_cast<std::size_t>(it->second)] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!found[i])
+      throw ModelError("The " + model::describe(full.dofs[i], full.componentNames) + " is in no part, so full and coupled modes cannot be compared.");
+  return out;
+}
+
+Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatrix& b) {
+  const Eigen::SparseMatrix<Complex, Eigen::RowMajor> mass = M.cast<Complex>();
+  const ComplexMatrix Mb = mass * b;
+  const ComplexMatrix Ma = mass * a;
+  Matrix mac = (a.adjoint() * Mb).cwiseAbs2();
+  for (Eigen::Index i = 0; i < a.cols(); ++i) mac.row(i) /= std::max(a.col(i).dot(Ma.col(i)).real(), 1e-300);
+  for (Eigen::Index j = 0; j < b.cols(); ++j) mac.col(j) /= std::max(b.col(j).dot(Mb.col(j)).real(), 1e-300);
+  return mac;
+}
+
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
+                                         const coupling::Synthesis& synthesis, int count) {
+  const Sparse mass = reduction::symmetricPart(full.mass);
+  const auto exact = linalg::lowestModes(linearisedStiffness(full), mass, std::min(count, full.size()));
+  const auto& coupled = synthesis.coupled.model;
+  const int looked = std::min(count + moreModes, coupled.size());
+  const auto pairs = linalg::lowestModes(linearisedStiffness(coupled), reduction::symmetricPart(coupled.mass), looked);
+  const auto estimates = estimateFrequencies(parts, synthesis, {looked, 0});
+  std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
+  match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>())), modes);
+  const auto root = [](double eigenvalue) { return Complex(0, reduction::signedOmega(eigenvalue)); };
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    ModeComparison& mode = modes[i];
+    mode.full = root(exact.values[static_cast<Eigen::Index>(i)]);
+    mode.coupled = root(pairs.values[mode.coupledMode]);
+    mode.error = mode.full == 0.0 ? 0.0 : mode.coupled.imag() / mode.full.imag() - 1.0;
+    const auto& e = estimates[static_cast<std::size_t>(mode.coupledMode)];
+    mode.estimate = e.error;
+    mode.definite = e.definite;
+  }
+  return modes;
+}
+
+std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
+                                               const coupling::Synthesis& synthesis, int count, double t) {
+  const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
+  const auto exact = linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness, std::min(count, full.size()));
+  const int looked = std::min(count + moreModes, synthesis.coupled.model.size());
+  const auto coupled = linalg::lowestDampedModes(small.mass, small.damping, small.stiffness, looked);
+  const ComplexVector errors = dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t);
+  std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
+  match(modalAssurance(whole.mass, exact.vectors, recover(full, parts, synthesis, coupled.vectors)), modes);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    ModeComparison& mode = modes[i];
+    mode.full = exact.values[static_cast<Eigen::Index>(i)];
+    mode.coupled = coupled.values[mode.coupledMode];
+    mode.error = mode.full == 0.0 ? 0.0 : std::abs(mode.coupled - mode.full) / std::abs(mode.full);
+    mode.estimate = mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
+  }
+  return modes;
+}
+
+std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped) {
+  std::string text = damped ? "  mode       full [Hz]    coupled [Hz]   damping full / coupled         MAC       error    estimate\n"
+                            : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const ModeComparison& m = modes[i];
+    char line[200];
+    if (damped)
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %10.2e\n", i + 1, m.fullHz(), m.coupledHz(),
+                    m.fullDamping(), m.coupledDamping(), m.mac, m.error, m.estimate);
+    else
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %10.2e%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac, m.error,
+                    m.estimate, m.definite ? "" : "  (a part lacks a mode below)");
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace tooljoint::estimate
