@@ -289,7 +289,8 @@ class Team {
                             "the basis \"Craig-Bampton\".");
           const Vector shares = interfaceShares(parts_[p], bases_[p], rule.kind);
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
-          if (keep.empty() && (bases_[p].complete || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
+          const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();
+          if (keep.empty() && (all || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
             keep.assign(static_cast<std::size_t>(shares.size()), shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
           else if (keep.empty()) {
             requests_[p].count *= 2;

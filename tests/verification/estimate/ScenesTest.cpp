@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Estimated against true errors over the scenes of xml/, and tolerances that are met there.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "app/Scene.hpp"
+#include "app/Stages.hpp"
+#include "estimate/AdaptiveReduction.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "tests/support/Scenes.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+std::string folder() { return std::string(TOOLJOINT_SOURCE_DIR) + "/xml/"; }
+
+/// Every scene with a Reduction list.
+std::vector<std::string> scenes() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder()))
+    if (entry.path().extension() == ".xml" && app::readScene(entry.path().string(), {}).reduces()) files.push_back(entry.path().filename().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// A scene at rest with its full model, taken through reductions that differ in the choice of modes.
+struct Case {
+  std::string file;
+  std::vector<std::string> overrides;
+  app::Scene scene;
+  app::StaticStage stage;
+  model::SecondOrderModel full;
+
+  Case(const std::string& name, const std::vector<std::string>& more = {})
+      : file(folder() + name), overrides(more), scene(app::readScene(file, more)), stage(app::settle(scene)), full(app::fullModel(stage)) {}
+
+  /// The scene with another Reduction list.
+  app::Scene with(const std::vector<std::string>& reduction) const {
+    std::vector<std::string> all = overrides;
+    all.emplace_back("!Reduction");
+    all.insert(all.end(), reduction.begin(), reduction.end());
+    return app::readScene(file, all);
+  }
+};
+
+/// Estimate over true error of every frequency whose error is above rounding.
+std::vector<double> ratios(const Case& c, const std::string& choice, int count) {
+  const auto scene = c.with({"Reduction/" + choice});
+  const auto parts = app::cut(scene, c.stage);
+  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
+  std::vector<double> all;
+  for (const auto& mode : estimate::compareModes(c.full, parts, outcome.synthesis, count))
+    if (mode.error > 1e-9 && mode.mac > 0.9) all.push_back(mode.estimate / mode.error);
+  const auto [low, high] = std::minmax_element(all.begin(), all.end());
+  if (!all.empty()) std::printf("%-28s %zu of %d frequencies: estimate over error %.3f to %.3f\n", choice.c_str(), all.size(), count, *low, *high);
+  return all;
+}
+
+TEST(FrequencyEstimates, AreWithinAFactorOfThreeOfTheTrueErrors) {
+  int counted = 0;
+  const auto look = [&](const Case& c, const std::string& choice) {
+    for (double ratio : ratios(c, choice, 20)) {
+      EXPECT_GT(ratio, 1.0 / 3.0) << choice;
+      EXPECT_LT(ratio, 3.0) << choice;
+      ++counted;
+    }
+  };
+  const Case parts("helical_170m.xml");
+  for (const char* cutOff : {"10", "25", "100", "400"}) look(parts, std::string("Cut-off Frequency=") + cutOff);
+  const Case single("helical_170m_source.xml");
+  for (const char* modes : {"30", "60", "180"}) look(single, std::string("Modes=") + modes);
+  EXPECT_GT(counted, 100);
+}
+
+TEST(FrequencyTolerance, IsMetOnEveryScene) {
+  ASSERT_FALSE(scenes().empty());
+  for (const auto& file : scenes()) {
+    const Case c(file);
+    for (double tolerance : {1e-2, 1e-4}) {
+      char choice[64];
+      std::snprintf(choice, sizeof choice, "Reduction/Frequency Tolerance=%g", tolerance);
+      const auto scene = c.with({choice});
+      const auto parts = app::cut(scene, c.stage);
+      const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
+      // By number, not by shape: the i-th coupled frequency is the i-th full one.
+      const Vector full = linalg::lowestModes(estimate::linearisedStiffness(c.full), reduction::symmetricPart(c.full.mass), 20).values;
+      double worst = 0;
+      for (int i = 0; i < 20; ++i)
+        worst = std::max(worst, std::abs(outcome.frequencies[static_cast<std::size_t>(i)].frequency() * 6.28318530717958647692 /
+                                             reduction::signedOmega(full[i]) -
+                                         1.0));
+      std::printf("%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate %.1e\n", file.c_str(), tolerance,
+                  outcome.rounds.back().modes, outcome.rounds.size(), outcome.synthesis.coupled.model.size(), c.full.size(), worst,
+                  outcome.rounds.back().frequencyError);
+      EXPECT_LE(worst, tolerance) << file;
+    }
+  }
+}
+
+/// |(u, v) - (u, v)_ref| / |(u, v)_ref - (u, v)_static|.
+double dyn(const std::vector<Vector>& motion, const std::vector<Vector>& reference, const Vector& rest) {
+  double error = 0, size = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    for (Eigen::Index row = 0; row < rest.size(); ++row)
+      if (row % 6 < 2) {
+        error += std::pow(motion.at(i)[row] - reference[i][row], 2);
+        size += std::pow(reference[i][row] - rest[row], 2);
+      }
+  return std::sqrt(error / size);
+}
+
+/// Records a motion and estimates its error.
+class Watched : public transient::SampleSink {
+ public:
+  Watched(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis, const Vector& rest)
+      : history_(synthesis.coupled.model), estimator_(parts, synthesis, rest) {}
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
+    history_.sample(t, q, qDot, qDDot);
+    estimator_.sample(t, q, qDot, qDDot);
+  }
+  const std::vector<Vector>& columns() const { return history_.columns(); }
+  estimate::MotionEstimate result() const { return estimator_.result(); }
+
+ private:
+  testing_::History history_;
+  estimate::MotionEstimator estimator_;
+};
+
+const std::vector<std::string> window{"Transient/End Time=3", "Transient/Progress=false"};
+
+TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
+  const Case c("helical_170m.xml", window);
+  const Vector rest = c.stage.state.displacement;
+  const auto reference = testing_::move(c.scene, c.full);
+  for (const char* cutOff : {"25", "50", "100", "200", "400"}) {
+    const auto scene = c.with({std::string("Reduction/Cut-off Frequency=") + cutOff});
+    const auto parts = app::cut(scene, c.stage);
+    const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
+    Watched watched(parts, outcome.synthesis, rest);
+    const auto report = transient::integrate(outcome.synthesis.coupled.model, scene.list().sublist("Transient"), watched);
+    const double truth = dyn(watched.columns(), reference, rest);
+    const auto estimate = watched.result();
+    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff, truth, estimate.error, estimate.error / truth,
+                estimate.wall, report.wall);
+    EXPECT_GT(estimate.error, truth / 3.0) << cutOff;
+    EXPECT_LT(estimate.error, truth * 3.0) << cutOff;
+  }
+}
+
+TEST(MotionTolerance, IsMetOnTheReferenceScene) {
+  const Case c("helical_170m.xml", window);
+  const Vector rest = c.stage.state.displacement;
+  const auto reference = testing_::move(c.scene, c.full);
+  for (double tolerance : {5e-2, 5e-3}) {
+    char choice[64];
+    std::snprintf(choice, sizeof choice, "Reduction/Motion Tolerance=%g", tolerance);
+    const auto scene = c.with({choice});
+    const auto& transient = scene.list().sublist("Transient");
+    const auto parts = app::cut(scene, c.stage);
+    const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
+      estimate::MotionEstimator estimator(parts, synthesis, rest);
+      transient::integrate(synthesis.coupled.model, transient, estimator);
+      return estimator.result();
+    });
+    const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
+    std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
+                outcome.rounds.back().motionError, truth);
+    EXPECT_LE(truth, tolerance);
+  }
+}
+
+}  // namespace
