@@ -174,7 +174,8 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         request.count = firstCandidates;
         break;
       case ModeRule::Kind::Tolerance:
-        throw Error(ExitCode::Internal, "A tolerance of the coupled model cannot be met part by part: use estimate::synthesise.");
+        throw DeckError("\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not part by part: `tooljoint run` and "
+                        "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a cut-off frequency.");
     }
   }
   return requests;

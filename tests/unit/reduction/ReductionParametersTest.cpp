@@ -68,13 +68,32 @@ TEST(ReductionParameters, ExactlyOneModeCount) {
   EXPECT_EQ(refusal(list, 4),
             "Reduction does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
             "Substructure\", \"Total Modes\", "
-            "\"Cut-off Frequency\", \"All Modes\".");
+            "\"Cut-off Frequency\", \"All Modes\", \"Effective Interface Mass\", \"Interface Moment\", \"Frequency Tolerance\", \"Motion "
+            "Tolerance\".");
   list.set("Modes", 3);
   EXPECT_EQ(refusal(list, 4), "accepted");
   list.set("Total Modes", 30);
   EXPECT_EQ(refusal(list, 4),
             "Reduction gives \"Modes\", \"Total Modes\" together: they are different answers to how many modes to "
             "keep. Give exactly one.");
+}
+
+TEST(ReductionParameters, CriteriaAndTolerances) {
+  auto list = defaults();
+  list.set("Interface Moment", 0.9);
+  EXPECT_EQ(readOptions(list, 4).modes.kind, ModeRule::Kind::InterfaceMoment);
+  EXPECT_EQ(readOptions(list, 4).modes.fraction, 0.9);
+  list.set("Motion Tolerance", 0.02);
+  EXPECT_EQ(refusal(list, 4),
+            "Reduction gives \"Interface Moment\", \"Motion Tolerance\" together: they are different answers to how many modes to keep. Give "
+            "exactly one.");
+  list.remove("Interface Moment");
+  list.set("Frequency Tolerance", 1e-3);
+  const auto rule = readOptions(list, 4).modes;
+  EXPECT_EQ(rule.kind, ModeRule::Kind::Tolerance) << "both tolerances hold together";
+  EXPECT_EQ(rule.frequencyTolerance, 1e-3);
+  EXPECT_EQ(rule.motionTolerance, 0.02);
+  EXPECT_THROW(reduceAll(samples::loopFrame(4, false), list), DeckError) << "no tolerance can be met part by part";
 }
 
 TEST(ReductionParameters, OneEntryForEachSubstructure) {
