@@ -59,20 +59,27 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
 /// What identical parts share beside their core.
 struct Shared {
   explicit Shared(const model::Substructure& like, const Sparse& Phi)
-      : part(like), transposed(Phi.transpose()), stiffness(stiffnessTerms(like.model)) {}
+      : part(like), stiffness(stiffnessTerms(like.model)), transposed(Phi.transpose()) {
+    if (static_cast<double>(Phi.nonZeros()) > 0.1 * static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols())) dense = transposed;
+  }
+  /// Phi' x
+  Vector project(const Vector& x) const { return dense.size() > 0 ? Vector(dense * x) : Vector(transposed * x); }
   const model::Substructure& part;
-  Sparse transposed;                          ///< Phi'
   std::vector<model::MatrixTerm> stiffness;  ///< stiffnessTerms
   Sparse recovery;                            ///< of the part times Phi
+
+ private:
+  Sparse transposed;  ///< Phi'
+  Matrix dense;       ///< the same where it has few zeros
 };
 
 void reduceLoads(const model::Substructure& part, const Shared& shared, const Vector& offset, model::SecondOrderModel& reduced) {
-  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, shared.transposed * load.vector, load.law});
+  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, shared.project(load.vector), load.law});
   if (offset.isZero(0.0)) return;
   // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
   for (const auto& term : shared.stiffness) {
     const Vector residual = -(term.matrix * offset);
-    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.transposed * residual, term.law});
+    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.project(residual), term.law});
   }
 }
 
@@ -133,8 +140,11 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   for (std::size_t j = 0; j < p.kept.size() && j < out.report.rows.size(); ++j)
     if (out.report.rows[j].kind == "constraint") out.report.rows[j].name = model::describe(m.dofs[j], m.componentNames);
   const double size = part.model.initialDisplacement.norm();
-  if (size > 0)
-    out.report.initialStateDefect = (part.model.initialDisplacement - out.offset - Phi * m.initialDisplacement).norm() / size;
+  if (size > 0) {
+    Vector missed = part.model.initialDisplacement - out.offset;
+    if (!m.initialDisplacement.isZero(0.0)) missed -= Phi * m.initialDisplacement;
+    out.report.initialStateDefect = missed.norm() / size;
+  }
   if (&part == &shared.part) m.validate();
   return out;
 }
