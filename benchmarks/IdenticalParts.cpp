@@ -5,6 +5,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
 #include <benchmark/benchmark.h>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,17 +18,21 @@ namespace {
 using namespace tooljoint;
 
 /// The pipes between the first and the last, which other supports hold.
-const std::vector<model::Substructure>& pipes() {
-  static const std::vector<model::Substructure> inner = [] {
-    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml", {});
+const std::vector<model::Substructure>& pipes(long elements) {
+  static std::map<long, std::vector<model::Substructure>> known;
+  auto& inner = known[elements];
+  if (inner.empty()) {
+    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml",
+                                      {"Drillstring/Components/pipe/Segments/body/Elements=" + std::to_string(elements)});
     const auto parts = app::cut(scene, app::settle(scene));
-    return std::vector<model::Substructure>(parts.begin() + 1, parts.end() - 1);
-  }();
+    inner.assign(parts.begin() + 1, parts.end() - 1);
+  }
   return inner;
 }
 
 void reduceIdenticalPipes(benchmark::State& state) {
-  const std::vector<model::Substructure> parts(pipes().begin(), pipes().begin() + state.range(0));
+  const auto& all = pipes(state.range(2));
+  const std::vector<model::Substructure> parts(all.begin(), all.begin() + state.range(0));
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {static_cast<int>(state.range(1))};
@@ -41,7 +46,10 @@ void reduceIdenticalPipes(benchmark::State& state) {
   }
   if (shared != state.range(0) - 1) state.SkipWithError("identical pipes were not found");
 }
-BENCHMARK(reduceIdenticalPipes)->ArgNames({"pipes", "modes"})->ArgsProduct({{1, 10, 100}, {12}})->Unit(benchmark::kMillisecond);
+BENCHMARK(reduceIdenticalPipes)
+    ->ArgNames({"pipes", "modes", "elements"})
+    ->ArgsProduct({{1, 100}, {12}, {10, 20, 30}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
