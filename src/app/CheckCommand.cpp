@@ -46,6 +46,16 @@ void listPhysics(const Scene& scene) {
   item(unbalance, "mass unbalance", std::to_string(scene.loads.unbalances.size()) + (turns ? " places" : " places, but nothing turns"));
 }
 
+/// How the modes are chosen when a tolerance does it, and which errors are estimated.
+void listEstimates(const Teuchos::ParameterList& reduction) {
+  std::vector<std::string> tolerances;
+  for (const char* name : {"Frequency Tolerance", "Motion Tolerance"})
+    if (reduction.isParameter(name)) tolerances.push_back(std::string(name) + " " + formatNumber(reduction.get<double>(name)));
+  if (!tolerances.empty()) item(true, "modes by tolerance", join(tolerances, ", ") + ": in rounds" + (reduction.isParameter("Motion Tolerance") ? ", each with a transient" : ""));
+  const auto estimated = reduction.get<std::string>("Error Estimate");
+  item(estimated != "None", "error estimate", estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\"");
+}
+
 void listWork(const Scene& scene) {
   log::info("computed:");
   item(true, "path and static state", std::to_string(scene.freeDofs()) + " dofs");
@@ -53,6 +63,7 @@ void listWork(const Scene& scene) {
     const auto parts = string_::cutParts(scene.string, scene.partition);
     item(true, "reduction", std::to_string(parts.size()) + " parts (" + scene.partition.rule + "), retained nodes: " + scene.partition.retainedNodes +
                                 ", chosen when the static state is known");
+    listEstimates(scene.list().sublist("Reduction"));
   } else {
     item(false, "reduction", "no Reduction list: the full model runs");
   }

@@ -158,6 +158,7 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
 
 void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary) {
   if (!outcome.rounds.empty()) summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
+  if (!outcome.rounds.empty() || !outcome.frequencies.empty()) summary.set("reduction.estimate.wall_s", outcome.wall);
   if (outcome.frequencies.empty()) return;
   for (const auto& e : outcome.frequencies) {
     Eigen::Index worst = 0;
@@ -168,7 +169,6 @@ void summarise(const estimate::Outcome& outcome, const std::vector<model::Substr
     summary.append("reduction.estimate.frequencies", row);
   }
   summary.set("reduction.estimate.frequency_error", estimate::largestError(outcome.frequencies));
-  summary.set("reduction.estimate.wall_s", outcome.wall);
 }
 
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary) {
