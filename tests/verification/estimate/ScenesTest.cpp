@@ -11,6 +11,7 @@
 
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
+#include "common/Error.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/Scenes.hpp"
@@ -21,11 +22,17 @@ using namespace tooljoint;
 
 std::string folder() { return std::string(TOOLJOINT_SOURCE_DIR) + "/xml/"; }
 
-/// Every scene with a Reduction list.
+/// Every deck of xml/ that is a scene with a Reduction list.
 std::vector<std::string> scenes() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder()))
-    if (entry.path().extension() == ".xml" && app::readScene(entry.path().string(), {}).reduces()) files.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    if (entry.path().extension() != ".xml") continue;
+    try {
+      if (app::readScene(entry.path().string(), {}).reduces()) files.push_back(entry.path().filename().string());
+    } catch (const Error& notAScene) {
+      std::printf("left out: %s\n", notAScene.what());
+    }
+  }
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -80,7 +87,7 @@ TEST(FrequencyEstimates, AreWithinAFactorOfThreeOfTheTrueErrors) {
 }
 
 TEST(FrequencyTolerance, IsMetOnEveryScene) {
-  ASSERT_FALSE(scenes().empty());
+  ASSERT_GE(scenes().size(), 2u);
   for (const auto& file : scenes()) {
     const Case c(file);
     for (double tolerance : {1e-2, 1e-4}) {
@@ -154,25 +161,37 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   }
 }
 
+/// dyn of a scene with as many modes as the tolerance takes, against the full model.
+double chosen(const Case& c, const std::vector<Vector>& reference, double tolerance) {
+  const Vector rest = c.stage.state.displacement;
+  char choice[64];
+  std::snprintf(choice, sizeof choice, "Reduction/Motion Tolerance=%g", tolerance);
+  const auto scene = c.with({choice});
+  const auto& transient = scene.list().sublist("Transient");
+  const auto parts = app::cut(scene, c.stage);
+  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
+    estimate::MotionEstimator estimator(parts, synthesis, rest);
+    transient::integrate(synthesis.coupled.model, transient, estimator);
+    return estimator.result();
+  });
+  const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
+  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
+              outcome.rounds.back().motionError, truth);
+  return truth;
+}
+
 TEST(MotionTolerance, IsMetOnTheReferenceScene) {
   const Case c("helical_170m.xml", window);
-  const Vector rest = c.stage.state.displacement;
   const auto reference = testing_::move(c.scene, c.full);
-  for (double tolerance : {5e-2, 5e-3}) {
-    char choice[64];
-    std::snprintf(choice, sizeof choice, "Reduction/Motion Tolerance=%g", tolerance);
-    const auto scene = c.with({choice});
-    const auto& transient = scene.list().sublist("Transient");
-    const auto parts = app::cut(scene, c.stage);
-    const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
-      estimate::MotionEstimator estimator(parts, synthesis, rest);
-      transient::integrate(synthesis.coupled.model, transient, estimator);
-      return estimator.result();
-    });
-    const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
-    std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
-                outcome.rounds.back().motionError, truth);
-    EXPECT_LE(truth, tolerance);
+  for (double tolerance : {5e-2, 5e-3}) EXPECT_LE(chosen(c, reference, tolerance), tolerance);
+}
+
+TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
+  for (const auto& file : scenes()) {
+    if (file == "helical_170m.xml") continue;
+    const Case c(file, {"Transient/End Time=0.2", "Transient/Progress=false"});
+    std::printf("%s, 0.2 s: ", file.c_str());
+    EXPECT_LE(chosen(c, testing_::move(c.scene, c.full), 2e-2), 2e-2) << file;
   }
 }
 
