@@ -19,7 +19,10 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
   constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {
     std::vector<reduction::BasisResult> bases;
-    for (const auto& part : result.parts) bases.push_back(part.basis);
+    for (const auto& part : result.parts) {
+      bases.push_back(part.basis);
+      bases.back().rows = part.report.rows;
+    }
     bool improved = false;
     parallel::agree([&] { improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases); });
     if (!improved) return result;

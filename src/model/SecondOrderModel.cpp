@@ -13,8 +13,13 @@ std::string describe(const DofLabel& label, const ComponentNames& names) {
   if (label.kind == DofLabel::Kind::Modal)
     return "mode " + std::to_string(label.component + 1) + " of part " + std::to_string(label.entity + 1);
   const auto c = static_cast<std::size_t>(label.component);
-  const std::string component = c < names.size() ? names[c] : "component " + std::to_string(label.component + 1);
-  return component + " of node " + std::to_string(label.entity);
+  std::string text;
+  text.reserve(40);
+  if (c < names.size())
+    text += names[c];
+  else
+    text.append("component ").append(std::to_string(label.component + 1));
+  return text.append(" of node ").append(std::to_string(label.entity));
 }
 
 int SecondOrderModel::lawIndex(const ScalarLaw& law) {

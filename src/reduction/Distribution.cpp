@@ -167,33 +167,41 @@ void raiseToRows(const Sparse& a, Vector& size) {
     for (Sparse::InnerIterator it(a, i); it; ++it) size[i] = std::max(size[i], std::abs(it.value()));
 }
 
-bool samePattern(const Sparse& a, const Sparse& b) {
-  return a.isCompressed() && b.isCompressed() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr());
+/// One row of two matrices whose patterns differ there.
+bool equalRow(const Sparse& a, const Sparse& b, int i, const Vector& s) {
+  Sparse::InnerIterator x(a, i), y(b, i);
+  while (x || y) {
+    const Eigen::Index column = std::min(x ? x.col() : a.cols(), y ? y.col() : a.cols());
+    double difference = 0;
+    if (x && x.col() == column) difference += x.value(), ++x;
+    if (y && y.col() == column) difference -= y.value(), ++y;
+    if (!(std::abs(difference) <= s[i] * s[column])) return false;
+  }
+  return true;
 }
 
 /// |a_ij - b_ij| <= s_i s_j with s_i^2 = sameEntry r_i, r the size of the rows: as strict for moments as for forces.
 bool equal(const Sparse& a, const Sparse& b, const Vector& s) {
   if (a.rows() != s.size() || b.rows() != a.rows() || a.cols() != a.rows() || b.cols() != b.rows()) return false;
-  if (samePattern(a, b)) {
-    const double* x = a.valuePtr();
-    const double* y = b.valuePtr();
-    const int* column = a.innerIndexPtr();
+  if (!a.isCompressed() || !b.isCompressed()) {
     for (int i = 0; i < a.rows(); ++i)
-      for (int k = a.outerIndexPtr()[i]; k < a.outerIndexPtr()[i + 1]; ++k)
-        if (!(std::abs(x[k] - y[k]) <= s[i] * s[column[k]])) return false;
+      if (!equalRow(a, b, i, s)) return false;
     return true;
   }
-  for (int i = 0; i < a.outerSize(); ++i) {
-    Sparse::InnerIterator x(a, i), y(b, i);
-    while (x || y) {
-      const Eigen::Index column = std::min(x ? x.col() : a.cols(), y ? y.col() : a.cols());
-      double difference = 0;
-      if (x && x.col() == column) difference += x.value(), ++x;
-      if (y && y.col() == column) difference -= y.value(), ++y;
-      if (!(std::abs(difference) <= s[i] * s[column])) return false;
+  const int* ai = a.outerIndexPtr();
+  const int* bi = b.outerIndexPtr();
+  for (int i = 0; i < a.rows(); ++i) {
+    const int width = ai[i + 1] - ai[i];
+    const int* column = a.innerIndexPtr() + ai[i];
+    if (bi[i + 1] - bi[i] != width || !std::equal(column, column + width, b.innerIndexPtr() + bi[i])) {
+      if (!equalRow(a, b, i, s)) return false;
+      continue;
     }
+    const double* x = a.valuePtr() + ai[i];
+    const double* y = b.valuePtr() + bi[i];
+    bool near = true;
+    for (int k = 0; k < width; ++k) near = near & (std::abs(x[k] - y[k]) <= s[i] * s[column[k]]);
+    if (!near) return false;
   }
   return true;
 }
@@ -246,13 +254,13 @@ class Pattern {
   std::vector<Vector> sizes_;  ///< of the mass, the stiffness terms and the damping terms
 };
 
-/// Sum of the entries of all matrices in units that parts with equal ones share: what differs here by more than rounding is not
+/// Sum of the sizes of the entries of all stiffness terms (of the mass, without any): what differs here by more than rounding is not
 /// looked at any closer.
 double signature(const model::SecondOrderModel& model) {
   const auto sum = [](const Sparse& a) { return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum() : 0.0; };
-  double total = sum(model.mass);
-  for (const auto* terms : {&model.stiffness, &model.damping})
-    for (const auto& term : *terms) total += sum(term.matrix);
+  if (model.stiffness.empty()) return sum(model.mass);
+  double total = 0;
+  for (const auto& term : model.stiffness) total += sum(term.matrix);
   return total;
 }
 

@@ -37,7 +37,8 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   report.interior = static_cast<int>(basis.partition.interior.size());
   report.modes = basis.modes();
   report.negativeModes = static_cast<int>((basis.eigenvalues.array() < 0).count());
-  report.rows = basis.rows;
+  report.rows = std::move(core.basis.rows);
+  core.basis.rows.clear();
   report.orthogonality = basis.orthogonality;
   report.massDefect = core.matrices.massDefect;
   report.stiffnessDefect = core.matrices.stiffnessDefect;
@@ -122,6 +123,7 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   model::SecondOrderModel& m = out.model;
   m.componentNames = part.model.componentNames;
   m.laws = part.model.laws;
+  m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
   for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
   for (int k = 0; k < out.modes; ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
   m.mass = core.matrices.mass;
@@ -152,7 +154,8 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
 std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>& parts, const ReductionOptions& options) {
   const ModeRule& rule = options.modes;
   double interior = 0;
-  for (const auto& part : parts) interior += static_cast<double>(part.interior().size());
+  if (rule.kind == ModeRule::Kind::Total)
+    for (const auto& part : parts) interior += static_cast<double>(part.interior().size());
   std::vector<ModeRequest> requests(parts.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     ModeRequest& request = requests[p];

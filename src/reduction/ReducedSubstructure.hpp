@@ -19,7 +19,7 @@ struct ReducedSubstructure {
   int retained = 0;               ///< the next `retained` ones are physical dofs of this part alone
   int modes = 0;                  ///< the last `modes` ones are modal
   Vector offset;                  ///< D at q = 0, dofs of the part: the static state, or zero
-  BasisResult basis;
+  BasisResult basis;              ///< its rows stand in the report
   BasisReport report;
 
   int size() const { return model.size(); }
