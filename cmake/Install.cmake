@@ -16,6 +16,11 @@ endif()
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp" PATTERN app EXCLUDE)
 install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint OPTIONAL)
+# The program finds its scripts beside itself, in the build tree as in the install tree.
+foreach(script plot_study.py)
+  configure_file(tools/${script} ${PROJECT_BINARY_DIR}/share/tooljoint/tools/${script} COPYONLY)
+  install(PROGRAMS tools/${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
+endforeach()
 
 install(EXPORT TooljointTargets NAMESPACE Tooljoint:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/TooljointConfig.cmake.in ${PROJECT_BINARY_DIR}/TooljointConfig.cmake INSTALL_DESTINATION ${package_dir})

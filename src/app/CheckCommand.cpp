@@ -5,6 +5,7 @@
 #include "app/Commands.hpp"
 #include "app/Report.hpp"
 #include "app/Scene.hpp"
+#include "app/StudyPlan.hpp"
 #include "common/Log.hpp"
 #include "common/Text.hpp"
 
@@ -85,6 +86,14 @@ void listWork(const Scene& scene) {
   item(true, "results.h5", size);
 }
 
+void listStudy(const Scene& scene) {
+  const auto plan = planStudy(scene);
+  const auto runs = plan.runs.size() - plan.referenceRuns();
+  item(true, "study", std::to_string(runs) + " runs of " + std::to_string(plan.settings.methods.size()) + " methods, each " +
+                          std::to_string(plan.settings.repeats) + " times, and " + std::to_string(plan.referenceRuns()) +
+                          " of the reference; to " + formatNumber(plan.end) + " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)");
+}
+
 }  // namespace
 
 void check(const RunOptions& options) {
@@ -93,6 +102,7 @@ void check(const RunOptions& options) {
   log::info(describeScene(scene));
   listPhysics(scene);
   listWork(scene);
+  if (scene.list().isSublist("Study")) listStudy(scene);
 }
 
 }  // namespace tooljoint::app

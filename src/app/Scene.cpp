@@ -11,6 +11,7 @@
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "substructures/string/ContactNodes.hpp"
+#include "study/StudyParameters.hpp"
 #include "substructures/string/DrillstringReader.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
@@ -34,6 +35,7 @@ deck::ListSpec sceneSpec() {
   scene.list(reduction::parameters());
   scene.list(transient::parameters());
   scene.list(io::parameters());
+  scene.list(study::parameters());
   return scene;
 }
 
@@ -151,6 +153,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
   faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
   if (list.isSublist("Transient")) faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
+  if (list.isSublist("Study")) faults.attempt([&] { study::readStudy(list.sublist("Study")); });
   const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
   faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();

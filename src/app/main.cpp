@@ -74,6 +74,11 @@ int run(int argc, char** argv) {
   runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from");
   runCommand->callback([&] { command = [&] { app::run(options); }; });
 
+  auto* studyCommand = program.add_subcommand("study", "speed against error: the runs of the deck's Study list against its reference run");
+  addDeckOptions(*studyCommand, options, true);
+  studyCommand->add_flag("--fresh", options.fresh, "forget the runs an earlier study left in the folder");
+  studyCommand->callback([&] { command = [&] { app::study(options); }; });
+
   auto* checkCommand = program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
   addDeckOptions(*checkCommand, options, false);
   checkCommand->callback([&] { command = [&] { app::check(options); }; });

@@ -15,7 +15,7 @@ namespace {
 struct Override {
   std::vector<std::string> path;
   std::string value;
-  bool removes = false;  ///< "!PATH": the list is taken out
+  bool removes = false;  ///< "!PATH": the list or parameter is taken out
   Place place;
 };
 
@@ -124,9 +124,11 @@ class Applier {
     return true;
   }
 
-  /// Take a list out; one that the deck could hold but does not is no fault, so that a switch works on every deck.
+  /// Take a list, or a parameter, out; one that the deck could hold but does not is no fault, so that a switch works on every deck.
   void remove(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {
-    if (!list.removeList(item.path.back())) missing(item, path, item.path.back(), list, spec);
+    const std::string& name = item.path.back();
+    if (list.removeList(name) || list.removeParameter(name)) return;
+    if (spec == nullptr || spec->findParameter(name) == nullptr) missing(item, path, name, list, spec);
   }
 
   void missing(const Override& item, const std::string& path, const std::string& name, const RawList& list,

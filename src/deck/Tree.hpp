@@ -75,6 +75,15 @@ class RawList {
     for (std::size_t i = 0; i < lists_.size(); ++i) listIndex_.emplace(lists_[i].name, i);
     return true;
   }
+  /// Take a parameter out; false when there is none of that name.
+  bool removeParameter(const std::string& unwanted) {
+    const auto it = parameterIndex_.find(unwanted);
+    if (it == parameterIndex_.end()) return false;
+    parameters_.erase(parameters_.begin() + static_cast<std::ptrdiff_t>(it->second));
+    parameterIndex_.clear();
+    for (std::size_t i = 0; i < parameters_.size(); ++i) parameterIndex_.emplace(parameters_[i].name, i);
+    return true;
+  }
 
  private:
   std::vector<RawParameter> parameters_;

@@ -57,6 +57,15 @@ TEST(Without, AnUnknownListIsNamedWithASuggestion) {
   }
 }
 
+TEST(Without, TakesAParameterOutSoThatItsDefaultReturns) {
+  const char* const heavy = R"(<ParameterList name="well"><ParameterList name="Mud">
+    <Parameter name="Density" type="double" value="1500"/></ParameterList></ParameterList>)";
+  const auto deck = deck::Deck::parse(heavy, "deck.xml", scene(), {"!Mud/Density"});
+  EXPECT_EQ(deck.list().sublist("Mud").get<double>("Density"), 1000.0);
+  EXPECT_FALSE(deck.gives("Mud/Density"));
+  EXPECT_NO_THROW(without("Mud/Density"));  // not given: no fault
+}
+
 TEST(Without, NeedsAPath) { EXPECT_THROW(without(""), UsageError); }
 
 }  // namespace

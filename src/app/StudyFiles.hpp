@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a study leaves in its folder: study.csv, study.h5, summary.json and pictures. docs/file-formats.md describes all of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/Stages.hpp"
+#include "app/StudyPlan.hpp"
+#include "io/OutputFolder.hpp"
+#include "io/Summary.hpp"
+#include "study/Row.hpp"
+
+namespace tooljoint::app {
+
+/// All rows of a study, reference first, and what they mean together.
+struct StudyResult {
+  const StudyPlan& plan;
+  const StaticStage* stage = nullptr;  ///< static state of the reference; null when it was not reached
+  std::vector<study::StudyRow> rows;
+  std::string machine;
+
+  /// The row of this kind when its run is done, else null.
+  const study::StudyRow* find(study::RunKind kind) const;
+};
+
+void stageStudyTable(const StudyResult& result, io::OutputFolder& folder);
+void stageStudyFile(const StudyResult& result, const Scene& scene, io::OutputFolder& folder);
+void summarise(const StudyResult& result, io::Summary& summary);
+
+/// What the reference is worth, in two lines.
+std::string describeReference(const StudyResult& result);
+
+/// Draws the plots of the files in a folder with the installed script: names of the files made. When that is not possible, warns with the
+/// command to draw them later. Rank 0 only.
+void drawStudy(const std::string& folder);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/StudyPlan.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "io/TextFile.hpp"
+#include "study/RowStore.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+double transientNumber(const Scene& scene, const char* name) { return scene.list().sublist("Transient").get<double>(name); }
+
+/// The lists of a deck that decide what is computed.
+Teuchos::ParameterList computed(const Scene& scene) {
+  auto list = scene.list();
+  list.remove("Output", false);
+  if (list.isSublist("Transient"))
+    for (const char* name : {"Progress", "Checkpoint Interval"}) list.sublist("Transient").remove(name, false);
+  return list;
+}
+
+class Planner {
+ public:
+  explicit Planner(const Scene& scene) : scene_(scene) {}
+
+  StudyPlan plan() {
+    if (!scene_.list().isSublist("Study"))
+      throw DeckError(scene_.deck.file() + ": /" + scene_.deck.name() + " has no Study list, so there is nothing to compare. Add one; tooljoint doc Study describes it.");
+    if (!scene_.moves()) throw DeckError(scene_.deck.error("Study", "compares motions, and the scene has no Transient list. Add one."));
+    plan_.settings = study::readStudy(scene_.list().sublist("Study"));
+    span();
+    auto planned = study::references(plan_.settings);
+    for (auto& run : study::expand(plan_.settings)) planned.push_back(std::move(run));
+    baseline(planned);
+    for (auto& run : planned) add(std::move(run));
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    compare();
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    return std::move(plan_);
+  }
+
+ private:
+  void fault(const std::string& path, const std::string& sentence) { keep(scene_.deck.error(path, sentence)); }
+  void keep(const std::string& line) {
+    if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
+  }
+
+  void span() {
+    plan_.start = transientNumber(scene_, "Start Time");
+    plan_.end = plan_.settings.end.value_or(transientNumber(scene_, "End Time"));
+    const double window = plan_.settings.window.value_or(std::min(study::defaultWindow, plan_.simulated()));
+    plan_.windowEnd = plan_.start + window;
+    if (!(plan_.end > plan_.start))
+      fault("Study/End Time", "is " + formatNumber(plan_.end) + " s, but the motion starts at " + formatNumber(plan_.start) + " s.");
+    else if (plan_.windowEnd > plan_.end * (1.0 + 1e-12))
+      fault("Study/Window", "reaches to " + formatNumber(plan_.windowEnd) + " s, but the runs end at " + formatNumber(plan_.end) +
+                                " s. Shorten it, or raise Study/End Time.");
+    else if (window < transientNumber(scene_, "Sampling Interval"))
+      fault("Study/Window", "of " + formatNumber(window) + " s is shorter than Transient/Sampling Interval (" +
+                                formatNumber(transientNumber(scene_, "Sampling Interval")) + " s): no motion would be compared.");
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+  }
+
+  void add(study::PlannedRun run) {
+    auto overrides = scene_.deck.overrides();
+    overrides.push_back("!Study");
+    overrides.push_back("Transient/End Time=" + formatNumber(plan_.end));
+    for (const auto& item : run.overrides) overrides.push_back(item.text);
+    try {
+      Scene scene = readScene(scene_.deck.file(), overrides);
+      plan_.runs.push_back({std::move(run), std::move(scene)});
+    } catch (const DeckError& error) {
+      for (const auto& line : split(error.what(), '\n')) relocate(run, line);
+    }
+  }
+
+  /// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the Study list that says so.
+  void relocate(const study::PlannedRun& run, const std::string& line) {
+    for (const auto& item : run.overrides) {
+      const auto place = (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
+      if (line.rfind(place, 0) != 0) continue;
+      fault(item.source, "says \"" + item.text + "\": " + line.substr(place.size()));
+      return;
+    }
+    fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
+  }
+
+  void baseline(const std::vector<study::PlannedRun>& planned) {
+    const auto& wanted = plan_.settings.baseline;
+    if (wanted.empty()) return;
+    std::vector<std::string> labels;
+    for (const auto& run : planned)
+      if (run.kind == study::RunKind::Method) labels.push_back(run.label);
+    if (std::find(labels.begin(), labels.end(), wanted) != labels.end()) return;
+    const auto near = closest(wanted, labels);
+    fault("Study/Baseline", "names no run: there is no \"" + wanted + "\"." + (near.empty() ? "" : " Did you mean \"" + near + "\"?") + " The runs are " +
+                                quotedList(labels) + ".");
+  }
+
+  /// Runs that can be compared have the same nodes at the same times, and are different.
+  void compare() {
+    const auto& reference = plan_.runs.front().scene;
+    std::map<std::string, std::string> seen;
+    for (const auto& run : plan_.runs) {
+      const auto& source = run.plan.source;
+      if (!run.scene.moves()) {
+        fault(source, "takes the Transient list out: nothing would move.");
+        continue;
+      }
+      if (run.scene.reduces() != run.plan.reduced)
+        fault(source, run.plan.reduced ? "asks for the reduced model, but its deck has no Reduction list. Add one to the deck or with Set."
+                                       : "asks for the full model, but puts a Reduction list back with Set.");
+      if (run.scene.string.nodeCount() != reference.string.nodeCount())
+        fault(source, "has " + std::to_string(run.scene.string.nodeCount()) + " nodes (" + run.plan.label + "), the reference " +
+                          std::to_string(reference.string.nodeCount()) + ": their motions cannot be compared node by node.");
+      if (run.plan.kind == study::RunKind::Sensitivity) continue;
+      const bool method = run.plan.kind == study::RunKind::Method;
+      const auto [it, fresh] = seen.emplace((method ? "" : "reference\n") + study::canonicalText(computed(run.scene)), run.plan.label);
+      if (!fresh) fault(source, "makes the run \"" + run.plan.label + "\", which is the same as \"" + it->second + "\". Change something, or leave it out.");
+    }
+  }
+
+  const Scene& scene_;
+  StudyPlan plan_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+bool StudyPlan::hasStatistics() const {
+  return settings.statistics && end - windowEnd > 1.5 * transientNumber(runs.front().scene, "Sampling Interval");
+}
+
+std::size_t StudyPlan::referenceRuns() const {
+  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) { return run.plan.kind != study::RunKind::Method; }));
+}
+
+StudyPlan planStudy(const Scene& scene) { return Planner(scene).plan(); }
+
+std::string contentOf(const Scene& scene) {
+  std::string text = study::canonicalText(computed(scene));
+  const auto file = [&](const Teuchos::ParameterList& list, const char* name) {
+    if (list.isParameter(name)) text += "\n" + io::readText(scene.deck.resolve(list.get<std::string>(name)));
+  };
+  file(scene.list().sublist("Drillstring"), "Library");
+  const auto& well = scene.list().sublist("Well");
+  if (well.isSublist("Survey")) file(well.sublist("Survey"), "File");
+  return text;
+}
+
+}  // namespace tooljoint::app

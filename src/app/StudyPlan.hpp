@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A study before it runs: every run with the deck it makes, read and checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/Scene.hpp"
+#include "study/StudyParameters.hpp"
+#include "study/Expansion.hpp"
+
+namespace tooljoint::app {
+
+/// One run and the scene its overrides make of the deck.
+struct StudyRun {
+  study::PlannedRun plan;
+  Scene scene;
+};
+
+struct StudyPlan {
+  study::StudySettings settings;
+  double start = 0.0;     ///< of every run [s]
+  double end = 0.0;       ///< [s]
+  double windowEnd = 0.0; ///< pointwise errors are taken from start to here [s]
+  std::vector<StudyRun> runs;  ///< reference, check, sensitivity (unless switched off), then the methods
+
+  double simulated() const { return end - start; }
+  /// Two samples at least lie beyond the window, and the deck wants them compared.
+  bool hasStatistics() const;
+  std::size_t referenceRuns() const;  ///< number of runs in front that belong to the reference
+};
+
+/// Reads the deck once for every run. DeckError that points into the Study list: overrides that do not fit the deck, runs that cannot be
+/// compared (other nodes), a window beyond the end, two runs that are the same.
+StudyPlan planStudy(const Scene& scene);
+
+/// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On rank 0 only (reads those files).
+std::string contentOf(const Scene& scene);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/Expansion.hpp"
+
+#include <cctype>
+
+#include "common/Text.hpp"
+
+namespace tooljoint::study {
+namespace {
+
+const char* const referenceSource = "Study/Reference/Set";
+
+void takeReductionOut(PlannedRun& run) {
+  run.overrides.push_back({"!Substructures", run.source});
+  run.overrides.push_back({"!Reduction", run.source});
+}
+
+/// "Step 0.001", "Least squares": numbers need the name of what they are.
+std::string describe(const std::string& parameter, const std::string& value) {
+  const bool numeric = !value.empty() && (std::isdigit(static_cast<unsigned char>(value[0])) != 0 || value[0] == '.' || value[0] == '-');
+  return numeric ? split(parameter, '/').back() + " " + value : value;
+}
+
+void addProduct(const Method& method, const PlannedRun& base, std::vector<PlannedRun>& runs) {
+  std::size_t count = 1;
+  for (const auto& dimension : method.sweep) count *= dimension.values.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    PlannedRun run = base;
+    std::size_t rest = count, index = i;
+    for (const auto& dimension : method.sweep) {
+      rest /= dimension.values.size();
+      const auto& value = dimension.values[index / rest];
+      index %= rest;
+      run.sweep.emplace_back(dimension.parameter, value);
+      run.overrides.push_back({dimension.parameter + "=" + value, base.source + "/Sweep/" + dimension.name});
+      run.label += ", " + describe(dimension.parameter, value);
+      if (&dimension != &method.sweep.back()) run.line = run.label;
+    }
+    runs.push_back(std::move(run));
+  }
+}
+
+}  // namespace
+
+std::string kindName(RunKind kind) {
+  switch (kind) {
+    case RunKind::Reference:
+      return "reference";
+    case RunKind::Check:
+      return "check";
+    case RunKind::Sensitivity:
+      return "sensitivity";
+    case RunKind::Method:
+      break;
+  }
+  return "method";
+}
+
+std::vector<PlannedRun> expand(const StudySettings& settings) {
+  std::vector<PlannedRun> runs;
+  for (const auto& method : settings.methods) {
+    PlannedRun base;
+    base.source = "Study/Methods/" + method.name;
+    base.method = base.line = base.label = method.label;
+    base.reduced = method.reduced;
+    if (!method.reduced) takeReductionOut(base);
+    for (const auto& text : method.set) base.overrides.push_back({text, base.source + "/Set"});
+    addProduct(method, base, runs);
+  }
+  return runs;
+}
+
+std::vector<PlannedRun> references(const StudySettings& settings) {
+  PlannedRun reference;
+  reference.kind = RunKind::Reference;
+  reference.source = "Study/Reference";
+  reference.method = reference.line = reference.label = "reference";
+  takeReductionOut(reference);
+  for (const auto& text : settings.reference) reference.overrides.push_back({text, referenceSource});
+  std::vector<PlannedRun> runs{reference};
+
+  PlannedRun check = reference;
+  check.kind = RunKind::Check;
+  check.source = "Study/Check";
+  check.method = check.line = check.label = "reference, check";
+  for (const auto& text : settings.check) check.overrides.push_back({text, "Study/Check/Set"});
+  runs.push_back(check);
+
+  if (settings.perturbation > 0.0) {
+    PlannedRun perturbed = reference;
+    perturbed.kind = RunKind::Sensitivity;
+    perturbed.method = perturbed.line = perturbed.label = "reference, perturbed";
+    runs.push_back(perturbed);
+  }
+  return runs;
+}
+
+}  // namespace tooljoint::study

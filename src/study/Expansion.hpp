@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// From methods and their sweeps to single runs, each a list of overrides of the deck.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/StudyParameters.hpp"
+
+namespace tooljoint::study {
+
+/// One override and the parameter of the Study list it stands in.
+struct SourcedOverride {
+  std::string text;    ///< "PATH=VALUE" or "!PATH"
+  std::string source;  ///< "Study/Methods/explicit/Set"
+};
+
+/// What a run is in a study.
+enum class RunKind { Reference, Check, Sensitivity, Method };
+std::string kindName(RunKind kind);
+
+struct PlannedRun {
+  RunKind kind = RunKind::Method;
+  std::string source;  ///< the list it comes from, "Study/Methods/explicit"
+  std::string method;  ///< label of its method
+  std::string line;    ///< label of the line of the plots it belongs to: the method and all but the last dimension
+  std::string label;   ///< its own: the method and all dimensions
+  bool reduced = false;
+  std::vector<SourcedOverride> overrides;
+  std::vector<std::pair<std::string, std::string>> sweep;  ///< parameter and value
+};
+
+/// The runs of all methods, in the order of the deck, the last dimension of a sweep varying first.
+std::vector<PlannedRun> expand(const StudySettings& settings);
+
+/// The reference run, its check, and the perturbed one unless the perturbation is 0.
+std::vector<PlannedRun> references(const StudySettings& settings);
+
+}  // namespace tooljoint::study

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/Row.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "common/Error.hpp"
+#include "study/SpeedUp.hpp"
+
+namespace tooljoint::study {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+void take(const Json& json, const char* key, T& value) {
+  value = json.at(key).get<T>();
+}
+
+void take(const Json& json, const char* key, std::optional<double>& value) {
+  if (json.at(key).is_null()) value.reset();
+  else value = json.at(key).get<double>();
+}
+
+Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json toJson(const RowCurves& c) {
+  const auto& s = c.statistics;
+  return {{"error_time", c.errorTime},   {"eps_t", c.errorOverTime},        {"bit_time", c.bitTime},     {"bit_speed", c.bitSpeed},
+          {"initial", c.initial},        {"growth_time", c.growthTime},     {"growth", c.growth},        {"samples", s.samples},            {"quantiles", s.bitSpeed},   {"duty", s.contactDuty},
+          {"lateral_rms", s.lateralRms}, {"frequency", s.frequency},        {"spectrum", s.spectrum}};
+}
+
+void fromJson(const Json& json, RowCurves& c) {
+  auto& s = c.statistics;
+  take(json, "error_time", c.errorTime);
+  take(json, "eps_t", c.errorOverTime);
+  take(json, "bit_time", c.bitTime);
+  take(json, "bit_speed", c.bitSpeed);
+  take(json, "initial", c.initial);
+  take(json, "growth_time", c.growthTime);
+  take(json, "growth", c.growth);
+  take(json, "samples", s.samples);
+  take(json, "quantiles", s.bitSpeed);
+  take(json, "duty", s.contactDuty);
+  take(json, "lateral_rms", s.lateralRms);
+  take(json, "frequency", s.frequency);
+  take(json, "spectrum", s.spectrum);
+}
+
+double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end()); }
+
+/// The numbers of a row with their keys, once for writing and once for reading.
+template <class Row, class Visit>
+void eachNumber(Row& row, const Visit& visit) {
+  visit("modes", row.modes);
+  visit("dofs", row.dofs);
+  visit("simulated", row.simulated);
+  visit("cpu", row.cpu);
+  visit("wall", row.wall);
+  visit("setup_cpu", row.setupCpu);
+  visit("setup_wall", row.setupWall);
+  visit("steps", row.steps);
+  visit("rejected", row.rejected);
+  visit("halved", row.halved);
+  visit("unconverged", row.unconverged);
+  visit("newton_iterations", row.newtonIterations);
+  visit("factorisations", row.factorisations);
+  visit("min_step", row.minStep);
+  visit("max_step", row.maxStep);
+  visit("max_penetration", row.maxPenetration);
+  visit("missed_nodes", row.missedNodes);
+  visit("given_up_after", row.givenUpAfter);
+  visit("status", row.status);
+  visit("reason", row.reason);
+  visit("basis", row.basis);
+  visit("integrator", row.integrator);
+}
+
+}  // namespace
+
+double StudyRow::bestCpu() const { return least(cpu); }
+double StudyRow::bestWall() const { return least(wall); }
+double StudyRow::spread() const {
+  if (cpu.size() < 2 || !(least(cpu) > 0.0)) return 0.0;
+  return (*std::max_element(cpu.begin(), cpu.end()) - least(cpu)) / least(cpu);
+}
+
+std::string StudyRow::toJson() const {
+  Json json{{"label", plan.label}};
+  eachNumber(*this, [&](const char* key, const auto& value) { json[key] = value; });
+  json["step_or_tolerance"] = orNull(stepOrTolerance);
+  json["energy_residual"] = orNull(energyResidual);
+  json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn} : Json(nullptr);
+  json["statistics"] = statistics ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean, statistics->lateralRms, statistics->spectrum}
+                                  : Json(nullptr);
+  json["curves"] = study::toJson(curves);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void StudyRow::fromJson(const std::string& text) {
+  try {
+    const Json json = Json::parse(text);
+    eachNumber(*this, [&](const char* key, auto& value) { take(json, key, value); });
+    take(json, "step_or_tolerance", stepOrTolerance);
+    take(json, "energy_residual", energyResidual);
+    errors.reset();
+    statistics.reset();
+    if (const auto& e = json.at("errors"); !e.is_null()) errors = PointwiseErrors{e.at(0), e.at(1), e.at(2), e.at(3)};
+    if (const auto& s = json.at("statistics"); !s.is_null()) statistics = StatisticsDifference{s.at(0), s.at(1), s.at(2), s.at(3), s.at(4)};
+    study::fromJson(json.at("curves"), curves);
+  } catch (const Json::exception& error) {
+    throw FileError(std::string("A stored row of the study cannot be read: ") + error.what() + ". Run the study with --fresh.");
+  }
+}
+
+std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string& baseline) {
+  std::vector<CostPoint> full;
+  double baselineCost = 0.0;
+  for (const auto& row : rows) {
+    if (!row.done() || row.plan.kind != RunKind::Method || !row.errors) continue;
+    if (!row.plan.reduced) full.push_back({row.plan.line, row.errors->dyn, row.cpuPerSimulatedSecond()});
+    if (row.plan.label == baseline) baselineCost = row.cpuPerSimulatedSecond();
+  }
+  std::vector<Ratios> out(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    const double cost = row.cpuPerSimulatedSecond();
+    if (!row.done() || row.plan.kind != RunKind::Method || !row.errors || !(cost > 0.0)) continue;
+    if (baselineCost > 0.0) out[i].baseline = baselineCost / cost;
+    if (const auto best = bestCostAt(row.errors->dyn, full)) out[i].bestFull = *best / cost;
+  }
+  return out;
+}
+
+}  // namespace tooljoint::study

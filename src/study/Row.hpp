@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// One run of a study with everything known about it: what it was, what it cost, how wrong it is.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/Expansion.hpp"
+#include "study/Statistics.hpp"
+
+namespace tooljoint::study {
+
+/// Pointwise errors over the window.
+struct PointwiseErrors {
+  double epsTMax = 0.0;
+  double epsTMean = 0.0;
+  double epsNMax = 0.0;
+  double dyn = 0.0;
+};
+
+/// Short curves for plots.
+struct RowCurves {
+  std::vector<double> errorTime, errorOverTime;  ///< [s], eps_t
+  std::vector<double> bitTime, bitSpeed;         ///< [s], [rad/s]; thinned out
+  std::vector<double> initial;                   ///< lateral distance from the axis per node at the start [m]
+  std::vector<double> growthTime, growth;        ///< [s], largest lateral distance of a node from its place in the reference [m]
+  MotionStatistics statistics;                   ///< without samples where the motion ends with the window
+};
+
+struct StudyRow {
+  PlannedRun plan;
+  std::string status = "pending";  ///< "done", "failed", "pending"
+  std::string reason;              ///< of a failure
+  std::string basis;               ///< "" for the full model
+  long modes = 0;                  ///< kept modal coordinates of all parts
+  long dofs = 0;                   ///< of the model that was integrated
+  std::string integrator;
+  std::optional<double> stepOrTolerance;
+  double simulated = 0.0;         ///< [s]
+  std::vector<double> cpu, wall;  ///< of each repeat, transient only [s]; CPU summed over the ranks
+  double setupCpu = 0.0;          ///< reduction and coupling [s]
+  double setupWall = 0.0;
+  long steps = 0, rejected = 0, halved = 0, unconverged = 0, newtonIterations = 0, factorisations = 0;
+  double minStep = 0.0, maxStep = 0.0;
+  std::optional<double> energyResidual;
+  std::optional<PointwiseErrors> errors;  ///< none for the reference itself
+  std::optional<StatisticsDifference> statistics;
+  double maxPenetration = 0.0;
+  long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact
+  double givenUpAfter = 0.0;  ///< CPU time limit that ended the run [s]; 0: it was not the time
+  RowCurves curves;
+
+  bool done() const { return status == "done"; }
+  double bestCpu() const;             ///< shortest of the repeats, 0 without any
+  double bestWall() const;
+  double spread() const;              ///< (longest - shortest) / shortest of the CPU times
+  double cpuPerSimulatedSecond() const { return simulated > 0.0 ? bestCpu() / simulated : 0.0; }
+  double realTimeFactor() const { return bestWall() > 0.0 ? simulated / bestWall() : 0.0; }
+
+  /// All of it but the plan as JSON, and back: a row that was read again is the row that was written. FileError for a text that is none.
+  std::string toJson() const;
+  void fromJson(const std::string& text);
+};
+
+/// What is derived from all rows together.
+struct Ratios {
+  std::optional<double> baseline;  ///< time of the baseline / time of this run
+  std::optional<double> bestFull;  ///< time of the best full run at the same dyn / time of this run
+};
+
+/// The ratios of every row; those of rows that are not done, or have nothing to be compared with, are empty.
+/// \param baseline label of the run to divide by; empty: none
+std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string& baseline);
+
+/// study.csv: one line per row.
+std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios);
+
+/// For a person: one short line per row under a heading.
+std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios);
+
+}  // namespace tooljoint::study

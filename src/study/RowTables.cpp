@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "common/Text.hpp"
+#include "io/Csv.hpp"
+#include "study/Row.hpp"
+
+namespace tooljoint::study {
+namespace {
+
+constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
+
+const std::vector<io::Csv::Column>& columns() {
+  static const std::vector<io::Csv::Column> all{
+      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"integrator", ""},
+      {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""},
+      {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_second", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
+      {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged", ""},
+      {"newton_iterations", ""}, {"factorisations", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
+      {"missed_nodes", ""}, {"bit_speed_p05", "rpm"}, {"bit_speed_p50", "rpm"}, {"bit_speed_p95", "rpm"}, {"bit_speed_difference", "rpm"},
+      {"contact_duty_difference_max", ""}, {"contact_duty_difference_mean", ""}, {"lateral_rms_difference", ""}, {"spectrum_difference", "dB"}};
+  return all;
+}
+
+std::string text(const std::optional<double>& value) { return value ? formatNumber(*value) : std::string(); }
+
+std::string sweepText(const PlannedRun& plan) {
+  std::vector<std::string> parts;
+  for (const auto& [parameter, value] : plan.sweep) parts.push_back(parameter + "=" + value);
+  return join(parts, "; ");
+}
+
+std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
+  const auto& p = row.plan;
+  std::vector<std::string> out{kindName(p.kind), p.method, p.line, p.label, p.reduced ? "reduced" : "full", row.basis};
+  const bool known = row.done();
+  const auto number = [&](auto value) { out.push_back(known ? formatNumber(static_cast<double>(value)) : std::string()); };
+  number(row.modes), number(row.dofs);
+  out.insert(out.end(), {row.integrator, sweepText(p), known ? text(row.stepOrTolerance) : "", row.status, row.reason});
+  const auto* e = known && row.errors ? &*row.errors : nullptr;
+  for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean, &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
+    out.push_back(e != nullptr ? formatNumber(e->*member) : std::string());
+  number(row.bestCpu()), number(row.spread()), number(row.cpu.size()), number(row.cpuPerSimulatedSecond()), number(row.bestWall());
+  number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
+  out.push_back(text(ratios.baseline));
+  out.push_back(text(ratios.bestFull));
+  number(row.steps), number(row.rejected), number(row.halved), number(row.unconverged), number(row.newtonIterations), number(row.factorisations);
+  number(row.minStep), number(row.maxStep);
+  out.push_back(known ? text(row.energyResidual) : "");
+  number(row.maxPenetration), number(row.missedNodes);
+  const auto& speeds = row.curves.statistics.bitSpeed;
+  for (std::size_t level : {0u, 2u, 4u}) out.push_back(known && speeds.size() > level ? formatNumber(rpm * speeds[level]) : "");
+  const auto* s = known && row.statistics ? &*row.statistics : nullptr;
+  out.push_back(s != nullptr ? formatNumber(rpm * s->bitSpeed) : "");
+  for (auto member : {&StatisticsDifference::dutyMax, &StatisticsDifference::dutyMean, &StatisticsDifference::lateralRms, &StatisticsDifference::spectrum})
+    out.push_back(s != nullptr ? formatNumber(s->*member) : std::string());
+  return out;
+}
+
+std::string ratioText(const std::optional<double>& ratio) {
+  char buffer[32] = "-";
+  if (ratio) std::snprintf(buffer, sizeof buffer, "%.3g", *ratio);
+  return buffer;
+}
+
+}  // namespace
+
+std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
+  io::Csv csv(columns());
+  for (std::size_t i = 0; i < rows.size(); ++i) csv.row(cells(rows[i], ratios[i]));
+  return csv.text();
+}
+
+std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
+  std::size_t width = 20;
+  for (const auto& row : rows) width = std::max(width, row.plan.label.size());
+  char line[512];
+  std::snprintf(line, sizeof line, "%-*s %6s %9s %9s %9s %10s %7s %9s %9s  %s", static_cast<int>(width), "run", "dofs", "dyn", "eps_t max", "eps_n max",
+                "CPU s / s", "spread", "baseline", "best full", "counts");
+  std::string out = line;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
+    if (!row.done()) {
+      out += "\n" + row.plan.label + std::string(width - row.plan.label.size(), ' ') + " " + row.status + (row.reason.empty() ? "" : ": " + row.reason);
+      continue;
+    }
+    char error[3][16] = {"-", "-", "-"};
+    if (row.errors) {
+      std::snprintf(error[0], sizeof error[0], "%.2e", row.errors->dyn);
+      std::snprintf(error[1], sizeof error[1], "%.2e", row.errors->epsTMax);
+      std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
+    }
+    std::snprintf(line, sizeof line, "%-*s %6ld %9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps", static_cast<int>(width), row.plan.label.c_str(), row.dofs,
+                  error[0], error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(), ratioText(ratios[i].baseline).c_str(),
+                  ratioText(ratios[i].bestFull).c_str(), row.steps);
+    out += std::string("\n") + line;
+    for (const auto& [count, name] : {std::pair{row.rejected, "rejected"}, {row.halved, "halved"}, {row.unconverged, "unconverged"}, {row.missedNodes, "missed nodes"}})
+      if (count > 0) out += ", " + std::to_string(count) + " " + name;
+  }
+  return out;
+}
+
+}  // namespace tooljoint::study

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/Statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <unsupported/Eigen/FFT>
+
+#include "common/Error.hpp"
+
+namespace tooljoint::study {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr std::size_t fewestSamples = 32;  ///< of a spectrum
+constexpr double dynamicRange = 1e-6;      ///< 60 dB
+
+/// Welch's mean of modified periodograms of many signals of one length.
+class Welch {
+ public:
+  Welch(std::size_t samples, double interval) : interval_(interval) {
+    if (samples < fewestSamples) return;
+    // the largest power of two of which seven halves-overlapping segments fit
+    length_ = 16;
+    while (2 * length_ * 4 <= samples) length_ *= 2;
+    hann_.resize(length_);
+    for (std::size_t i = 0; i < length_; ++i) {
+      hann_[i] = 0.5 - 0.5 * std::cos(2.0 * pi * static_cast<double>(i) / static_cast<double>(length_));
+      power_ += hann_[i] * hann_[i];
+    }
+    sum_.assign(length_ / 2 + 1, 0.0);
+    segment_.resize(length_);
+  }
+
+  void add(const std::vector<double>& signal) {
+    if (length_ == 0) return;
+    for (std::size_t first = 0; first + length_ <= signal.size(); first += length_ / 2) addSegment(signal.data() + first);
+  }
+
+  /// S(f_k) = 2 dt sum |X_k|^2 / (segments sum w^2), without the factor 2 at f = 0 and at Nyquist.
+  void finish(std::size_t signals, std::vector<double>& frequency, std::vector<double>& spectrum) const {
+    if (length_ == 0 || segments_ == 0 || signals == 0) return;
+    const double segmentsPerSignal = static_cast<double>(segments_) / static_cast<double>(signals);
+    for (std::size_t k = 0; k < sum_.size(); ++k) {
+      const double sides = k == 0 || 2 * k == length_ ? 1.0 : 2.0;
+      frequency.push_back(static_cast<double>(k) / (static_cast<double>(length_) * interval_));
+      spectrum.push_back(sides * interval_ * sum_[k] / (segmentsPerSignal * power_));
+    }
+  }
+
+ private:
+  void addSegment(const double* values) {
+    double mean = 0.0;
+    for (std::size_t i = 0; i < length_; ++i) mean += values[i] / static_cast<double>(length_);
+    for (std::size_t i = 0; i < length_; ++i) segment_[i] = hann_[i] * (values[i] - mean);
+    fft_.fwd(transform_, segment_);
+    for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += std::norm(transform_[k]);
+    ++segments_;
+  }
+
+  double interval_;
+  std::size_t length_ = 0;
+  double power_ = 0.0;
+  std::vector<double> hann_, sum_, segment_;
+  std::vector<std::complex<double>> transform_;
+  Eigen::FFT<double> fft_;
+  std::size_t segments_ = 0;
+};
+
+/// Mean density in bands a third of an octave wide, from the second line of the spectrum on.
+std::vector<double> thirdOctaves(const std::vector<double>& frequency, const std::vector<double>& spectrum) {
+  std::vector<double> bands;
+  if (frequency.size() < 3) return bands;
+  const double ratio = std::cbrt(2.0);
+  std::size_t k = 2;
+  for (double edge = frequency[2] * 0.999; edge < frequency.back(); edge *= ratio) {
+    double sum = 0.0;
+    int lines = 0;
+    for (; k < frequency.size() && frequency[k] < edge * ratio; ++k, ++lines) sum += spectrum[k];
+    if (lines > 0) bands.push_back(sum / lines);
+  }
+  return bands;
+}
+
+double bandDifference(const MotionStatistics& a, const MotionStatistics& b) {
+  const auto mine = thirdOctaves(a.frequency, a.spectrum);
+  const auto theirs = thirdOctaves(b.frequency, b.spectrum);
+  if (mine.size() != theirs.size() || mine.empty()) return 0.0;
+  const double highest = *std::max_element(theirs.begin(), theirs.end());
+  double sum = 0.0;
+  int bands = 0;
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    if (!(theirs[i] > dynamicRange * highest)) continue;
+    const double decibel = 10.0 * std::log10(std::max(mine[i], dynamicRange * dynamicRange * highest) / theirs[i]);
+    sum += decibel * decibel;
+    ++bands;
+  }
+  return bands == 0 ? 0.0 : std::sqrt(sum / bands);
+}
+
+}  // namespace
+
+double quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) throw Error(ExitCode::Internal, "No numbers have no quantile.");
+  std::sort(values.begin(), values.end());
+  const double place = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const auto above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed, const std::vector<double>& clearance,
+                              const Window& window) {
+  if (bitSpeed.size() != history.samples || clearance.size() != history.nodes)
+    throw Error(ExitCode::Internal, "Bit speeds or clearances do not belong to the history whose statistics are asked for.");
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < history.samples; ++i)
+    if (history.time[i] >= window.begin - 1e-9 && history.time[i] <= window.end + 1e-9) samples.push_back(i);
+  if (samples.size() < 2) throw Error(ExitCode::Internal, "Statistics need at least two samples in their window.");
+
+  MotionStatistics s;
+  s.samples = samples.size();
+  const auto count = static_cast<double>(samples.size());
+  std::vector<double> speeds;
+  for (auto i : samples) speeds.push_back(bitSpeed[i]);
+  for (double level : quantileLevels) s.bitSpeed.push_back(quantile(speeds, level));
+
+  Welch welch(samples.size(), history.time[samples[1]] - history.time[samples[0]]);
+  std::vector<double> signal(samples.size());
+  for (std::size_t n = 0; n < history.nodes; ++n) {
+    double touching = 0.0;
+    for (auto i : samples) touching += std::hypot(history.at(i, n, 0), history.at(i, n, 1)) > clearance[n] ? 1.0 : 0.0;
+    s.contactDuty.push_back(touching / count);
+    double variance = 0.0;
+    for (std::size_t c = 0; c < 2; ++c) {
+      double mean = 0.0;
+      for (std::size_t k = 0; k < samples.size(); ++k) mean += (signal[k] = history.at(samples[k], n, c)) / count;
+      for (double x : signal) variance += (x - mean) * (x - mean) / count;
+      welch.add(signal);
+    }
+    s.lateralRms.push_back(std::sqrt(variance));
+  }
+  welch.finish(history.nodes, s.frequency, s.spectrum);
+  return s;
+}
+
+StatisticsDifference difference(const MotionStatistics& motion, const MotionStatistics& reference) {
+  if (motion.contactDuty.size() != reference.contactDuty.size())
+    throw Error(ExitCode::Internal, "Statistics of different numbers of nodes cannot be compared.");
+  StatisticsDifference d;
+  for (std::size_t i = 0; i < quantileLevels.size(); ++i) d.bitSpeed = std::max(d.bitSpeed, std::abs(motion.bitSpeed[i] - reference.bitSpeed[i]));
+  double error = 0.0;
+  double size = 0.0;
+  const std::size_t nodes = reference.contactDuty.size();
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const double duty = std::abs(motion.contactDuty[n] - reference.contactDuty[n]);
+    d.dutyMax = std::max(d.dutyMax, duty);
+    d.dutyMean += duty / static_cast<double>(nodes);
+    error += std::pow(motion.lateralRms[n] - reference.lateralRms[n], 2);
+    size += std::pow(reference.lateralRms[n], 2);
+  }
+  d.lateralRms = std::sqrt(size) > negligibleNorm ? std::sqrt(error / size) : 0.0;
+  d.spectrum = bandDifference(motion, reference);
+  return d;
+}
+
+}  // namespace tooljoint::study
