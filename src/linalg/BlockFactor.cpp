@@ -98,7 +98,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   panel_.assign(panel, 0.0);
 }
 
-int BlockFactor::factor() {
+TOOLJOINT_CLONES int BlockFactor::factor() {
   double* values = values_.data();
   std::fill(values + patternStorage_, values + values_.size(), 0.0);
   for (const Pivot& p : pivots_) {  // size of each row before elimination
@@ -134,14 +134,14 @@ int BlockFactor::factor() {
   return -1;
 }
 
-void BlockFactor::solve(double* x) const {
+TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
   const double* values = values_.data();
   const Coupling* couplings = couplings_.data();
   // z_k = D_k^-1 b_k;  b_i -= A_ik z_k
   for (const Pivot& p : pivots_) {
     double* target = x + p.start;
     if (p.width == 6) {
-      kernel::Six s = kernel::Six::zero();
+      kernel::Six s;
       s.add(values + p.diagonal, target);
       s.to(target);
     } else if (p.width <= kernel::largestInverse) {
@@ -177,7 +177,7 @@ void BlockFactor::invert(const std::vector<char>& wanted) {
     if (needed[z(p->block)]) invertPivot(*p);
 }
 
-void BlockFactor::invertPivot(const Pivot& p) {
+TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
   const double* values = values_.data();
   double* Z = inverse_.data();
   const int w = p.width;

@@ -14,34 +14,36 @@ namespace tooljoint::linalg::kernel {
 /// Blocks up to this size are inverted explicitly: a product is faster than two triangular solves.
 constexpr int largestInverse = 8;
 
-// Two lanes: the width every x86-64 and AArch64 has, so that results do not depend on the machine.
+// Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one with AVX2 and FMA, and the
+// loader chooses. The two differ in the last bit.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define TOOLJOINT_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#else
+#define TOOLJOINT_CLONES
+#endif
+
 using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
+using Quad = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-inline Pair load(const double* a) { return *reinterpret_cast<const Pair*>(a); }
-inline void store(double* a, Pair x) { *reinterpret_cast<Pair*>(a) = x; }
-
-/// Three pairs holding a vector of six.
+/// A vector of six in registers.
 struct Six {
-  Pair a, b, c;
-  static Six zero() { return {Pair{0, 0}, Pair{0, 0}, Pair{0, 0}}; }
-  static Six from(const double* x) { return {load(x), load(x + 2), load(x + 4)}; }
-  void to(double* x) const { store(x, a), store(x + 2, b), store(x + 4, c); }
+  Quad a;
+  Pair b;
+  explicit Six(const double* x) : a(*reinterpret_cast<const Quad*>(x)), b(*reinterpret_cast<const Pair*>(x + 4)) {}
+  Six() : a{0, 0, 0, 0}, b{0, 0} {}
+  void to(double* x) const { *reinterpret_cast<Quad*>(x) = a, *reinterpret_cast<Pair*>(x + 4) = b; }
   /// this += A x, A 6 x 6.
   void add(const double* A, const double* x) {
     for (int j = 0; j < 6; ++j) {
-      const Pair f = {x[j], x[j]};
-      a += load(A + 6 * j) * f;
-      b += load(A + 6 * j + 2) * f;
-      c += load(A + 6 * j + 4) * f;
+      a += *reinterpret_cast<const Quad*>(A + 6 * j) * x[j];
+      b += *reinterpret_cast<const Pair*>(A + 6 * j + 4) * x[j];
     }
   }
   /// this -= A x, A 6 x 6.
   void subtract(const double* A, const double* x) {
     for (int j = 0; j < 6; ++j) {
-      const Pair f = {x[j], x[j]};
-      a -= load(A + 6 * j) * f;
-      b -= load(A + 6 * j + 2) * f;
-      c -= load(A + 6 * j + 4) * f;
+      a -= *reinterpret_cast<const Quad*>(A + 6 * j) * x[j];
+      b -= *reinterpret_cast<const Pair*>(A + 6 * j + 4) * x[j];
     }
   }
 };
@@ -54,7 +56,7 @@ using MutableSegment = Eigen::Map<Eigen::VectorXd>;
 /// y += A x.
 inline void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
   if (rows == 6 && columns == 6) {
-    Six s = Six::from(y);
+    Six s(y);
     s.add(A, x);
     s.to(y);
   } else if (rows <= 12) {
@@ -68,7 +70,7 @@ inline void multiplyAdd(int rows, int columns, const double* A, const double* x,
 /// y -= A x.
 inline void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
   if (rows == 6 && columns == 6) {
-    Six s = Six::from(y);
+    Six s(y);
     s.subtract(A, x);
     s.to(y);
   } else if (rows <= 12) {
@@ -83,7 +85,7 @@ inline void multiplySubtract(int rows, int columns, const double* A, const doubl
 inline void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {
   if (rows == 6 && inner == 6) {
     for (int j = 0; j < columns; ++j) {
-      Six s = Six::from(C + 6 * j);
+      Six s(C + 6 * j);
       s.subtract(A, B + 6 * j);
       s.to(C + 6 * j);
     }

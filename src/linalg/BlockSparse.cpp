@@ -163,12 +163,12 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
   }
 }
 
-void BlockProduct::addTo(const double* values, const double* x, double* y) const {
+TOOLJOINT_CLONES void BlockProduct::addTo(const double* values, const double* x, double* y) const {
   const Entry* entries = entries_.data();
   for (const Row& row : rows_) {
     double* target = y + row.start;
     if (row.allSix) {
-      kernel::Six sum = kernel::Six::from(target);
+      kernel::Six sum(target);
       for (int e = row.begin; e < row.end; ++e) sum.add(values + entries[e].offset, x + entries[e].column);
       sum.to(target);
       continue;

@@ -32,11 +32,11 @@ void EnergyLedger::allocate(CompiledModel& model) {
   account_.damping.resize(dissipative_.size(), 0.0);
 }
 
-EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, const State& state) {
+EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v) {
   Powers sum;
   for (auto& batch : model.points()) {
-    batch.gatherAll(state.q.data(), state.v.data());
-    const auto power = batch.law().power(state.t, batch.d(), batch.v());
+    batch.gatherAll(q.data(), v.data());
+    const auto power = batch.law().power(t, batch.d(), batch.v());
     sum.stored += power.stored;
     sum.damping += power.damping;
     sum.friction += power.friction;
@@ -56,7 +56,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   q_ = state.q;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
-  last_ = pointPowers(model, state);
+  stored_ = pointPowers(model, state.t, state.q, state.v).stored;
   const EnergyAccount now = account(model, state);
   account_.initial = now.kinetic + now.strain + now.contact;
   account_.supplied = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.contact);
@@ -102,14 +102,18 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     terms[dissipative_[i]].product.addTo(terms[dissipative_[i]].values.data(), step_.data(), product_.data());
     entry(account_.damping[i], law * step_.dot(product_) / h);
   }
-  // point laws: mean power times h
+  // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at the end of a step that meets
+  // a wall is not what it went in with)
   if (!model.points().empty()) {
-    const Powers now = pointPowers(model, to);
-    entry(account_.friction, 0.5 * h * (last_.friction + now.friction));
-    entry(account_.contactDamping, 0.5 * h * (last_.damping + now.damping));
-    entry(account_.drive, 0.5 * h * (last_.drive + now.drive));
-    exchanged += std::abs(now.stored - last_.stored);
-    last_ = now;
+    product_ = to.q - 0.5 * step_;
+    step_ /= h;
+    const Powers mean = pointPowers(model, to.t - 0.5 * h, product_, step_);
+    entry(account_.friction, h * mean.friction);
+    entry(account_.contactDamping, h * mean.damping);
+    entry(account_.drive, h * mean.drive);
+    const double stored = pointPowers(model, to.t, to.q, to.v).stored;
+    exchanged += std::abs(stored - stored_);
+    stored_ = stored;
   }
   account_.exchanged += exchanged;
   account_.supplied +=
@@ -126,7 +130,7 @@ bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = kinetic(model, state);
   account_.strain = strain_;
-  account_.contact = last_.stored;
+  account_.contact = stored_;
   return account_.runaway();
 }
 
@@ -135,13 +139,12 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   EnergyAccount result = account_;
   result.kinetic = kinetic(model, state);
   result.strain = strain_;
-  result.contact = last_.stored;
+  result.contact = stored_;
   return result;
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, last_.stored, last_.damping, last_.friction,
-                               last_.drive, account_.initial, account_.loads, account_.drive, account_.friction,
+  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
                                account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
   for (const Vector* x : {&q_, &internal_, &load_}) memory.insert(memory.end(), x->begin(), x->end());
@@ -152,7 +155,7 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   stride_ = stride;
   allocate(model);
   skipped_ = static_cast<int>(*memory++);
-  for (double* x : {&time_, &strain_, &last_.stored, &last_.damping, &last_.friction, &last_.drive, &account_.initial,
+  for (double* x : {&time_, &strain_, &stored_, &account_.initial,
                     &account_.loads, &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory,
                     &account_.exchanged, &account_.supplied})
     *x = *memory++;

@@ -57,7 +57,7 @@ class EnergyLedger {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
   void allocate(CompiledModel& model);
-  Powers pointPowers(CompiledModel& model, const State& state);
+  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v);
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
@@ -69,7 +69,7 @@ class EnergyLedger {
   double time_ = 0;  ///< the last one booked
   Vector q_;
   Vector step_, product_, internal_, nextInternal_, load_;
-  Powers last_;
+  double stored_ = 0;  ///< by point laws at the last booking
   double strain_ = 0;
 };
 

@@ -53,6 +53,11 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
   relaxation_.setWeights(weight_);
   const auto& pattern = model_->pattern();
+  if (relaxes_ && scheme.impact != 1.0) {
+    forgetFactor();
+    model_->combine(scheme.acceleration, scheme.velocity, 1.0, factor_.values());
+    if (factor_.factor() < 0) relaxation_.setImpacts(factor_, scheme.h, scheme.impact);
+  }
   dampingNorms_.clear();
   stiffnessNorms_.clear();
   for (const auto& term : model_->damping().terms())
@@ -91,13 +96,16 @@ void ImplicitStep::linearResidual(const State& to) {
   floor_ = floor;
 }
 
+void ImplicitStep::prepare(const StepScheme& scheme, double t) {
+  if (scheme_.h == scheme.h) return;
+  scale(scheme, t);
+  guess_.setZero();
+  scheme_ = scheme;
+}
+
 bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters) {
   counters_ = &counters;
-  if (scheme_.h != scheme.h) {
-    scale(scheme, to.t);
-    guess_.setZero();
-    scheme_ = scheme;
-  }
+  prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to);
   return (relaxes_ && relax(to)) || iterate(to);
@@ -156,7 +164,7 @@ bool ImplicitStep::settle(State& to) {
   delta_ = guess_;
   relaxation_.guess(to.t, c, delta_);
   double last = 0;
-  for (int iteration = 1; iteration <= maxRelaxations; ++iteration) {
+  for (int iteration = 1; iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     relaxation_.solve(factor_, drift_, delta_);
     ++counters_->newtonIterations;
     relaxation_.evaluate(to.t, c, delta_);
@@ -205,6 +213,11 @@ void ImplicitStep::refactor(const State& to) {
   fresh_ = true;
   wanted_ = false;
   debt_ = 0;
+}
+
+void ImplicitStep::forgetFactor() {
+  factored_ = compliant_ = false;
+  for (auto& batch : model_->points()) batch.forgetTangent();
 }
 
 void ImplicitStep::buildFactor() {

@@ -26,6 +26,7 @@ struct StepScheme {
   double h = 0;
   double velocity = 0;      ///< cv
   double acceleration = 0;  ///< ca
+  double impact = 1;        ///< what forces of impacts (PointRelaxation::setImpacts) are multiplied by
 };
 
 class ImplicitStep {
@@ -37,6 +38,8 @@ class ImplicitStep {
 
   void bind(CompiledModel& model, const Options& options);
 
+  /// What depends on the scheme alone; solve() calls it when it has another one.
+  void prepare(const StepScheme& scheme, double t);
   /// Completes the predicted `to`; false when nothing converged (`to` then holds the last iterate).
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
@@ -62,6 +65,7 @@ class ImplicitStep {
   double tolerance() const { return options_.tolerance * reference_ + floor_; }
   void refactor(const State& to);
   void buildFactor();
+  void forgetFactor();
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
   void addDrift(const Vector& delta, Vector& y);
   double driftNorm() const;

@@ -69,6 +69,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   frozen_.reserve(z(points_));
   isActive_.assign(z(points_), 0);
   isFrozen_.assign(z(points_), 0);
+  scale_.assign(z(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
   for (auto* array : {&dfdd_, &dfdv_, &P_}) array->assign(z(rows) * z(width_), 0.0);
   gap_.assign(z(points_), 0.0);
@@ -151,6 +152,7 @@ void PointBatch::evaluate(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherActive(q, v);
   law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
+  if (scaled_) applyScale(false);
   evaluations_ += static_cast<long>(active_.size());
 }
 
@@ -158,7 +160,31 @@ void PointBatch::evaluateWithTangent(double t, const double* q, const double* v)
   if (active_.empty()) return;
   gatherActive(q, v);
   law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+  if (scaled_) applyScale(true);
   evaluations_ += static_cast<long>(active_.size());
+}
+
+void PointBatch::setScale(int point, double scale) {
+  scale_[z(point)] = scale;
+  scaled_ = std::any_of(scale_.begin(), scale_.end(), [](double each) { return each != 1.0; });
+}
+
+void PointBatch::scalePoint(int p, bool tangent) {
+  const double scale = scale_[z(p)];
+  if (scale == 1.0) return;
+  for (int r = p * width_; r < (p + 1) * width_; ++r) f_[z(r)] *= scale;
+  if (!tangent) return;
+  for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) dfdd_[z(i)] *= scale, dfdv_[z(i)] *= scale;
+}
+
+void PointBatch::addScaledForce(double* y) const {
+  for (int p : active_)
+    if (scale_[z(p)] != 1.0)
+      for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[z(r)], y);
+}
+
+void PointBatch::applyScale(bool tangent) {
+  for (int p : active_) scalePoint(p, tangent);
 }
 
 void PointBatch::addForce(double factor, double* y) const {
@@ -197,6 +223,7 @@ void PointBatch::evaluateRows(double t, const double* d, const double* v, bool t
     law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
   else
     law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
+  if (scaled_) applyScale(tangent);
   evaluations_ += static_cast<long>(active_.size());
 }
 
@@ -346,8 +373,10 @@ void PointBatch::evaluateOne(double t, int point, const double* d, const double*
   ++evaluations_;
   if (dfdd == nullptr) {
     law_->evaluate(t, one_, d_.data(), v_.data(), f_.data());
+    scalePoint(point, false);
   } else {
     law_->evaluateWithTangent(t, one_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+    scalePoint(point, true);
     std::copy_n(dfdd_.begin() + first * width_, width_ * width_, dfdd);
     std::copy_n(dfdv_.begin() + first * width_, width_ * width_, dfdv);
   }
@@ -359,6 +388,7 @@ void PointBatch::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), gap_.begin(), gap_.end());
   memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
   for (char on : isActive_) memory.push_back(on);
+  memory.insert(memory.end(), scale_.begin(), scale_.end());
   memory.push_back(static_cast<double>(frozen_.size()));
   for (int p : frozen_) {
     memory.push_back(p);
@@ -377,6 +407,7 @@ void PointBatch::restore(const double*& memory) {
     isActive_[z(p)] = *memory++ != 0.0;
     if (isActive_[z(p)]) active_.push_back(p);
   }
+  for (int p = 0; p < points_; ++p) setScale(p, *memory++);
   forgetTangent();
   frozen_.assign(z(static_cast<int>(*memory++)), 0);
   for (int& p : frozen_) {

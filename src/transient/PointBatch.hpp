@@ -40,6 +40,15 @@ class PointBatch {
   /// y += factor R' f.
   void addForce(double factor, double* y) const;
 
+  /// Multiply force and tangents of a point by this in all evaluations from now on (1 at first).
+  void setScale(int point, double scale);
+  double scale(int point) const { return scale_[static_cast<std::size_t>(point)]; }
+  /// y += R' f of the points whose scale is not 1, f multiplied by it.
+  void addScaledForce(double* y) const;
+  /// Apply a scale set after the last evaluation with tangents to what it left.
+  void rescale(int point) { scalePoint(point, true); }
+  bool isScaled() const { return scaled_; }
+
   // The same in rows (point * width() + coordinate), for iterations that never form q and v; active points only.
   /// rows = R x.
   void gather(const double* x, double* rows) const;
@@ -91,6 +100,8 @@ class PointBatch {
 
  private:
   void gatherActive(const double* q, const double* v);
+  void applyScale(bool tangent);
+  void scalePoint(int point, bool tangent);
   double rowTimes(int row, const double* x) const;
 
   std::string name_;
@@ -122,6 +133,8 @@ class PointBatch {
   std::vector<char> isActive_;
   std::vector<char> isFrozen_;  ///< in the frozen tangent
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
+  std::vector<double> scale_;
+  bool scaled_ = false;  ///< any scale is not 1
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;
   int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold

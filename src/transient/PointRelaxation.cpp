@@ -14,28 +14,27 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 /// A point whose error shrinks by less in an iteration is solved by itself.
 constexpr double slowestRate = 0.5;
 
-/// A x = b for three unknowns by cofactors, A row-major; false when A is singular to rounding.
-bool solveThree(const double* A, const double* b, double* x) {
+/// B = A^-1 for A 3 x 3, row-major, by cofactors; false when A is singular to rounding.
+bool invertThree(const double* A, double* B) {
   const double c0 = A[4] * A[8] - A[5] * A[7], c1 = A[5] * A[6] - A[3] * A[8], c2 = A[3] * A[7] - A[4] * A[6];
   const double determinant = A[0] * c0 + A[1] * c1 + A[2] * c2;
   const double size = std::abs(A[0] * c0) + std::abs(A[1] * c1) + std::abs(A[2] * c2);
   if (!(std::abs(determinant) > 1e-12 * size)) return false;
   const double r = 1.0 / determinant;
-  x[0] = r * (c0 * b[0] + (A[2] * A[7] - A[1] * A[8]) * b[1] + (A[1] * A[5] - A[2] * A[4]) * b[2]);
-  x[1] = r * (c1 * b[0] + (A[0] * A[8] - A[2] * A[6]) * b[1] + (A[2] * A[3] - A[0] * A[5]) * b[2]);
-  x[2] = r * (c2 * b[0] + (A[1] * A[6] - A[0] * A[7]) * b[1] + (A[0] * A[4] - A[1] * A[3]) * b[2]);
+  B[0] = r * c0, B[1] = r * (A[2] * A[7] - A[1] * A[8]), B[2] = r * (A[1] * A[5] - A[2] * A[4]);
+  B[3] = r * c1, B[4] = r * (A[0] * A[8] - A[2] * A[6]), B[5] = r * (A[2] * A[3] - A[0] * A[5]);
+  B[6] = r * c2, B[7] = r * (A[1] * A[6] - A[0] * A[7]), B[8] = r * (A[0] * A[4] - A[1] * A[3]);
   return true;
 }
 
-/// The same for up to six unknowns.
-bool solveFew(int n, const double* A, const double* b, double* x) {
-  if (n == 3) return solveThree(A, b, x);
+/// The same for up to six rows.
+bool invertFew(int n, const double* A, double* B) {
+  if (n == 3) return invertThree(A, B);
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   const Rows matrix = Eigen::Map<const Rows>(A, n, n);
-  const Column solution = matrix.partialPivLu().solve(Eigen::Map<const Column>(b, n));
-  if (!solution.allFinite()) return false;
-  std::copy_n(solution.data(), n, x);
+  const Rows inverse = matrix.partialPivLu().inverse();
+  if (!inverse.allFinite()) return false;
+  std::copy_n(inverse.data(), n * n, B);
   return true;
 }
 
@@ -50,6 +49,9 @@ void PointRelaxation::bind(CompiledModel& model) {
     const std::size_t rows = z(batch.points()) * z(batch.width());
     for (auto* array : {&set.d, &set.v, &set.y, &set.dNow, &set.vNow, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
+    set.answer.assign(rows * z(batch.width()), 0.0);
+    set.give.assign(rows * z(batch.width()), 0.0);
+    set.stiffness.assign(z(batch.points()), 0.0);
     set.error.assign(z(batch.points()), 0.0);
     set.exact.assign(z(batch.points()), 0);
     sets_.push_back(std::move(set));
@@ -62,6 +64,39 @@ void PointRelaxation::setWeights(const Vector& weight) {
   for (std::size_t b = 0; b < sets_.size(); ++b)
     for (std::size_t r = 0; r < sets_[b].weight.size(); ++r)
       sets_[b].weight[r] = model_->points()[b].rowWeight(static_cast<int>(r), weight.data());
+}
+
+void PointRelaxation::setImpacts(linalg::BlockFactor& bare, double h, double impact) {
+  h_ = h;
+  impact_ = impact;
+  bare.invert(blocks_);
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    auto& batch = model_->points()[b];
+    const int entries = batch.width() * batch.width();
+    for (int p = 0; p < batch.points(); ++p) {
+      batch.project(p, bare.inverse(), &sets_[b].give[z(p * entries)]);
+      batch.setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
+    }
+  }
+}
+
+/// After an evaluation with tangents: points that turn out to be stiff are impacts from now on.
+void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
+  if (impact_ == 1.0) return;
+  const int w = batch.width();
+  for (int p : batch.active()) {
+    const double* J = batch.dfdd() + p * w * w;
+    const double* G = &set.give[z(p * w * w)];
+    double trace = 0;
+    for (int i = 0; i < w; ++i)
+      for (int k = 0; k < w; ++k) trace -= J[i * w + k] * G[k * w + i];
+    const double stiffness = trace / (batch.scale(p) * h_ * h_);
+    if (stiffness > set.stiffness[z(p)]) set.stiffness[z(p)] = stiffness;
+    if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
+      batch.setScale(p, impact_);
+      batch.rescale(p);
+    }
+  }
 }
 
 void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
@@ -85,38 +120,70 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
   }
 }
 
+void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
+  batch.gather(delta.data(), set.y.data());
+  const int w = batch.width();
+  for (int p : batch.active())
+    for (int r = p * w; r < (p + 1) * w; ++r) {
+      set.dNow[z(r)] = set.d[z(r)] + set.y[z(r)];
+      set.vNow[z(r)] = set.v[z(r)] + c * set.y[z(r)];
+    }
+  batch.evaluateRows(t, set.dNow.data(), set.vNow.data(), tangent);
+}
+
 void PointRelaxation::evaluate(double t, double c, const Vector& delta) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (batch.active().empty()) continue;
-    batch.gather(delta.data(), set.y.data());
-    const int w = batch.width();
-    for (int p : batch.active())
-      for (int r = p * w; r < (p + 1) * w; ++r) {
-        set.dNow[z(r)] = set.d[z(r)] + set.y[z(r)];
-        set.vNow[z(r)] = set.v[z(r)] + c * set.y[z(r)];
-      }
-    batch.evaluateRows(t, set.dNow.data(), set.vNow.data(), true);
+    place(set, batch, t, c, delta, false);
     // f - P y - p
+    const int w = batch.width();
     const double* f = batch.force();
     const double* P = batch.frozen();
+    const double* y = set.y.data();
     for (int p : batch.active())
       for (int r = p * w; r < (p + 1) * w; ++r) {
         double known = set.p[z(r)];
-        for (int k = 0; k < w; ++k) known += P[r * w + k] * set.y[z(p * w + k)];
+        for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
         set.defect[z(r)] = f[r] - known;
       }
   }
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& delta) {
-  for (auto& set : sets_) std::fill(set.p.begin(), set.p.end(), 0.0);
-  evaluate(t, c, delta);
+  double A[widest * widest];
+  double change[widest * widest];
   for (std::size_t b = 0; b < sets_.size(); ++b) {
-    const int w = model_->points()[b].width();
-    for (int p : model_->points()[b].active())
-      for (int r = p * w; r < (p + 1) * w; ++r) sets_[b].p[z(r)] = sets_[b].defect[z(r)];
+    Set& set = sets_[b];
+    PointBatch& batch = model_->points()[b];
+    if (batch.active().empty()) continue;
+    place(set, batch, t, c, delta, true);
+    findImpacts(set, batch);
+    const int w = batch.width();
+    for (int p : batch.active()) {
+      const double* P = batch.frozen() + p * w * w;
+      // p = f - P y
+      for (int i = 0; i < w; ++i) {
+        double known = 0;
+        for (int k = 0; k < w; ++k) known += P[i * w + k] * set.y[z(p * w + k)];
+        set.p[z(p * w + i)] = batch.force()[p * w + i] - known;
+      }
+      // B = (I - (J - P) G)^-1
+      const double* dfdd = batch.dfdd() + p * w * w;
+      const double* dfdv = batch.dfdv() + p * w * w;
+      const double* G = &set.compliance[z(p * w * w)];
+      double* B = &set.answer[z(p * w * w)];
+      for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
+      for (int i = 0; i < w; ++i)
+        for (int j = 0; j < w; ++j) {
+          double sum = i == j ? 1.0 : 0.0;
+          for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
+          A[i * w + j] = sum;
+        }
+      if (!invertFew(w, A, B))
+        for (int i = 0; i < w * w; ++i) B[i] = i % (w + 1) == 0 ? 1.0 : 0.0;
+    }
   }
 }
 
@@ -160,15 +227,15 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
   problem_.f0 = NodalProblem::Local::Zero(w);
   problem_.P = Rows(batch.frozen() + first * w, w, w);
   problem_.G = Rows(&set.compliance[z(first * w)], w, w);
-  problem_.free = local(set.y) - problem_.G * local(set.p);
   y_ = local(set.y);
+  phi_ = local(set.p);
+  problem_.free = y_;
+  problem_.free.noalias() -= problem_.G.lazyProduct(phi_);
   if (!problem_.solve(batch, t, c, y_, phi_)) return;
   for (int i = 0; i < w; ++i) set.p[z(first + i)] = phi_[i], set.target[z(first + i)] = y_[i];
 }
 
 void PointRelaxation::correct(double t, double c) {
-  double A[36];
-  double step[6];
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
@@ -178,22 +245,14 @@ void PointRelaxation::correct(double t, double c) {
         solvePoint(set, batch, p, t, c);
         continue;
       }
-      const double* dfdd = batch.dfdd() + p * w * w;
-      const double* dfdv = batch.dfdv() + p * w * w;
-      const double* P = batch.frozen() + p * w * w;
-      const double* G = &set.compliance[z(p * w * w)];
-      double change[36];
-      for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
-      for (int i = 0; i < w; ++i)
-        for (int j = 0; j < w; ++j) {
-          double sum = i == j ? 1.0 : 0.0;
-          for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
-          A[i * w + j] = sum;
-        }
-      double* target = &set.p[z(p * w)];
+      // p += B defect
+      const double* B = &set.answer[z(p * w * w)];
       const double* defect = &set.defect[z(p * w)];
-      const bool solved = solveFew(w, A, defect, step);
-      for (int i = 0; i < w; ++i) target[i] += solved ? step[i] : defect[i];
+      for (int i = 0; i < w; ++i) {
+        double sum = 0;
+        for (int k = 0; k < w; ++k) sum += B[i * w + k] * defect[k];
+        set.p[z(p * w + i)] += sum;
+      }
     }
   }
 }

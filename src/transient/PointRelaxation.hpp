@@ -10,7 +10,7 @@
 ///
 ///     p_i += (I - (J_i - P_i) G_ii)^-1 (f_i - P_i y_i - p_i),     J_i = df_i/dy_i
 ///
-/// is Newton point by point: one solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
+/// with J taken once where the step is expected to end is Newton point by point: one solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
 /// by what the points feel of each other's change of tangent. A point whose force jumps (contact that switches within the step,
 /// friction that reverses) is solved as what it is, see NodalProblem; its error is then measured in y.
 #pragma once
@@ -30,16 +30,21 @@ class PointRelaxation {
   void bind(CompiledModel& model);
   /// Scale of each dof's force.
   void setWeights(const Vector& weight);
+
+  /// A point whose wall is so stiff that S without point laws gives way less than the wall does, -tr(df/dd G0) > 1 (about two
+  /// radians of its own contact frequency per step), meets it as an impact: forces there are multiplied by `impact`.
+  /// `bare` is the factor of S without point laws for steps of length h.
+  void setImpacts(linalg::BlockFactor& bare, double h, double impact);
   /// The compliance of every point, from the factor of the effective matrix (invert() is called).
   void setCompliance(linalg::BlockFactor& factor);
 
   /// Remember where the step starts: predicted q, v, the residual R0 of all linear terms there and a guess of delta.
   void start(const Vector& q, const Vector& v, const Vector& residual);
-  /// Evaluate the laws at delta and set p so that it is consistent with them.
+  /// Evaluate the laws at delta, with tangents, and set p so that it is consistent with them.
   void guess(double t, double c, const Vector& delta);
   /// delta for the present p; `extra` is added to the residual.
   void solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const;
-  /// Evaluate the laws at delta (v changes by c per unit of delta), with tangents.
+  /// Evaluate the laws at delta (v changes by c per unit of delta).
   void evaluate(double t, double c, const Vector& delta);
   /// max |w R'(f - P y - p)| by rows; `force` becomes max |w f|. `small` is an error that needs no care.
   double error(double small, double& force);
@@ -53,18 +58,24 @@ class PointRelaxation {
     std::vector<double> dNow, vNow;
     std::vector<double> p;
     std::vector<double> defect;   ///< f - P y - p
+    std::vector<double> give;     ///< G0 per point, width x width
+    std::vector<double> stiffness;  ///< largest -tr(df/dd G0) / h^2 seen
     std::vector<double> weight;   ///< per row: largest weight of the dofs it acts on
-    std::vector<double> compliance;
+    std::vector<double> compliance;  ///< G, width x width per point, row-major
+    std::vector<double> answer;      ///< (I - (J - P) G)^-1, likewise
     std::vector<double> error;  ///< per point, of the last iteration
     std::vector<char> exact;    ///< per point: solved by itself in this step
     std::vector<double> target; ///< y of the points solved by themselves
   };
+  void findImpacts(Set& set, PointBatch& batch);
+  void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
 
 
   CompiledModel* model_ = nullptr;
   std::vector<Set> sets_;
   std::vector<char> blocks_;
+  double h_ = 0, impact_ = 1;
   Vector residual_;
   NodalProblem problem_;
   NodalProblem::Local y_, phi_;
