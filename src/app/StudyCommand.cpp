@@ -48,7 +48,7 @@ std::string duration(double seconds) {
   return text;
 }
 
-/// What was asked for on the axis of accuracy: the step or tolerance that is swept, else the tolerance of an integrator whose steps varied, else the step.
+/// Where a run stands on the axis of accuracy: the tolerance that is swept, else the tolerance of an integrator whose steps varied, else the step.
 std::optional<double> stepOrTolerance(const StudyRun& run, const transient::Counters& counters) {
   const auto& list = run.scene.list().sublist("Transient");
   const auto numberAt = [&](const std::string& path) -> std::optional<double> {
@@ -62,7 +62,7 @@ std::optional<double> stepOrTolerance(const StudyRun& run, const transient::Coun
     return at->get<double>(names.back());
   };
   for (const auto& [parameter, value] : run.plan.sweep)
-    if (parameter.find("Step") != std::string::npos || parameter.find("Tolerance") != std::string::npos)
+    if (parameter.find("Tolerance") != std::string::npos)
       if (const auto number = numberAt(parameter)) return number;
   const auto own = "Transient/" + list.get<std::string>("Integrator") + "/";
   const bool varied = counters.halved == 0 && counters.minStep < 0.5 * counters.maxStep;
@@ -215,8 +215,19 @@ class Study {
 
   /// All methods once; those that failed before, or have been timed often enough, are left out.
   void repeat(int pass) {
-    for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i)
-      if (timed_[i] >= 0 && timed_[i] <= pass) run(i, "");
+    for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i) {
+      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i)) run(i, "");
+      if (!isFirst(i)) copyTwin(i);
+    }
+  }
+
+  /// Not the same deck as an earlier run.
+  bool isFirst(std::size_t i) const { return plan_.runs[i].twin == i; }
+  void copyTwin(std::size_t i) {
+    const auto plan = result_.rows[i].plan;
+    result_.rows[i] = result_.rows[plan_.runs[i].twin];
+    result_.rows[i].plan = plan;
+    timed_[i] = timed_[plan_.runs[i].twin];
   }
 
   void run(std::size_t i, const std::string& title) {
@@ -340,6 +351,7 @@ class Study {
     std::size_t done = 0, all = 0;
     double left = 0.0;
     for (std::size_t k = plan_.referenceRuns(); k < plan_.runs.size(); ++k) {
+      if (!isFirst(k)) continue;
       const auto wanted = static_cast<std::size_t>(plan_.settings.repeats);
       const auto had = timed_[k] < 0 ? wanted : static_cast<std::size_t>(timed_[k]);
       all += wanted;

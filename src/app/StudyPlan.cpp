@@ -73,7 +73,7 @@ class Planner {
     for (const auto& item : run.overrides) overrides.push_back(item.text);
     try {
       Scene scene = readScene(scene_.deck.file(), overrides);
-      plan_.runs.push_back({std::move(run), std::move(scene)});
+      plan_.runs.push_back({std::move(run), std::move(scene), plan_.runs.size()});
     } catch (const DeckError& error) {
       for (const auto& line : split(error.what(), '\n')) relocate(run, line);
     }
@@ -102,11 +102,12 @@ class Planner {
                                 quotedList(labels) + ".");
   }
 
-  /// Runs that can be compared have the same nodes at the same times, and are different.
+  /// Runs that can be compared have the same nodes at the same times; those of one method, and of the reference, are different.
   void compare() {
     const auto& reference = plan_.runs.front().scene;
-    std::map<std::string, std::string> seen;
-    for (const auto& run : plan_.runs) {
+    std::map<std::string, std::size_t> seen;
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+      auto& run = plan_.runs[i];
       const auto& source = run.plan.source;
       if (!run.scene.moves()) {
         fault(source, "takes the Transient list out: nothing would move.");
@@ -120,8 +121,11 @@ class Planner {
                           std::to_string(reference.string.nodeCount()) + ": their motions cannot be compared node by node.");
       if (run.plan.kind == study::RunKind::Sensitivity) continue;
       const bool method = run.plan.kind == study::RunKind::Method;
-      const auto [it, fresh] = seen.emplace((method ? "" : "reference\n") + study::canonicalText(computed(run.scene)), run.plan.label);
-      if (!fresh) fault(source, "makes the run \"" + run.plan.label + "\", which is the same as \"" + it->second + "\". Change something, or leave it out.");
+      const auto [it, fresh] = seen.emplace((method ? "" : "reference\n") + study::canonicalText(computed(run.scene)), i);
+      const auto& first = plan_.runs[it->second].plan;
+      run.twin = it->second;
+      if (!fresh && (!method || first.source == source))
+        fault(source, "makes the run \"" + run.plan.label + "\", which is the same as \"" + first.label + "\". Change something, or leave it out.");
     }
   }
 

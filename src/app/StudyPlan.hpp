@@ -16,6 +16,7 @@ namespace tooljoint::app {
 struct StudyRun {
   study::PlannedRun plan;
   Scene scene;
+  std::size_t twin = 0;  ///< the first method's run with the same deck, usually itself: lines of the plots may cross
 };
 
 struct StudyPlan {
@@ -32,7 +33,7 @@ struct StudyPlan {
 };
 
 /// Reads the deck once for every run. DeckError that points into the Study list: overrides that do not fit the deck, runs that cannot be
-/// compared (other nodes), a window beyond the end, two runs that are the same.
+/// compared (other nodes), a window beyond the end, a method with two runs that are the same.
 StudyPlan planStudy(const Scene& scene);
 
 /// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On rank 0 only (reads those files).
