@@ -78,6 +78,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   size_ = pattern.size();
+  scaled_.setZero(size_);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -89,8 +90,13 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
     if (!(value == last_[i])) changed = true;
     last_[i] = value;
   }
-  if (!changed || constant_) return changed;
-  // A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
+  if (changed) formed_ = false;
+  else if (!constant_ && !formed_) form();
+  return changed;
+}
+
+/// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
+void MatrixSum::form() const {
   const std::size_t n = sum_.size();
   double* sum = sum_.data();
   bool assigned = false;
@@ -105,11 +111,25 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
     assigned = true;
   }
   if (!assigned) std::fill(sum_.begin(), sum_.end(), 0.0);
-  return true;
+  formed_ = true;
 }
 
 void MatrixSum::addTo(const double* x, double* y) const {
-  if (!terms_.empty()) product_.addTo(current(), x, y);
+  if (terms_.empty()) return;
+  if (constant_ || formed_) {
+    product_.addTo(current(), x, y);
+    return;
+  }
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (last_[i] == 0.0) continue;
+    const double c = last_[i];
+    const double* source = x;
+    if (c != 1.0) {
+      for (int k = 0; k < size_; ++k) scaled_[k] = c * x[k];
+      source = scaled_.data();
+    }
+    terms_[i].product.addTo(terms_[i].values.data(), source, y);
+  }
 }
 
 void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const {

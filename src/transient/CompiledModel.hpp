@@ -31,7 +31,8 @@ class MatrixSum {
   MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
             const linalg::BlockPattern& pattern);
   bool empty() const { return terms_.empty(); }
-  /// Recombine if a law has another value than last time; true if so.
+  /// True if a law has another value than last time. The sum is formed when the laws stand still or somebody asks for it;
+  /// while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
   void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const;
@@ -44,13 +45,20 @@ class MatrixSum {
   /// Value of the law of a term at the time of the last update().
   double factor(std::size_t term) const { return last_[term]; }
   /// Values of A(t) on the pattern; undefined when empty().
-  const double* current() const { return constant_ ? terms_.front().values.data() : sum_.data(); }
+  const double* current() const {
+    if (constant_) return terms_.front().values.data();
+    if (!formed_) form();
+    return sum_.data();
+  }
 
  private:
   std::vector<Term> terms_;
   std::vector<double> last_;  ///< law values of sum_
-  linalg::BlockValues sum_;
+  void form() const;
+  mutable linalg::BlockValues sum_;
+  mutable bool formed_ = false;  ///< sum_ belongs to last_
   linalg::BlockProduct product_;
+  mutable Vector scaled_;
   int size_ = 0;
   bool constant_ = false;  ///< one term with the law 1: no sum is kept
 };

@@ -145,7 +145,7 @@ bool ImplicitStep::relax(State& to) {
     }
     q0_ = to.q + delta_;
     bool missed = false;
-    for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data()) || missed;
+    for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
     guess_ = delta_;
     if (!missed) break;
   }
@@ -167,9 +167,8 @@ bool ImplicitStep::settle(State& to) {
   for (int iteration = 1; iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     relaxation_.solve(factor_, drift_, delta_);
     ++counters_->newtonIterations;
-    relaxation_.evaluate(to.t, c, delta_);
     double force = linearReference_;
-    error_ = relaxation_.error(tolerance(), force);
+    error_ = relaxation_.evaluate(to.t, c, delta_, tolerance(), force);
     reference_ = force;
     bool good = converged();
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > 0.1 * tolerance()) {

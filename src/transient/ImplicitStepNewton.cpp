@@ -139,7 +139,7 @@ bool ImplicitStep::iterate(State& to) {
   for (int iteration = 0;; ++iteration) {
     if (converged()) {
       bool missed = false;
-      for (auto& batch : model_->points()) missed = batch.addMissed(to.q.data()) || missed;
+      for (auto& batch : model_->points()) missed = batch.addMissed(to.q.data(), to.t) || missed;
       if (!missed) return true;
       measure(to);
       if (converged()) return true;

@@ -121,8 +121,13 @@ void PointBatch::look(double t, double h, const double* q) {
     gapTime_ = t;
     gapsSeen_ = std::min(gapsSeen_ + 1, 2);
   }
-  gatherAll(q, nullptr);
-  law_->clearanceLeft(d_.data(), gap_.data());
+  if (t == checkTime_) {
+    gap_.swap(check_);
+  } else {
+    gatherAll(q, nullptr);
+    law_->clearanceLeft(d_.data(), gap_.data());
+  }
+  checkTime_ = std::numeric_limits<double>::quiet_NaN();
   // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank since the look before.
   const double reach = gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
   active_.clear();
@@ -134,10 +139,11 @@ void PointBatch::look(double t, double h, const double* q) {
   }
 }
 
-bool PointBatch::addMissed(const double* q) {
+bool PointBatch::addMissed(const double* q, double t) {
   if (static_cast<int>(active_.size()) == points_) return false;
   gatherAll(q, nullptr);
   law_->clearanceLeft(d_.data(), check_.data());
+  checkTime_ = t;
   bool any = false;
   for (int p = 0; p < points_; ++p)
     if (!isActive_[z(p)] && !(check_[z(p)] > 0)) isActive_[z(p)] = 1, any = true;
@@ -151,17 +157,13 @@ bool PointBatch::addMissed(const double* q) {
 void PointBatch::evaluate(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherActive(q, v);
-  law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
-  if (scaled_) applyScale(false);
-  evaluations_ += static_cast<long>(active_.size());
+  evaluateHere(t, false);
 }
 
 void PointBatch::evaluateWithTangent(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherActive(q, v);
-  law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
-  if (scaled_) applyScale(true);
-  evaluations_ += static_cast<long>(active_.size());
+  evaluateHere(t, true);
 }
 
 void PointBatch::setScale(int point, double scale) {
@@ -216,9 +218,7 @@ void PointBatch::scatter(const double* rows, double* y) const {
     }
 }
 
-void PointBatch::evaluateRows(double t, const double* d, const double* v, bool tangent) {
-  for (int p : active_)
-    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] = offset_[z(r)] + d[r], v_[z(r)] = v[r];
+void PointBatch::evaluateHere(double t, bool tangent) {
   if (tangent)
     law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
   else

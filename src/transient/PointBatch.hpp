@@ -7,6 +7,7 @@
 /// every other point is checked, and one that has touched is added and the step corrected: none is ever missed.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ class PointBatch {
   /// Measure the clearances at q (time t) and choose the points to look at in a step of length h from there.
   void look(double t, double h, const double* q);
   /// Measure the clearances at q and add points that have touched without being looked at; true if there were any.
-  bool addMissed(const double* q);
+  /// When the next look() is at the time t given here, it is at this q and the clearances are not measured again.
+  bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
 
   /// Forces of the active points at (q, v).
   void evaluate(double t, const double* q, const double* v);
@@ -54,8 +56,13 @@ class PointBatch {
   void gather(const double* x, double* rows) const;
   /// y += R' rows.
   void scatter(const double* rows, double* y) const;
-  /// Forces and tangents at the positions and velocities offset + d, v in rows.
-  void evaluateRows(double t, const double* d, const double* v, bool tangent);
+  /// d() and v() at (q, v).
+  void gatherActive(const double* q, const double* v);
+  /// Where the next evaluateHere() evaluates, offsets included.
+  double* position() { return d_.data(); }
+  double* velocity() { return v_.data(); }
+  /// Forces, with tangents if asked, at position() and velocity().
+  void evaluateHere(double t, bool tangent);
   /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
   const double* dfdd() const { return dfdd_.data(); }
   const double* dfdv() const { return dfdv_.data(); }
@@ -99,7 +106,6 @@ class PointBatch {
   void restore(const double*& memory);
 
  private:
-  void gatherActive(const double* q, const double* v);
   void applyScale(bool tangent);
   void scalePoint(int point, bool tangent);
   double rowTimes(int row, const double* x) const;
@@ -137,6 +143,7 @@ class PointBatch {
   bool scaled_ = false;  ///< any scale is not 1
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;
+  double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
   int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
   std::vector<int> frozen_;  ///< points of the frozen tangent
   std::vector<double> P_;

@@ -47,7 +47,7 @@ void PointRelaxation::bind(CompiledModel& model) {
   for (const auto& batch : model.points()) {
     Set set;
     const std::size_t rows = z(batch.points()) * z(batch.width());
-    for (auto* array : {&set.d, &set.v, &set.y, &set.dNow, &set.vNow, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
+    for (auto* array : {&set.d, &set.v, &set.y, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
     set.give.assign(rows * z(batch.width()), 0.0);
@@ -110,8 +110,10 @@ void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
 
 void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& residual) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
-    model_->points()[b].gather(q.data(), sets_[b].d.data());
-    model_->points()[b].gather(v.data(), sets_[b].v.data());
+    PointBatch& batch = model_->points()[b];
+    batch.gatherActive(q.data(), v.data());
+    std::copy(batch.d(), batch.d() + sets_[b].d.size(), sets_[b].d.begin());
+    std::copy(batch.v(), batch.v() + sets_[b].v.size(), sets_[b].v.begin());
   }
   residual_ = residual;
   for (auto& set : sets_) {
@@ -123,32 +125,43 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
 void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
   batch.gather(delta.data(), set.y.data());
   const int w = batch.width();
+  const double* y = set.y.data();
+  double* d = batch.position();
+  double* v = batch.velocity();
   for (int p : batch.active())
-    for (int r = p * w; r < (p + 1) * w; ++r) {
-      set.dNow[z(r)] = set.d[z(r)] + set.y[z(r)];
-      set.vNow[z(r)] = set.v[z(r)] + c * set.y[z(r)];
-    }
-  batch.evaluateRows(t, set.dNow.data(), set.vNow.data(), tangent);
+    for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = set.v[z(r)] + c * y[r];
+  batch.evaluateHere(t, tangent);
 }
 
-void PointRelaxation::evaluate(double t, double c, const Vector& delta) {
+double PointRelaxation::evaluate(double t, double c, const Vector& delta, double small, double& force) {
+  double worst = 0;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (batch.active().empty()) continue;
     place(set, batch, t, c, delta, false);
-    // f - P y - p
     const int w = batch.width();
     const double* f = batch.force();
     const double* P = batch.frozen();
     const double* y = set.y.data();
-    for (int p : batch.active())
+    const double* weight = set.weight.data();
+    for (int p : batch.active()) {
+      double wrong = 0;
       for (int r = p * w; r < (p + 1) * w; ++r) {
+        // f - P y - p
         double known = set.p[z(r)];
         for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
-        set.defect[z(r)] = f[r] - known;
+        const double defect = set.defect[z(r)] = f[r] - known;
+        const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
+        if (!(size <= wrong)) wrong = size;  // keeps a NaN
+        force = std::max(force, weight[r] * std::abs(f[r]));
       }
+      if (wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
+      set.error[z(p)] = wrong;
+      if (!(wrong <= worst)) worst = wrong;
+    }
   }
+  return worst;
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& delta) {
@@ -193,28 +206,6 @@ void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector& ext
   factor.solve(delta.data());
 }
 
-double PointRelaxation::error(double small, double& force) {
-  double worst = 0;
-  for (std::size_t b = 0; b < sets_.size(); ++b) {
-    const PointBatch& batch = model_->points()[b];
-    Set& set = sets_[b];
-    const int w = batch.width();
-    for (int p : batch.active()) {
-      double wrong = 0;
-      for (int r = p * w; r < (p + 1) * w; ++r) {
-        const double size =
-            set.exact[z(p)] ? std::abs(set.y[z(r)] - set.target[z(r)]) : set.weight[z(r)] * std::abs(set.defect[z(r)]);
-        if (!(size <= wrong)) wrong = size;  // keeps a NaN
-        force = std::max(force, set.weight[z(r)] * std::abs(batch.force()[r]));
-      }
-      if (wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
-      set.error[z(p)] = wrong;
-      if (!(wrong <= worst)) worst = wrong;
-    }
-  }
-  return worst;
-}
-
 /// y = free + G p is what the point does for a force p while the others keep theirs.
 void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double t, double c) {
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
@@ -222,7 +213,7 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
   const int first = point * w;
   const auto local = [&](const std::vector<double>& rows) { return Eigen::Map<const Vector>(&rows[z(first)], w); };
   problem_.point = point;
-  problem_.d = Eigen::Map<const Vector>(batch.d() + first, w) - local(set.y);  // with the offset
+  problem_.d = local(set.d);
   problem_.v = local(set.v);
   problem_.f0 = NodalProblem::Local::Zero(w);
   problem_.P = Rows(batch.frozen() + first * w, w, w);

@@ -44,18 +44,16 @@ class PointRelaxation {
   void guess(double t, double c, const Vector& delta);
   /// delta for the present p; `extra` is added to the residual.
   void solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const;
-  /// Evaluate the laws at delta (v changes by c per unit of delta).
-  void evaluate(double t, double c, const Vector& delta);
-  /// max |w R'(f - P y - p)| by rows; `force` becomes max |w f|. `small` is an error that needs no care.
-  double error(double small, double& force);
+  /// Evaluate the laws at delta (v changes by c per unit of delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
+  /// largest of itself and |w f|; an error below `small` needs no care.
+  double evaluate(double t, double c, const Vector& delta, double small, double& force);
   /// One Newton step at every point, and the whole way at those where Newton does not help.
   void correct(double t, double c);
 
  private:
   struct Set {
-    std::vector<double> d, v;     ///< rows at delta = 0, without offset
+    std::vector<double> d, v;     ///< rows at delta = 0
     std::vector<double> y;        ///< rows of delta
-    std::vector<double> dNow, vNow;
     std::vector<double> p;
     std::vector<double> defect;   ///< f - P y - p
     std::vector<double> give;     ///< G0 per point, width x width
