@@ -47,6 +47,7 @@ def exit_codes():
     ends("unknown option", 1, "--nonsense", "run", DECK, "--nonsense", ranks=(1,))
     ends("missing deck", 5, "nowhere.xml", "run", "nowhere.xml")
     ends("misspelt parameter", 2, "Did you mean", "run", DECK, "--set", "Contact/Stiffnes=1")
+    ends("study without a Study list", 2, "has no Study list", "study", DECK)
     ends("floating string", 3, "The string floats", "run", DECK, "--output", "floating", *free)
     ends("static state not reached", 4, "The static equilibrium did not converge", "run", DECK, "--output", "unconverged", "--set", "Static/Max Iterations=1")
     ends("motion not solved", 4, "Step", "run", DECK, "--output", "lost", "--set", "Transient/Step=0.1", "--set", "Transient/Sampling Interval=0.1",

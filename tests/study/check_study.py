@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What `tooljoint study` leaves behind: check_study.py PROGRAM MPIEXEC DECK
+
+Runs a study of a few seconds and looks at its rows; compares an error with that of two separate runs; interrupts it and goes on; lets a
+method, and the reference, fail; changes one method and sees that the others are not run again; repeats it on two ranks.
+"""
+import csv
+import json
+import math
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
+FAULTS = []
+
+
+def tooljoint(*arguments, ranks=1):
+    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=240)
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def summary(folder):
+    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
+
+
+def rows(folder):
+    return {row["label"]: row for row in summary(folder)["study"]}
+
+
+def table(folder):
+    with open(pathlib.Path(folder, "study.csv"), newline="", encoding="utf-8") as text:
+        return {row["label"]: row for row in csv.DictReader(text)}
+
+
+def known(done):
+    """How many runs a study says it has from before."""
+    match = re.search(r"(\d+) of (\d+) runs are known", done.stdout)
+    return int(match.group(1)) if match else 0
+
+
+def whole_study():
+    done = tooljoint("study", DECK, "--output", "whole")
+    expect("a study with a method that fails ends with 0", done.returncode == 0, done.stderr[-300:])
+    found, listed = rows("whole"), table("whole")
+    expect("every run is a row, of summary.json and of study.csv", len(found) == 13 and list(found) == list(listed), f"({len(found)})")
+    failed = found["RK4, too coarse"]
+    expect("the failed run has its reason and no numbers", failed["status"] == "failed" and "blew up" in failed["reason"] and failed["cpu_s"] is None)
+    expect("its line in study.csv too", listed["RK4, too coarse"]["status"] == "failed" and listed["RK4, too coarse"]["dyn"] == "")
+    methods = [row for row in found.values() if row["kind"] == "method" and row["status"] == "done"]
+    whole = all(math.isfinite(row[key]) and row[key] > 0 for row in methods for key in ("dyn", "eps_t_max", "eps_n_max", "cpu_s", "cpu_per_simulated_s", "steps"))
+    expect("no speed without its error on the same row", len(methods) == 9 and whole)
+    expect("the lateral statistics are there", all(row["spectrum_difference_db"] is not None for row in methods))
+    reference = summary("whole")["reference"]
+    own = reference["self_error"]["dyn"]
+    expect("the error of the reference is known and below all others", 0 < own < min(row["dyn"] for row in methods), f"({own:.1e})")
+    expect("so is its sensitivity", 1e-11 < reference["sensitivity"]["at_end"] < 1e-8, f"({reference['sensitivity']['at_end']:.1e})")
+    steps = [found[f"Generalized-alpha, full, Step {step} ms"]["dyn"] for step in ("0.2", "0.5", "1")]
+    order = math.log(steps[2] / steps[0]) / math.log(5.0)
+    expect("errors grow with the step, at an order between one and two", 1.0 < order < 2.2 and steps[0] < steps[1] < steps[2], f"({order:.2f})")
+    for state in ("Keep static", "Least squares"):
+        errors = [found[f"Craig-Bampton, {state}, Modes {modes}"]["dyn"] for modes in (0, 2, 8)]
+        expect(f"more modes, less error ({state})", errors[0] > errors[1] > errors[2])
+    expect("the kept static state is better than the projected one",
+           all(found[f"Craig-Bampton, Keep static, Modes {m}"]["dyn"] < found[f"Craig-Bampton, Least squares, Modes {m}"]["dyn"] for m in (0, 2, 8)))
+    best = found["Generalized-alpha, full, Step 1 ms"]
+    expect("the baseline is 1, and so is the best full run at its own error", best["speedup_baseline"] == 1 and abs(best["speedup_best_full"] - 1) < 1e-12)
+
+
+def same_as_separate_runs():
+    """The row is what two runs and `compare` give."""
+    common = ["--without", "Study", "--set", "Transient/End Time=0.2", "--without", "Reduction", "--without", "Substructures"]
+    for folder, step in (("run_reference", "2e-5"), ("run_method", "1e-3")):
+        tooljoint("run", DECK, "--output", folder, *common, "--set", f"Transient/Step={step}")
+    said = tooljoint("compare", "run_method", "run_reference", "--to", "0.2").stdout
+    compared = {key: float(value) for key, value in re.findall(r"(dyn|max) (\d\.\d+e[+-]\d+)", said)}
+    row = rows("whole")["Generalized-alpha, full, Step 1 ms"]
+    expect("dyn is that of `tooljoint compare` of two runs", abs(compared["dyn"] / row["dyn"] - 1) < 1e-3, f"({compared['dyn']}, {row['dyn']:.4e})")
+
+
+def goes_on():
+    before = rows("whole")
+    done = tooljoint("study", DECK, "--output", "whole")
+    expect("a study that is repeated runs nothing again", done.returncode == 0 and known(done) == 13 and "run 1 of" not in done.stdout)
+    expect("and has the same rows, times included", rows("whole") == before)
+    done = tooljoint("study", DECK, "--output", "whole", "--set", "Study/Methods/Craig-Bampton/Set={Transient/Step=0.5 ms}")
+    expect("a changed method alone is run again", done.returncode == 0 and known(done) == 7, f"({known(done)} known)")
+    done = tooljoint("study", DECK, "--output", "whole", "--set", "Study/Reference/Set={Transient/Step=4e-5}", "--set", "Study/Repeats=1")
+    expect("with another reference everything is", done.returncode == 0 and known(done) == 0)
+    done = tooljoint("study", DECK, "--output", "whole", "--fresh", "--set", "Study/Repeats=1")
+    expect("--fresh forgets all", done.returncode == 0 and known(done) == 0)
+    done = tooljoint("study", DECK, "--output", "whole", "--set", "Study/Time Limit=1e-4", "--set", "Study/Repeats=1", "--fresh")
+    late = [row for row in rows("whole").values() if row["kind"] == "method"]
+    expect("runs beyond the time limit are failed rows, not a failed study", done.returncode == 0 and all(row["status"] == "failed" for row in late))
+    done = tooljoint("study", DECK, "--output", "whole", "--set", "Study/Repeats=1")
+    expect("and are run again without it", done.returncode == 0 and rows("whole")["Craig-Bampton, Keep static, Modes 8"]["status"] == "done")
+
+
+def interrupted():
+    process = subprocess.Popen([PROGRAM, "study", DECK, "--output", "broken", "--set", "Study/Repeats=1000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True)
+    while process.poll() is None and len(list(pathlib.Path("broken/cache").glob("row_*.json"))) < 7:
+        time.sleep(0.005)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    expect("an interrupted study ends with 130 and says where its rows are", process.returncode == 130 and "goes on from there" in said, f"({process.returncode})")
+    expect("its summary says interrupted", summary("broken")["status"] == "interrupted")
+    kept = {label: row for label, row in rows("broken").items() if row["status"] == "done"}
+    expect("the rows that were done are in its files", len(kept) >= 6 and len(table("broken")) == 13, f"({len(kept)})")
+    done = tooljoint("study", DECK, "--output", "broken", "--set", "Study/Repeats=1")
+    after = rows("broken")
+    expect("it goes on", done.returncode == 0 and known(done) >= 6, f"({known(done)} known)")
+    expect("and ends with all rows, the first ones as they were", summary("broken")["status"] == "finished" and len(after) == 13
+           and all(after[label]["dyn"] == row["dyn"] and after[label]["cpu_s"] == row["cpu_s"] for label, row in kept.items()))
+
+
+def failures():
+    for ranks in (1, 2):
+        done = tooljoint("study", DECK, "--output", f"lost_{ranks}", "--set", "Study/Reference/Set={Transient/Integrator=RK4, Transient/Step=5 ms}", ranks=ranks)
+        said = done.stderr.count("The reference run failed")
+        expect(f"a reference that fails ends with 4, {ranks} rank(s)", done.returncode == 4 and said == 1, f"({done.returncode}, {said})")
+        expect("and its summary says so", summary(f"lost_{ranks}")["status"] == "failed")
+    done = tooljoint("study", DECK, "--without", "Study")
+    expect("a deck without a Study list ends with 2", done.returncode == 2 and "has no Study list" in done.stderr)
+    done = tooljoint("study", DECK, "--without", "Transient")
+    expect("so does one without a motion", done.returncode == 2 and "no Transient list" in done.stderr)
+    done = tooljoint("run", DECK, "--output", "plain")
+    expect("`run` leaves the Study list aside", done.returncode == 0 and summary("plain")["study"] is None)
+
+
+def two_ranks():
+    done = tooljoint("study", DECK, "--output", "ranks", "--set", "Study/Repeats=1", ranks=2)
+    one, two = rows("broken"), rows("ranks")
+    same = all(one[label]["status"] == row["status"] and (row["dyn"] is None or abs(row["dyn"] / one[label]["dyn"] - 1) < 1e-5)
+               for label, row in two.items() if row["kind"] == "method")
+    expect("two ranks give the same rows", done.returncode == 0 and len(two) == 13 and same, done.stderr[-300:] if done.returncode else "")
+
+
+def pictures():
+    done = tooljoint("study", DECK, "--output", "ranks", "--set", "Study/Repeats=1", "--set", "Study/Pictures=true")
+    drawn = sorted(path.name for path in pathlib.Path("ranks").glob("study_*.png"))
+    said = "plots were not drawn" in done.stderr and "plot_study.py ranks" in done.stderr
+    wanted = {"study_speed.png", "study_modes.png", "study_error_over_time.png", "study_bit_speed.png", "study_static.png", "study_reference.png"}
+    expect("pictures are drawn, or a warning says how", done.returncode == 0 and (wanted <= set(drawn) or said), f"({', '.join(drawn) or 'warning'})")
+    if drawn:
+        expect("each as SVG too", all(pathlib.Path("ranks", name).with_suffix(".svg").is_file() for name in drawn))
+
+
+def main():
+    for left in ("whole", "run_reference", "run_method", "broken", "lost_1", "lost_2", "plain", "ranks"):  # of an earlier run of this test
+        shutil.rmtree(left, ignore_errors=True)
+    for check in (whole_study, same_as_separate_runs, goes_on, interrupted, failures, two_ranks, pictures):
+        check()
+    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
+    return 1 if FAULTS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
