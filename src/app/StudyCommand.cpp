@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <unistd.h>
 
 #include "app/Commands.hpp"
 #include "app/ResultsWriter.hpp"
@@ -101,8 +102,9 @@ class Study {
  private:
   std::string folderName() const {
     if (!options_.output.empty()) return options_.output;
-    if (!scene_.output.folder.empty()) return scene_.output.folder;
-    return (std::filesystem::path("results") / std::filesystem::path(options_.deck).stem()).string();
+    // beside the folder of `tooljoint run`, whose files would be replaced otherwise
+    if (!scene_.output.folder.empty()) return scene_.output.folder + "_study";
+    return (std::filesystem::path("results") / std::filesystem::path(options_.deck).stem()).string() + "_study";
   }
 
   void open() {
@@ -216,7 +218,7 @@ class Study {
   /// All methods once; those that failed before, or have been timed often enough, are left out.
   void repeat(int pass) {
     for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i) {
-      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i)) run(i, "");
+      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i)) run(i, isatty(STDERR_FILENO) == 1 ? result_.rows[i].plan.label : "");
       if (!isFirst(i)) copyTwin(i);
     }
   }
@@ -233,9 +235,11 @@ class Study {
   void run(std::size_t i, const std::string& title) {
     const bool first = timed_[i] == 0;
     const auto start = std::chrono::steady_clock::now();
-    const double perturbation = plan_.runs[i].plan.kind == RunKind::Sensitivity ? plan_.settings.perturbation : 0.0;
+    const auto kind = plan_.runs[i].plan.kind;
+    const double perturbation = kind == RunKind::Sensitivity ? plan_.settings.perturbation : 0.0;
+    const auto limit = kind == RunKind::Method ? plan_.settings.timeLimit : std::nullopt;
     try {
-      const auto execution = runner_.execute(plan_.runs[i].scene, {title, first, perturbation, plan_.settings.timeLimit});
+      const auto execution = runner_.execute(plan_.runs[i].scene, {title, first, perturbation, limit});
       parallel::agree([&] {
         if (parallel::rank() != 0) return;
         if (first) book(i, execution, execution.history);

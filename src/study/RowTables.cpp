@@ -80,6 +80,10 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
   std::snprintf(line, sizeof line, "%-*s %6s %9s %9s %9s %10s %7s %9s %9s  %s", static_cast<int>(width), "run", "dofs", "dyn", "eps_t max", "eps_n max",
                 "CPU s / s", "spread", "baseline", "best full", "counts");
   std::string out = line;
+  double own = 0.0;  // error of the reference
+  bool beyond = false;
+  for (const auto& row : rows)
+    if (row.plan.kind == RunKind::Check && row.done() && row.errors) own = row.errors->dyn;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!row.done()) {
@@ -88,7 +92,9 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
     }
     char error[3][16] = {"-", "-", "-"};
     if (row.errors) {
-      std::snprintf(error[0], sizeof error[0], "%.2e", row.errors->dyn);
+      const bool below = row.plan.kind == RunKind::Method && row.errors->dyn < own;
+      beyond = beyond || below;
+      std::snprintf(error[0], sizeof error[0], "%.2e%s", row.errors->dyn, below ? "*" : "");
       std::snprintf(error[1], sizeof error[1], "%.2e", row.errors->epsTMax);
       std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
     }
@@ -99,6 +105,7 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
     for (const auto& [count, name] : {std::pair{row.rejected, "rejected"}, {row.halved, "halved"}, {row.unconverged, "unconverged"}, {row.missedNodes, "missed nodes"}})
       if (count > 0) out += ", " + std::to_string(count) + " " + name;
   }
+  if (beyond) out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";
   return out;
 }
 
