@@ -160,7 +160,7 @@ class Labels:
 
 def ordered(runs):
     """Runs of a line in the order of the deck, failed ones skipped."""
-    return [run for run in runs if run.number("dyn") > 0 and run.number("cpu_per_simulated_second") > 0]
+    return [run for run in runs if run.number("dyn") > 0 and run.number("cpu_per_simulated_s") > 0]
 
 
 def published(study):
@@ -174,7 +174,7 @@ def draw_speed(study):
     """dyn against CPU time per simulated second: down and left is better."""
     figure, axes = plt.subplots(figsize=(10.5, 7))
     axes.set_xscale("log"), axes.set_yscale("log")
-    xs = [run.number("cpu_per_simulated_second") for run in study.methods]
+    xs = [run.number("cpu_per_simulated_s") for run in study.methods]
     ys = [run.number("dyn") for run in study.methods]
     if not xs:
         return None
@@ -194,26 +194,26 @@ def draw_speed(study):
     labels = Labels(axes)
     for name, runs in study.lines.items():
         runs = ordered(runs)
-        x, y = [r.number("cpu_per_simulated_second") for r in runs], [r.number("dyn") for r in runs]
+        x, y = [r.number("cpu_per_simulated_s") for r in runs], [r.number("dyn") for r in runs]
         axes.plot(x, y, marker=study.marker[name], markersize=5, linewidth=1.6, color=study.colour[name], linestyle="--" if runs and runs[0].reduced else "-",
                   markeredgecolor="white", markeredgewidth=0.6, zorder=3)
         if runs:
             labels.occupy(x, y)
     baseline = next((run for run in study.methods if run.label == study.attribute("baseline", "")), None)
     if baseline:
-        axes.plot(baseline.number("cpu_per_simulated_second"), baseline.number("dyn"), "o", markersize=13, markerfacecolor="none", markeredgecolor="black",
+        axes.plot(baseline.number("cpu_per_simulated_s"), baseline.number("dyn"), "o", markersize=13, markerfacecolor="none", markeredgecolor="black",
                   markeredgewidth=1, zorder=4)
     draw_published(axes, labels, others)
     for name, runs in study.lines.items():
         runs = ordered(runs)
         if runs:
-            labels.put(wrapped(name), [(r.number("cpu_per_simulated_second"), r.number("dyn")) for r in runs], study.colour[name], size=9.5, weight="bold")
+            labels.put(wrapped(name), [(r.number("cpu_per_simulated_s"), r.number("dyn")) for r in runs], study.colour[name], size=9.5, weight="bold")
     if baseline:
-        labels.put("baseline", [(baseline.number("cpu_per_simulated_second"), baseline.number("dyn"))], "black", size=8, reach=(12, 20, 32))
+        labels.put("baseline", [(baseline.number("cpu_per_simulated_s"), baseline.number("dyn"))], "black", size=8, reach=(12, 20, 32))
     for name, runs in study.lines.items():
         runs = ordered(runs)
         for run in ([runs[0], runs[-1]] if len(runs) > 1 else []):
-            labels.put(short(run.value), [(run.number("cpu_per_simulated_second"), run.number("dyn"))], study.colour[name], size=7.5, reach=(6, 10, 16), limit=60)
+            labels.put(short(run.value), [(run.number("cpu_per_simulated_s"), run.number("dyn"))], study.colour[name], size=7.5, reach=(6, 10, 16), limit=60)
     logarithmic(axes.xaxis), logarithmic(axes.yaxis, percent)
     axes.set_xlabel(f"CPU time per simulated second [s]  ({study.machine()})")
     axes.set_ylabel(f"dyn: error of the lateral vibration, {study.window()[0]:g} to {study.window()[1]:g} s")
@@ -332,11 +332,10 @@ def draw_error_over_time(study):
         axes.set_title(name, color=study.colour[name], fontsize=9)
         axes.set_xlim(*study.window()), axes.set_ylim(floor / 2, max(positive) * 2)
         logarithmic(axes.yaxis, percent)
-        for run, side in ((runs[0], "top"), (runs[-1], "bottom")) if len(runs) > 1 else ((runs[0], "bottom"),):
-            level = max(np.median(run.curve("eps_t")), floor * (3 if side == "top" else 1))
-            text = short(run.value) or run.value
-            axes.annotate(text, (study.window()[1], level), xytext=(-3, -7 if side == "top" else 7), textcoords="offset points", ha="right",
-                          va="top" if side == "top" else "bottom", fontsize=7.5, color=study.colour[name])
+        for run, below in ((runs[0], True), (runs[-1], False)) if len(runs) > 1 else ((runs[0], False),):
+            end = run.curve("eps_t")[-max(1, len(run.curve("eps_t")) // 4):]
+            level = max(0.85 * end.min() if below else 1.15 * end.max(), floor * (4 if below else 1))
+            axes.text(study.window()[1], level, short(run.value) + " ", ha="right", va="top" if below else "bottom", fontsize=7.5, color=study.colour[name])
         if index % columns == 0:
             axes.set_ylabel("eps_t")
         if index >= len(lines) - columns:
@@ -348,7 +347,7 @@ def draw_error_over_time(study):
 def representative(runs, enough=0.01):
     """The fastest run of a line whose dyn is at most 1 %, or else its most accurate one."""
     good = [run for run in runs if run.number("dyn") <= enough]
-    return min(good, key=lambda run: run.number("cpu_per_simulated_second")) if good else min(runs, key=lambda run: run.number("dyn"))
+    return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(runs, key=lambda run: run.number("dyn"))
 
 
 def draw_bit_speed(study):
@@ -368,8 +367,8 @@ def draw_bit_speed(study):
             axes.set_ylabel("bit speed [rpm]")
         if index >= len(study.lines) - columns:
             axes.set_xlabel("time [s]")
-    figure.suptitle("Bit speed: the fastest run of each method with dyn up to 1 % (else its best) over the reference (grey); shaded: window of pointwise errors", x=0.01, ha="left", fontsize=10,
-                    fontweight="bold")
+    figure.suptitle("Bit speed: the fastest run of each method with dyn up to 1 % (else its best) over the reference (grey); shaded: window of errors",
+                    x=0.01, ha="left", fontsize=10, fontweight="bold")
     return figure
 
 

@@ -16,8 +16,8 @@ const std::vector<io::Csv::Column>& columns() {
   static const std::vector<io::Csv::Column> all{
       {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"integrator", ""},
       {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""},
-      {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_second", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
-      {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged", ""},
+      {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
+      {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
       {"newton_iterations", ""}, {"factorisations", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
       {"missed_nodes", ""}, {"bit_speed_p05", "rpm"}, {"bit_speed_p50", "rpm"}, {"bit_speed_p95", "rpm"}, {"bit_speed_difference", "rpm"},
       {"contact_duty_difference_max", ""}, {"contact_duty_difference_mean", ""}, {"lateral_rms_difference", ""}, {"spectrum_difference", "dB"}};
