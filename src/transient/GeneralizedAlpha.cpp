@@ -45,6 +45,9 @@ deck::ListSpec specification() {
             "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")
       .integer("Max Halvings", 4, deck::Range::between(0, 16), "Times a step may be halved before the run stops.")
+      .boolean("Phase Correction", true,
+               "Make up for the period error of the scheme: vibration is then followed to fourth order in the step, at about a "
+               "third more work per step.")
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
 }
@@ -65,6 +68,7 @@ class GeneralizedAlpha final : public Integrator {
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
     units_ = 1L << maxHalvings_;
+    if (own.get<bool>("Phase Correction")) setPhaseCorrection();
   }
 
   int ledgerStride() const override { return 2; }
@@ -78,9 +82,10 @@ class GeneralizedAlpha final : public Integrator {
   bool attempt(const State& from, State& to, double h, bool keep);
   void startAcceleration(State& state);
   void predict(const State& from, State& to, double h);
+  void setPhaseCorrection();
   StepScheme scheme(double h) const {
     const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-    return {h, gamma_ / (beta_ * h), ca, massive_ ? 0.5 * h * h * ca : 1.0};
+    return {h, gamma_ / (beta_ * h), ca, filter_, phase_, massive_ ? 0.5 * h * h * ca : 1.0};
   }
   void finish(State& to, double h);
   double gridTime() const;
@@ -91,6 +96,7 @@ class GeneralizedAlpha final : public Integrator {
   ImplicitStep::Options equations_;
   int maxHalvings_;
   bool acceptUnconverged_;
+  double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
 
   CompiledModel* model_ = nullptr;
   Window window_;
@@ -108,6 +114,23 @@ class GeneralizedAlpha final : public Integrator {
   Vector impact_;
   Vector A_;  ///< algorithmic acceleration at t_n
 };
+
+/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors of the scheme,
+///
+///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
+///
+/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1 M, is that for low
+/// frequencies, (1 - k) M for high ones, symmetric and positive between, so that the scheme stays unconditionally stable;
+/// what is at rest stays where it is. s keeps k at 0.7 or below.
+void GeneralizedAlpha::setPhaseCorrection() {
+  const double d = alphaM_ - alphaF_;
+  const double ofVelocity = gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
+  const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
+  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
+  const double whole = (ofVelocity + ofDisplacement) * ca;
+  filter_ = std::min(1.0, 0.7 / whole);
+  phase_ = filter_ * whole;
+}
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   model_ = &model;

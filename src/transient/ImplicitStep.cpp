@@ -12,10 +12,11 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 /// Relaxations before Newton takes over, and what four of them must make of the error.
 constexpr int maxRelaxations = 24;
 constexpr double slowestRelaxation = 0.25;
-/// A factorisation with its compliance costs about as much as this many relaxations ...
+/// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 14;
-/// ... and with fresh tangents a step takes about this many.
-constexpr int freshRelaxations = 3;
+
+/// A product with what the laws have changed, in relaxations.
+constexpr double driftPrice = 0.5;
 
 /// max_i w_i sum_j |A_ij|
 double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
@@ -35,12 +36,12 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   options_ = options;
   const int n = model.size();
   for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
-                    &savedChange_, &guess_, &drift_, &rowSize_})
+                    &savedChange_, &guess_, &last_, &drift_, &rowSize_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);
-  relaxes_ = !model.points().empty();
+  relaxes_ = true;
   for (const auto& batch : model.points()) relaxes_ = relaxes_ && batch.width() <= PointRelaxation::widest;
   factor_ = linalg::BlockFactor(model.pattern());
 }
@@ -54,7 +55,9 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   relaxation_.setWeights(weight_);
   const auto& pattern = model_->pattern();
   if (relaxes_ && scheme.impact != 1.0) {
-    forgetFactor();
+    factored_ = compliant_ = false;
+    if (!keepTangents_)
+      for (auto& batch : model_->points()) batch.forgetTangent();
     model_->combine(scheme.acceleration, scheme.velocity, 1.0, factor_.values());
     if (factor_.factor() < 0) relaxation_.setImpacts(factor_, scheme.h, scheme.impact);
   }
@@ -98,8 +101,9 @@ void ImplicitStep::linearResidual(const State& to) {
 
 void ImplicitStep::prepare(const StepScheme& scheme, double t) {
   if (scheme_.h == scheme.h) return;
+  if (scheme.phase != 0.0 && filter_.empty()) filter_ = linalg::BlockFactor(model_->pattern());
   scale(scheme, t);
-  guess_.setZero();
+  for (Vector* x : {&last_, &guess_}) x->setZero();
   scheme_ = scheme;
 }
 
@@ -135,6 +139,7 @@ bool ImplicitStep::relax(State& to) {
     refactor(to);
     if (!factored_) return false;
   }
+  guess_ = last_;
   if (!compliant_) relaxation_.setCompliance(factor_);
   compliant_ = true;
   for (;;) {
@@ -146,6 +151,7 @@ bool ImplicitStep::relax(State& to) {
     q0_ = to.q + delta_;
     bool missed = false;
     for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
+    last_ = delta_;
     guess_ = delta_;
     if (!missed) break;
   }
@@ -163,18 +169,27 @@ bool ImplicitStep::settle(State& to) {
   if (norm > 0) addDrift(guess_, drift_);
   delta_ = guess_;
   relaxation_.guess(to.t, c, delta_);
+  bool phase = correctsPhase();
+  const double settled = std::sqrt(options_.tolerance);
+  correction_.setZero();
   double last = 0;
   for (int iteration = 1; iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
-    relaxation_.solve(factor_, drift_, delta_);
+    scratch_ = drift_ - correction_;
+    relaxation_.solve(factor_, scratch_, delta_);
     ++counters_->newtonIterations;
     double force = linearReference_;
     error_ = relaxation_.evaluate(to.t, c, delta_, tolerance(), force);
     reference_ = force;
-    bool good = converged();
+    bool good = converged() && !phase;
+    if (phase) {
+      correctPhase(to);
+      phase = error_ > settled * reference_;  // taken from an iterate that is near
+    }
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > 0.1 * tolerance()) {
       drift_.setZero();
       addDrift(delta_, drift_);
       guess_ = delta_;
+      debt_ += driftPrice;
       good = false;
     }
     if (good) {
@@ -193,7 +208,8 @@ bool ImplicitStep::settle(State& to) {
 
 /// A step took this many relaxations: ask for a new factorisation once that would have paid.
 void ImplicitStep::account(int iterations) {
-  debt_ += std::max(0, iterations - freshRelaxations);
+  if (usual_ == 0) usual_ = iterations;
+  debt_ += std::max(0, iterations - usual_);
   if (debt_ > factorPrice) wanted_ = true;
 }
 
@@ -211,12 +227,7 @@ void ImplicitStep::refactor(const State& to) {
   ++counters_->factorisations;
   fresh_ = true;
   wanted_ = false;
-  debt_ = 0;
-}
-
-void ImplicitStep::forgetFactor() {
-  factored_ = compliant_ = false;
-  for (auto& batch : model_->points()) batch.forgetTangent();
+  debt_ = usual_ = 0;
 }
 
 void ImplicitStep::buildFactor() {
@@ -224,6 +235,30 @@ void ImplicitStep::buildFactor() {
   for (auto& batch : model_->points()) batch.subtractTangent(factor_.values());
   factored_ = factor_.factor() < 0;
   compliant_ = false;
+  if (factorScheme_.phase == 0.0) return;
+  model_->combine(factorScheme_.filter * factorScheme_.acceleration, 0.0, 1.0, filter_.values());
+  for (auto& batch : model_->points()) batch.subtractPositionTangent(filter_.values());
+  factored_ = factored_ && filter_.factor() < 0;
+}
+
+/// Impacts are of first order anyway, and their acceleration is not one to be filtered.
+bool ImplicitStep::correctsPhase() const {
+  if (scheme_.phase == 0.0) return false;
+  for (const auto& batch : model_->points())
+    if (batch.isScaled()) return false;
+  return true;
+}
+
+/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once, from the delta without it:
+/// what that misses is of the order of the square of k (I - F) F.
+void ImplicitStep::correctPhase(const State& to) {
+  acceleration_ = to.a + scheme_.acceleration * delta_;
+  filtered_.setZero();
+  model_->addMass(acceleration_.data(), filtered_.data());
+  filter_.solve(filtered_.data());
+  acceleration_ = scheme_.phase * (acceleration_ - scheme_.filter * scheme_.acceleration * filtered_);
+  correction_.setZero();
+  model_->addMass(acceleration_.data(), correction_.data());
 }
 
 double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
@@ -231,35 +266,37 @@ double ImplicitStep::relativeError() const { return error_ / std::max(reference_
 int ImplicitStep::worstPosition() const { return transient::worstPosition(residual_.cwiseProduct(weight_)); }
 
 void ImplicitStep::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {scheme_.h, scheme_.velocity, scheme_.acceleration, factored_ ? 1.0 : 0.0, factorScheme_.h,
-                               factorScheme_.velocity, factorScheme_.acceleration, factorTime_, drifted() ? 0.0 : 1.0,
-                               wanted_ ? 1.0 : 0.0, debt_});
-  for (const Vector* x : {&weight_, &guess_}) memory.insert(memory.end(), x->begin(), x->end());
+  for (const StepScheme* each : {&scheme_, &factorScheme_})
+    memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
+  memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_,
+                               static_cast<double>(usual_)});
+  memory.insert(memory.end(), weight_.begin(), weight_.end());
+  memory.insert(memory.end(), last_.begin(), last_.end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
 }
 
 void ImplicitStep::restore(const double*& memory) {
   StepScheme scheme;
-  scheme.h = *memory++;
-  scheme.velocity = *memory++;
-  scheme.acceleration = *memory++;
+  for (StepScheme* each : {&scheme, &factorScheme_})
+    for (double* value : {&each->h, &each->velocity, &each->acceleration, &each->filter, &each->phase, &each->impact})
+      *value = *memory++;
   const bool factored = *memory++ != 0.0;
-  factorScheme_.h = *memory++;
-  factorScheme_.velocity = *memory++;
-  factorScheme_.acceleration = *memory++;
   factorTime_ = *memory++;
   const bool current = *memory++ != 0.0;
   wanted_ = *memory++ != 0.0;
   debt_ = *memory++;
+  usual_ = static_cast<int>(*memory++);
   const double now = model_->time();
+  // scale() looks for impacts with a factor of its own: the frozen tangents that came back with the batches have to survive it.
+  keepTangents_ = true;
   if (scheme.h > 0) scale(scheme, now);
+  keepTangents_ = false;
   scheme_ = scheme;
-  for (Vector* vector : {&weight_, &guess_})
-    for (double& x : *vector) x = *memory++;
+  for (double& x : weight_) x = *memory++;
+  for (double& x : last_) x = *memory++;
   if (scheme.h > 0) relaxation_.setWeights(weight_);
   for (double& x : factorLaws_) x = *memory++;
   if (!factored) return;
-  // The frozen point tangents came back with the batches: the same factor again.
   model_->setTime(factorTime_);
   buildFactor();
   model_->setTime(now);

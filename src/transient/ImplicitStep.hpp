@@ -4,7 +4,8 @@
 ///
 ///     M (a + ca delta) + C (v + cv delta) + K (q + delta) = F + R' f(q + delta, v + cv delta, t)
 ///
-/// is solved for delta, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
+/// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme asks for it, see
+/// GeneralizedAlpha::setPhaseCorrection) is solved for delta, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
 /// once (PointRelaxation), and where that is slow by modified Newton with exact tangents: the factor is renewed, each update
 /// backtracked on the residual scaled by the diagonal of S, points whose force jumps are solved by themselves
 /// (NodalCorrection), and a jump along the search direction is bracketed.
@@ -26,6 +27,8 @@ struct StepScheme {
   double h = 0;
   double velocity = 0;      ///< cv
   double acceleration = 0;  ///< ca
+  double filter = 0;        ///< s and
+  double phase = 0;         ///< k of the phase correction, 0 for none
   double impact = 1;        ///< what forces of impacts (PointRelaxation::setImpacts) are multiplied by
 };
 
@@ -65,7 +68,6 @@ class ImplicitStep {
   double tolerance() const { return options_.tolerance * reference_ + floor_; }
   void refactor(const State& to);
   void buildFactor();
-  void forgetFactor();
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
   void addDrift(const Vector& delta, Vector& y);
   double driftNorm() const;
@@ -74,6 +76,8 @@ class ImplicitStep {
   bool bracket(State& to, double beyond);
   void place(State& to, double fraction);
   void findChange();
+  bool correctsPhase() const;
+  void correctPhase(const State& to);
 
   CompiledModel* model_ = nullptr;
   Options options_;
@@ -90,10 +94,17 @@ class ImplicitStep {
   bool wanted_ = false;             ///< convergence was slow: factor anew
 
   PointRelaxation relaxation_;
+  bool keepTangents_ = false;  ///< while restoring
   bool relaxes_ = false;    ///< points have few enough coordinates for it
   bool compliant_ = false;  ///< its compliance belongs to the factor
-  double debt_ = 0;         ///< iterations beyond what a fresh factor would have taken, since the last one
+  int usual_ = 0;           ///< iterations of the first step with this factor
+  double debt_ = 0;         ///< iterations beyond that since
   Vector guess_, drift_;
+  Vector last_;  ///< delta of the last step
+
+  linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R
+  Vector correction_;           ///< k M (I - F) q'' at the iterate
+  Vector filtered_, acceleration_;
 
   Vector linear_, residual_, delta_, change_;
   NodalCorrection nodal_;

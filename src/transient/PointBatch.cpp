@@ -71,7 +71,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   isFrozen_.assign(z(points_), 0);
   scale_.assign(z(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
-  for (auto* array : {&dfdd_, &dfdv_, &P_}) array->assign(z(rows) * z(width_), 0.0);
+  for (auto* array : {&dfdd_, &dfdv_, &P_, &positionP_}) array->assign(z(rows) * z(width_), 0.0);
   gap_.assign(z(points_), 0.0);
   lastGap_.assign(z(points_), 0.0);
   check_.assign(z(points_), 0.0);
@@ -263,28 +263,36 @@ void PointBatch::freezeTangent(double cd, double cv) {
   frozen_ = active_;
   for (int p : frozen_) isFrozen_[z(p)] = 1;
   for (int p : frozen_)
-    for (int i = p * entries; i < (p + 1) * entries; ++i) P_[z(i)] = cd * dfdd_[z(i)] + cv * dfdv_[z(i)];
+    for (int i = p * entries; i < (p + 1) * entries; ++i) {
+      positionP_[z(i)] = cd * dfdd_[z(i)];
+      P_[z(i)] = positionP_[z(i)] + cv * dfdv_[z(i)];
+    }
 }
 
 void PointBatch::forgetTangent() {
   const int entries = width_ * width_;
   for (int p : frozen_) {
     std::fill(P_.begin() + p * entries, P_.begin() + (p + 1) * entries, 0.0);
+    std::fill(positionP_.begin() + p * entries, positionP_.begin() + (p + 1) * entries, 0.0);
     isFrozen_[z(p)] = 0;
   }
   frozen_.clear();
 }
 
-void PointBatch::subtractTangent(double* values) const {
+void PointBatch::subtractTangent(double* values) const { subtract(P_, values); }
+
+void PointBatch::subtractPositionTangent(double* values) const { subtract(positionP_, values); }
+
+void PointBatch::subtract(const std::vector<double>& frozen, double* values) const {
   const int entries = width_ * width_;
   if (single_) {
     for (int p : frozen_)
       for (int i = p * entries; i < (p + 1) * entries; ++i)
-        if (entryAddress_[z(i)] != none) values[entryAddress_[z(i)]] -= P_[z(i)];
+        if (entryAddress_[z(i)] != none) values[entryAddress_[z(i)]] -= frozen[z(i)];
     return;
   }
   for (int p : frozen_) {
-    const double* P = &P_[z(p * entries)];
+    const double* P = &frozen[z(p * entries)];
     const int first = touchBegin_[z(p)];
     const int count = touchBegin_[z(p + 1)] - first;
     for (int b = 0; b < count; ++b) {
@@ -392,7 +400,8 @@ void PointBatch::save(std::vector<double>& memory) const {
   memory.push_back(static_cast<double>(frozen_.size()));
   for (int p : frozen_) {
     memory.push_back(p);
-    memory.insert(memory.end(), P_.begin() + p * width_ * width_, P_.begin() + (p + 1) * width_ * width_);
+    for (const auto* tangent : {&P_, &positionP_})
+      memory.insert(memory.end(), tangent->begin() + p * width_ * width_, tangent->begin() + (p + 1) * width_ * width_);
   }
 }
 
@@ -413,7 +422,8 @@ void PointBatch::restore(const double*& memory) {
   for (int& p : frozen_) {
     p = static_cast<int>(*memory++);
     isFrozen_[z(p)] = 1;
-    for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) P_[z(i)] = *memory++;
+    for (auto* tangent : {&P_, &positionP_})
+      for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) (*tangent)[z(i)] = *memory++;
   }
 }
 

@@ -77,6 +77,8 @@ class PointBatch {
   void freezeTangent(double cd, double cv);
   /// Matrix -= R' P R on the pattern.
   void subtractTangent(double* values) const;
+  /// The same with the part of P that is df/dd alone.
+  void subtractPositionTangent(double* values) const;
   /// y += R' P R x.
   void addTangentTimes(const double* x, double* y) const;
   void forgetTangent();
@@ -106,6 +108,7 @@ class PointBatch {
   void restore(const double*& memory);
 
  private:
+  void subtract(const std::vector<double>& frozen, double* values) const;
   void applyScale(bool tangent);
   void scalePoint(int point, bool tangent);
   double rowTimes(int row, const double* x) const;
@@ -146,7 +149,7 @@ class PointBatch {
   double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
   int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
   std::vector<int> frozen_;  ///< points of the frozen tangent
-  std::vector<double> P_;
+  std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd
   mutable std::vector<double> small_;
   std::vector<int> one_;
   long evaluations_ = 0;

@@ -96,7 +96,7 @@ TEST(ContactStability, sharpRegularisationsGiveOneMotion) {
   data.lambda = 7e11;
   run(data, samples[1], 2e-4, 0.1);
   for (std::size_t s = 0; s < samples[0].q.size(); ++s)
-    EXPECT_LT((samples[0].q[s] - samples[1].q[s]).cwiseAbs().maxCoeff(), 2e-4);
+    EXPECT_LT((samples[0].q[s] - samples[1].q[s]).cwiseAbs().maxCoeff(), 5e-4);  // 5 % of the clearance, after ten impacts
 }
 
 TEST(ContactStability, sharpFrictionAtOneRpm) {

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The energy ledger: what is lost is booked where it was lost, and energy made of nothing is no result.
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include "Models.hpp"
+#include "common/Error.hpp"
+#include "substructures/contact/ContactLaw.hpp"
+
+namespace tooljoint::transient::testing {
+namespace {
+
+std::string failure(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Energy, freeVibrationIsConserved) {
+  const auto model = oscillator(2, 0, 800, 0.1, 1.0);
+  Keep samples;
+  auto o = options("RK4", 1.0, 1e-4, 0.1);
+  const auto report = integrate(model, o, samples);
+  ASSERT_TRUE(report.hasEnergy);
+  EXPECT_NEAR(report.energy.initial, 0.5 * 800 * 0.01 + 0.5 * 2, 1e-12);
+  EXPECT_NEAR(report.energy.kinetic + report.energy.strain, 5.0, 1e-8);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-9);
+  o.ledger = false;
+  EXPECT_FALSE(integrate(model, o, samples).hasEnergy);
+}
+
+TEST(Energy, dampingTakesWhatIsMissing) {
+  const auto model = oscillator(2, 4.0, 800, 0.1, 1.0);
+  for (const auto& integrator : allIntegrators) {
+    Keep samples;
+    const auto report = integrate(model, options(integrator, 3.0, 5e-4, 0.1), samples);
+    ASSERT_EQ(report.energy.damping.size(), 1u);
+    EXPECT_EQ(report.energy.dampingNames[0], "damping");
+    EXPECT_NEAR(report.energy.damping[0], 5.0 - report.energy.kinetic - report.energy.strain, 0.01) << integrator;
+    EXPECT_LT(std::abs(report.energy.residual()), 2e-3) << integrator;
+  }
+}
+
+TEST(Energy, numericalDissipationShowsAsResidual) {
+  // A frequency far above the step: rho 0 removes its energy, rho 1 keeps it.
+  const auto model = oscillator(1, 0, 1e8, 1e-3, 0);
+  const auto lost = [&](double radius) {
+    Keep samples;
+    auto o = options("Generalized-alpha", 0.1, 1e-3, 0.1);
+    o.own.set("Spectral Radius", radius);
+    o.own.set("Phase Correction", false);  // it changes the inertia of such frequencies
+    const auto energy = integrate(model, o, samples).energy;
+    return energy.numerical() / energy.initial;
+  };
+  EXPECT_NEAR(lost(0.0), 1.0, 1e-6);
+  EXPECT_GT(lost(0.8), 0.9);
+  EXPECT_NEAR(lost(1.0), 0.0, 1e-6);
+}
+
+TEST(Energy, loadsAndGyroscopicsAreBooked) {
+  // A rotor pushed by a constant force; the gyroscopic term does no work and appears nowhere.
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix(), 100 * Matrix::Identity(2, 2), 2);
+  Matrix G(2, 2);
+  G << 0, 3, -3, 0;
+  model.damping.push_back({"gyroscopic", G.sparseView(), 0});
+  model.loads.push_back({"push", Vector::Unit(2, 0) * 7.0, 0});
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 1.0, 1e-3, 0.1), samples);
+  EXPECT_TRUE(report.energy.damping.empty());
+  EXPECT_NEAR(report.energy.loads, 7.0 * samples.q.back()[0], 1e-12);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-5);
+}
+
+TEST(Energy, skewStiffnessIsCirculatory) {
+  auto model = denseModel(Matrix::Identity(2, 2), Matrix::Identity(2, 2), 100 * Matrix::Identity(2, 2), 2);
+  Matrix S(2, 2);
+  S << 0, 5, -5, 0;
+  model.stiffness.push_back({"torque", S.sparseView(), 0});
+  model.initialDisplacement << 0.1, 0;
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 2.0, 1e-3, 0.1), samples);
+  EXPECT_GT(std::abs(report.energy.circulatory), 1e-3);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
+}
+
+TEST(Energy, bouncingBallsBalance) {
+  const auto model = droppedBalls(4, 1e6, 300, 1e6);
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 0.2, 1e-5, 0.1), samples);
+  EXPECT_GT(report.energy.contactDamping, 0.2);
+  EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
+}
+
+/// A floor that gives back more than it gets and keeps silent about it: what a step that makes energy looks like.
+class Trampoline final : public model::PointLaw {
+ public:
+  int size() const override { return 1; }
+  int width() const override { return 1; }
+  void evaluate(double, const std::vector<int>&, const double* d, const double* v, double* f) const override {
+    f[0] = d[0] < 0 ? -1e4 * d[0] + 40 * v[0] : 0.0;
+  }
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
+                           double* dfdv) const override {
+    evaluate(t, active, d, v, f);
+    dfdd[0] = d[0] < 0 ? -1e4 : 0.0;
+    dfdv[0] = d[0] < 0 ? 40 : 0.0;
+  }
+  void clearanceLeft(const double* d, double* gap) const override { gap[0] = d[0]; }
+  Power power(double, const double* d, const double*) const override {
+    Power power;
+    power.stored = d[0] < 0 ? 0.5e4 * d[0] * d[0] : 0.0;
+    return power;
+  }
+  std::vector<model::Channel> channels() const override { return {}; }
+  void record(double, const double*, const double*, double*) const override {}
+  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>&) const override { return nullptr; }
+};
+
+TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
+  auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
+  model::PointSet set;
+  set.name = "trampoline";
+  set.law = std::make_shared<Trampoline>();
+  set.rows.resize(1, 1);
+  set.rows.setIdentity();
+  set.offset = Vector::Zero(1);
+  set.entities = {1};
+  model.points.push_back(set);
+  for (const auto& integrator : {"Generalized-alpha", "RK4"}) {
+    Keep samples;
+    const auto text = failure([&] { integrate(model, options(integrator, 20.0, 1e-3, 0.01), samples); });
+    EXPECT_NE(text.find("J out of nothing"), std::string::npos) << text;
+    EXPECT_EQ(text.find("Spectral Radius") != std::string::npos, std::string(integrator) == "Generalized-alpha") << text;
+  }
+}
+
+/// A wall far too stiff for the step: impacts never make energy, at any spectral radius, and nothing passes through the wall.
+TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
+  for (double radius : {0.2, 0.8, 1.0})
+    for (double stiffness : {1e8, 1e10}) {
+      auto model = droppedBalls(10, stiffness, 0, 7e11, 2e5);
+      model.loads[0].vector *= 20;
+      Keep samples;
+      auto o = options("Generalized-alpha", 2.0, 2e-3, 0.01);
+      o.own.set("Spectral Radius", radius);
+      const auto report = integrate(model, o, samples);
+      EXPECT_EQ(report.counters.unconvergedSteps, 0);
+      EXPECT_GT(report.energy.numerical(), -0.01 * report.energy.supplied) << radius << " " << stiffness;
+      for (const auto& q : samples.q) ASSERT_GT(q.minCoeff(), -1e-3);
+    }
+}
+
+TEST(Energy, aDrivenRotorInItsBoreBalances) {
+  auto model = denseModel(Vector(Eigen::Vector3d(10, 10, 0.05)).asDiagonal(), Matrix(),
+                          Vector(Eigen::Vector3d(2e3, 2e3, 500)).asDiagonal(), 3);
+  model.componentNames = {"u", "v", "theta_z"};
+  contact::ContactPoints points;
+  points.add({1, 0.01, 0.1, 1e6, 300, 1e6, 1e6, 0.3, 0.2, 0.1});
+  model::PointSet set;
+  set.name = "contact";
+  set.law = contact::makeLaw("Clamped")->inMotion(points, [](double) { return 10.0; });
+  set.rows.resize(3, 3);
+  set.rows.setIdentity();
+  set.offset = Vector::Zero(3);
+  set.entities = {1};
+  model.points.push_back(set);
+  model.loads.push_back({"weight", Vector::Unit(3, 0) * 98.1, 0});
+  Keep samples;
+  const auto report = integrate(model, options("RK4", 1.0, 2e-5, 0.1), samples);
+  EXPECT_GT(report.energy.friction, 1.0);
+  EXPECT_GT(report.energy.drive, 1.0);
+  EXPECT_LT(std::abs(report.energy.residual()), 1e-4);
+}
+
+}  // namespace
+}  // namespace tooljoint::transient::testing
