@@ -18,6 +18,8 @@ class BlockFactor {
   /// Symbolic phase for matrices on this pattern.
   explicit BlockFactor(const BlockPattern& pattern);
 
+  bool empty() const { return pivots_.empty(); }
+
   /// Values to fill before factor(), laid out as in the pattern (BlockPattern::storage() doubles).
   double* values() { return values_.data(); }
 

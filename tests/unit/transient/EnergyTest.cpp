@@ -35,7 +35,7 @@ TEST(Energy, freeVibrationIsConserved) {
 
 TEST(Energy, dampingTakesWhatIsMissing) {
   const auto model = oscillator(2, 4.0, 800, 0.1, 1.0);
-  for (const auto& integrator : allIntegrators) {
+  for (const std::string integrator : {"Generalized-alpha", "RK4", "RK4 adaptive"}) {
     Keep samples;
     const auto report = integrate(model, options(integrator, 3.0, 5e-4, 0.1), samples);
     ASSERT_EQ(report.energy.damping.size(), 1u);
