@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a degree of freedom is: a component of a node that parts may share, or a modal coordinate of one part.
+/// What a degree of freedom is: a component of a node that parts may share, a modal coordinate of one part, a mode of an interface, or
+/// a force that joins parts.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +13,31 @@ namespace tooljoint::model {
 
 /// Label of one degree of freedom. Interface dofs of two parts are joined when their labels are equal.
 struct DofLabel {
-  enum class Kind : std::uint8_t { Physical, Modal };
+  enum class Kind : std::uint8_t { Physical, Modal, Interface };
+  static constexpr std::int32_t shared = -1;
+
   Kind kind = Kind::Physical;
-  std::int64_t entity = 0;     ///< Physical: node number, 1-based as a person sees it. Modal: part number, 0-based.
-  std::int32_t component = 0;  ///< Physical: 0-based component of the node. Modal: mode number, 0-based.
+  std::int64_t entity = 0;     ///< Physical: node number, 1-based as a person sees it. Modal: part number, 0-based. Interface: number of the interface, 0-based.
+  std::int32_t component = 0;  ///< Physical: 0-based component of the node. Modal, Interface: mode number, 0-based.
+  std::int32_t part = shared;  ///< Physical, in a coupled model: the part (0-based) whose own dof this is although others have one of that label
+  bool force = false;          ///< the force that joins this dof of `part` to the rest (Lagrange multiplier), not a displacement
 
   static DofLabel physical(std::int64_t node, std::int32_t component) { return {Kind::Physical, node, component}; }
   static DofLabel modal(std::int64_t part, std::int32_t mode) { return {Kind::Modal, part, mode}; }
-  friend bool operator==(const DofLabel& a, const DofLabel& b) {
-    return a.kind == b.kind && a.entity == b.entity && a.component == b.component;
-  }
-  friend bool operator<(const DofLabel& a, const DofLabel& b) {
-    return std::tie(a.kind, a.entity, a.component) < std::tie(b.kind, b.entity, b.component);
-  }
+  static DofLabel interfaceMode(std::int64_t interface, std::int32_t mode) { return {Kind::Interface, interface, mode}; }
+  DofLabel of(std::int32_t owner) const { return {kind, entity, component, owner, force}; }
+  DofLabel joiningForce() const { return {kind, entity, component, part, true}; }
+  friend bool operator==(const DofLabel& a, const DofLabel& b) { return a.key() == b.key(); }
+  friend bool operator<(const DofLabel& a, const DofLabel& b) { return a.key() < b.key(); }
+
+ private:
+  std::tuple<Kind, std::int64_t, std::int32_t, std::int32_t, bool> key() const { return {kind, entity, component, part, force}; }
 };
 
 /// Names of the physical components, e.g. {"u","v","w","theta_x","theta_y","theta_z"}.
 using ComponentNames = std::vector<std::string>;
 
-/// "theta_z of node 17", "mode 3 of part 2": for messages.
+/// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z of node 17 in part 2": for messages.
 std::string describe(const DofLabel& label, const ComponentNames& names);
 
 }  // namespace tooljoint::model

@@ -10,6 +10,9 @@
 namespace tooljoint::model {
 
 std::string describe(const DofLabel& label, const ComponentNames& names) {
+  if (label.force) return "the force on " + describe(DofLabel{label.kind, label.entity, label.component, label.part, false}, names);
+  if (label.kind == DofLabel::Kind::Interface)
+    return "mode " + std::to_string(label.component + 1) + " of interface " + std::to_string(label.entity + 1);
   if (label.kind == DofLabel::Kind::Modal)
     return "mode " + std::to_string(label.component + 1) + " of part " + std::to_string(label.entity + 1);
   const auto c = static_cast<std::size_t>(label.component);
@@ -19,7 +22,9 @@ std::string describe(const DofLabel& label, const ComponentNames& names) {
     text += names[c];
   else
     text.append("component ").append(std::to_string(label.component + 1));
-  return text.append(" of node ").append(std::to_string(label.entity));
+  text.append(" of node ").append(std::to_string(label.entity));
+  if (label.part != DofLabel::shared) text.append(" in part ").append(std::to_string(label.part + 1));
+  return text;
 }
 
 int SecondOrderModel::lawIndex(const ScalarLaw& law) {

@@ -3,6 +3,7 @@
 /// A part after reduction.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,16 @@
 #include "reduction/Basis.hpp"
 
 namespace tooljoint::reduction {
+
+/// Interface of a reduced part whose displacement is not among its coordinates: u_b = rows q + offset.
+struct Boundary {
+  std::vector<model::DofLabel> dofs;  ///< what is joined, labels of the part
+  Sparse rows;                        ///< dofs x coordinates
+  Vector offset;                      ///< u_b at q = 0: the static state, or zero
+  /// The last so many coordinates are the forces g that the rest of the model exerts on `dofs`, one for each; 0: there are none. They need dual
+  /// assembly, which puts its multipliers in their place, g = C' lambda, after K and M were projected on all coordinates (D. J. Rixen 2004).
+  int forces = 0;
+};
 
 /// A reduced part: a small SecondOrderModel in q = (interface, retained, modes), with D = offset + Phi q.
 struct ReducedSubstructure {
@@ -21,6 +32,7 @@ struct ReducedSubstructure {
   Vector offset;                  ///< D at q = 0, dofs of the part: the static state, or zero
   BasisResult basis;              ///< its rows stand in the report
   BasisReport report;
+  std::optional<Boundary> boundary;  ///< only where the basis does not have the interface dofs as coordinates; then `interface` is 0
 
   int size() const { return model.size(); }
 };
