@@ -282,7 +282,8 @@ class StaticContactOf final : public StaticContact {
       const auto i = static_cast<std::size_t>(p);
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
       double dG = 0.0;
-      const double N = kernel_.elastic(i, at.penetration, options.lambda, dG);
+      const double N = options.stiffnessScale * kernel_.elastic(i, at.penetration, options.lambda, dG);
+      dG *= options.stiffnessScale;
       const double mu = options.direction * options.frictionScale * points_.muStatic[i];
       const double radius = points_.contactRadius[i];
       f[3 * p] = N * (mu * at.nv - at.nu);
@@ -307,7 +308,7 @@ class StaticContactOf final : public StaticContact {
       const auto i = static_cast<std::size_t>(p);
       double dG = 0.0;
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
-      force[p] = kernel_.elastic(i, at.penetration, options.lambda, dG);
+      force[p] = options.stiffnessScale * kernel_.elastic(i, at.penetration, options.lambda, dG);
     }
   }
 

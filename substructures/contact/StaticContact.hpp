@@ -13,6 +13,7 @@ class StaticContact {
   struct Options {
     double lambda = 0.0;         ///< stiffness regularisation used for every point [1/m]; 0 = the points' own
     double frictionScale = 1.0;  ///< factor on mu_s: 0 without friction, 1 in full
+    double stiffnessScale = 1.0;  ///< softens the wall on the way to the solution
     double direction = 1.0;      ///< sign of the rotary speed: +1, -1, or 0 without friction
   };
 

@@ -29,14 +29,17 @@ class Stages {
 
   /// One stage from x; `rescue` allows a second attempt from the same start with a line search.
   void run(const std::string& name, const StaticSwitches& switches, double tolerance, bool rescue, Vector& x) {
+    if (tryRun(name, switches, tolerance, rescue, x)) return;
+    throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
+  }
+
+  /// The same; false when it does not converge.
+  bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance, bool rescue, Vector& x) {
     problem_.set(switches);
     const Vector start = x;
-    if (attempt(name, tolerance, false, x)) return;
-    if (rescue) {
-      x = start;
-      if (attempt(name + ", line search", tolerance, true, x)) return;
-    }
-    throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
+    if (attempt(name, tolerance, false, x)) return true;
+    x = start;
+    return rescue && attempt(name + ", line search", tolerance, true, x);
   }
 
   StaticReport report() const {
@@ -77,10 +80,47 @@ class Stages {
   std::string message_;
 };
 
-/// D = 0; lambda up to each point's own without friction, then friction in steps. The cap on lateral motion is what makes
+/// The string held on the axis: tension and torque of the loads, no lateral motion. From D = 0 a long string has no tension
+/// yet to hold it, and the first Newton step would throw it far through the wall.
+Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
+  switches.geometricStiffness = switches.contact = false;
+  problem.set(switches);
+  const Vector zero = Vector::Zero(problem.size());
+  Vector negativeLoad;
+  Sparse stiffness;
+  problem.residual(zero, negativeLoad);
+  problem.jacobian(zero, stiffness);
+  const double stiff = 1e6 * Matrix(stiffness.diagonal()).cwiseAbs().maxCoeff();
+  for (int i = 0; i < problem.size(); ++i)
+    if (problem.isLateral(i)) stiffness.coeffRef(i, i) += stiff;
+  return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); }).solve(-negativeLoad);
+}
+
+/// Contacts from soft to sharp, while they are softer than the sharpest law of the scene. False when a stage does not converge:
+/// the tails of soft contacts pull with k/(pi^2 lambda), too much for light pipe.
+bool sharpen(const StaticOptions& options, double sharpest, Stages& stages, StaticSwitches switches, Vector& x) {
+  for (const double lambda : options.lambdas) {
+    if (lambda >= sharpest) break;
+    switches.lambda = lambda;
+    if (!stages.tryRun("lambda " + shortNumber(lambda) + " 1/m", switches, kStageTolerance, true, x)) return false;
+  }
+  return true;
+}
+
+/// Walls from yielding to stiff, without tails.
+void harden(Stages& stages, StaticSwitches switches, Vector& x) {
+  switches.lambda = 1e6;
+  for (const double scale : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
+    switches.stiffnessScale = scale;
+    stages.run(shortNumber(scale) + " of the wall stiffness", switches, kStageTolerance, true, x);
+  }
+}
+
+/// Held on the axis; lambda up to each point's own without friction, then friction in steps. The cap on lateral motion is what makes
 /// it robust: at small lambda the tails of the contact law pull open nodes to the wall, and a line search on the residual
 /// alone creeps there, so it comes second.
-void continuation(const StaticInput& input, const StaticOptions& options, Stages& stages, StaticSwitches switches, Vector& x) {
+void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
+                  StaticSwitches switches, Vector& x) {
   x.setZero();
   if (input.contact == nullptr) {
     stages.run("no contact", switches, 0.0, true, x);
@@ -89,12 +129,13 @@ void continuation(const StaticInput& input, const StaticOptions& options, Stages
   const contact::ContactPoints& points = input.contact->points();
   const bool friction = !points.frictionless() && input.direction != 0.0;
   const double sharpest = points.size() > 0 ? *std::max_element(points.lambdaK.begin(), points.lambdaK.end()) : 0.0;
+  x = heldOnAxis(problem, switches);
   switches.lateralStepLimit = options.lateralStepLimit;
   switches.frictionScale = 0.0;
-  for (const double lambda : options.lambdas) {
-    if (lambda >= sharpest) break;
-    switches.lambda = lambda;
-    stages.run("lambda " + shortNumber(lambda) + " 1/m", switches, kStageTolerance, true, x);
+  const Vector start = x;
+  if (!sharpen(options, sharpest, stages, switches, x)) {
+    x = start;
+    harden(stages, switches, x);
   }
   switches.lambda = 0.0;
   stages.run("without friction", switches, friction ? kStageTolerance : 0.0, true, x);
@@ -191,7 +232,7 @@ StaticState solveStatic(const StaticInput& input, const StaticOptions& options, 
   if (options.recipe == Recipe::Source)
     asTheSource(problem, stages, switches, x);
   else
-    continuation(input, options, stages, switches, x);
+    continuation(input, options, problem, stages, switches, x);
   StaticState state = describe(input, problem, problem.expand(x));
   state.report = stages.report();
   return state;

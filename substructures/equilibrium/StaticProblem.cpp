@@ -101,6 +101,7 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
   contact::StaticContact::Options options;
   options.lambda = switches_.lambda;
   options.frictionScale = switches_.frictionScale;
+  options.stiffnessScale = switches_.stiffnessScale;
   options.direction = input_.direction;
   return options;
 }
@@ -179,6 +180,11 @@ double StaticProblem::stepLimit(const Vector& /*x*/, const Vector& dx) const {
   for (std::size_t i = 0; i < index_.size(); ++i)
     if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2) largest = std::max(largest, std::abs(dx(index_[i])));
   return largest > switches_.lateralStepLimit ? switches_.lateralStepLimit / largest : 1.0;
+}
+
+bool StaticProblem::isLateral(int i) const {
+  const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
+  return dof % kDofs < 2;
 }
 
 std::string StaticProblem::unknownName(int i) const {

@@ -43,6 +43,7 @@ struct StaticSwitches {
   bool exactJacobian = true;     ///< false: without dK_gpo/dD, equation (25)
   double lambda = 0.0;           ///< regularisation of all contacts [1/m]; 0: each point's own
   double frictionScale = 1.0;    ///< factor on mu_s
+  double stiffnessScale = 1.0;  ///< on the stiffness of the wall
   double lateralStepLimit = 0.0; ///< largest change of u or v in a step [m]; 0: none
 };
 
@@ -61,6 +62,8 @@ class StaticProblem : public model::NonlinearProblem {
   Vector residualScale() const override;
   double stepLimit(const Vector& x, const Vector& dx) const override;
   std::string unknownName(int i) const override;
+  /// Whether an unknown is u or v.
+  bool isLateral(int i) const;
 
   /// All dofs from the free ones (held dofs are zero), and the free ones of a full vector.
   Vector expand(const Vector& x) const;
