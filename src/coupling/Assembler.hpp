@@ -1,34 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Joins parts into one model by equal labels of their interface dofs. Knows nothing of where the parts came from: any graph of
-/// parts (chain, branch, loop) couples.
+/// Joins parts into one model by equal labels of their interface dofs and by constraints. Knows nothing of where the parts came
+/// from: any graph of parts (chain, branch, loop) couples.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "coupling/Connections.hpp"
 #include "model/Substructure.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 
 namespace tooljoint::coupling {
 
-/// A coupled model and where the dofs of the parts went.
-struct Coupling {
-  model::SecondOrderModel model;
-  std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is dof i of part p
+/// A force that joins parts (dual assembly).
+struct Multiplier {
+  int position = 0;       ///< coordinate of the coupled model
+  std::string part;       ///< the part it acts on
+  model::DofLabel dof;    ///< the dof of that part it acts on, in the common frame
+  double scale = 1;       ///< force [N, N m] on that dof, by the rest of the model = scale * coordinate
 };
 
-/// Primal assembly: A' = sum_p L_p' A_p L_p, L_p the Boolean map of part p, for mass, damping, stiffness and loads. Terms of one
-/// name and one law become one term, laws are merged by name, every part keeps its own point sets, recovery rows of a node that
-/// several parts have are taken from the first. Dofs are numbered by a Cuthill-McKee walk over nodes and modes, so a chain is
-/// narrow. Throws ModelError: labels that join nothing, stand twice in a part or mean an inner dof of another part, different
-/// component names, reference or initial states that differ at a shared dof by more than 1e-9 of the largest, recovery rows
-/// of a node that disagree.
-Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts);
-Coupling coupleWithPositions(const std::vector<model::Substructure>& parts);
+/// A coupled model and where the coordinates of the parts went: q_p = maps[p] z + offsets[p].
+struct Coupling {
+  model::SecondOrderModel model;
+  std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is coordinate i of part p; -1 where it is not just one
+  std::vector<Sparse> maps;                 ///< coordinates of part p (in its own frames) x coupled dofs
+  std::vector<Vector> offsets;              ///< zero unless a constraint has a value
+  std::vector<Multiplier> multipliers;      ///< dual assembly
+  std::vector<std::string> remarks;         ///< constraints that say nothing new, for instance
+  int interfaceDofs = 0;                    ///< joined physical dofs before an interface reduction
+  int interfaceModes = -1;                  ///< what they were reduced to; -1: not reduced
 
-model::SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts);
+  /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
+  Matrix local(int p, const Matrix& z) const { return maps[static_cast<std::size_t>(p)] * z; }
+  /// Every coordinate of every part is one coupled dof: `positions` says all.
+  bool boolean() const;
+};
+
+/// M, C_i, K_i and loads of all parts in z: A' = sum_p L_p' A_p L_p. Terms of one name and one law become one term, laws are merged by name, every part
+/// keeps its own point sets, recovery rows of a node that several parts have are taken from the first. Dofs are numbered by a
+/// Cuthill-McKee walk over nodes and modes, so a chain is narrow.
+///
+/// Primal: L = null space of the constraints by sparse elimination, interface dofs first; for equal labels alone L_p is Boolean.
+/// Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with constraints B q = g, the extremum of the Lagrangian with
+/// multipliers lambda, forces on the dof each constraint is solved for:
+///
+///     [M 0; 0 0] z'' + [C 0; 0 0] z' + [K -B'; -B 0] z = [F; -g],   z = (q, lambda)
+///
+/// Multipliers carry the node number of that dof, so that block solvers keep them together. The start has the multipliers that belong to it.
+/// Parts with reduction::Boundary have interface displacements that are no coordinates, u_b = B_p q_p; where their coordinates
+/// hold interface forces (dual Craig-Bampton), these become the multipliers.
+///
+/// Throws ModelError, naming parts and dofs: labels that join nothing, stand twice in a part or mean an inner dof of another
+/// part, different component names, reference or initial states that differ at a shared dof by more than 1e-9 of the largest, recovery rows
+/// of a node that disagree; a connection with an unknown part, node or component, or with an inner dof of a reduced part;
+/// constraints that contradict each other; a translation tied to a rotation; a frame that is not a rotation.
+Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts, const CouplingOptions& options = {});
+Coupling coupleWithPositions(const std::vector<model::Substructure>& parts, const CouplingOptions& options = {});
+
+model::SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts, const CouplingOptions& options = {});
 /// Unreduced parts: the full model put together again.
-model::SecondOrderModel couple(const std::vector<model::Substructure>& parts);
+model::SecondOrderModel couple(const std::vector<model::Substructure>& parts, const CouplingOptions& options = {});
 
 /// max |i - j| over the entries of mass, damping and stiffness.
 int halfBandwidth(const model::SecondOrderModel& model);

@@ -20,9 +20,11 @@ struct SpringParameters {
 /// Width 1. Channel spring_force.
 std::shared_ptr<const model::PointLaw> springs(const std::vector<SpringParameters>& points);
 
-/// A stop that is met when the separation falls to -gap: with the penetration p = -(d + gap) the force is
-/// f = k g(p) max(0, 1 + chi p') with g(p) = (p + sqrt(p^2 + s^2)) / 2 - tail, smooth on a width s (0: sharp) and exactly zero for p <= -10 s.
-/// chi is Hunt and Crossley's (1975) damping. Never pulls.
+/// A stop that is met when the separation falls to -gap: with the penetration p = -(d + gap),
+///
+///     f = k g(p) max(0, 1 + chi p'),   g = 0 for p <= -s, (p + s)^2 / 4s in between, p for p >= s
+///
+/// chi is the damping of K. H. Hunt and F. R. E. Crossley (1975). Never pulls.
 struct StopParameters {
   double gap = 0;        ///< [m]; separation left at rest
   double stiffness = 0;  ///< k [N/m], > 0

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A second-order model in other coordinates, and the numbering of a coupled model.
+#pragma once
+
+#include <vector>
+
+#include "model/SecondOrderModel.hpp"
+
+namespace tooljoint::coupling {
+
+/// y = map z + offset.
+struct Substitution {
+  Sparse map;
+  Vector offset;
+  std::vector<model::DofLabel> dofs;  ///< of z
+  Vector initialDisplacement;         ///< of z
+  Vector initialVelocity;
+};
+
+/// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery follow.
+void substitute(model::SecondOrderModel& model, const Substitution& substitution);
+
+/// Position of every dof in a numbering by a Cuthill-McKee walk over groups: the dofs of a node together, with the forces on them; the modes of an
+/// interface together; every mode of a part by itself.
+std::vector<int> narrowNumbering(const model::SecondOrderModel& model);
+
+/// Puts dof i at position[i].
+void renumber(model::SecondOrderModel& model, const std::vector<int>& position);
+
+/// Entries at other columns: out(i, column[j]) = A(i, j); exact zeros are left out.
+Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index columns);
+
+/// Every matrix of the model: mass, damping and stiffness terms.
+template <class Model, class Visit>
+void forEachMatrix(Model& model, const Visit& visit) {
+  visit(model.mass);
+  for (auto& term : model.damping) visit(term.matrix);
+  for (auto& term : model.stiffness) visit(term.matrix);
+}
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/DualAssembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "coupling/Congruence.hpp"
+#include "linalg/DirectSolver.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using model::DofLabel;
+using model::SecondOrderModel;
+
+/// A multiplier coordinate is its force over this times the stiffness there: large enough to be a displacement of sorts, small enough
+/// that rounding of its row, which has no diagonal, stays below that of the others.
+constexpr double multiplierScale = 1e-5;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Builder {
+ public:
+  Builder(const std::vector<Piece>& pieces, const Labelled& labelled, const Elimination& constraints)
+      : pieces_(pieces), labelled_(labelled), solved_(constraints.solved), all_(static_cast<int>(labelled.model.dofs.size())) {}
+
+  DualModel run() {
+    out_.model = labelled_.model;
+    findOwners();
+    dropInterfacesThatAreNoCoordinates();
+    addForces();
+    putForcesInPlace();
+    startConsistently();
+    return std::move(out_);
+  }
+
+ private:
+  int count() const { return static_cast<int>(solved_.size()); }
+
+  void findOwners() {
+    owner_.assign(at(all_), -1);
+    virtual_.assign(at(all_), -1);
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (std::size_t i = 0; i < labelled_.columns[p].size(); ++i) {
+        const int y = labelled_.columns[p][i];
+        if (owner_[at(y)] < 0) owner_[at(y)] = static_cast<int>(p);
+        if (static_cast<int>(i) >= pieces_[p].coordinates) virtual_[at(y)] = static_cast<int>(i) - pieces_[p].coordinates;
+      }
+  }
+
+  /// y = S (x, lambda): interface displacements that are no coordinates are rows of their part, u_b = B_p q_p.
+  void dropInterfacesThatAreNoCoordinates() {
+    std::vector<int> column(at(all_), -1);
+    for (int y = 0; y < all_; ++y)
+      if (virtual_[at(y)] < 0) column[at(y)] = coordinates_++;
+    const int size = coordinates_ + count();
+    Triplets entries;
+    Substitution s;
+    s.initialDisplacement = Vector::Zero(size);
+    s.initialVelocity = Vector::Zero(size);
+    for (int y = 0; y < all_; ++y) {
+      if (virtual_[at(y)] >= 0) {
+        const auto& from = labelled_.columns[at(owner_[at(y)])];
+        for (Sparse::InnerIterator it(pieces_[at(owner_[at(y)])].boundaryRows, virtual_[at(y)]); it; ++it)
+          entries.emplace_back(y, column[at(from[at(static_cast<int>(it.col()))])], it.value());
+        continue;
+      }
+      entries.emplace_back(y, column[at(y)], 1.0);
+      s.dofs.push_back(labelled_.model.dofs[at(y)]);
+      s.initialDisplacement[column[at(y)]] = labelled_.model.initialDisplacement[y];
+      s.initialVelocity[column[at(y)]] = labelled_.model.initialVelocity[y];
+    }
+    for (const auto& solved : solved_) s.dofs.push_back(labelOf(solved.unknown));
+    s.map = Sparse(all_, size);
+    s.map.setFromTriplets(entries.begin(), entries.end());
+    s.offset = Vector::Zero(all_);
+    substitute(out_.model, s);
+    out_.map = s.map;
+    column_ = std::move(column);
+  }
+
+  /// A multiplier stands with the node of its dof, or with the modes of a part whose interface is no coordinate.
+  DofLabel labelOf(int unknown) const {
+    const DofLabel& label = labelled_.model.dofs[at(unknown)];
+    if (virtual_[at(unknown)] >= 0) return DofLabel::modal(owner_[at(unknown)], virtual_[at(unknown)]).joiningForce();
+    return label.joiningForce();
+  }
+
+  /// Rows over all unknowns of `labelled`: y[unknown] - rest = value.
+  void addForces() {
+    const Vector stiffness = diagonalStiffness();
+    Triplets rows;
+    Vector values(count());
+    for (int k = 0; k < count(); ++k) {
+      const SolvedRow& solved = solved_[at(k)];
+      const double scale = scaleOf(solved, stiffness);
+      rows.emplace_back(k, solved.unknown, scale);
+      for (const auto& [other, factor] : solved.rest) rows.emplace_back(k, other, -scale * factor);
+      values[k] = scale * solved.value;
+      out_.multipliers.push_back({coordinates_ + k, pieces_[at(owner_[at(solved.unknown)])].name, labelled_.model.dofs[at(solved.unknown)], scale});
+    }
+    Sparse C(count(), all_);
+    C.setFromTriplets(rows.begin(), rows.end());
+    labelRows_ = C;
+    // K -> [K -B'; -B 0], F -> [F; -g]
+    const Sparse B = C * out_.map;
+    Triplets entries;
+    for (int k = 0; k < B.outerSize(); ++k)
+      for (Sparse::InnerIterator it(B, k); it; ++it) {
+        if (it.value() == 0.0) continue;
+        entries.emplace_back(coordinates_ + k, static_cast<int>(it.col()), -it.value());
+        entries.emplace_back(static_cast<int>(it.col()), coordinates_ + k, -it.value());
+      }
+    const int size = coordinates_ + count();
+    Sparse joining(size, size);
+    joining.setFromTriplets(entries.begin(), entries.end());
+    if (count() > 0) out_.model.stiffness.push_back({"joining forces", joining, 0});
+    if (!values.isZero(0.0)) {
+      Vector load = Vector::Zero(size);
+      load.tail(count()) = -values;
+      out_.model.loads.push_back({"constraint values", load, 0});
+    }
+  }
+
+  Vector diagonalStiffness() const {
+    Vector diagonal = Vector::Zero(out_.model.mass.rows());
+    for (const auto& term : out_.model.stiffness)
+      if (out_.model.laws[at(term.law)].name == "1") diagonal += term.matrix.diagonal();
+    return diagonal;
+  }
+
+  double scaleOf(const SolvedRow& solved, const Vector& stiffness) const {
+    double size = stiffnessOf(solved.unknown, stiffness);
+    for (const auto& [other, factor] : solved.rest)
+      if (size == 0.0) size = stiffnessOf(other, stiffness);
+    return size > 0.0 ? multiplierScale * size : 1.0;
+  }
+
+  /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by its coordinates.
+  double stiffnessOf(int unknown, const Vector& stiffness) const {
+    if (virtual_[at(unknown)] < 0) return std::abs(stiffness[column_[at(unknown)]]);
+    double flexibility = 0;
+    for (Sparse::InnerIterator it(out_.map, unknown); it; ++it)
+      if (stiffness[it.col()] != 0.0) flexibility = std::max(flexibility, it.value() * it.value() / std::abs(stiffness[it.col()]));
+    return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
+  }
+
+  /// Coordinates that are interface forces of a part are what the multipliers make them: g = T C' lambda, T from the common frame to the part's.
+  void putForcesInPlace() {
+    std::vector<char> replaced(at(coordinates_ + count()), 0);
+    Triplets entries;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const Piece& piece = pieces_[p];
+      if (piece.forces == 0) continue;
+      const int n = piece.coordinates, first = n - piece.forces;
+      Sparse toCommon(piece.forces, all_);
+      Triplets rows;
+      for (int j = 0; j < piece.forces; ++j)
+        for (int i = 0; i < piece.forces; ++i) {
+          const double value = piece.turn.rows() > 0 ? piece.turn.coeff(n + j, n + i) : i == j ? 1.0 : 0.0;
+          if (value != 0.0) rows.emplace_back(j, labelled_.columns[p][at(n + i)], value);
+        }
+      toCommon.setFromTriplets(rows.begin(), rows.end());
+      const Sparse C = labelRows_.transpose();
+      const Sparse g = toCommon * C;  // forces x multipliers
+      for (int j = 0; j < piece.forces; ++j) {
+        const int x = column_[at(labelled_.columns[p][at(first + j)])];
+        replaced[at(x)] = 1;
+        for (Sparse::InnerIterator it(g, j); it; ++it) entries.emplace_back(x, coordinates_ + static_cast<int>(it.col()), it.value());
+      }
+    }
+    if (std::find(replaced.begin(), replaced.end(), 1) == replaced.end()) return;
+    Substitution s;
+    int next = 0;
+    std::vector<int> to(replaced.size(), -1);
+    for (std::size_t x = 0; x < replaced.size(); ++x)
+      if (!replaced[x]) {
+        to[x] = next++;
+        s.dofs.push_back(out_.model.dofs[x]);
+      }
+    for (auto& entry : entries) entry = Triplet(entry.row(), to[at(entry.col())], entry.value());
+    s.initialDisplacement.resize(next);
+    s.initialVelocity.resize(next);
+    for (std::size_t x = 0; x < replaced.size(); ++x)
+      if (!replaced[x]) {
+        entries.emplace_back(static_cast<int>(x), to[x], 1.0);
+        s.initialDisplacement[to[x]] = out_.model.initialDisplacement[static_cast<Eigen::Index>(x)];
+        s.initialVelocity[to[x]] = out_.model.initialVelocity[static_cast<Eigen::Index>(x)];
+      }
+    s.map = Sparse(static_cast<Eigen::Index>(replaced.size()), next);
+    s.map.setFromTriplets(entries.begin(), entries.end());
+    s.offset = Vector::Zero(static_cast<Eigen::Index>(replaced.size()));
+    startForces(s, to);
+    substitute(out_.model, s);
+    out_.map = Sparse(out_.map * s.map);
+    for (auto& multiplier : out_.multipliers) multiplier.position = to[at(multiplier.position)];
+  }
+
+  /// lambda(0) = g(0) of the part whose dof the row is solved for.
+  void startForces(Substitution& s, const std::vector<int>& to) const {
+    for (int k = 0; k < count(); ++k) {
+      const int y = solved_[at(k)].unknown;
+      const Piece& piece = pieces_[at(owner_[at(y)])];
+      if (virtual_[at(y)] < 0 || piece.forces == 0) continue;
+      const int x = column_[at(labelled_.columns[at(owner_[at(y)])][at(piece.coordinates - piece.forces + virtual_[at(y)])])];
+      const auto lambda = static_cast<Eigen::Index>(to[at(coordinates_ + k)]);
+      s.initialDisplacement[lambda] = out_.model.initialDisplacement[x] / out_.multipliers[at(k)].scale;
+      s.initialVelocity[lambda] = out_.model.initialVelocity[x] / out_.multipliers[at(k)].scale;
+    }
+  }
+
+  /// Multipliers without mass or stiffness of their own at t = 0:
+  ///
+  ///     [M -B'; -B 0] (a, lambda) = (F + R'f - C v - K q, 0)
+  ///
+  /// Coordinates without mass get that of the fastest diagonal frequency of the others, which hardly matters to the forces.
+  void startConsistently() {
+    SecondOrderModel& m = out_.model;
+    const Eigen::Index n = m.mass.rows();
+    Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) - m.dampingAt(0.0) * m.initialVelocity -
+               m.stiffnessAt(0.0) * m.initialDisplacement;
+    const Vector mass = m.mass.diagonal(), stiffness = diagonalStiffness();
+    std::vector<char> bare(static_cast<std::size_t>(n), 0);
+    for (const auto& multiplier : out_.multipliers)
+      bare[at(multiplier.position)] = mass[multiplier.position] == 0.0 && stiffness[multiplier.position] == 0.0;
+    double fastest = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (bare[static_cast<std::size_t>(i)]) r[i] = 0.0;
+      if (mass[i] > 0) fastest = std::max(fastest, std::abs(stiffness[i]) / mass[i]);
+    }
+    if (r.isZero(0.0) || std::find(bare.begin(), bare.end(), 1) == bare.end()) return;
+    Triplets entries;
+    for (int i = 0; i < n; ++i) {
+      for (Sparse::InnerIterator it(m.mass, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      if (mass[i] == 0.0 && !bare[at(i)]) entries.emplace_back(i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
+    }
+    const Sparse& joining = std::find_if(m.stiffness.begin(), m.stiffness.end(), [](const auto& term) { return term.name == "joining forces"; })->matrix;
+    for (int i = 0; i < n; ++i)
+      for (Sparse::InnerIterator it(joining, i); it; ++it)
+        if (bare[at(i)] != bare[at(static_cast<int>(it.col()))]) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    Sparse saddle(n, n);
+    saddle.setFromTriplets(entries.begin(), entries.end());
+    const linalg::DirectSolver solver(saddle, [&](int i) { return model::describe(m.dofs[at(i)], m.componentNames); });
+    const Vector x = solver.solve(r);
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (bare[static_cast<std::size_t>(i)]) m.initialDisplacement[i] = x[i];
+  }
+
+  const std::vector<Piece>& pieces_;
+  const Labelled& labelled_;
+  const std::vector<SolvedRow>& solved_;
+  const int all_;                ///< coordinates of `labelled`
+  int coordinates_ = 0;          ///< of the model without multipliers
+  std::vector<int> owner_;       ///< per coordinate of `labelled`: its (first) part
+  std::vector<int> virtual_;     ///< row of its part's boundaryRows, -1 for a coordinate
+  std::vector<int> column_;      ///< place among the coordinates
+  Sparse labelRows_;             ///< scaled constraints over `labelled`
+  DualModel out_;
+};
+
+}  // namespace
+
+DualModel addMultipliers(const std::vector<Piece>& pieces, const Labelled& labelled, const Elimination& constraints) {
+  return Builder(pieces, labelled, constraints).run();
+}
+
+}  // namespace tooljoint::coupling
