@@ -160,13 +160,17 @@ TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
       kernel::multiplySubtract(p->width, couplings[c].width, values + couplings[c].upper, x + couplings[c].start, x + p->start);
 }
 
+void BlockFactor::reserveInverse() {
+  if (!inverse_.empty()) return;
+  inverse_.assign(values_.size(), 0.0);
+  std::size_t widest = 0;
+  for (const Pivot& p : pivots_) widest = std::max(widest, z(p.width) * z(p.width));
+  panel_.resize(std::max(panel_.size(), widest));
+  inverted_.reserve(pivots_.size());
+}
+
 void BlockFactor::invert(const std::vector<char>& wanted) {
-  if (inverse_.empty()) {
-    inverse_.assign(values_.size(), 0.0);
-    std::size_t widest = 0;
-    for (const Pivot& p : pivots_) widest = std::max(widest, z(p.width) * z(p.width));
-    panel_.resize(std::max(panel_.size(), widest));
-  }
+  reserveInverse();
   // A pivot is needed when it is wanted or couples to an earlier one that is needed.
   std::vector<char>& needed = inverted_;
   needed.assign(wanted.begin(), wanted.end());

@@ -35,6 +35,8 @@ class BlockFactor {
   ///
   ///     Z_Lk = -Z_LL A_Lk D_k^-1,   Z_kL = -W_kL Z_LL,   Z_kk = D_k^-1 - W_kL Z_Lk
   void invert(const std::vector<char>& wanted);
+  /// Allocates what the first invert() would.
+  void reserveInverse();
   /// Values of the last invert(), laid out as in the pattern.
   const double* inverse() const { return inverse_.data(); }
 

@@ -44,6 +44,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   relaxes_ = true;
   for (const auto& batch : model.points()) relaxes_ = relaxes_ && batch.width() <= PointRelaxation::widest;
   factor_ = linalg::BlockFactor(model.pattern());
+  if (!model.points().empty()) factor_.reserveInverse();
 }
 
 /// Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as displacements.
@@ -54,13 +55,7 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
   relaxation_.setWeights(weight_);
   const auto& pattern = model_->pattern();
-  if (relaxes_ && scheme.impact != 1.0) {
-    factored_ = compliant_ = false;
-    if (!keepTangents_)
-      for (auto& batch : model_->points()) batch.forgetTangent();
-    model_->combine(scheme.acceleration, scheme.velocity, 1.0, factor_.values());
-    if (factor_.factor() < 0) relaxation_.setImpacts(factor_, scheme.h, scheme.impact);
-  }
+  if (relaxes_) relaxation_.setImpacts(scheme.h, scheme.impact);
   dampingNorms_.clear();
   stiffnessNorms_.clear();
   for (const auto& term : model_->damping().terms())
@@ -273,6 +268,7 @@ void ImplicitStep::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), weight_.begin(), weight_.end());
   memory.insert(memory.end(), last_.begin(), last_.end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
+  relaxation_.save(memory);
 }
 
 void ImplicitStep::restore(const double*& memory) {
@@ -287,15 +283,14 @@ void ImplicitStep::restore(const double*& memory) {
   debt_ = *memory++;
   usual_ = static_cast<int>(*memory++);
   const double now = model_->time();
-  // scale() looks for impacts with a factor of its own: the frozen tangents that came back with the batches have to survive it.
-  keepTangents_ = true;
   if (scheme.h > 0) scale(scheme, now);
-  keepTangents_ = false;
   scheme_ = scheme;
   for (double& x : weight_) x = *memory++;
   for (double& x : last_) x = *memory++;
   if (scheme.h > 0) relaxation_.setWeights(weight_);
   for (double& x : factorLaws_) x = *memory++;
+  relaxation_.restore(memory);
+  if (scheme.h > 0) relaxation_.setImpacts(scheme.h, scheme.impact);
   if (!factored) return;
   model_->setTime(factorTime_);
   buildFactor();

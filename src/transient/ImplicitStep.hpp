@@ -94,7 +94,6 @@ class ImplicitStep {
   bool wanted_ = false;             ///< convergence was slow: factor anew
 
   PointRelaxation relaxation_;
-  bool keepTangents_ = false;  ///< while restoring
   bool relaxes_ = false;    ///< points have few enough coordinates for it
   bool compliant_ = false;  ///< its compliance belongs to the factor
   int usual_ = 0;           ///< iterations of the first step with this factor

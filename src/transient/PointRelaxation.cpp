@@ -50,7 +50,7 @@ void PointRelaxation::bind(CompiledModel& model) {
     for (auto* array : {&set.d, &set.v, &set.y, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
-    set.give.assign(rows * z(batch.width()), 0.0);
+    set.known.assign(z(batch.points()), 0);
     set.stiffness.assign(z(batch.points()), 0.0);
     set.error.assign(z(batch.points()), 0.0);
     set.exact.assign(z(batch.points()), 0);
@@ -66,30 +66,43 @@ void PointRelaxation::setWeights(const Vector& weight) {
       sets_[b].weight[r] = model_->points()[b].rowWeight(static_cast<int>(r), weight.data());
 }
 
-void PointRelaxation::setImpacts(linalg::BlockFactor& bare, double h, double impact) {
+void PointRelaxation::setImpacts(double h, double impact) {
   h_ = h;
   impact_ = impact;
-  bare.invert(blocks_);
-  for (std::size_t b = 0; b < sets_.size(); ++b) {
-    auto& batch = model_->points()[b];
-    const int entries = batch.width() * batch.width();
-    for (int p = 0; p < batch.points(); ++p) {
-      batch.project(p, bare.inverse(), &sets_[b].give[z(p * entries)]);
-      batch.setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
-    }
-  }
+  for (std::size_t b = 0; b < sets_.size(); ++b)
+    for (int p = 0; p < model_->points()[b].points(); ++p)
+      model_->points()[b].setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
 }
 
 /// After an evaluation with tangents: points that turn out to be stiff are impacts from now on.
+///
+///     G0 = G (I + P G)^-1,   stiffness = -tr(df/dd G0) / h^2
 void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
   if (impact_ == 1.0) return;
   const int w = batch.width();
+  double A[widest * widest], B[widest * widest], G0[widest * widest];
   for (int p : batch.active()) {
     const double* J = batch.dfdd() + p * w * w;
-    const double* G = &set.give[z(p * w * w)];
+    const double* P = batch.frozen() + p * w * w;
+    const double* G = &set.compliance[z(p * w * w)];
     double trace = 0;
     for (int i = 0; i < w; ++i)
       for (int k = 0; k < w; ++k) trace -= J[i * w + k] * G[k * w + i];
+    if (trace < 0.5) continue;  // with J = P that is a stiffness of 1/h^2
+    for (int i = 0; i < w; ++i)
+      for (int j = 0; j < w; ++j) {
+        A[i * w + j] = i == j ? 1.0 : 0.0;
+        for (int k = 0; k < w; ++k) A[i * w + j] += P[i * w + k] * G[k * w + j];
+      }
+    if (!invertFew(w, A, B)) continue;
+    for (int i = 0; i < w; ++i)
+      for (int j = 0; j < w; ++j) {
+        G0[i * w + j] = 0;
+        for (int k = 0; k < w; ++k) G0[i * w + j] += G[i * w + k] * B[k * w + j];
+      }
+    trace = 0;
+    for (int i = 0; i < w; ++i)
+      for (int k = 0; k < w; ++k) trace -= J[i * w + k] * G0[k * w + i];
     const double stiffness = trace / (batch.scale(p) * h_ * h_);
     if (stiffness > set.stiffness[z(p)]) set.stiffness[z(p)] = stiffness;
     if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
@@ -101,11 +114,17 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
 
 void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
   factor.invert(blocks_);
-  for (std::size_t b = 0; b < sets_.size(); ++b) {
-    const auto& batch = model_->points()[b];
-    const int entries = batch.width() * batch.width();
-    for (int p = 0; p < batch.points(); ++p) batch.project(p, factor.inverse(), &sets_[b].compliance[z(p * entries)]);
-  }
+  inverse_ = factor.inverse();
+  for (auto& set : sets_) std::fill(set.known.begin(), set.known.end(), 0);
+}
+
+void PointRelaxation::save(std::vector<double>& memory) const {
+  for (const auto& set : sets_) memory.insert(memory.end(), set.stiffness.begin(), set.stiffness.end());
+}
+
+void PointRelaxation::restore(const double*& memory) {
+  for (auto& set : sets_)
+    for (double& stiffness : set.stiffness) stiffness = *memory++;
 }
 
 void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& residual) {
@@ -114,6 +133,11 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
     batch.gatherActive(q.data(), v.data());
     std::copy(batch.d(), batch.d() + sets_[b].d.size(), sets_[b].d.begin());
     std::copy(batch.v(), batch.v() + sets_[b].v.size(), sets_[b].v.begin());
+    for (int p : batch.active()) {
+      if (sets_[b].known[z(p)]) continue;
+      batch.project(p, inverse_, &sets_[b].compliance[z(p * batch.width() * batch.width())]);
+      sets_[b].known[z(p)] = 1;
+    }
   }
   residual_ = residual;
   for (auto& set : sets_) {

@@ -32,11 +32,17 @@ class PointRelaxation {
   void setWeights(const Vector& weight);
 
   /// A point whose wall is so stiff that S without point laws gives way less than the wall does, -tr(df/dd G0) > 1 (about two
-  /// radians of its own contact frequency per step), meets it as an impact: forces there are multiplied by `impact`.
-  /// `bare` is the factor of S without point laws for steps of length h.
-  void setImpacts(linalg::BlockFactor& bare, double h, double impact);
-  /// The compliance of every point, from the factor of the effective matrix (invert() is called).
+  /// radians of its own contact frequency per step), meets it as an impact in steps of length h: forces there are multiplied
+  /// by `impact`.
+  void setImpacts(double h, double impact);
+
+  /// The compliance of the points looked at, from the factor of the effective matrix (invert() is called), which must outlive
+  /// its use.
   void setCompliance(linalg::BlockFactor& factor);
+
+  /// What a restart needs to treat the same points as impacts.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
 
   /// Remember where the step starts: predicted q, v, the residual R0 of all linear terms there and a guess of delta.
   void start(const Vector& q, const Vector& v, const Vector& residual);
@@ -56,7 +62,7 @@ class PointRelaxation {
     std::vector<double> y;        ///< rows of delta
     std::vector<double> p;
     std::vector<double> defect;   ///< f - P y - p
-    std::vector<double> give;     ///< G0 per point, width x width
+    std::vector<char> known;      ///< per point: its compliance belongs to the factor
     std::vector<double> stiffness;  ///< largest -tr(df/dd G0) / h^2 seen
     std::vector<double> weight;   ///< per row: largest weight of the dofs it acts on
     std::vector<double> compliance;  ///< G, width x width per point, row-major
@@ -74,6 +80,7 @@ class PointRelaxation {
   std::vector<Set> sets_;
   std::vector<char> blocks_;
   double h_ = 0, impact_ = 1;
+  const double* inverse_ = nullptr;
   Vector residual_;
   NodalProblem problem_;
   NodalProblem::Local y_, phi_;
