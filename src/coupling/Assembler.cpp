@@ -277,7 +277,10 @@ class Coupler {
     const auto position = narrowNumbering(out_.model);
     renumber(out_.model, position);
     const Sparse map = moveColumns(map_, position, map_.cols());
-    for (auto& multiplier : out_.multipliers) multiplier.position = position[at(multiplier.position)];
+    for (auto& multiplier : out_.multipliers) {
+      multiplier.first = position[at(multiplier.first)];
+      multiplier.second = position[at(multiplier.second)];
+    }
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const Piece& piece = pieces_[p];
       const auto& columns = labelled_.columns[p];

@@ -13,12 +13,15 @@
 
 namespace tooljoint::coupling {
 
-/// A force that joins parts (dual assembly).
+/// A force that joins parts (dual assembly), in two coordinates of the coupled model.
 struct Multiplier {
-  int position = 0;       ///< coordinate of the coupled model
-  std::string part;       ///< the part it acts on
-  model::DofLabel dof;    ///< the dof of that part it acts on, in the common frame
-  double scale = 1;       ///< force [N, N m] on that dof, by the rest of the model = scale * coordinate
+  int first = 0;
+  int second = 0;
+  std::string part;     ///< the part it acts on
+  model::DofLabel dof;  ///< the dof of that part it acts on, in the common frame
+  double scale = 1;
+  /// Force [N, N m] by the rest of the model on that dof, for coordinates z.
+  double force(const Vector& z) const { return scale * (z[first] + z[second]); }
 };
 
 /// A coupled model and where the coordinates of the parts went: q_p = maps[p] z + offsets[p].
@@ -43,12 +46,13 @@ struct Coupling {
 /// Cuthill-McKee walk over nodes and modes, so a chain is narrow.
 ///
 /// Primal: L = null space of the constraints by sparse elimination, interface dofs first; for equal labels alone L_p is Boolean.
-/// Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with constraints B q = g, the extremum of the Lagrangian with
-/// multipliers lambda, forces on the dof each constraint is solved for:
+/// Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with constraints B q = g, the stationary point of the Lagrangian with
+/// multipliers, forces on the dof each constraint is solved for. Each is split in two (as in Code_Aster, R3.03.01), so that no row is without a diagonal:
 ///
-///     [M 0; 0 0] z'' + [C 0; 0 0] z' + [K -B'; -B 0] z = [F; -g],   z = (q, lambda)
+///     [M . .; . . .; . . .] z'' + [C . .; . . .; . . .] z' + [K -B' -B'; -B -S S; -B S -S] z = [F; -g; -g],   z = (q, lambda_1, lambda_2)
 ///
-/// Multipliers carry the node number of that dof, so that block solvers keep them together. The start has the multipliers that belong to it.
+/// which means B q = g and lambda_1 = lambda_2, half of the force each, S its stiffness at that dof. Multipliers carry the node number of that dof, so that
+/// block solvers keep them together. The start has the multipliers that belong to it.
 /// Parts with reduction::Boundary have interface displacements that are no coordinates, u_b = B_p q_p; where their coordinates
 /// hold interface forces (dual Craig-Bampton), these become the multipliers.
 ///

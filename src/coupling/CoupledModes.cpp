@@ -13,7 +13,7 @@ linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count) 
   options.name = [&](int i) { return model::describe(model.dofs[static_cast<std::size_t>(i)], model.componentNames); };
   const Vector diagonal = M.diagonal();
   bool singular = false;
-  for (std::size_t i = 0; i < model.dofs.size(); ++i) singular = singular || model.dofs[i].force || diagonal[static_cast<Eigen::Index>(i)] == 0.0;
+  for (std::size_t i = 0; i < model.dofs.size(); ++i) singular = singular || model.dofs[i].force != 0 || diagonal[static_cast<Eigen::Index>(i)] == 0.0;
   return singular ? linalg::semidefiniteModes(K, M, count, options) : linalg::lowestModes(K, M, count, options);
 }
 

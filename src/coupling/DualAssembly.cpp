@@ -15,9 +15,7 @@ namespace {
 using model::DofLabel;
 using model::SecondOrderModel;
 
-/// A multiplier coordinate is its force over this times the stiffness there: large enough to be a displacement of sorts, small enough
-/// that rounding of its row, which has no diagonal, stays below that of the others.
-constexpr double multiplierScale = 1e-5;
+const char* const joiningForces = "joining forces";
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -37,7 +35,8 @@ class Builder {
   }
 
  private:
-  int count() const { return static_cast<int>(solved_.size()); }
+  int constraints() const { return static_cast<int>(solved_.size()); }
+  int count() const { return 2 * constraints(); }
 
   void findOwners() {
     owner_.assign(at(all_), -1);
@@ -72,7 +71,8 @@ class Builder {
       s.initialDisplacement[column[at(y)]] = labelled_.model.initialDisplacement[y];
       s.initialVelocity[column[at(y)]] = labelled_.model.initialVelocity[y];
     }
-    for (const auto& solved : solved_) s.dofs.push_back(labelOf(solved.unknown));
+    for (const auto& solved : solved_)
+      for (const std::int8_t which : {1, 2}) s.dofs.push_back(labelOf(solved.unknown, which));
     s.map = Sparse(all_, size);
     s.map.setFromTriplets(entries.begin(), entries.end());
     s.offset = Vector::Zero(all_);
@@ -82,31 +82,37 @@ class Builder {
   }
 
   /// A multiplier stands with the node of its dof, or with the modes of a part whose interface is no coordinate.
-  DofLabel labelOf(int unknown) const {
+  DofLabel labelOf(int unknown, std::int8_t which) const {
     const DofLabel& label = labelled_.model.dofs[at(unknown)];
-    if (virtual_[at(unknown)] >= 0) return DofLabel::modal(owner_[at(unknown)], virtual_[at(unknown)]).joiningForce();
-    return label.joiningForce();
+    if (virtual_[at(unknown)] >= 0) return DofLabel::modal(owner_[at(unknown)], virtual_[at(unknown)]).joiningForce(which);
+    return label.joiningForce(which);
   }
 
-  /// Rows over all unknowns of `labelled`: y[unknown] - rest = value.
+  /// Constraints as rows over all unknowns of `labelled`, y[unknown] - rest = value, twice and times the stiffness S of that dof, so that the
+  /// multipliers are displacements of sorts:
+  ///
+  ///     K -> [K -S B' -S B'; -S B -S S; -S B S -S],   F -> [F; -S g; -S g]
   void addForces() {
     const Vector stiffness = diagonalStiffness();
-    Triplets rows;
+    Triplets rows, entries;
     Vector values(count());
-    for (int k = 0; k < count(); ++k) {
+    for (int k = 0; k < constraints(); ++k) {
       const SolvedRow& solved = solved_[at(k)];
       const double scale = scaleOf(solved, stiffness);
-      rows.emplace_back(k, solved.unknown, scale);
-      for (const auto& [other, factor] : solved.rest) rows.emplace_back(k, other, -scale * factor);
-      values[k] = scale * solved.value;
-      out_.multipliers.push_back({coordinates_ + k, pieces_[at(owner_[at(solved.unknown)])].name, labelled_.model.dofs[at(solved.unknown)], scale});
+      const int first = coordinates_ + 2 * k;
+      for (int row : {2 * k, 2 * k + 1}) {
+        rows.emplace_back(row, solved.unknown, scale);
+        for (const auto& [other, factor] : solved.rest) rows.emplace_back(row, other, -scale * factor);
+        values[row] = scale * solved.value;
+        entries.emplace_back(coordinates_ + row, coordinates_ + row, -scale);
+      }
+      entries.emplace_back(first, first + 1, scale);
+      entries.emplace_back(first + 1, first, scale);
+      out_.multipliers.push_back({first, first + 1, pieces_[at(owner_[at(solved.unknown)])].name, labelled_.model.dofs[at(solved.unknown)], scale});
     }
-    Sparse C(count(), all_);
-    C.setFromTriplets(rows.begin(), rows.end());
-    labelRows_ = C;
-    // K -> [K -B'; -B 0], F -> [F; -g]
-    const Sparse B = C * out_.map;
-    Triplets entries;
+    labelRows_ = Sparse(count(), all_);
+    labelRows_.setFromTriplets(rows.begin(), rows.end());
+    const Sparse B = labelRows_ * out_.map;
     for (int k = 0; k < B.outerSize(); ++k)
       for (Sparse::InnerIterator it(B, k); it; ++it) {
         if (it.value() == 0.0) continue;
@@ -116,7 +122,7 @@ class Builder {
     const int size = coordinates_ + count();
     Sparse joining(size, size);
     joining.setFromTriplets(entries.begin(), entries.end());
-    if (count() > 0) out_.model.stiffness.push_back({"joining forces", joining, 0});
+    if (count() > 0) out_.model.stiffness.push_back({joiningForces, joining, 0});
     if (!values.isZero(0.0)) {
       Vector load = Vector::Zero(size);
       load.tail(count()) = -values;
@@ -124,10 +130,11 @@ class Builder {
     }
   }
 
+  /// Of the parts; constant terms.
   Vector diagonalStiffness() const {
     Vector diagonal = Vector::Zero(out_.model.mass.rows());
     for (const auto& term : out_.model.stiffness)
-      if (out_.model.laws[at(term.law)].name == "1") diagonal += term.matrix.diagonal();
+      if (out_.model.laws[at(term.law)].name == "1" && term.name != joiningForces) diagonal += term.matrix.diagonal();
     return diagonal;
   }
 
@@ -135,7 +142,7 @@ class Builder {
     double size = stiffnessOf(solved.unknown, stiffness);
     for (const auto& [other, factor] : solved.rest)
       if (size == 0.0) size = stiffnessOf(other, stiffness);
-    return size > 0.0 ? multiplierScale * size : 1.0;
+    return size > 0.0 ? size : 1.0;
   }
 
   /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by its coordinates.
@@ -195,36 +202,41 @@ class Builder {
     startForces(s, to);
     substitute(out_.model, s);
     out_.map = Sparse(out_.map * s.map);
-    for (auto& multiplier : out_.multipliers) multiplier.position = to[at(multiplier.position)];
+    for (auto& multiplier : out_.multipliers) {
+      multiplier.first = to[at(multiplier.first)];
+      multiplier.second = to[at(multiplier.second)];
+    }
   }
 
-  /// lambda(0) = g(0) of the part whose dof the row is solved for.
+  /// lambda(0) = g(0) of the part whose dof the row is solved for, in halves.
   void startForces(Substitution& s, const std::vector<int>& to) const {
-    for (int k = 0; k < count(); ++k) {
+    for (int k = 0; k < constraints(); ++k) {
       const int y = solved_[at(k)].unknown;
       const Piece& piece = pieces_[at(owner_[at(y)])];
       if (virtual_[at(y)] < 0 || piece.forces == 0) continue;
       const int x = column_[at(labelled_.columns[at(owner_[at(y)])][at(piece.coordinates - piece.forces + virtual_[at(y)])])];
-      const auto lambda = static_cast<Eigen::Index>(to[at(coordinates_ + k)]);
-      s.initialDisplacement[lambda] = out_.model.initialDisplacement[x] / out_.multipliers[at(k)].scale;
-      s.initialVelocity[lambda] = out_.model.initialVelocity[x] / out_.multipliers[at(k)].scale;
+      for (int row : {2 * k, 2 * k + 1}) {
+        const auto lambda = static_cast<Eigen::Index>(to[at(coordinates_ + row)]);
+        s.initialDisplacement[lambda] = 0.5 * out_.model.initialDisplacement[x] / out_.multipliers[at(k)].scale;
+        s.initialVelocity[lambda] = 0.5 * out_.model.initialVelocity[x] / out_.multipliers[at(k)].scale;
+      }
     }
   }
 
-  /// Multipliers without mass or stiffness of their own at t = 0:
+  /// Multipliers that nothing but constraints determines, at t = 0 (J: what addForces() has added):
   ///
-  ///     [M -B'; -B 0] (a, lambda) = (F + R'f - C v - K q, 0)
+  ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
   ///
   /// Coordinates without mass get that of the fastest diagonal frequency of the others, which hardly matters to the forces.
   void startConsistently() {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();
-    Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) - m.dampingAt(0.0) * m.initialVelocity -
-               m.stiffnessAt(0.0) * m.initialDisplacement;
     const Vector mass = m.mass.diagonal(), stiffness = diagonalStiffness();
     std::vector<char> bare(static_cast<std::size_t>(n), 0);
     for (const auto& multiplier : out_.multipliers)
-      bare[at(multiplier.position)] = mass[multiplier.position] == 0.0 && stiffness[multiplier.position] == 0.0;
+      for (int i : {multiplier.first, multiplier.second}) bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0;
+    Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) - m.dampingAt(0.0) * m.initialVelocity -
+               m.stiffnessAt(0.0) * m.initialDisplacement;
     double fastest = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
       if (bare[static_cast<std::size_t>(i)]) r[i] = 0.0;
@@ -236,10 +248,12 @@ class Builder {
       for (Sparse::InnerIterator it(m.mass, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
       if (mass[i] == 0.0 && !bare[at(i)]) entries.emplace_back(i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
     }
-    const Sparse& joining = std::find_if(m.stiffness.begin(), m.stiffness.end(), [](const auto& term) { return term.name == "joining forces"; })->matrix;
-    for (int i = 0; i < n; ++i)
-      for (Sparse::InnerIterator it(joining, i); it; ++it)
-        if (bare[at(i)] != bare[at(static_cast<int>(it.col()))]) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    for (const auto& term : m.stiffness) {
+      if (term.name != joiningForces) continue;
+      for (int i = 0; i < n; ++i)
+        for (Sparse::InnerIterator it(term.matrix, i); it; ++it)
+          if (bare[at(i)] != 0 || bare[at(static_cast<int>(it.col()))] != 0) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    }
     Sparse saddle(n, n);
     saddle.setFromTriplets(entries.begin(), entries.end());
     const linalg::DirectSolver solver(saddle, [&](int i) { return model::describe(m.dofs[at(i)], m.componentNames); });

@@ -12,13 +12,13 @@
 
 namespace tooljoint::coupling {
 
-/// Adds one multiplier for each solved row to the model: the force on the dof it is solved for. Fills model, multipliers and
-/// `substitution`: coordinates of `labelled` from those of the result.
+/// A model with multipliers.
 struct DualModel {
   model::SecondOrderModel model;
   std::vector<Multiplier> multipliers;
-  Sparse map;
+  Sparse map;  ///< coordinates of `labelled` from those of the model
 };
+/// Two multipliers for each constraint that `constraints` solved: halves of the force on the dof it is solved for.
 DualModel addMultipliers(const std::vector<Piece>& pieces, const Labelled& labelled, const Elimination& constraints);
 
 }  // namespace tooljoint::coupling

@@ -10,7 +10,7 @@
 namespace tooljoint::model {
 
 std::string describe(const DofLabel& label, const ComponentNames& names) {
-  if (label.force) return "the force on " + describe(DofLabel{label.kind, label.entity, label.component, label.part, false}, names);
+  if (label.force != 0) return "the force on " + describe(label.joiningForce(0), names);
   if (label.kind == DofLabel::Kind::Interface)
     return "mode " + std::to_string(label.component + 1) + " of interface " + std::to_string(label.entity + 1);
   if (label.kind == DofLabel::Kind::Modal)

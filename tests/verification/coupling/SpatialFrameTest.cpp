@@ -63,7 +63,7 @@ TEST_F(SpatialFrame, DualIsPrimal) {
   const auto primal = coupleWithPositions(parts, options(Assembly::Primal, own));
   const auto dual = coupleWithPositions(parts, options(Assembly::Dual, own));
   EXPECT_EQ(dual.multipliers.size(), 30u) << "nodes 3 and 4 join three parts, node 5 two";
-  EXPECT_EQ(dual.model.size(), primal.model.size() + 60);
+  EXPECT_EQ(dual.model.size(), primal.model.size() + 90);
   const int count = 30;
   const Vector a = eigenvalues(primal.model, count), b = eigenvalues(dual.model, count);
   for (int i = 0; i < count; ++i) EXPECT_NEAR(b[i] / a[i], 1.0, 1e-10) << "mode " << i + 1;
