@@ -140,7 +140,9 @@ class Watched : public transient::SampleSink {
   estimate::MotionEstimator estimator_;
 };
 
-const std::vector<std::string> window{"Transient/End Time=3", "Transient/Progress=false"};
+/// Without the phase correction, whose share of noise (3e-4 between two models at 1 ms) is what 400 Hz leave out.
+const std::vector<std::string> window{"Transient/End Time=3", "Transient/Progress=false",
+                                      "Transient/Generalized-alpha/Phase Correction=false"};
 
 TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   const Case c("helical_170m.xml", window);
