@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Matrices as Matrix Market text files (R. F. Boisvert, R. Pozo and K. A. Remington, NISTIR 5935, 1996), read strictly. Banner and entry
+/// lines are read by Teuchos. Every rank reads for itself: use parallel::agree where all must end alike.
+#pragma once
+
+#include <string>
+
+#include "common/Error.hpp"
+#include "common/Types.hpp"
+
+namespace tooljoint::io {
+
+/// A file that holds no matrix that can be used, with the entry that is wrong where it is one.
+struct MatrixFileError : DeckError {
+  MatrixFileError(const std::string& sentence, int atRow = -1, int atColumn = -1) : DeckError(sentence), row(atRow), column(atColumn) {}
+  int row;     ///< 0-based; -1: the fault is not one of an entry
+  int column;  ///< likewise
+};
+
+/// rows x columns of a coordinate or array file of real or integer numbers, general, symmetric or skew-symmetric (one triangle is given and
+/// the other one made of it). Entries given twice are added. MatrixFileError naming file and line: missing file, another kind of file, sizes
+/// that do not fit the entries, both triangles of a symmetric matrix, a number that is not finite.
+Sparse readMatrixMarket(const std::string& path);
+/// The same as a dense matrix; a column is a vector.
+Matrix readMatrixMarketDense(const std::string& path);
+
+/// Text of a general coordinate file, entries by rows; the numbers read back as the same doubles.
+std::string matrixMarketText(const Sparse& matrix);
+/// Text of an array file.
+std::string matrixMarketText(const Matrix& matrix);
+
+}  // namespace tooljoint::io
