@@ -39,7 +39,6 @@ class Coupler {
     turn(pieces_, connections_.frames);
     Finder finder(pieces_);
     labelled_ = joinByLabels(pieces_, labelRules(finder));
-    out_.interfaceDofs = static_cast<int>(labelled_.joints.size());
     addConnectors(finder);
     makeRows(finder);
     const Elimination elimination = eliminate(rows_, ranks());
@@ -300,20 +299,17 @@ class Coupler {
       out_.offsets.push_back(local.head(piece.coordinates));
       out_.positions.push_back(positionsOf(out_.maps.back()));
     }
+    listInterface(map);
   }
 
-  static std::vector<int> positionsOf(const Sparse& map) {
-    std::vector<int> positions(at(static_cast<int>(map.rows())), -1);
-    for (int i = 0; i < map.rows(); ++i) {
-      int entries = 0;
-      for (Sparse::InnerIterator it(map, i); it; ++it)
-        if (it.value() != 0.0) {
-          ++entries;
-          positions[at(i)] = it.value() == 1.0 ? static_cast<int>(it.col()) : -1;
-        }
-      if (entries != 1) positions[at(i)] = -1;
-    }
-    return positions;
+  /// Joined dofs that are still coordinates, and in dual assembly those of all parts.
+  void listInterface(const Sparse& map) {
+    const auto position = positionsOf(map);
+    for (const auto& joint : labelled_.joints)
+      for (const auto& place : joint.places)
+        if (position[at(column(place))] >= 0) out_.interface.push_back(position[at(column(place))]);
+    std::sort(out_.interface.begin(), out_.interface.end());
+    out_.interface.erase(std::unique(out_.interface.begin(), out_.interface.end()), out_.interface.end());
   }
 
   std::vector<Piece> pieces_;

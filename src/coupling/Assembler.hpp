@@ -32,8 +32,8 @@ struct Coupling {
   std::vector<Vector> offsets;              ///< zero unless a constraint has a value
   std::vector<Multiplier> multipliers;      ///< dual assembly
   std::vector<std::string> remarks;         ///< constraints that say nothing new, for instance
-  int interfaceDofs = 0;                    ///< joined physical dofs before an interface reduction
-  int interfaceModes = -1;                  ///< what they were reduced to; -1: not reduced
+  std::vector<int> interface;               ///< coupled dofs that join parts: joined physical ones, or the modes they were reduced to, increasing
+  int interfaceModes = -1;                  ///< modes of the interfaces; -1: their dofs are not reduced
 
   /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
   Matrix local(int p, const Matrix& z) const { return maps[static_cast<std::size_t>(p)] * z; }

@@ -123,4 +123,18 @@ void renumber(model::SecondOrderModel& model, const std::vector<int>& position) 
   model.dofs = std::move(dofs);
 }
 
+std::vector<int> positionsOf(const Sparse& map) {
+  std::vector<int> positions(at(static_cast<int>(map.rows())), -1);
+  for (int i = 0; i < map.rows(); ++i) {
+    int entries = 0;
+    for (Sparse::InnerIterator it(map, i); it; ++it)
+      if (it.value() != 0.0) {
+        ++entries;
+        positions[at(i)] = it.value() == 1.0 ? static_cast<int>(it.col()) : -1;
+      }
+    if (entries != 1) positions[at(i)] = -1;
+  }
+  return positions;
+}
+
 }  // namespace tooljoint::coupling

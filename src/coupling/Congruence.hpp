@@ -31,6 +31,9 @@ void renumber(model::SecondOrderModel& model, const std::vector<int>& position);
 /// Entries at other columns: out(i, column[j]) = A(i, j); exact zeros are left out.
 Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index columns);
 
+/// Per row of a map the column it is the same as, -1 where it is not just one.
+std::vector<int> positionsOf(const Sparse& map);
+
 /// Every matrix of the model: mass, damping and stiffness terms.
 template <class Model, class Visit>
 void forEachMatrix(Model& model, const Visit& visit) {

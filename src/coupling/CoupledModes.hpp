@@ -9,7 +9,8 @@
 namespace tooljoint::coupling {
 
 /// The `count` lowest modes about the initial state (symmetric part of the stiffness at t = 0, closed contacts linear); the vectors are in
-/// coordinates of the model, multipliers included. linalg::lowestModes, or linalg::semidefiniteModes where the mass is singular.
+/// coordinates of the model, multipliers included. linalg::lowestModes, or, where the mass is singular, linalg::semidefiniteModes (which returns
+/// fewer when there are fewer finite ones).
 linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count);
 
 }  // namespace tooljoint::coupling

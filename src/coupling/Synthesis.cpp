@@ -5,6 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
+#include "coupling/InterfaceReduction.hpp"
 
 namespace tooljoint::coupling {
 
@@ -12,10 +13,11 @@ namespace {
 
 /// Couples reduced parts and lets the basis improve them.
 Synthesis join(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-               const reduction::ReductionOptions& options, std::vector<reduction::ReducedSubstructure> reduced) {
+               const reduction::ReductionOptions& options, const CouplingOptions& coupling,
+               std::vector<reduction::ReducedSubstructure> reduced) {
   Synthesis result;
   result.parts = std::move(reduced);
-  result.coupled = coupleWithPositions(result.parts);
+  result.coupled = coupleWithPositions(result.parts, coupling);
   constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {
     std::vector<reduction::BasisResult> bases;
@@ -25,12 +27,15 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
     }
     bool improved = false;
     parallel::agree([&] { improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases); });
-    if (!improved) return result;
+    if (!improved) {
+      if (options.interface) parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
+      return result;
+    }
     parallel::agree([&] {
       for (std::size_t p = 0; p < parts.size(); ++p)
         result.parts[p] = reduction::reduce(parts[p], bases[p], options, static_cast<int>(p));
     });
-    result.coupled = coupleWithPositions(result.parts);
+    result.coupled = coupleWithPositions(result.parts, coupling);
   }
   throw ConvergenceError("The basis \"" + options.basis + "\" still changed after " + std::to_string(rounds) +
                          " rounds of improvement with the coupled model.");
@@ -39,18 +44,18 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
 }  // namespace
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options) {
-  return join(parts, basis, options, reduction::reduceAll(parts, basis, options));
+                     const reduction::ReductionOptions& options, const CouplingOptions& coupling) {
+  return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options));
 }
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache) {
-  return join(parts, basis, options, reduction::reduceAll(parts, basis, options, cache));
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache, const CouplingOptions& coupling) {
+  return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options, cache));
 }
 
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction) {
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction, const CouplingOptions& coupling) {
   const auto options = reduction::readOptions(reduction, static_cast<int>(parts.size()));
-  return synthesise(parts, *reduction::makeBasis(options.basis, reduction), options);
+  return synthesise(parts, *reduction::makeBasis(options.basis, reduction), options, coupling);
 }
 
 }  // namespace tooljoint::coupling

@@ -16,16 +16,16 @@ struct Synthesis {
   Coupling coupled;
 };
 
-/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else ConvergenceError).
-/// Collective.
+/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else ConvergenceError), then
+/// the interface reduction of the options. Collective.
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options);
+                     const reduction::ReductionOptions& options, const CouplingOptions& coupling = {});
 
 /// The same in rounds over the same parts, which share what they have reduced.
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache);
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache, const CouplingOptions& coupling = {});
 
 /// The same from the deck list "Reduction".
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction);
+Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction, const CouplingOptions& coupling = {});
 
 }  // namespace tooljoint::coupling

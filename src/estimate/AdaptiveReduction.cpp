@@ -142,6 +142,11 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
   const auto& choice = list.get<std::string>("Error Estimate");
   options.frequencies = choice == "Frequencies" || choice == "Both";
   options.motion = choice == "Transient" || choice == "Both";
+  const bool tolerance = list.isParameter("Frequency Tolerance") || list.isParameter("Motion Tolerance");
+  if ((options.frequencies || options.motion || tolerance) && list.isParameter("Interface Reduction") &&
+      list.get<std::string>("Interface Reduction") != "None")
+    throw DeckError("Reduction gives \"Interface Reduction\" together with " + std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
+                    ", but estimates do not see what an interface reduction leaves out. Give one of the two.");
   options.window.count = list.get<int>("Estimated Frequencies");
   if (list.isParameter("Estimated Below")) {
     options.window.belowHz = list.get<double>("Estimated Below");

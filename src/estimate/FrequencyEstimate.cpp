@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/Parallel.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "reduction/Distribution.hpp"
@@ -87,13 +88,6 @@ double signedRatio(double lambda, double full) {
   return (lambda - full) / (2.0 * std::abs(lambda));
 }
 
-/// Coupled coordinates of one part, coordinates x modes.
-Matrix localShapes(const std::vector<int>& positions, const Matrix& shapes) {
-  Matrix local(static_cast<Eigen::Index>(positions.size()), shapes.cols());
-  for (std::size_t i = 0; i < positions.size(); ++i) local.row(static_cast<Eigen::Index>(i)) = shapes.row(positions[i]);
-  return local;
-}
-
 /// Below this eigenvalue a mode is a rigid body's, and has no relative error.
 double smallestEigenvalue(const Sparse& K, const Sparse& M) {
   double scale = 0;
@@ -140,7 +134,7 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   const Sparse K = linearisedStiffness(coupled);
   const Sparse M = reduction::symmetricPart(coupled.mass);
   const auto pairs = window.belowHz > 0 ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
-                                        : linalg::lowestModes(K, M, std::min(window.count, coupled.size()));
+                                        : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
   std::vector<int> weights;
   for (const auto& part : parts) weights.push_back(part.model.size());
   const auto owners = reduction::assignOwners(weights, parallel::size());
@@ -148,7 +142,7 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   parallel::agree([&] {
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (owners[p] == parallel::rank()) {
-        const Matrix shapes = synthesis.parts[p].basis.vectors * localShapes(synthesis.coupled.positions[p], pairs.vectors);
+        const Matrix shapes = synthesis.parts[p].basis.vectors * synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
         all[p] = shares(parts[p], synthesis.parts[p].basis, shapes, pairs.values);
       }
   });

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "estimate/FrequencyEstimate.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 
@@ -44,10 +45,9 @@ Sparse pointDamping(const model::SecondOrderModel& model, double t) {
   return sum;
 }
 
-ComplexMatrix localShapes(const std::vector<int>& positions, const ComplexMatrix& shapes) {
-  ComplexMatrix local(static_cast<Eigen::Index>(positions.size()), shapes.cols());
-  for (std::size_t i = 0; i < positions.size(); ++i) local.row(static_cast<Eigen::Index>(i)) = shapes.row(positions[i]);
-  return local;
+/// Coordinates of part p.
+ComplexMatrix localShapes(const coupling::Synthesis& synthesis, std::size_t p, const ComplexMatrix& shapes) {
+  return synthesis.coupled.maps[p].cast<Complex>() * shapes;
 }
 
 /// The coupled mode with the largest MAC for every full mode.
@@ -96,8 +96,8 @@ ComplexVector dampedErrors(const std::vector<model::Substructure>& parts, const 
       for (std::size_t i = 0; i < interior.size(); ++i) inner[static_cast<Eigen::Index>(i)] = x[interior[i]];
       return inner;
     };
-    const ComplexMatrix y = localShapes(synthesis.coupled.positions[p], right.vectors);
-    const ComplexMatrix z = localShapes(synthesis.coupled.positions[p], left);
+    const ComplexMatrix y = localShapes(synthesis, p, right.vectors);
+    const ComplexMatrix z = localShapes(synthesis, p, left);
     for (Eigen::Index j = 0; j < count; ++j) {
       const Complex s = right.values[j];
       const ComplexVector D = times(basis.vectors, y.col(j)), E = times(basis.vectors, z.col(j));
@@ -147,7 +147,7 @@ ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<mod
   ComplexMatrix out = ComplexMatrix::Zero(full.size(), shapes.cols());
   std::vector<char> found(full.dofs.size(), 0);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const ComplexMatrix q = localShapes(synthesis.coupled.positions[p], shapes);
+    const ComplexMatrix q = localShapes(synthesis, p, shapes);
     const ComplexMatrix D = synthesis.parts[p].basis.vectors.cast<Complex>() * q;
     for (std::size_t i = 0; i < parts[p].model.dofs.size(); ++i) {
       const auto it = position.find(parts[p].model.dofs[i]);
@@ -178,7 +178,7 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
   const auto exact = linalg::lowestModes(linearisedStiffness(full), mass, std::min(count, full.size()));
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(count + moreModes, coupled.size());
-  const auto pairs = linalg::lowestModes(linearisedStiffness(coupled), reduction::symmetricPart(coupled.mass), looked);
+  const auto pairs = coupling::lowestModes(coupled, looked);
   const auto estimates = estimateFrequencies(parts, synthesis, {looked, 0});
   std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
   match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>())), modes);

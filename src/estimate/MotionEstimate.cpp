@@ -47,6 +47,9 @@ struct MotionEstimator::Impl {
         compiled(model),
         mass(compiled.pattern()),
         step(compiled.pattern()) {
+    if (!synthesis_.coupled.boolean())
+      throw ModelError("The error of the motion is estimated only where parts are joined by their labels alone: without frames of their own, constraints between "
+                       "several dofs or an interface reduction. Leave \"Error Estimate\" at \"Frequencies\".");
     std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.positions[p]);

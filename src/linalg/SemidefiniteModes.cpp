@@ -81,9 +81,7 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   for (Eigen::Index i = 0; i < mu.size(); ++i)
     if (std::abs(mu[i]) > infinite * largest) finite.push_back(i);
   std::sort(finite.begin(), finite.end(), [&](auto a, auto b) { return sigma + 1 / mu[a] < sigma + 1 / mu[b]; });
-  if (count > static_cast<int>(finite.size()))
-    throw ModelError(std::to_string(count) + " modes were asked for, but the model has only " + std::to_string(finite.size()) + " finite ones.");
-  if (count >= 0) finite.resize(static_cast<std::size_t>(count));
+  if (count >= 0 && count < static_cast<int>(finite.size())) finite.resize(static_cast<std::size_t>(count));
   EigenPairs modes;
   modes.values.resize(static_cast<Eigen::Index>(finite.size()));
   modes.vectors.resize(K.rows(), modes.values.size());
@@ -103,7 +101,7 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const 
   const Sparse k = symmetricPart(K, "stiffness", options.name), m = symmetricPart(M, "mass", options.name);
   const Matrix W = root(m, options.name), dense = k;
   EigenPairs modes = shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count);
-  if (count > 0 && !options.shift) {  // again with a shift among what is wanted
+  if (count > 0 && modes.count() > 0 && !options.shift) {  // again with a shift among what is wanted
     const double wanted = std::abs(modes.values[modes.count() - 1]);
     if (wanted > 0) modes = shifted(dense, m, W, -wanted, count);
   }

@@ -7,14 +7,14 @@
 
 namespace tooljoint::linalg {
 
-/// The `count` lowest finite modes (all of them: count < 0) of K phi = lambda M phi with K symmetric of any inertia and M symmetric positive
+/// The `count` lowest finite modes (all of them when there are fewer, or count < 0) of K phi = lambda M phi with K symmetric of any inertia and M symmetric positive
 /// semi-definite, phi' M phi = 1. Dense: with M = W W' and a shift sigma,
 ///
 ///     W' (K - sigma M)^-1 W y = y / (lambda - sigma),   phi = (K - sigma M)^-1 W y,
 ///
 /// whose zero eigenvalues are the infinite ones of the pencil; lambda is then the Rayleigh quotient of phi.
-/// ModelError: sizes differ, K or M unsymmetric or not finite, M indefinite (dof named), fewer finite modes than asked for, K and M
-/// singular together. ConvergenceError: residuals above options.tolerance.
+/// ModelError: sizes differ, K or M unsymmetric or not finite, M indefinite (dof named), K and M singular
+/// together. ConvergenceError: residuals above options.tolerance.
 EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options = {});
 
 }  // namespace tooljoint::linalg

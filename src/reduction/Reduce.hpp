@@ -20,6 +20,7 @@ class ParameterList;
 namespace tooljoint::reduction {
 
 struct ReducedCore;
+class InterfaceBasis;
 
 /// How the state at t = 0 is put into reduced coordinates.
 enum class InitialState {
@@ -34,6 +35,7 @@ struct ReductionOptions {
   InitialState initialState = InitialState::KeepStatic;
   bool checks = true;
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
+  std::shared_ptr<const InterfaceBasis> interface;    ///< reduction of the joined dofs of the coupled model (coupling::synthesise); null: none
 };
 
 /// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number

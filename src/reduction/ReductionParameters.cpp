@@ -9,6 +9,7 @@
 #include "common/Text.hpp"
 #include "deck/Variants.hpp"
 #include "linalg/EigenSolver.hpp"
+#include "reduction/InterfaceBasis.hpp"
 #include "reduction/Reduce.hpp"
 
 namespace tooljoint::reduction {
@@ -84,6 +85,8 @@ deck::ListSpec parameters() {
   list.choice("Initial State", std::string("Keep static"), {"Keep static", "Least squares"},
               "\"Keep static\" reduces about the static state, which is then exact; \"Least squares\" projects it on the basis "
               "(Nguyen et al. 2020, (42)).");
+  deck::declareVariants<InterfaceBasis, const Teuchos::ParameterList&>(list, "Interface Reduction", std::string("None"),
+                                                                       "Reduction of the dofs at which substructures are joined, after they were coupled.");
   list.boolean("Basis Checks", true, "Check rank, static exactness, zero-energy modes and the largest frequency of every basis.");
   list.passThrough("Anasazi", "Parameters of the Anasazi eigensolver, handed on as they are.");
   return list;
@@ -126,6 +129,10 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
     options.modes.cutOffHz = list.get<double>(choice);
   } else if (!readCriterion(list, choice, options.modes)) {
     options.modes.kind = ModeRule::Kind::All;
+  }
+  if (list.isParameter("Interface Reduction")) {
+    const auto& name = list.get<std::string>("Interface Reduction");
+    options.interface = InterfaceRegistry::instance().make(name, list.isSublist(name) ? list.sublist(name) : Teuchos::ParameterList(name));
   }
   if (list.isSublist("Anasazi")) {
     auto eigen = std::make_shared<linalg::EigenOptions>();
