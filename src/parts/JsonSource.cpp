@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/Text.hpp"
+#include "io/MatrixMarket.hpp"
+#include "parts/PartSource.hpp"
+
+namespace tooljoint::parts {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A JSON file whose matrices stand in Matrix Market files beside it, or as lists of rows in itself.
+class JsonSource : public PartSource {
+ public:
+  explicit JsonSource(const std::string& path) : file_(path) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) file_ = (std::filesystem::path(path) / "part.json").string();
+    std::ifstream in(file_);
+    if (!in) throw DeckError(file_ + " cannot be read: there is no such file.");
+    try {
+      root_ = Json::parse(in);
+    } catch (const Json::exception& fault) {
+      throw DeckError(file_ + " is no JSON: " + fault.what() + ".");
+    }
+    if (!root_.is_object()) throw DeckError(file_ + " should hold one object, {\"format\": ..., \"dofs\": ..., ...}.");
+  }
+
+  std::string file() const override { return file_; }
+  bool has(const std::string& path) const override { return find(path) != nullptr; }
+
+  std::vector<std::string> names(const std::string& group) const override {
+    const Json& value = group.empty() ? root_ : at(group);
+    if (!value.is_object()) fail(group, "should be an object of names");
+    std::vector<std::string> out;
+    for (const auto& [key, one] : value.items()) out.push_back(key);
+    return out;
+  }
+
+  std::string text(const std::string& path) const override {
+    if (!at(path).is_string()) fail(path, "should be a text");
+    return at(path).get<std::string>();
+  }
+
+  std::vector<std::string> texts(const std::string& path) const override {
+    std::vector<std::string> out;
+    for (const auto& one : list(path)) {
+      if (!one.is_string()) fail(path, "should be a list of texts");
+      out.push_back(one.get<std::string>());
+    }
+    return out;
+  }
+
+  std::vector<DofName> dofs(const std::string& path) const override {
+    std::vector<DofName> out;
+    if (at(path).is_string()) {
+      const Matrix rows = table(path);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) out.push_back(fromRow(path, rows.row(i)));
+      return out;
+    }
+    for (const auto& one : list(path)) out.push_back(fromJson(path, one));
+    return out;
+  }
+
+  Sparse matrix(const std::string& path) const override { return matrixOf(path, at(path)); }
+
+  Matrix table(const std::string& path) const override { return Matrix(matrixOf(path, at(path))); }
+
+  std::vector<NamedTerm> terms(const std::string& path) const override {
+    const Json& value = at(path);
+    std::vector<NamedTerm> out;
+    const bool several = value.is_array() && !value.empty() && value[0].is_object();
+    if (!several) return {term(path, value, path)};
+    for (const auto& one : value) out.push_back(term(path, one, path + " " + std::to_string(out.size() + 1)));
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& path, const std::string& what) const { throw DeckError(file_ + ": \"" + path + "\" " + what + "."); }
+
+  const Json* find(const std::string& path) const {
+    const Json* value = &root_;
+    for (const auto& step : split(path, '/')) {
+      if (!value->is_object() || !value->contains(step)) return nullptr;
+      value = &(*value)[step];
+    }
+    return value;
+  }
+  const Json& at(const std::string& path) const {
+    const Json* value = find(path);
+    if (value == nullptr) fail(path, "is missing");
+    return *value;
+  }
+  const Json& list(const std::string& path) const {
+    if (!at(path).is_array()) fail(path, "should be a list");
+    return at(path);
+  }
+
+  NamedTerm term(const std::string& path, const Json& value, const std::string& name) const {
+    NamedTerm out;
+    out.name = name;
+    if (value.is_object()) {
+      for (const auto& [key, one] : value.items())
+        if (key != "matrix" && key != "vector" && key != "law" && key != "name")
+          fail(path, "holds \"" + key + "\"; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
+      for (const char* key : {"law", "name"})
+        if (value.contains(key)) {
+          if (!value[key].is_string()) fail(path, std::string("has a \"") + key + "\" that is no text");
+          (std::string(key) == "law" ? out.law : out.name) = value[key].get<std::string>();
+        }
+      const char* key = value.contains("vector") ? "vector" : "matrix";
+      if (!value.contains(key)) fail(path, "has a term without \"matrix\"");
+      out.matrix = matrixOf(path, value[key]);
+      out.where = where(out.name, value[key]);
+      return out;
+    }
+    out.matrix = matrixOf(path, value);
+    out.where = where(path, value);
+    return out;
+  }
+
+  static std::string where(const std::string& name, const Json& value) {
+    return name + (value.is_string() ? " (" + value.get<std::string>() + ")" : "");
+  }
+
+  /// The name of a Matrix Market file, a list of rows, or a list of numbers (one column).
+  Sparse matrixOf(const std::string& path, const Json& value) const {
+    if (value.is_string()) {
+      const std::filesystem::path name = value.get<std::string>();
+      return io::readMatrixMarket(name.is_absolute() ? name.string() : (std::filesystem::path(file_).parent_path() / name).string());
+    }
+    if (!value.is_array() || value.empty()) fail(path, "should be the name of a Matrix Market file or a list of rows");
+    const auto columns = value[0].is_array() ? value[0].size() : 1;
+    Triplets entries;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const Json row = value[i].is_array() ? value[i] : Json::array({value[i]});
+      if (row.size() != columns) fail(path, "has rows of different lengths: " + std::to_string(columns) + " and " + std::to_string(row.size()) + " numbers");
+      for (std::size_t j = 0; j < columns; ++j) {
+        if (!row[j].is_number()) fail(path, "has an entry in row " + std::to_string(i + 1) + " that is no number: " + row[j].dump());
+        entries.emplace_back(static_cast<int>(i), static_cast<int>(j), row[j].get<double>());
+      }
+    }
+    Sparse out(static_cast<Eigen::Index>(value.size()), static_cast<Eigen::Index>(columns));
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  }
+
+  DofName fromJson(const std::string& path, const Json& one) const {
+    DofName dof;
+    if (one.is_number_integer()) {
+      dof.node = one.get<std::int64_t>();
+      return dof;
+    }
+    const bool pair = one.is_array() && one.size() == 2;
+    if (pair && one[0] == "mode" && one[1].is_number_integer()) {
+      dof.mode = true;
+      dof.number = one[1].get<int>();
+    } else if (pair && one[0].is_number_integer() && (one[1].is_string() || one[1].is_number_integer())) {
+      dof.node = one[0].get<std::int64_t>();
+      if (one[1].is_string())
+        dof.component = one[1].get<std::string>();
+      else
+        dof.number = one[1].get<int>();
+    } else {
+      fail(path, "has the entry " + one.dump() + "; a dof is [node, \"component\"] or [\"mode\", number], a node is its number");
+    }
+    return dof;
+  }
+
+  DofName fromRow(const std::string& path, const Vector& row) const {
+    if (row.size() > 2 || (row.array() != row.array().round()).any()) fail(path, "should have rows \"node\" or \"node component\" of whole numbers");
+    DofName dof;
+    dof.node = static_cast<std::int64_t>(row[0]);
+    if (row.size() == 2) dof.number = static_cast<int>(row[1]);
+    dof.mode = dof.node == 0;
+    return dof;
+  }
+
+  std::string file_;
+  Json root_;
+};
+
+}  // namespace
+
+std::unique_ptr<PartSource> openJsonPart(const std::string& path) { return std::make_unique<JsonSource>(path); }
+
+std::unique_ptr<PartSource> openPart(const std::string& path) {
+  std::error_code ignored;
+  const bool json = std::filesystem::is_directory(path, ignored) || std::filesystem::path(path).extension() == ".json";
+  return json ? openJsonPart(path) : openHdf5Part(path);
+}
+
+}  // namespace tooljoint::parts
