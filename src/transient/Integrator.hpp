@@ -31,6 +31,7 @@ struct Counters {
   long newtonIterations = 0;  ///< linear solves inside Newton
   long unconvergedSteps = 0;  ///< steps kept although Newton had not converged (only when the deck accepts that)
   long factorisations = 0;    ///< of the mass matrix or the effective matrix
+  long rightHandSides = 0;    ///< evaluations of all forces, where the integrator counts them
   double minStep = 0;
   double maxStep = 0;
   void accept(double h);

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward differentiation) on y = (q, v), with the
+/// error of each step held below
+///
+///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of velocities
+///
+/// Both choose their steps; samples and the end come from the interpolation of the method.
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "common/Error.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/SundialsStepper.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+constexpr const char* arkode = "SUNDIALS ARKODE";
+constexpr const char* cvode = "SUNDIALS CVODE";
+
+void addCommon(deck::ListSpec& spec) {
+  spec.real("Relative Tolerance", "", 1e-4, deck::Range::positive(),
+            "Error allowed per step, relative to each coordinate and velocity.")
+      .real(
+          "Absolute Tolerance", "m", 1e-6, deck::Range::positive(),
+          "Error of displacements allowed per step; the same number holds for rotations in rad and for the coordinates of modes.")
+      .real("Absolute Velocity Tolerance", "m/s", 1e-4, deck::Range::positive(),
+            "Error of velocities allowed per step, with the same number for rad/s and the rates of modes.")
+      .real("Initial Step", "s", deck::Optional{}, deck::Range::positive(),
+            "Length of the first step; by default Transient/Step, and without that what SUNDIALS estimates.")
+      .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(), "Longest step allowed; by default there is no limit.")
+      .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2), "Newton iterations before a step is tried shorter.")
+      .integer("Maximum Steps", 100000000, deck::Range::atLeast(1),
+               "Steps after which the run stops as one that cannot be afforded.");
+}
+
+deck::ListSpec arkodeSpecification() {
+  deck::ListSpec spec(arkode, "Parameters of ARKODE.");
+  spec.choice("Method", std::string("ESDIRK436L2SA_6_3_4"),
+              {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3", "SDIRK_5_3_4", "KVAERNO_5_3_4",
+               "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4", "ESDIRK437L2SA_7_3_4", "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5",
+               "ESDIRK547L2SA2_7_4_5"},
+              "Butcher table by its name in SUNDIALS, which ends in stages, order of the error estimate and order.");
+  addCommon(spec);
+  return spec;
+}
+
+deck::ListSpec cvodeSpecification() {
+  deck::ListSpec spec(cvode, "Parameters of CVODE.");
+  spec.integer(
+      "Maximum Order", 2, deck::Range::between(1, 5),
+      "Highest order of the formulas. Above 2 they are unstable for lightly damped vibration, and the fastest vibration of "
+      "the mesh then bounds the step.");
+  addCommon(spec);
+  return spec;
+}
+
+class Sundials final : public Integrator {
+ public:
+  Sundials(const std::string& name, const Teuchos::ParameterList& given) : name_(name) {
+    const auto own = withDefaults(given, name == arkode ? arkodeSpecification() : cvodeSpecification());
+    options_.relative = own.get<double>("Relative Tolerance");
+    options_.positions = own.get<double>("Absolute Tolerance");
+    options_.velocities = own.get<double>("Absolute Velocity Tolerance");
+    options_.maxIterations = own.get<int>("Maximum Newton Iterations");
+    if (own.isParameter("Initial Step")) options_.firstStep = own.get<double>("Initial Step");
+    if (own.isParameter("Maximum Step")) options_.maxStep = own.get<double>("Maximum Step");
+    if (name == arkode) options_.table = own.get<std::string>("Method");
+    if (name == cvode) options_.maxOrder = own.get<int>("Maximum Order");
+    maxSteps_ = own.get<int>("Maximum Steps");
+  }
+
+  void prepare(CompiledModel& model, const Window& window, State& state) override {
+    form_.bind(model, name_);
+    window_ = window;
+    if (!(options_.firstStep > 0)) options_.firstStep = window.step;
+    y_.setZero(form_.size());
+    yDot_.setZero(form_.size());
+    stepper_ = makeStepper();
+    stepper_->restart(state.t, state.q.data(), state.v.data(), window.end, options_.firstStep);
+    complete(state);
+    count();
+  }
+
+  /// To the next sample, or to the end of the step under way if that comes first.
+  void advance(const State& from, State& to) override {
+    if (restored_) goOn(from);
+    if (!(stepper_->time() > from.t)) step(from);
+    const double reached = stepper_->time();
+    const double sample = nextSample(from.t);
+    to.t = sample < reached - 1e-6 * window_.sampling ? sample : reached;
+    stepper_->at(to.t, to.q.data(), to.v.data());
+    complete(to);
+    count();
+  }
+
+  void save(std::vector<double>& memory) const override { memory.push_back(stepper_->nextStep()); }
+  void restore(const double*& memory) override {
+    resumedStep_ = *memory++;
+    restored_ = true;
+  }
+
+ private:
+  std::unique_ptr<SundialsStepper> makeStepper();
+
+  /// A restart takes the step of the checkpoint, but not what the method remembers of earlier steps.
+  void goOn(const State& from) {
+    restored_ = false;
+    // BDF begins again at first order: a step of its own choice
+    stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, name_ == arkode ? resumedStep_ : 0.0);
+    seen_ = {};
+    evaluations_ = form_.evaluations();
+    factorisations_ = form_.factorisations();
+  }
+
+  void step(const State& from) {
+    if (counters_.steps >= maxSteps_) {
+      std::ostringstream text;
+      text << name_ << " has taken " << counters_.steps << " steps by t = " << from.t << " s, as many as Transient/" << name_
+           << "/Maximum Steps allows; the step is now " << stepper_->nextStep()
+           << " s. Raise Relative Tolerance, Absolute Tolerance and Absolute Velocity Tolerance there, or allow more steps.";
+      throw ConvergenceError(text.str());
+    }
+    const double before = stepper_->time();
+    const SundialsTrouble trouble = stepper_->step();
+    count();
+    if (trouble != SundialsTrouble::None) giveUp(from, trouble);
+    if (!(stepper_->time() > before)) giveUp(from, SundialsTrouble::Accuracy);
+    counters_.accept(stepper_->lastStep());
+  }
+
+  double nextSample(double t) const {
+    if (!(window_.sampling > 0)) return std::numeric_limits<double>::infinity();
+    return window_.begin + (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
+  }
+
+  /// state.a from the equations of motion.
+  void complete(State& state) {
+    const int n = form_.dofs();
+    y_.head(n) = state.q;
+    y_.tail(n) = state.v;
+    form_.rightHandSide(state.t, y_.data(), yDot_.data());
+    state.a = yDot_.tail(n);
+  }
+
+  /// What SUNDIALS and the form counted since the last time.
+  void count() {
+    const SundialsCounts now = stepper_->counts();
+    counters_.rejected += now.rejected - seen_.rejected;
+    counters_.halved += now.newtonFailures - seen_.newtonFailures;
+    counters_.newtonIterations += now.newtonIterations - seen_.newtonIterations;
+    counters_.factorisations += form_.factorisations() - factorisations_;
+    counters_.rightHandSides += form_.evaluations() - evaluations_;
+    seen_ = now;
+    factorisations_ = form_.factorisations();
+    evaluations_ = form_.evaluations();
+  }
+
+  [[noreturn]] void giveUp(const State& from, SundialsTrouble trouble) {
+    const double t = stepper_->time();
+    const std::string own = "Transient/" + name_ + "/";
+    std::ostringstream text;
+    switch (trouble) {
+      case SundialsTrouble::Accuracy:
+        text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise " << own
+             << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
+        break;
+      case SundialsTrouble::ErrorTest:
+        text << name_ << " cannot hold its tolerances at t = " << t << " s however short the step, least at "
+             << form_.model().dofName(stepper_->worstPosition()) << ": a force jumps there. Raise " << own
+             << "Absolute Velocity Tolerance and Relative Tolerance, or use the integrator \"Generalized-alpha\".";
+        break;
+      case SundialsTrouble::Newton:
+        text << "Newton of " << name_ << " does not converge at t = " << t << " s however short the step. Allow more " << own
+             << "Maximum Newton Iterations, lower the tolerances there, or use the integrator \"Generalized-alpha\".";
+        break;
+      case SundialsTrouble::NotFinite: {
+        State state = from;
+        complete(state);
+        const int worst = state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
+        text << "The motion is not finite however short the step of " << name_ << " from t = " << t << " s, first at "
+             << form_.model().dofName(worst) << ": a load, a law of time or a point law gives no number there.";
+        break;
+      }
+      default:
+        text << name_ << " stopped at t = " << t << " s: " << stepper_->message() << ".";
+    }
+    throw ConvergenceError(text.str());
+  }
+
+  std::string name_;
+  SundialsOptions options_;
+  long maxSteps_ = 0;
+  FirstOrderForm form_;
+  Window window_;
+  std::unique_ptr<SundialsStepper> stepper_;
+  Vector y_, yDot_;
+  SundialsCounts seen_;
+  long evaluations_ = 0, factorisations_ = 0;
+  double resumedStep_ = 0;
+  bool restored_ = false;
+};
+
+#ifdef TOOLJOINT_HAS_SUNDIALS
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
+  return name_ == arkode ? makeArkode(form_, options_) : makeCvode(form_, options_);
+}
+#else
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
+  throw DeckError(
+      "Transient/Integrator: this program was built without SUNDIALS, which \"" + name_ +
+      "\" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
+}
+#endif
+
+const bool registeredArkode = IntegratorRegistry::instance().add(
+    arkode,
+    {"Implicit Runge-Kutta methods of SUNDIALS with error control (Reynolds et al. 2023); needs a mass on every degree of "
+     "freedom, and a build with SUNDIALS.",
+     arkodeSpecification(), [](const Teuchos::ParameterList& own) { return std::make_unique<Sundials>(arkode, own); }});
+
+const bool registeredCvode = IntegratorRegistry::instance().add(
+    cvode,
+    {"Backward differentiation formulas of SUNDIALS with control of error and order (Hindmarsh et al. 2005); needs a mass on "
+     "every degree of freedom, and a build with SUNDIALS.",
+     cvodeSpecification(), [](const Teuchos::ParameterList& own) { return std::make_unique<Sundials>(cvode, own); }});
+
+}  // namespace
+}  // namespace tooljoint::transient
