@@ -13,10 +13,11 @@ namespace {
 
 /// Couples reduced parts and lets the basis improve them.
 Synthesis join(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-               const reduction::ReductionOptions& options, const CouplingOptions& coupling,
-               std::vector<reduction::ReducedSubstructure> reduced) {
+               const reduction::ReductionOptions& options, CouplingOptions coupling, std::vector<reduction::ReducedSubstructure> reduced) {
   Synthesis result;
   result.parts = std::move(reduced);
+  for (const auto& part : result.parts)
+    if (part.boundary && part.boundary->forces > 0) coupling.assembly = Assembly::Dual;
   result.coupled = coupleWithPositions(result.parts, coupling);
   constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {

@@ -17,7 +17,7 @@ struct Synthesis {
 };
 
 /// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else ConvergenceError), then
-/// the interface reduction of the options. Collective.
+/// the interface reduction of the options. Bases with interface forces as coordinates are assembled dual whatever `coupling` says. Collective.
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
                      const reduction::ReductionOptions& options, const CouplingOptions& coupling = {});
 

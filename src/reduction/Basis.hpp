@@ -20,7 +20,8 @@ class ParameterList;
 namespace tooljoint::reduction {
 
 /// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the kept dofs are the identity and
-/// zero, so that interface dofs stay what they are and parts are joined by equal labels.
+/// zero, so that interface dofs stay what they are and parts are joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs
+/// among the interior ones: q = (retained dofs, modal coordinates, forces).
 struct BasisResult {
   Partition partition;
   Sparse vectors;                     ///< Phi: dofs x (kept + modes), structural zeros absent
@@ -29,12 +30,16 @@ struct BasisResult {
   Vector candidates;                  ///< omega^2 of all modes computed, kept ones first
   bool complete = false;              ///< `candidates` are all modes the part has
   bool orthonormal = false;           ///< the modal columns are meant to be mass-orthonormal and to diagonalise sym(K)
+  Sparse inertial;                    ///< what mass and damping are projected on where that is not `vectors` (MacNeal); empty: `vectors`
+  std::vector<int> boundary;          ///< positions of interface dofs that are not kept: the last columns are then the forces on them, one each (dual bases)
+  bool removable = true;              ///< modal columns may be left out one by one; otherwise a basis with fewer modes is another one
   std::vector<BasisRow> rows;
   double orthogonality = 0;
   std::string method;
   std::vector<std::string> remarks;
 
   int modes() const { return static_cast<int>(eigenvalues.size()); }
+  int forces() const { return static_cast<int>(boundary.size()); }
 };
 
 /// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped with the reason `why`.

@@ -68,8 +68,9 @@ std::string BasisReport::table(bool all) const {
   if (checked) {
     text += format("  rank %d of %d, condition %.2e; static exactness %s; zero-energy modes %d of the part, %d reduced\n", rank,
                    reducedSize(), conditioning, number(staticDefect, "%.1e").c_str(), zeroEnergyFull, zeroEnergyReduced);
-    text += format("  largest frequency of the reduced part %.6g Hz: RK4 stays stable up to a step of %s s\n",
-                   largestOmega / twoPi, explicitStep > 0 ? format("%.3e", explicitStep).c_str() : "any");
+    const std::string step = explicitStep > 0 ? format("%.3e s", explicitStep) : "any length";
+    text += format("  largest frequency of the reduced part %.6g Hz: %s\n", largestOmega / twoPi,
+                   explicitStep < 0 ? "RK4 refuses it, its mass is singular" : ("RK4 stays stable up to a step of " + step).c_str());
   }
   for (const auto& sentence : remarks) text += "  note: " + sentence + "\n";
   return text;

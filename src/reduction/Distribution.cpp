@@ -124,6 +124,9 @@ void travel(Archive& archive, BasisResult& basis) {
   travel(archive, basis.candidates);
   travel(archive, basis.complete);
   travel(archive, basis.orthonormal);
+  travel(archive, basis.removable);
+  travel(archive, basis.inertial);
+  travel(archive, basis.boundary);
   travel(archive, basis.rows);
   travel(archive, basis.orthogonality);
   travel(archive, basis.method);

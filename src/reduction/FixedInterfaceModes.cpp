@@ -70,7 +70,7 @@ void remark(FixedInterfaceModes& result, const ModeRequest& request, int interio
 }  // namespace
 
 FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const Partition& p, const Sparse& symmetricK,
-                                        const ModeRequest& request) {
+                                        const ModeRequest& request, const std::string& kind) {
   FixedInterfaceModes result;
   const int interior = static_cast<int>(p.interior.size());
   std::vector<Link> links;
@@ -97,7 +97,7 @@ FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const P
         if (perLink > 0 || request.kind == ModeRequest::Kind::Below)
           append(result, links[i], static_cast<int>(i), solve(links[i], request, perLink));
       } catch (const Error& error) {
-        const std::string sentence = "Part \"" + part.name + "\", fixed-interface modes: " + error.what();
+        const std::string sentence = "Part \"" + part.name + "\", " + kind + ": " + error.what();
         if (error.code() == ExitCode::NotConverged) throw ConvergenceError(sentence);
         throw ModelError(sentence);
       }

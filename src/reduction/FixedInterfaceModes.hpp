@@ -29,9 +29,9 @@ struct FixedInterfaceModes {
 };
 
 /// omega^2 M_II phi = sym(K)_II phi (Nguyen et al. 2020, (35), with the symmetric part of K: the modes are real; the skew part
-/// acts on them through the projection). Throws ModelError or ConvergenceError of the eigensolver, naming the part. \param
-/// symmetricK symmetricPart of the constantStiffness of the part
+/// acts on them through the projection). Throws ModelError or ConvergenceError of the eigensolver, naming the part and `kind`.
+/// \param symmetricK symmetricPart of the constantStiffness of the part
 FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const Partition& partition, const Sparse& symmetricK,
-                                        const ModeRequest& request);
+                                        const ModeRequest& request, const std::string& kind = "fixed-interface modes");
 
 }  // namespace tooljoint::reduction

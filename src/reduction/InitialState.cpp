@@ -24,4 +24,26 @@ Vector fitState(const BasisResult& basis, const Vector& x) {
   return q;
 }
 
+StartState startState(const model::Substructure& part, const BasisResult& basis, bool keepStatic) {
+  const auto& m = part.model;
+  StartState start;
+  const Vector reference = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
+  start.velocity = fitState(basis, m.initialVelocity);
+  start.offset = reference;
+  if (basis.forces() == 0) {
+    start.displacement = fitState(basis, m.initialDisplacement - reference);
+    return start;
+  }
+  Vector g = Vector::Zero(basis.vectors.cols());
+  const Vector& state = keepStatic ? reference : m.initialDisplacement;
+  if (!state.isZero(0.0)) {
+    const Vector force = m.stiffnessAt(0.0) * state - m.loadAt(0.0) - m.pointForce(0.0, state, Vector::Zero(m.size()));
+    for (int j = 0; j < basis.forces(); ++j) g[g.size() - basis.forces() + j] = force[basis.boundary[static_cast<std::size_t>(j)]];
+  }
+  const Vector bent = basis.vectors * g;
+  if (keepStatic) start.offset -= bent;
+  start.displacement = g + fitState(basis, m.initialDisplacement - (keepStatic ? reference : bent));
+  return start;
+}
+
 }  // namespace tooljoint::reduction

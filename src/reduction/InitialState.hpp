@@ -11,4 +11,15 @@ namespace tooljoint::reduction {
 /// Exactly zero for x = 0.
 Vector fitState(const BasisResult& basis, const Vector& x);
 
+/// D(0) = offset + Phi displacement, D'(0) = Phi velocity.
+struct StartState {
+  Vector offset;        ///< dofs of the part
+  Vector displacement;  ///< reduced coordinates
+  Vector velocity;      ///< reduced coordinates
+};
+
+/// With `keepStatic`, offset = D_s, the reference state of the part (zero without one), else 0. Where interface forces g are coordinates, D = offset + Phi_a a + Psi g,
+/// they start with those of the static state, g_s = (K D_s - F - R' f(D_s))_b at t = 0, and offset = D_s - Psi g_s; a state of zeros has none.
+StartState startState(const model::Substructure& part, const BasisResult& basis, bool keepStatic);
+
 }  // namespace tooljoint::reduction

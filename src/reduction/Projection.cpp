@@ -186,8 +186,9 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
   const Sparse& Phi = basis.vectors;
   const auto kept = static_cast<Eigen::Index>(basis.partition.kept.size());
   ProjectedMatrices out;
-  out.mass = symmetricPart(project(part.model.mass, Phi));
-  if (basis.orthonormal) tidyMass(out.mass, kept, out);
+  const bool masslessFlexibility = basis.inertial.size() > 0;
+  out.mass = symmetricPart(project(part.model.mass, masslessFlexibility ? basis.inertial : Phi));
+  if (basis.orthonormal || masslessFlexibility) tidyMass(out.mass, kept, out);
 
   const Sparse K = constantStiffness(part.model);
   out.constantStiffness = Sparse(Phi.cols(), Phi.cols());
@@ -201,6 +202,10 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
     out.stiffness.push_back({term.name, reduced, term.law});
   }
   for (const auto& term : part.model.damping) {
+    if (masslessFlexibility) {
+      out.damping.push_back({term.name, project(term.matrix, basis.inertial), term.law});
+      continue;
+    }
     const auto rayleigh = rayleighCoefficients(term.matrix, part.model.mass, K);
     Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass + rayleigh->second * out.constantStiffness)
                               : project(term.matrix, Phi);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
@@ -32,9 +33,9 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   report.part = part.name;
   report.basis = options.basis;
   report.method = basis.method;
-  report.interface = static_cast<int>(basis.partition.interface.size());
+  report.interface = static_cast<int>(basis.partition.interface.size()) + basis.forces();
   report.retained = static_cast<int>(basis.partition.retained.size());
-  report.interior = static_cast<int>(basis.partition.interior.size());
+  report.interior = static_cast<int>(basis.partition.interior.size()) - basis.forces();
   report.modes = basis.modes();
   report.negativeModes = static_cast<int>((basis.eigenvalues.array() < 0).count());
   report.rows = std::move(core.basis.rows);
@@ -107,6 +108,21 @@ void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vect
   reduced.recoveryOffset = part.model.recoveryOffset + part.model.recovery * offset;
 }
 
+/// Of a basis whose last coordinates are the forces on the interface dofs.
+Boundary forcesAsCoordinates(const model::Substructure& part, const BasisResult& basis, const Vector& offset) {
+  Boundary boundary;
+  std::vector<int> columns(static_cast<std::size_t>(basis.vectors.cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  boundary.rows = block(basis.vectors, basis.boundary, columns);
+  boundary.offset.resize(basis.forces());
+  for (std::size_t j = 0; j < basis.boundary.size(); ++j) {
+    boundary.dofs.push_back(part.model.dofs[static_cast<std::size_t>(basis.boundary[j])]);
+    boundary.offset[static_cast<Eigen::Index>(j)] = offset[basis.boundary[j]];
+  }
+  boundary.forces = basis.forces();
+  return boundary;
+}
+
 /// The reduced part from what its owner (or the owner of its twin) computed.
 ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index,
                            Shared& shared) {
@@ -125,17 +141,19 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   m.laws = part.model.laws;
   m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
   for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
-  for (int k = 0; k < out.modes; ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
+  for (int k = 0; k < out.modes + core.basis.forces(); ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
   m.mass = core.matrices.mass;
   m.damping = core.matrices.damping;
   m.stiffness = core.matrices.stiffness;
 
   const bool keepStatic = options.initialState == InitialState::KeepStatic;
-  out.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(p.size));
+  const StartState start = startState(part, core.basis, keepStatic);
+  out.offset = start.offset;
   reduceLoads(part, shared, out.offset, m);
   reducePoints(part, Phi, out.offset, shared, m);
-  m.initialDisplacement = fitState(core.basis, part.model.initialDisplacement - out.offset);
-  m.initialVelocity = fitState(core.basis, part.model.initialVelocity);
+  m.initialDisplacement = start.displacement;
+  m.initialVelocity = start.velocity;
+  if (core.basis.forces() > 0) out.boundary = forcesAsCoordinates(part, core.basis, out.offset);
 
   out.report.part = part.name;
   if (core.report.part != part.name) out.report.sharedWith = core.report.part;
@@ -297,7 +315,7 @@ class Team {
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
         for (;;) {
-          if (!bases_[p].orthonormal)
+          if (!bases_[p].orthonormal || !bases_[p].removable)
             throw DeckError("The basis \"" + options_.basis +
                             "\" has no modes with fixed interface for an interface criterion to choose from. Give \"Modes\", or take "
                             "the basis \"Craig-Bampton\".");
@@ -342,7 +360,7 @@ class Team {
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
         spectra[p] = first(p) ? bases_[p].candidates : spectra[t];
-        int state[2] = {bases_[t].complete ? 1 : 0, bases_[t].modes()};
+        int state[2] = {bases_[t].complete ? 1 : 0, bases_[t].removable ? bases_[t].modes() : static_cast<int>(bases_[t].candidates.size())};
         if (first(p)) {
           parallel::broadcast(spectra[p], owner_[p]);
           parallel::broadcast(state[0], owner_[p]);
@@ -364,6 +382,12 @@ class Team {
       }
       if (enough) {
         forOwned([&](std::size_t p) {
+          if (!bases_[p].removable) {
+            requests_[p].count = counts[p];
+            requests_[p].pairTolerance = 0;  // pairs are whole already
+            bases_[p] = basis_.build(parts_[p], requests_[p]);
+            return;
+          }
           bases_[p].remarks.clear();  // they were about the number asked of this part alone
           truncate(bases_[p], counts[p], "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
         });
