@@ -43,13 +43,15 @@ MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, con
     velocitySeries_ = &file.series("/transient/velocity", {nodes, 6}, "m/s, rad/s", "Velocities of the displacements");
   if (output.hasField("acceleration"))
     accelerationSeries_ = &file.series("/transient/acceleration", {nodes, 6}, "m/s2, rad/s2", "Accelerations of the displacements");
-  if (output.hasField("normal_force") && !model.points.empty())
+  const bool touches = std::any_of(model.points.begin(), model.points.end(), [](const auto& set) { return set.name == kContactSet; });
+  if (output.hasField("normal_force") && touches)
     forceSeries_ = &file.series("/transient/normal_force", {nodes}, "N", "Normal contact force, positive pushing off the wall");
   if (output.xdmf) xdmf_ = std::make_unique<io::XdmfRecorder>(file, picture(scene, stage), output.xdmfInterval);
 
   const bool forces = forceSeries_ != nullptr || xdmf_ != nullptr;
   watched_.assign(nodes, 0);
   for (const auto& set : model.points) {
+    if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
     if (!forces) continue;
     Contact contact{&set, -1, set.offset, set.offset, {}};

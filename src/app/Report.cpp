@@ -49,6 +49,13 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
   return format("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s", parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
+std::string describeCoupling(const coupling::Coupling& coupled) {
+  if (!coupled.multipliers.empty())
+    return format("coupling    dual: %zu forces join %zu dofs of the parts", coupled.multipliers.size(), coupled.interface.size());
+  if (coupled.interfaceModes < 0) return format("coupling    primal: %zu joined dofs", coupled.interface.size());
+  return format("coupling    primal: kept %d modes of %d joined dofs", coupled.interfaceModes, coupled.joinedDofs);
+}
+
 std::string describeMotionError(const estimate::MotionEstimate& error) {
   return format("estimate    error of the motion by the reduction: dyn %.2e, worst sample %.2e, from %ld samples in %.2f s", error.error,
                 error.largest, error.samples, error.wall);

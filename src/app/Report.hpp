@@ -18,6 +18,8 @@ namespace tooljoint::app {
 std::string describeScene(const Scene& scene);
 std::string describeStatic(const StaticStage& stage);
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts, int fullDofs, int reducedDofs, double wall);
+/// Assembly, joined dofs, and what the interface reduction kept of them.
+std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
 std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures);
 

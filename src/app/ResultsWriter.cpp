@@ -156,6 +156,13 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
   summary.set("reduction.wall_s", wall);
 }
 
+void summarise(const coupling::Coupling& coupled, io::Summary& summary) {
+  summary.set("reduction.coupling.assembly", std::string(coupled.multipliers.empty() ? "Primal" : "Dual"));
+  summary.set("reduction.coupling.joined_dofs", coupled.joinedDofs);
+  summary.set("reduction.coupling.multipliers", static_cast<long>(coupled.multipliers.size()));
+  if (coupled.interfaceModes >= 0) summary.set("reduction.coupling.interface_modes", coupled.interfaceModes);
+}
+
 void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary) {
   if (!outcome.rounds.empty()) summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
   if (!outcome.rounds.empty() || !outcome.frequencies.empty()) summary.set("reduction.estimate.wall_s", outcome.wall);

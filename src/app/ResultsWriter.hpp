@@ -37,6 +37,7 @@ void summarise(const Scene& scene, io::Summary& summary);
 void summarise(const StaticStage& stage, io::Summary& summary);
 void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis, int reducedDofs, double wall,
                io::Summary& summary);
+void summarise(const coupling::Coupling& coupled, io::Summary& summary);
 void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary);
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary);
 void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary);

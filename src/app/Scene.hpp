@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/CouplingParameters.hpp"
 #include "deck/Deck.hpp"
 #include "io/OutputParameters.hpp"
 #include "substructures/contact/ContactParameters.hpp"
@@ -42,6 +43,7 @@ struct Scene {
   equilibrium::StaticOptions statics;
   string_::PartitionRules partition;
   io::OutputSettings output;
+  std::optional<coupling::CouplingPlan> coupling = std::nullopt;  ///< null: equal node numbers alone join the parts
 
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }

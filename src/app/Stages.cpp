@@ -140,4 +140,20 @@ std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stag
   return parts;
 }
 
+coupling::PlannedCoupling plannedParts(const Scene& scene, const StaticStage& stage) {
+  auto parts = cut(scene, stage);
+  if (scene.coupling) return coupling::plan(parts, *scene.coupling);
+  return {std::move(parts), {}};
+}
+
+coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned) {
+  auto options = planned.options;
+  options.assembly = coupling::Assembly::Primal;
+  return coupling::coupleWithPositions(planned.parts, options);
+}
+
+model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage) {
+  return scene.coupling ? joinUnreduced(plannedParts(scene, stage)).model : fullModel(stage);
+}
+
 }  // namespace tooljoint::app

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/Scene.hpp"
+#include "coupling/Assembler.hpp"
+#include "coupling/PlannedCoupling.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
 #include "reduction/ReducedSubstructure.hpp"
@@ -15,6 +17,9 @@
 #include "substructures/string/StringModel.hpp"
 
 namespace tooljoint::app {
+
+/// Name of the point set of the borehole wall.
+constexpr const char* kContactSet = "contact";
 
 /// The string at rest in its well, and its equations of motion about that state.
 struct StaticStage {
@@ -26,11 +31,18 @@ struct StaticStage {
 /// Bends the string into the well and finds its static equilibrium. Throws ConvergenceError, ModelError.
 StaticStage settle(const Scene& scene);
 
-/// The full model, in total displacements.
+/// The full model of the string alone, in total displacements.
 model::SecondOrderModel fullModel(const StaticStage& stage);
+/// The full model with what the list Coupling adds, always in primal assembly.
+model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage);
 
 /// The parts the deck's Substructures list asks for.
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
+
+/// These parts as the list Coupling wants them, and what joins them.
+coupling::PlannedCoupling plannedParts(const Scene& scene, const StaticStage& stage);
+/// Unreduced parts joined, in primal assembly.
+coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned);
 
 /// Nodes (0-based, increasing) where contact is evaluated in the reduced model.
 std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage);

@@ -79,7 +79,8 @@ void perturb(model::SecondOrderModel& model, double size) {
 void countContact(const Scene& scene, const model::SecondOrderModel& model, Execution& execution) {
   std::vector<char> watched(static_cast<std::size_t>(scene.string.nodeCount()), 0);
   for (const auto& set : model.points)
-    for (auto entity : set.entities) watched[static_cast<std::size_t>(entity - 1)] = 1;
+    if (set.name == kContactSet)
+      for (auto entity : set.entities) watched[static_cast<std::size_t>(entity - 1)] = 1;
   const auto view = execution.history.view();
   for (int p = 0; p < scene.contactPoints.size(); ++p) {
     const auto node = static_cast<std::size_t>(scene.contactPoints.node[static_cast<std::size_t>(p)] - 1);
@@ -94,7 +95,8 @@ void countContact(const Scene& scene, const model::SecondOrderModel& model, Exec
 /// Reduced model of the scene, with what it cost.
 estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, Execution& execution) {
   const Stopwatch watch;
-  const auto parts = cut(scene, stage);
+  const auto planned = plannedParts(scene, stage);
+  const auto& parts = planned.parts;
   const auto& list = scene.list().sublist("Reduction");
   const auto probe = [&](const coupling::Synthesis& synthesis) {
     estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
@@ -103,7 +105,7 @@ estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, Execution
     transient::integrate(synthesis.coupled.model, options, estimator);
     return estimator.result();
   };
-  auto outcome = estimate::synthesise(parts, list, probe);
+  auto outcome = estimate::synthesise(parts, list, probe, planned.options);
   execution.basis = list.get<std::string>("Basis");
   for (const auto& part : outcome.synthesis.parts) execution.modes += part.modes;
   execution.setupCpu = parallel::sum(watch.cpu());
@@ -146,7 +148,7 @@ void integrate(const Scene& scene, model::SecondOrderModel& model, const Executi
 
 std::shared_ptr<const StaticStage> StudyRunner::statics(const Scene& scene) {
   auto list = scene.list();
-  for (const char* name : {"Substructures", "Reduction", "Transient", "Output"}) list.remove(name, false);
+  for (const char* name : {"Substructures", "Coupling", "Reduction", "Transient", "Output"}) list.remove(name, false);
   auto& stage = settled_[study::canonicalText(list)];
   if (!stage) stage = std::make_shared<const StaticStage>(settle(scene));
   return stage;
@@ -159,7 +161,7 @@ Execution StudyRunner::execute(const Scene& scene, const ExecutionOptions& optio
     auto outcome = reduce(scene, *stage, execution);
     integrate(scene, outcome.synthesis.coupled.model, options, execution);
   } else {
-    auto model = fullModel(*stage);
+    auto model = fullModel(scene, *stage);
     integrate(scene, model, options, execution);
   }
   return execution;

@@ -310,6 +310,7 @@ class Coupler {
         if (position[at(column(place))] >= 0) out_.interface.push_back(position[at(column(place))]);
     std::sort(out_.interface.begin(), out_.interface.end());
     out_.interface.erase(std::unique(out_.interface.begin(), out_.interface.end()), out_.interface.end());
+    out_.joinedDofs = static_cast<int>(out_.interface.size());
   }
 
   std::vector<Piece> pieces_;

@@ -45,15 +45,15 @@ std::vector<std::size_t> mark(const Vector& shares, double rest) {
 class Rounds {
  public:
   Rounds(const std::vector<model::Substructure>& parts, const reduction::Basis& basis, const reduction::ReductionOptions& options,
-         const EstimateOptions& estimates, const MotionProbe& probe)
-      : parts_(parts), basis_(basis), rule_(options.modes), options_(options), estimates_(estimates), probe_(probe) {
+         const EstimateOptions& estimates, const MotionProbe& probe, const coupling::CouplingOptions& coupling)
+      : parts_(parts), basis_(basis), rule_(options.modes), options_(options), estimates_(estimates), probe_(probe), coupling_(coupling) {
     options_.modes.kind = reduction::ModeRule::Kind::PerPart;
     options_.modes.counts.assign(parts.size(), firstModes);
   }
 
   Outcome run() {
     for (int round = 0; round < mostRounds; ++round) {
-      outcome_.synthesis = coupling::synthesise(parts_, basis_, options_, cache_);
+      outcome_.synthesis = coupling::synthesise(parts_, basis_, options_, cache_, coupling_);
       outcome_.rounds.emplace_back();
       outcome_.rounds.back().modes = modes();
       std::vector<char> wanted(parts_.size(), 0);
@@ -125,6 +125,7 @@ class Rounds {
   reduction::ReductionOptions options_;
   const EstimateOptions estimates_;
   const MotionProbe& probe_;
+  const coupling::CouplingOptions& coupling_;
   reduction::ReductionCache cache_;
   Outcome outcome_;
 };
@@ -158,14 +159,15 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
 }
 
 Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe) {
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe,
+                   const coupling::CouplingOptions& coupling) {
   Outcome outcome;
   if (options.modes.kind == reduction::ModeRule::Kind::Tolerance) {
     if (options.modes.motionTolerance > 0 && !probe)
       throw DeckError("\"Motion Tolerance\" needs a motion: give the scene a Transient list, or take \"Frequency Tolerance\".");
-    outcome = Rounds(parts, basis, options, estimates, probe).run();
+    outcome = Rounds(parts, basis, options, estimates, probe, coupling).run();
   } else {
-    outcome.synthesis = coupling::synthesise(parts, basis, options);
+    outcome.synthesis = coupling::synthesise(parts, basis, options, coupling);
   }
   if (!estimates.frequencies || !outcome.frequencies.empty()) return outcome;
   const auto start = std::chrono::steady_clock::now();
@@ -174,9 +176,10 @@ Outcome synthesise(const std::vector<model::Substructure>& parts, const reductio
   return outcome;
 }
 
-Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& list, const MotionProbe& probe) {
+Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& list, const MotionProbe& probe,
+                   const coupling::CouplingOptions& coupling) {
   const auto options = reduction::readOptions(list, static_cast<int>(parts.size()));
-  return synthesise(parts, *reduction::makeBasis(options.basis, list), options, readEstimateOptions(list), probe);
+  return synthesise(parts, *reduction::makeBasis(options.basis, list), options, readEstimateOptions(list), probe, coupling);
 }
 
 std::string roundTable(const std::vector<Round>& rounds) {

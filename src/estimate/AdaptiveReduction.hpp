@@ -49,10 +49,11 @@ using MotionProbe = std::function<MotionEstimate(const coupling::Synthesis&)>;
 /// would make half of it (W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124). Only parts whose number of modes changes are reduced
 /// again. The same on every rank; collective. ConvergenceError when the tolerance is not met with all modes.
 Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe = {});
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe = {},
+                   const coupling::CouplingOptions& coupling = {});
 /// The same from the deck list "Reduction".
 Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction,
-                   const MotionProbe& probe = {});
+                   const MotionProbe& probe = {}, const coupling::CouplingOptions& coupling = {});
 
 /// Largest error of the estimates, 0 for none. Where a part lacks a mode below a frequency it counts as 1 at least.
 double largestError(const std::vector<FrequencyEstimate>& estimates);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimate/ModeComparison.hpp"
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -140,8 +141,32 @@ Linearised linearise(const model::SecondOrderModel& model, double t) {
           model.stiffnessAt(t) + model.pointStiffness(t, model.initialDisplacement, model.initialVelocity)};
 }
 
+namespace {
+
+/// z of the full model with D_p = maps[p] z in least squares: (sum_p m_p' m_p) z = sum_p m_p' D_p.
+ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const ComplexMatrix& shapes, const std::vector<Sparse>& maps) {
+  Eigen::SparseMatrix<double> normal(size, size);
+  ComplexMatrix right = ComplexMatrix::Zero(size, shapes.cols());
+  for (std::size_t p = 0; p < maps.size(); ++p) {
+    const Eigen::SparseMatrix<double> transposed = maps[p].transpose();
+    normal += Eigen::SparseMatrix<double>(transposed * maps[p]);
+    const ComplexMatrix D = synthesis.parts[p].basis.vectors.cast<Complex>() * localShapes(synthesis, p, shapes);
+    right.real() += transposed * D.real();
+    right.imag() += transposed * D.imag();
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
+  if (solver.info() != Eigen::Success) throw ModelError("A dof of the full model is in no part, so full and coupled modes cannot be compared.");
+  ComplexMatrix z(size, shapes.cols());
+  z.real() = solver.solve(Matrix(right.real()));
+  z.imag() = solver.solve(Matrix(right.imag()));
+  return z;
+}
+
+}  // namespace
+
 ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                      const coupling::Synthesis& synthesis, const ComplexMatrix& shapes) {
+                      const coupling::Synthesis& synthesis, const ComplexMatrix& shapes, const std::vector<Sparse>& maps) {
+  if (!maps.empty()) return fitted(full.size(), synthesis, shapes, maps);
   std::map<model::DofLabel, Eigen::Index> position;
   for (std::size_t i = 0; i < full.dofs.size(); ++i) position[full.dofs[i]] = static_cast<Eigen::Index>(i);
   ComplexMatrix out = ComplexMatrix::Zero(full.size(), shapes.cols());
@@ -173,7 +198,7 @@ Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatr
 }
 
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                         const coupling::Synthesis& synthesis, int count) {
+                                         const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps) {
   const Sparse mass = reduction::symmetricPart(full.mass);
   const auto exact = linalg::lowestModes(linearisedStiffness(full), mass, std::min(count, full.size()));
   const auto& coupled = synthesis.coupled.model;
@@ -181,7 +206,7 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
   const auto pairs = coupling::lowestModes(coupled, looked);
   const auto estimates = estimateFrequencies(parts, synthesis, {looked, 0});
   std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
-  match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>())), modes);
+  match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps)), modes);
   const auto root = [](double eigenvalue) { return Complex(0, reduction::signedOmega(eigenvalue)); };
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
@@ -196,14 +221,15 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
 }
 
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                               const coupling::Synthesis& synthesis, int count, double t) {
+                                               const coupling::Synthesis& synthesis, int count, double t,
+                                               const std::vector<Sparse>& maps) {
   const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
   const auto exact = linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness, std::min(count, full.size()));
   const int looked = std::min(count + moreModes, synthesis.coupled.model.size());
   const auto coupled = linalg::lowestDampedModes(small.mass, small.damping, small.stiffness, looked);
   const ComplexVector errors = dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t);
   std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
-  match(modalAssurance(whole.mass, exact.vectors, recover(full, parts, synthesis, coupled.vectors)), modes);
+  match(modalAssurance(whole.mass, exact.vectors, recover(full, parts, synthesis, coupled.vectors, maps)), modes);
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
     mode.full = exact.values[static_cast<Eigen::Index>(i)];

@@ -33,23 +33,24 @@ struct Linearised {
 };
 Linearised linearise(const model::SecondOrderModel& model, double t);
 
-/// Motions of the coupled model in the dofs of the full one: column by column, dofs matched by their labels. Throws ModelError when a dof of
-/// the full model is in no part.
+/// Motions of the coupled model in the dofs of the full one: column by column, dofs matched by their labels, or, where the full model was itself
+/// coupled from unreduced parts, D_p = maps[p] z, by least squares over all parts. Throws ModelError when a dof of the full model is in no part.
 Eigen::MatrixXcd recover(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                         const coupling::Synthesis& synthesis, const Eigen::MatrixXcd& shapes);
+                         const coupling::Synthesis& synthesis, const Eigen::MatrixXcd& shapes, const std::vector<Sparse>& maps = {});
 
 /// M-weighted modal assurance criterion (R. J. Allemang and D. L. Brown, Proc. IMAC 1 (1982) 110-116), rows: columns of a, columns: of b.
 Matrix modalAssurance(const Sparse& M, const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
 /// The lowest `count` undamped modes (symmetric part of K at t = 0, closed contacts linear). Collective.
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                         const coupling::Synthesis& synthesis, int count);
+                                         const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps = {});
 
 /// The `count` damped modes of smallest |s|, gyroscopic and circulatory matrices of time t included. Their errors are estimated with left and right
 /// modes, z and y, of the coupled model: s - s_full = -sum_p l_I' F_p r_I / z' (2 s m + c) y with the residuals r = Q(s) Phi y and
 /// l = Q(s)' Phi z, Q = s^2 M + s C + K.
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                               const coupling::Synthesis& synthesis, int count, double t);
+                                               const coupling::Synthesis& synthesis, int count, double t,
+                                               const std::vector<Sparse>& maps = {});
 
 /// A table; with damping ratios when `damped`.
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped);
