@@ -6,7 +6,7 @@
 
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
-"effect": "up", "down", "changes" or "same"}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
+"effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
 "files" for the list of files. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
@@ -18,6 +18,7 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+STUDY = "../study/study.xml"
 
 
 def parameters(description, path=""):
@@ -35,13 +36,13 @@ class Runs:
         self.program = program
         self.done = {}
 
-    def folder(self, overrides, study):
+    def folder(self, overrides, scene):
         """Results of the scene with these overrides; each set of overrides runs once."""
-        key = json.dumps([study, *overrides])
+        key = json.dumps([scene, *overrides])
         if key not in self.done:
             folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
-            deck = HERE.parent / "study" / "study.xml" if study else HERE / "scene.xml"
-            command = [self.program, "study" if study else "run", str(deck), "--output", str(folder)]
+            study = scene == STUDY
+            command = [self.program, "study" if study else "run", str(HERE / scene), "--output", str(folder)]
             for override in overrides:
                 command += ["--without", override[1:]] if override.startswith("!") else ["--set", override]
             result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -50,8 +51,8 @@ class Runs:
             self.done[key] = folder
         return self.done[key]
 
-    def value(self, overrides, key, study):
-        folder = self.folder(overrides, study)
+    def value(self, overrides, key, scene):
+        folder = self.folder(overrides, scene)
         if key.startswith("file:"):
             return (folder / key[5:]).read_bytes()
         if key == "size":
@@ -88,9 +89,9 @@ def main():
     rows = table["effects"][shard - 1::shards]
     for row in rows:
         try:
-            study = row["parameter"].startswith("Study/")
-            before = runs.value(row.get("base", []), row["key"], study)
-            after = runs.value(row.get("base", []) + row["set"], row["key"], study)
+            scene = STUDY if row["parameter"].startswith("Study/") else row.get("scene", "scene.xml")
+            before = runs.value(row.get("base", []), row["key"], scene)
+            after = runs.value(row.get("base", []) + row["set"], row["key"], scene)
         except (RuntimeError, KeyError, TypeError, OSError) as problem:
             faults.append(f"{row['parameter']} {row['set']}: {problem}")
             continue
