@@ -54,7 +54,9 @@ class Springs final : public Batch<SpringParameters, Springs> {
       dfdv[p] = -s.damping;
     }
   }
-  void clearanceLeft(const double*, double* gap) const override { std::fill(gap, gap + size(), 0.0); }
+  void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
+    for (int p : points) gap[p] = 0.0;
+  }
   Power power(double, const double* d, const double* v) const override {
     Power sum;
     for (int p = 0; p < size(); ++p) {
@@ -141,8 +143,9 @@ class Stops final : public Batch<StopParameters, Stops> {
     }
   }
 
-  void clearanceLeft(const double* d, double* gap) const override {
-    for (int p = 0; p < size(); ++p) gap[p] = d[p * width()] + points_[at(p)].gap - points_[at(p)].smoothing;
+  int reach() const override { return 1; }
+  void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
+    for (int p : points) gap[p] = d[p * width()] + points_[at(p)].gap - points_[at(p)].smoothing;
   }
 
   Power power(double, const double* d, const double* v) const override {
@@ -206,7 +209,9 @@ class Frictions final : public Batch<FrictionParameters, Frictions> {
       dfdv[p] = -s.force * s.slipVelocity * s.slipVelocity / (square * std::sqrt(square));
     }
   }
-  void clearanceLeft(const double*, double* gap) const override { std::fill(gap, gap + size(), 0.0); }
+  void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
+    for (int p : points) gap[p] = 0.0;
+  }
   Power power(double, const double*, const double* v) const override {
     Power sum;
     for (int p = 0; p < size(); ++p) sum.friction -= force(p, v[p]) * v[p];

@@ -84,11 +84,14 @@ Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int at
 /// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda - sigma.
 void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors, double shift, double tolerance) {
   const Matrix image = factors.solve(pencil.M * modes.vectors);
+  const Sparse absK = pencil.K.cwiseAbs();
   for (int j = 0; j < modes.count(); ++j) {
     const Vector error = modes.vectors.col(j) - (modes.values[j] - shift) * image.col(j);
     const double size = std::sqrt(std::max(0.0, error.dot(pencil.M * error)));
-    // What rounding in the lowest mode leaves in this one: eps nu_1 / nu_j.
-    const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift);
+    // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K itself does to lambda - sigma.
+    const Vector phi = modes.vectors.col(j).cwiseAbs();
+    const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift) +
+                            4.0 * epsilon * phi.dot(absK * phi) / (modes.values[j] - shift);
     if (!(size <= tolerance + rounding))
       throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
                              ") was called converged, but its relative error is " + scientific(size) + " where " +

@@ -35,8 +35,11 @@ class PointLaw {
                                    double* dfdd, double* dfdv) const = 0;
 
   /// Distance a point can still move before its force may exceed the law's negligible tail [m], per point; <= 0 means
-  /// it must be looked at now. Used to evaluate only points that can act before the next look.
-  virtual void clearanceLeft(const double* d, double* gap) const = 0;
+  /// it must be looked at now; for the points given, the others are left untouched. Used to evaluate only points that can act
+  /// before the next look.
+  virtual void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const = 0;
+  /// The first so many coordinates decide about it: it changes by no more than the length of their change.
+  virtual int reach() const { return width(); }
 
   /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction] summed over the batch, for the energy ledger.
   struct Power {

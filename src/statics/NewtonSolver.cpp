@@ -24,6 +24,9 @@ namespace {
 
 using linalg::scientific;
 
+/// GMRES steps behind a factor of the very Jacobian.
+constexpr int exactFactorIterations = 8;
+
 /// Belos behind Thyra with our parameters and the deck's over them.
 Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, const NewtonOptions& options,
                                                                         const Teuchos::ParameterList* belos) {
@@ -31,8 +34,10 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, c
   list->set("Solver Type", "Block GMRES");
   Teuchos::ParameterList& gmres = list->sublist("Solver Types").sublist("Block GMRES");
   gmres.set("Convergence Tolerance", options.linearTolerance);
-  gmres.set("Maximum Iterations", options.linearIterations);
-  gmres.set("Num Blocks", std::max(1, std::min(n, options.linearIterations)));
+  // An exact factor leaves rounding to iterate on: what a few steps do not gain, many do not either.
+  const int iterations = options.refactorEvery > 1 ? options.linearIterations : std::min(options.linearIterations, exactFactorIterations);
+  gmres.set("Maximum Iterations", iterations);
+  gmres.set("Num Blocks", std::max(1, std::min(n, iterations)));
   gmres.set("Verbosity", 0);
   list->sublist("VerboseObject").set("Verbosity Level", "none");
   if (belos != nullptr) list->setParameters(*belos);

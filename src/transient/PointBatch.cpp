@@ -64,6 +64,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
     }
   }
+  watch_ = ClearanceWatch(points_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
   small_.assign(z(width_), 0.0);
   active_.reserve(z(points_));
   frozen_.reserve(z(points_));
@@ -114,6 +115,17 @@ void PointBatch::gatherActive(const double* q, const double* v) {
     }
 }
 
+/// Clearances at q of the points that are awake; what slept is as if it had stood still.
+void PointBatch::measure(const double* q, std::vector<double>& gap) {
+  watch_.wake(q);
+  for (int p : watch_.awake())
+    for (int r = p * width_; r < (p + 1) * width_; ++r)
+      d_[z(r)] = offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
+  law_->clearanceLeft(watch_.awake(), d_.data(), gap.data());
+  for (int p : watch_.woken()) gap_[z(p)] = lastGap_[z(p)] = check_[z(p)] = gap[z(p)];
+  watch_.settle(q, gap.data());
+}
+
 void PointBatch::look(double t, double h, const double* q) {
   if (gapsSeen_ == 0 || t != gapTime_) {
     gap_.swap(lastGap_);
@@ -124,28 +136,29 @@ void PointBatch::look(double t, double h, const double* q) {
   if (t == checkTime_) {
     gap_.swap(check_);
   } else {
-    gatherAll(q, nullptr);
-    law_->clearanceLeft(d_.data(), gap_.data());
+    measure(q, gap_);
   }
   checkTime_ = std::numeric_limits<double>::quiet_NaN();
   // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank since the look before.
   const double reach = gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
+  for (int p : active_) isActive_[z(p)] = 0;
   active_.clear();
-  for (int p = 0; p < points_; ++p) {
+  for (int p : watch_.awake()) {
     const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
-    // What stands in a factored matrix has to be looked at as long as it stands there.
-    isActive_[z(p)] = isFrozen_[z(p)] || !(gap_[z(p)] > reach * closing);
-    if (isActive_[z(p)]) active_.push_back(p);
+    isActive_[z(p)] = !(gap_[z(p)] > reach * closing);
   }
+  // What stands in a factored matrix has to be looked at as long as it stands there.
+  for (int p : frozen_) isActive_[z(p)] = 1;
+  for (int p = 0; p < points_; ++p)
+    if (isActive_[z(p)]) active_.push_back(p);
 }
 
 bool PointBatch::addMissed(const double* q, double t) {
   if (static_cast<int>(active_.size()) == points_) return false;
-  gatherAll(q, nullptr);
-  law_->clearanceLeft(d_.data(), check_.data());
+  measure(q, check_);
   checkTime_ = t;
   bool any = false;
-  for (int p = 0; p < points_; ++p)
+  for (int p : watch_.awake())
     if (!isActive_[z(p)] && !(check_[z(p)] > 0)) isActive_[z(p)] = 1, any = true;
   if (!any) return false;
   active_.clear();
@@ -397,6 +410,7 @@ void PointBatch::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
   for (char on : isActive_) memory.push_back(on);
   memory.insert(memory.end(), scale_.begin(), scale_.end());
+  watch_.save(memory);
   memory.push_back(static_cast<double>(frozen_.size()));
   for (int p : frozen_) {
     memory.push_back(p);
@@ -417,6 +431,7 @@ void PointBatch::restore(const double*& memory) {
     if (isActive_[z(p)]) active_.push_back(p);
   }
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
+  watch_.restore(memory);
   forgetTangent();
   frozen_.assign(z(static_cast<int>(*memory++)), 0);
   for (int& p : frozen_) {

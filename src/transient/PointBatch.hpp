@@ -4,7 +4,8 @@
 /// tangents into the block matrix.
 ///
 /// A point is looked at in a step when its clearance may close within the step at twice the rate last seen; after the step
-/// every other point is checked, and one that has touched is added and the step corrected: none is ever missed.
+/// every other point is checked (by itself or by the bound of ClearanceWatch), and one that has touched is added and the step
+/// corrected: none is ever missed.
 #pragma once
 
 #include <limits>
@@ -14,6 +15,7 @@
 
 #include "linalg/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
+#include "transient/ClearanceWatch.hpp"
 
 namespace tooljoint::transient {
 
@@ -108,6 +110,7 @@ class PointBatch {
   void restore(const double*& memory);
 
  private:
+  void measure(const double* q, std::vector<double>& gap);
   void subtract(const std::vector<double>& frozen, double* values) const;
   void applyScale(bool tangent);
   void scalePoint(int point, bool tangent);
@@ -147,6 +150,7 @@ class PointBatch {
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;
   double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
+  ClearanceWatch watch_;
   int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
   std::vector<int> frozen_;  ///< points of the frozen tangent
   std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd

@@ -101,8 +101,9 @@ class BoreholeContactOf final : public BoreholeContact {
     if (slid > 0) frictionCount() += slid;
   }
 
-  void clearanceLeft(const double* d, double* gap) const override {
-    for (int p = 0; p < size(); ++p) {
+  int reach() const override { return 2; }
+  void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
+    for (int p : points) {
       const auto i = static_cast<std::size_t>(p);
       const double skin = kernel_.skin(i);
       const double r = std::sqrt(d[3 * p] * d[3 * p] + d[3 * p + 1] * d[3 * p + 1]);

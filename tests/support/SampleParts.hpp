@@ -238,7 +238,9 @@ class CubicSpring : public model::PointLaw {
           dfdv[(2 * p + r) * 2 + c] = r == c ? -c_ : 0.0;
         }
   }
-  void clearanceLeft(const double*, double* gap) const override { std::fill(gap, gap + size_, 0.0); }
+  void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
+    for (int p : points) gap[p] = 0.0;
+  }
   Power power(double, const double*, const double*) const override { return {}; }
   std::vector<model::Channel> channels() const override { return {}; }
   void record(double, const double*, const double*, double*) const override {}

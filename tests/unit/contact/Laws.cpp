@@ -182,13 +182,13 @@ TEST(ClearanceLeft, IsTheGapUnlessTheLawHasATail) {
   const std::vector<double> d = {0.01, 0.0, 0.0, 0.0, 0.0286, 0.0};
   double gap[2];
   for (const char* name : {"Nguyen", "Clamped", "Hunt-Crossley"}) {
-    law(name)->inMotion(batch({step, step}), still)->clearanceLeft(d.data(), gap);
+    law(name)->inMotion(batch({step, step}), still)->clearanceLeft({0, 1}, d.data(), gap);
     EXPECT_NEAR(gap[0], 0.0185, 1e-5) << name;
     EXPECT_LE(gap[1], 0.0) << name;
   }
-  law("Nguyen")->inMotion(batch({soft, soft}), still)->clearanceLeft(d.data(), gap);
+  law("Nguyen")->inMotion(batch({soft, soft}), still)->clearanceLeft({0, 1}, d.data(), gap);
   EXPECT_EQ(gap[0], 0.0);
-  law("Clamped")->inMotion(batch({soft, soft}), still)->clearanceLeft(d.data(), gap);
+  law("Clamped")->inMotion(batch({soft, soft}), still)->clearanceLeft({0, 1}, d.data(), gap);
   EXPECT_NEAR(gap[0], 0.0185, 1e-12);
 }
 
@@ -200,7 +200,7 @@ TEST(ClearanceLeft, LeavesOutOnlyWhatIsNegligible) {
     for (double G = -1e-2; G < -1e-9; G *= 0.5) {
       double gap = 0.0;
       const std::vector<double> d = {p.clearance + G, 0.0, 0.0};
-      contact->clearanceLeft(d.data(), &gap);
+      contact->clearanceLeft({0}, d.data(), &gap);
       if (gap > 0.0) {
         EXPECT_LT(std::abs(normal(name, p, G, 1.0)), 1.01 * negligibleForce) << name << " " << G;
       }

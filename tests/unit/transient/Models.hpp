@@ -69,8 +69,8 @@ class Floor final : public model::PointLaw {
       dfdv[p] = -c_ * s;
     }
   }
-  void clearanceLeft(const double* d, double* gap) const override {
-    for (int p = 0; p < points_; ++p) gap[p] = d[p] - tail();
+  void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
+    for (int p : points) gap[p] = d[p] - tail();
   }
   Power power(double, const double* d, const double* v) const override {
     Power sum;
