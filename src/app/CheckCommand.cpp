@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/Commands.hpp"
+#include "app/PartsDeck.hpp"
 #include "app/Report.hpp"
 #include "app/Scene.hpp"
 #include "app/StudyPlan.hpp"
@@ -57,6 +58,21 @@ void listEstimates(const Teuchos::ParameterList& reduction) {
   item(estimated != "None", "error estimate", estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\"");
 }
 
+/// What happens to the joined dofs.
+void listInterfaces(const Teuchos::ParameterList& reduction) {
+  const auto name = reduction.get<std::string>("Interface Reduction");
+  item(name != "None", "interface reduction", name == "None" ? "all joined dofs are kept" : "characteristic constraint modes, \"" + name + "\"");
+}
+
+void listCoupling(const Scene& scene) {
+  item(scene.coupling.has_value(), "coupling", scene.coupling ? coupling::describe(*scene.coupling) : "no Coupling list: equal node numbers join the parts");
+  if (!scene.coupling) return;
+  std::vector<std::string> names;
+  for (const auto& part : string_::cutParts(scene.string, scene.partition))
+    names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " + std::to_string(part.lastElement + 2) + ")");
+  log::info("  parts and their nodes: " + join(names, ", "));
+}
+
 void listWork(const Scene& scene) {
   log::info("computed:");
   item(true, "path and static state", std::to_string(scene.freeDofs()) + " dofs");
@@ -65,9 +81,11 @@ void listWork(const Scene& scene) {
     item(true, "reduction", std::to_string(parts.size()) + " parts (" + scene.partition.rule + "), retained nodes: " + scene.partition.retainedNodes +
                                 ", chosen when the static state is known");
     listEstimates(scene.list().sublist("Reduction"));
+    listInterfaces(scene.list().sublist("Reduction"));
   } else {
     item(false, "reduction", "no Reduction list: the full model runs");
   }
+  listCoupling(scene);
   if (!scene.moves()) {
     item(false, "transient", "no Transient list: the run stops at the static state");
     return;
@@ -97,6 +115,10 @@ void listStudy(const Scene& scene) {
 }  // namespace
 
 void check(const RunOptions& options) {
+  if (isPartsDeck(options)) {
+    checkParts(options);
+    return;
+  }
   const auto scene = readScene(options.deck, options.overrides);
   log::info(scene.deck.file() + " is a valid deck.");
   log::info(describeScene(scene));

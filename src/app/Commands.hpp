@@ -18,6 +18,7 @@ struct RunOptions {
   bool fresh = false;                  ///< `study` forgets the runs it has done before
   std::string restart;                 ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;                  ///< frequencies listed by `modes`
+  std::string format = "hdf5";         ///< files of `export`: "hdf5" or "mtx"
   std::optional<double> modeTime;      ///< when `modes` looks at the laws of time [s]; the end of the motion
 };
 
@@ -38,6 +39,8 @@ void check(const RunOptions& options);
 /// `tooljoint modes`: bases of the parts; undamped and damped modes of the full and the coupled model with MAC values, true and estimated
 /// errors; modes.csv and damped_modes.csv in the output folder, if one is given.
 void modes(const RunOptions& options);
+/// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file, to be imported elsewhere.
+void exportReduced(const RunOptions& options);
 /// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run against another.
 void compare(const CompareOptions& options);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <filesystem>
-
 #include "app/Commands.hpp"
+#include "app/ModesReport.hpp"
+#include "app/PartsDeck.hpp"
 #include "app/Report.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "common/Error.hpp"
 #include "common/Log.hpp"
-#include "common/Parallel.hpp"
-#include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
-#include "estimate/ModeComparison.hpp"
-#include "io/Csv.hpp"
 
 namespace tooljoint::app {
 
 namespace {
-
-constexpr double kTwoPi = 6.28318530717958647692;
 
 /// When the laws of time are looked at: the end of the motion, unless the command line says otherwise.
 double timeOf(const RunOptions& options, const Scene& scene) {
@@ -28,78 +18,38 @@ double timeOf(const RunOptions& options, const Scene& scene) {
   return scene.moves() ? scene.list().sublist("Transient").get<double>("End Time") : 0.0;
 }
 
-void listFull(const model::SecondOrderModel& full, int count, double t) {
-  const Vector values =
-      linalg::lowestModes(estimate::linearisedStiffness(full), reduction::symmetricPart(full.mass), std::min(count, full.size())).values;
-  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent):");
-  log::info("  mode       full [Hz]");
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), reduction::signedOmega(values(i)) / kTwoPi);
-    log::info(line);
-  }
-  const auto m = estimate::linearise(full, t);
-  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, std::min(count, full.size()));
-  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory):");
-  log::info("  mode       full [Hz]       damping");
-  for (Eigen::Index i = 0; i < damped.values.size(); ++i) {
-    const auto s = damped.values[i];
-    char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g  %12.4e", static_cast<long>(i + 1), std::abs(s) / kTwoPi, -s.real() / std::max(std::abs(s), 1e-300));
-    log::info(line);
-  }
-}
-
-void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
-  io::Csv table({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"coupled_mode", ""}, {"coupled", "Hz"}, {"coupled_damping", ""},
-                 {"mac", ""}, {"error", ""}, {"estimate", ""}});
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const auto& m = modes[i];
-    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error,
-               m.estimate});
-  }
-  parallel::agree([&] {
-    if (parallel::rank() != 0) return;
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed) throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
-    table.write((std::filesystem::path(folder) / name).string());
-  });
-}
-
 }  // namespace
 
 void modes(const RunOptions& options) {
+  if (isPartsDeck(options)) {
+    partsModes(options);
+    return;
+  }
   const auto scene = readScene(options.deck, options.overrides);
   log::info(describeScene(scene));
   const auto stage = settle(scene);
   log::info(describeStatic(stage));
-  const auto full = fullModel(stage);
+  const auto planned = plannedParts(scene, stage);
+  const auto whole = scene.coupling ? joinUnreduced(planned) : coupling::Coupling();
+  const auto full = scene.coupling ? whole.model : fullModel(stage);
   const double t = timeOf(options, scene);
   if (!scene.reduces()) {
-    listFull(full, options.modeCount, t);
+    listFullModes(full, options.modeCount, t);
     return;
   }
-  const auto parts = cut(scene, stage);
+  const auto& parts = planned.parts;
   const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
     estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
     transient::integrate(synthesis.coupled.model, scene.list().sublist("Transient"), estimator);
     return estimator.result();
-  });
+  }, planned.options);
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());
   log::info(reduction::summaryTable(outcome.synthesis.parts));
+  log::info(describeCoupling(outcome.synthesis.coupled));
+  if (outcome.synthesis.coupled.interfaceModes >= 0)
+    log::info("The estimates below see what the reduction of the parts leaves out, not what the interface reduction does.");
   if (!outcome.rounds.empty()) log::info(estimate::roundTable(outcome.rounds));
-
-  const auto undamped = estimate::compareModes(full, parts, outcome.synthesis, options.modeCount);
-  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the coupled mode of "
-            "the same shape, its true relative error and the one estimated without the full model:");
-  log::info(estimate::comparisonTable(undamped, false));
-  const auto damped = estimate::compareDampedModes(full, parts, outcome.synthesis, options.modeCount, t);
-  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory), errors of s:");
-  log::info(estimate::comparisonTable(damped, true));
-  if (options.output.empty()) return;
-  writeTable(undamped, options.output, "modes.csv");
-  writeTable(damped, options.output, "damped_modes.csv");
+  listComparedModes(full, whole.maps, parts, outcome.synthesis, options, t);
 }
 
 }  // namespace tooljoint::app

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "app/Commands.hpp"
+#include "app/PartsDeck.hpp"
+#include "app/PartsExport.hpp"
 #include "app/Recording.hpp"
 #include "app/Report.hpp"
 #include "app/ResultsWriter.hpp"
@@ -18,6 +20,7 @@
 #include "common/Version.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "io/ResultsReader.hpp"
+#include "parts/ReducedPart.hpp"
 
 namespace tooljoint::app {
 
@@ -99,30 +102,42 @@ class Run {
       reduce();
       parallel::agree([&] { integrate(outcome_.synthesis.coupled.model); });
     } else {
-      const auto model = fullModel(stage_);
+      const auto model = fullModel(scene_, stage_);
       parallel::agree([&] { integrate(model); });
     }
   }
 
   void reduce() {
     const auto start = Clock::now();
-    parts_ = cut(scene_, stage_);
+    auto planned = plannedParts(scene_, stage_);
+    parts_ = std::move(planned.parts);
     const auto& list = scene_.list().sublist("Reduction");
-    outcome_ = estimate::synthesise(parts_, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); });
+    outcome_ = estimate::synthesise(parts_, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); }, planned.options);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
     if (!outcome_.rounds.empty()) log::info(estimate::roundTable(outcome_.rounds));
     log::info(describeReduction(reduced, scene_.freeDofs(), dofs, wall));
+    log::info(describeCoupling(outcome_.synthesis.coupled));
+    for (const auto& remark : outcome_.synthesis.coupled.remarks) log::warn(remark);
     if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
     summarise(reduced, list.get<std::string>("Basis"), dofs, wall, summary_);
+    summarise(outcome_.synthesis.coupled, summary_);
     summarise(outcome_, parts_, summary_);
+    exportReducedParts();
     estimatesMotion_ = estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
     if (!estimatesMotion_) parts_.clear();
     parallel::agree([&] {
       if (scene_.output.csv) stageBasisTable(reduced, *folder_);
       if (scene_.output.reducedBases) writeBases(reduced, *file_);
     });
+  }
+
+  void exportReducedParts() const {
+    if (scene_.output.exportFormat == io::ExportFormat::None) return;
+    std::vector<parts::PartContent> originals;
+    for (const auto& part : parts_) originals.push_back(parts::contentOf(part));
+    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat, (std::filesystem::path(folder_->folder()) / "parts").string());
   }
 
   /// The motion of a candidate of the reduction, for its error only.
@@ -249,6 +264,12 @@ class Run {
 
 }  // namespace
 
-void run(const RunOptions& options) { Run(options, readScene(options.deck, options.overrides)).go(); }
+void run(const RunOptions& options) {
+  if (isPartsDeck(options)) {
+    runParts(options);
+    return;
+  }
+  Run(options, readScene(options.deck, options.overrides)).go();
+}
 
 }  // namespace tooljoint::app

@@ -8,11 +8,13 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
+#include "parts/PartsParameters.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "substructures/string/ContactNodes.hpp"
 #include "study/StudyParameters.hpp"
 #include "substructures/string/DrillstringReader.hpp"
+#include "substructures/string/StringModel.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
 
@@ -32,6 +34,8 @@ deck::ListSpec sceneSpec() {
   scene.list(path::parameters());
   scene.list(equilibrium::parameters());
   scene.list(string_::partitionParameters());
+  scene.list(coupling::parameters());
+  scene.list(parts::parameters());
   scene.list(reduction::parameters());
   scene.list(transient::parameters());
   scene.list(io::parameters());
@@ -93,11 +97,30 @@ bool stepsExplicitly(const Teuchos::ParameterList& transient) {
   return integrator.make(own)->isExplicit();
 }
 
+/// What the list Coupling asks of the others.
+void crossCheckCoupling(const Scene& scene, Faults& faults) {
+  const auto& list = scene.list();
+  if (scene.coupling->ownNumbers)
+    faults.add("Coupling/Node Numbers", "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it at \"Shared\".");
+  if (scene.coupling->assembly != coupling::Assembly::Dual) return;
+  if (!scene.reduces()) faults.add("Coupling/Assembly", "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
+  if (scene.moves() && stepsExplicitly(list.sublist("Transient")))
+    faults.add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator \"" + list.sublist("Transient").get<std::string>("Integrator") +
+                                        "\" needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
+  if (scene.reduces() && list.sublist("Reduction").get<std::string>("Interface Reduction") != "None")
+    faults.add("Reduction/Interface Reduction", "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
+}
+
 /// What only several lists together can tell.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
-  if (list.isSublist("Substructures") && !scene.reduces())
+  if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)
     faults.add("Substructures", "has no effect without a Reduction list. Add one, or leave Substructures out.");
+  if (list.isSublist("Parts"))
+    faults.add("Parts", "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and export the string (tooljoint export), and import it there.");
+  if (scene.output.exportFormat != io::ExportFormat::None && !(scene.reduces() && scene.moves()))
+    faults.add("Output/Export Parts", "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
+  if (scene.coupling) crossCheckCoupling(scene, faults);
   if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
     faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
   if (scene.reduces() && !scene.moves()) {
@@ -124,6 +147,21 @@ void crossCheck(const Scene& scene, Faults& faults) {
 
 }  // namespace
 
+namespace {
+
+/// The parts of the string before they are made.
+std::vector<coupling::PartOutline> outlines(const Scene& scene) {
+  string_::requireKnownNodes(scene.string, scene.partition);
+  std::vector<coupling::PartOutline> parts;
+  for (const auto& range : string_::cutParts(scene.string, scene.partition)) {
+    parts.push_back({range.name, {}});
+    for (int node = range.firstElement + 1; node <= range.lastElement + 2; ++node) parts.back().nodes.push_back(node);
+  }
+  return parts;
+}
+
+}  // namespace
+
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
   const auto deck = deck::Deck::read(file, sceneSpec(), overrides);
   const auto& list = deck.list();
@@ -143,6 +181,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   equilibrium::StaticOptions statics;
   string_::PartitionRules partition;
   io::OutputSettings output;
+  std::optional<coupling::CouplingPlan> coupling;
   if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
   if (list.isSublist("Contact")) faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
   faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
@@ -153,12 +192,15 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
   faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
   if (list.isSublist("Transient")) faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
+  if (list.isSublist("Coupling")) faults.attempt([&] { coupling = coupling::readCoupling(list.sublist("Coupling")); });
   if (list.isSublist("Study")) faults.attempt([&] { study::readStudy(list.sublist("Study")); });
   const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
   faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();
 
   Scene scene{deck, *well, *string, supports, {}, mud, contact, {}, rotary, loads, damping, path, statics, partition, output};
+  scene.coupling = coupling;
+  if (coupling) faults.attempt([&] { coupling::checkNames(*coupling, outlines(scene), string_::componentNames()); });
   faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
   faults.raise();
   if (contact) faults.attempt([&] { scene.contactPoints = string_::contactPoints(*contact, scene.string, scene.held); });

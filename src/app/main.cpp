@@ -89,6 +89,11 @@ int run(int argc, char** argv) {
   modesCommand->add_option("--time", options.modeTime, "when the laws of time (rotary speed) are looked at for damped modes [s] (default: the end of the motion)");
   modesCommand->callback([&] { command = [&] { app::modes(options); }; });
 
+  auto* exportCommand = program.add_subcommand("export", "reduce the parts of a deck and write them with their bases as part files, to be imported by other decks");
+  addDeckOptions(*exportCommand, options, true);
+  exportCommand->add_option("--format", options.format, "hdf5 (one file a part) or mtx (a folder of Matrix Market files a part)")->check(CLI::IsMember({"hdf5", "mtx"}));
+  exportCommand->callback([&] { command = [&] { app::exportReduced(options); }; });
+
   app::CompareOptions comparison;
   auto* compareCommand = program.add_subcommand("compare", "errors eps_t, eps_n and dyn of one run against a reference run");
   compareCommand->add_option("DIR", comparison.folder, "results folder")->required();

@@ -26,6 +26,9 @@ deck::ListSpec parameters() {
       .real("XDMF Interval", "s", defaults.xdmfInterval, Range::positive(),
             "Time between two pictures in results.xdmf, at least the sampling interval.")
       .boolean("Reduced Bases", defaults.reducedBases, "Store the basis of every reduced part in results.h5.")
+      .choice("Export Parts", std::string("None"), {"None", "HDF5", "Matrix Market"},
+              "Write every reduced part with its basis into the folder parts of the results, to be used again as an imported part: one HDF5 file, or a "
+              "folder of Matrix Market files each.")
       .integer("Compression", defaults.compression, Range::between(0, 9),
                "Deflate level of the time series in results.h5; 0 is off and fastest.");
 }
@@ -41,6 +44,8 @@ OutputSettings readOutput(const Teuchos::ParameterList& list) {
   s.xdmf = list.get<bool>("XDMF");
   s.xdmfInterval = list.get<double>("XDMF Interval");
   s.reducedBases = list.get<bool>("Reduced Bases");
+  const auto& kind = list.get<std::string>("Export Parts");
+  s.exportFormat = kind == "HDF5" ? ExportFormat::Hdf5 : kind == "Matrix Market" ? ExportFormat::MatrixMarket : ExportFormat::None;
   s.compression = list.get<int>("Compression");
   return s;
 }

@@ -11,6 +11,9 @@
 
 namespace tooljoint::io {
 
+/// How reduced parts are written.
+enum class ExportFormat { None, Hdf5, MatrixMarket };
+
 struct OutputSettings {
   std::string folder;  ///< "" when the deck names none; the command line goes first
   std::vector<std::string> fields{"displacement", "velocity", "normal_force"};
@@ -18,6 +21,7 @@ struct OutputSettings {
   bool xdmf = true;
   double xdmfInterval = 0.05;  ///< [s]
   bool reducedBases = false;
+  ExportFormat exportFormat = ExportFormat::None;
   int compression = 0;
 
   bool hasField(const std::string& name) const;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/ModesReport.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "common/Error.hpp"
+#include "common/Log.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "io/Csv.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+constexpr double kTwoPi = 6.28318530717958647692;
+
+void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
+  io::Csv table({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"coupled_mode", ""}, {"coupled", "Hz"}, {"coupled_damping", ""},
+                 {"mac", ""}, {"error", ""}, {"estimate", ""}});
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto& m = modes[i];
+    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error,
+               m.estimate});
+  }
+  parallel::agree([&] {
+    if (parallel::rank() != 0) return;
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
+    table.write((std::filesystem::path(folder) / name).string());
+  });
+}
+
+}  // namespace
+
+void listFullModes(const model::SecondOrderModel& full, int count, double t) {
+  const Vector values =
+      linalg::lowestModes(estimate::linearisedStiffness(full), reduction::symmetricPart(full.mass), std::min(count, full.size())).values;
+  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent):");
+  log::info("  mode       full [Hz]");
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    char line[64];
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), reduction::signedOmega(values(i)) / kTwoPi);
+    log::info(line);
+  }
+  const auto m = estimate::linearise(full, t);
+  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, std::min(count, full.size()));
+  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory):");
+  log::info("  mode       full [Hz]       damping");
+  for (Eigen::Index i = 0; i < damped.values.size(); ++i) {
+    const auto s = damped.values[i];
+    char line[64];
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g  %12.4e", static_cast<long>(i + 1), std::abs(s) / kTwoPi, -s.real() / std::max(std::abs(s), 1e-300));
+    log::info(line);
+  }
+}
+
+void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
+                       const coupling::Synthesis& synthesis, const RunOptions& options, double t) {
+  const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
+  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the coupled mode of "
+            "the same shape, its true relative error and the one estimated without the full model:");
+  log::info(estimate::comparisonTable(undamped, false));
+  const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
+  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory), errors of s:");
+  log::info(estimate::comparisonTable(damped, true));
+  if (options.output.empty()) return;
+  writeTable(undamped, options.output, "modes.csv");
+  writeTable(damped, options.output, "damped_modes.csv");
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/PartsDeck.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "app/NoxSolver.hpp"
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "estimate/AdaptiveReduction.hpp"
+#include "reduction/Reduce.hpp"
+#include "reduction/ReductionParameters.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/TransientParameters.hpp"
+
+namespace tooljoint::app {
+
+deck::ListSpec partsSceneSpec() {
+  deck::ListSpec scene("Scene", "A scene of parts from files: what they are, how they are joined, and what to compute.");
+  auto parts = parts::parameters();
+  scene.requiredList(parts);
+  scene.list(coupling::parameters());
+  scene.list(reduction::parameters());
+  scene.list(transient::parameters());
+  scene.list(io::parameters());
+  return scene;
+}
+
+bool isPartsDeck(const RunOptions& options) {
+  const auto lists = deck::Deck::lists(options.deck, options.overrides);
+  const auto has = [&](const char* name) { return std::find(lists.begin(), lists.end(), name) != lists.end(); };
+  return has("Parts") && !has("Drillstring") && !has("Well");
+}
+
+double PartsDeck::startTime() const { return moves() ? list().sublist("Transient").get<double>("Start Time") : 0.0; }
+
+coupling::Coupling PartsDeck::whole() const {
+  auto options = scene.coupling;
+  options.assembly = coupling::Assembly::Primal;
+  return coupling::coupleWithPositions(scene.parts, options);
+}
+
+namespace {
+
+/// The message of a room, with file and line in front.
+DeckError located(const deck::Deck& deck, const DeckError& fault) {
+  std::vector<std::string> lines;
+  for (const auto& line : split(fault.what(), '\n')) {
+    const auto spec = partsSceneSpec();
+    std::string rooted = line;
+    for (const auto& list : spec.lists())
+      if (line.rfind(list.name() + "/", 0) == 0 || line.rfind(list.name() + " ", 0) == 0) rooted = "/" + deck.name() + "/" + line;
+    lines.push_back(deck.located(rooted));
+  }
+  return DeckError(join(lines, "\n"));
+}
+
+Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const deck::ListSpec& spec) {
+  return deck.isSublist(spec.name()) ? deck.sublist(spec.name()) : deck::defaults(spec);
+}
+
+void requireNoFaults(const std::vector<std::string>& faults) {
+  if (!faults.empty()) throw DeckError(join(faults, "\n"));
+}
+
+/// What only several lists together can tell.
+void crossCheck(const PartsDeck& deck) {
+  std::vector<std::string> faults;
+  const auto add = [&](const std::string& path, const std::string& sentence) { faults.push_back(deck.deck.error(path, sentence)); };
+  const auto& list = deck.list();
+  if (deck.deck.gives("Output/XDMF") && deck.output.xdmf)
+    add("Output/XDMF", "has no effect in a scene of parts: files of parts say nothing of what they look like. Leave it out.");
+  if (deck.deck.gives("Output/XDMF Interval")) add("Output/XDMF Interval", "has no effect in a scene of parts. Leave it out.");
+  if (deck.output.exportFormat != io::ExportFormat::None && !deck.reduces()) add("Output/Export Parts", "has no effect without a Reduction list. Add one, or leave it out.");
+  const bool dual = deck.plan.assembly == coupling::Assembly::Dual;
+  if (dual && !deck.reduces()) add("Coupling/Assembly", "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
+  if (dual && deck.moves() && transient::isExplicit(list.sublist("Transient")))
+    add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
+  if (deck.reduces()) {
+    const auto& reduction = list.sublist("Reduction");
+    const auto estimated = reduction.get<std::string>("Error Estimate");
+    if (!deck.moves() && reduction.isParameter("Motion Tolerance"))
+      add("Reduction/Motion Tolerance", "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
+    if (!deck.moves() && (estimated == "Transient" || estimated == "Both"))
+      add("Reduction/Error Estimate", "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
+    if (dual && reduction.get<std::string>("Interface Reduction") != "None")
+      add("Reduction/Interface Reduction", "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
+  }
+  requireNoFaults(faults);
+}
+
+/// An explicit integrator divides by the mass of every dof.
+void requireMass(const PartsDeck& deck, const model::SecondOrderModel& full) {
+  if (!deck.moves() || !transient::isExplicit(deck.list().sublist("Transient"))) return;
+  const Vector diagonal = full.mass.diagonal();
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+    if (diagonal[i] > 0.0) continue;
+    const auto& label = full.dofs[static_cast<std::size_t>(i)];
+    std::string who = "A mode";
+    if (label.kind == model::DofLabel::Kind::Physical) {
+      const auto& name = deck.scene.nodes.at(label.entity).front();
+      const auto& part = deck.scene.contents[static_cast<std::size_t>(name.part)];
+      who = full.componentNames[static_cast<std::size_t>(label.component)] + " of node " + std::to_string(name.node) + " of part \"" + part.part.name + "\" (" + part.file + ")";
+    }
+    throw ModelError(deck.deck.error("Transient/Integrator", "is \"" + deck.list().sublist("Transient").get<std::string>("Integrator") + "\", which needs a mass at every dof, but " +
+                                                                 who + " has none. Take Generalized-alpha, or give that dof a mass."));
+  }
+}
+
+}  // namespace
+
+PartsDeck readPartsDeck(const RunOptions& options) {
+  PartsDeck out{deck::Deck::read(options.deck, partsSceneSpec(), options.overrides), {}, {}, {}, {}};
+  const auto& list = out.list();
+  try {
+    out.settings = parts::readSettings(list.sublist("Parts"));
+    if (list.isSublist("Coupling")) out.plan = coupling::readCoupling(list.sublist("Coupling"));
+    out.output = io::readOutput(listOrDefaults(list, io::parameters()));
+    if (out.moves()) transient::readOptions(list.sublist("Transient"));
+    if (out.reduces()) {
+      reduction::readOptions(list.sublist("Reduction"), static_cast<int>(out.settings.imported.size()));
+      estimate::readEstimateOptions(list.sublist("Reduction"));
+    }
+    crossCheck(out);
+    out.scene = parts::buildScene(out.settings, out.plan, [&](const std::string& name) { return out.deck.resolve(name); });
+    const auto whole = out.whole();
+    requireMass(out, whole.model);
+    parts::findStart(out.settings, out.startTime(), noxSolver(Teuchos::ParameterList("Static")), out.scene);
+  } catch (const DeckError& fault) {
+    throw located(out.deck, fault);
+  }
+  return out;
+}
+
+std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole) {
+  std::set<std::string> files;
+  for (const auto& content : deck.scene.contents) files.insert(content.file);
+  char text[256];
+  std::snprintf(text, sizeof text, "parts       %zu from %zu file%s, %zu nodes, %d dofs, %d when joined", deck.scene.parts.size(), files.size(), files.size() == 1 ? "" : "s",
+                deck.scene.nodes.size(), deck.scene.dofs(), whole.model.size());
+  return text;
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Decks without a string: parts from files, how they are joined, reduced and moved.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/Commands.hpp"
+#include "coupling/CouplingParameters.hpp"
+#include "deck/Deck.hpp"
+#include "estimate/MotionEstimate.hpp"
+#include "io/OutputParameters.hpp"
+#include "parts/PartsScene.hpp"
+
+namespace tooljoint::app {
+
+/// Description of a deck of parts.
+deck::ListSpec partsSceneSpec();
+
+/// True for a deck with the list Parts and neither Drillstring nor Well, before anything else of it is looked at. Collective.
+bool isPartsDeck(const RunOptions& options);
+
+/// Such a deck, read and checked, with its parts.
+struct PartsDeck {
+  deck::Deck deck;
+  parts::PartsSettings settings;
+  coupling::CouplingPlan plan;
+  io::OutputSettings output;
+  parts::PartsScene scene;
+
+  const Teuchos::ParameterList& list() const { return deck.list(); }
+  bool reduces() const { return list().isSublist("Reduction"); }
+  bool moves() const { return list().isSublist("Transient"); }
+  double startTime() const;
+  /// The unreduced parts in one model (always primal).
+  coupling::Coupling whole() const;
+};
+
+/// Reads deck and files, puts the parts together and finds the state they start from. DeckError, ModelError, ConvergenceError, FileError. Collective.
+PartsDeck readPartsDeck(const RunOptions& options);
+
+/// "parts       5 parts from 2 files, 40 nodes, 117 dofs, 105 when joined".
+std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole);
+
+/// Displacements of all nodes at the start.
+Vector restOf(const coupling::Coupling& whole);
+/// What an estimate of the motion measures: translations, or everything where there are none.
+estimate::MotionOptions motionOptions(const model::SecondOrderModel& model);
+
+void runParts(const RunOptions& options);
+void checkParts(const RunOptions& options);
+void partsModes(const RunOptions& options);
+
+}  // namespace tooljoint::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/PartsExport.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Log.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "parts/ReducedPart.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+/// A name of a part as a name of a file.
+std::string fileName(std::string name) {
+  for (char& c : name)
+    if (c == '/' || c == '\\' || c == ':') c = '_';
+  return name;
+}
+
+}  // namespace
+
+void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced, io::ExportFormat format,
+                 const std::string& folder) {
+  if (format == io::ExportFormat::None) return;
+  std::set<std::string> names;
+  std::vector<std::string> written;
+  for (const auto& part : reduced) {
+    std::string name = fileName(part.name);
+    if (!names.insert(name).second)
+      throw DeckError("Two parts would be exported into the file \"" + name + "\": their names differ only in characters that file names cannot hold. Rename one.");
+    written.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
+  }
+  parallel::agree([&] {
+    if (parallel::rank() == 0) {
+      std::error_code failed;
+      std::filesystem::create_directories(folder, failed);
+      if (failed) throw FileError("The folder \"" + folder + "\" for exported parts cannot be made: " + failed.message() + ".");
+    }
+    for (std::size_t p = 0; p < reduced.size(); ++p) {
+      const auto content = parts::reducedContent(originals[p], reduced[p]);
+      for (const auto& law : content.omitted)
+        log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law + "\", which a part file cannot hold.");
+      parts::writePart(content, (std::filesystem::path(folder) / written[p]).string(),
+                       format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+    }
+  });
+  log::info("exported    " + folder + ": " + join(written, ", "));
+}
+
+}  // namespace tooljoint::app

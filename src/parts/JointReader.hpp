@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Joints of the deck list `Parts`: "left:tip = right:root".
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coupling/CouplingParameters.hpp"
+#include "parts/PartFile.hpp"
+
+namespace tooljoint::parts {
+
+/// What one text joins.
+struct ReadJoint {
+  std::vector<coupling::JointPlan> joints;      ///< node by node
+  std::vector<coupling::ReleasePlan> releases;  ///< components that parts have at a joined node, but not in a joined set
+  std::set<int> partial;                        ///< parts with such components
+};
+
+class JointReader {
+ public:
+  /// \param held dofs of the parts that do not move
+  /// \param where path of the parameter, for messages
+  JointReader(const std::vector<PartContent>& parts, const std::set<std::pair<int, model::DofLabel>>& held, std::string where)
+      : parts_(parts), held_(held), where_(std::move(where)) {}
+
+  /// DeckError naming the text: unknown part, node or set; sets of different lengths; a dof that is fixed on one side and free on the
+  /// other; nothing in common.
+  ReadJoint read(const std::string& text) const;
+
+ private:
+  struct Side {
+    int part = 0;
+    std::string text;
+    std::vector<std::int64_t> nodes;
+    std::vector<std::set<int>> joined;  ///< components per node that the text names
+    std::vector<std::set<int>> had;     ///< components the part has at the node, fixed ones too
+  };
+  [[noreturn]] void fail(const std::string& text, const std::string& what) const;
+  Side side(const std::string& text, const std::string& whole) const;
+
+  const std::vector<PartContent>& parts_;
+  const std::set<std::pair<int, model::DofLabel>>& held_;
+  std::string where_;
+};
+
+}  // namespace tooljoint::parts

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The deck list `Parts`: which parts a scene is made of, where they come from and what acts on them.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/ListSpec.hpp"
+#include "model/ScalarLaw.hpp"
+
+namespace tooljoint::parts {
+
+/// One part of a scene.
+struct ImportedPart {
+  std::string name;
+  std::string where;               ///< path of its list, for messages
+  std::string file;                ///< as the deck gives it
+  Matrix3 axes = Matrix3::Identity();  ///< axes of the part in the common frame, columns
+  bool turned = false;
+  std::vector<std::string> fixed;
+  std::vector<std::string> retained;
+  bool reduce = true;
+};
+
+/// A load on one dof: value times a law of time.
+struct PartLoad {
+  std::string name;
+  std::string where;
+  std::string part;
+  int node = 0;
+  std::string component;
+  double value = 0;
+  std::string law = "1";
+};
+
+/// What sets a dof in motion at the start.
+struct PartStart {
+  std::string where;
+  std::string part;
+  int node = 0;
+  std::string component;
+  double displacement = 0;
+  double velocity = 0;
+};
+
+struct PartsSettings {
+  std::string where = "Parts";
+  std::vector<ImportedPart> imported;
+  std::vector<std::string> joints;
+  bool atRest = false;  ///< the motion starts from the equilibrium of the loads
+  std::vector<PartLoad> loads;
+  std::vector<PartStart> starts;
+  std::vector<model::ScalarLaw> laws;
+};
+
+/// Description of the list `Parts`.
+deck::ListSpec parameters();
+
+/// The validated list as plain values. DeckError: no part, an axis without length, laws that make no sense.
+PartsSettings readSettings(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::parts

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/PartsScene.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "coupling/PlannedCoupling.hpp"
+#include "parts/ContentEdits.hpp"
+#include "parts/JointReader.hpp"
+#include "parts/RestState.hpp"
+
+namespace tooljoint::parts {
+
+namespace {
+
+using model::DofLabel;
+
+class Builder {
+ public:
+  Builder(const PartsSettings& settings, const coupling::CouplingPlan& given, const std::function<std::string(const std::string&)>& resolve)
+      : settings_(settings), plan_(given), resolve_(resolve) {}
+
+  PartsScene build() {
+    read();
+    unifyComponents();
+    giveLoads();
+    giveLaws();
+    holdAndRetain();
+    raise();
+    join();
+    raise();
+    auto planned = coupling::plan(plain(), plan_);
+    scene_.parts = std::move(planned.parts);
+    scene_.coupling = std::move(planned.options);
+    nameNodes();
+    return std::move(scene_);
+  }
+
+ private:
+  const std::vector<ImportedPart>& imported() const { return settings_.imported; }
+
+  template <class Work>
+  void attempt(const std::string& where, const Work& work) {
+    try {
+      work();
+    } catch (const DeckError& fault) {
+      faults_.push_back(where.empty() ? std::string(fault.what()) : where + " " + fault.what() + ".");
+    }
+  }
+  void raise() const {
+    if (!faults_.empty()) throw DeckError(join_(faults_));
+  }
+  static std::string join_(const std::vector<std::string>& lines) { return tooljoint::join(lines, "\n"); }
+
+  /// A file is read once, however many parts come from it.
+  void read() {
+    std::map<std::string, PartContent> known;
+    for (const auto& part : imported()) {
+      const auto path = resolve_(part.file);
+      try {
+        if (known.count(path) == 0) known.emplace(path, readPartEverywhere(path, part.name));
+        scene_.contents.push_back(known.at(path));
+        scene_.contents.back().part.name = part.name;
+      } catch (const DeckError& fault) {
+        faults_.push_back(part.where + "/File: " + fault.what());
+      } catch (const ModelError& fault) {
+        if (faults_.empty()) throw ModelError(part.where + "/File: " + fault.what());
+      }
+    }
+    raise();
+  }
+
+  void unifyComponents() {
+    model::ComponentNames names;
+    for (const auto& content : scene_.contents)
+      for (const auto& name : content.part.model.componentNames)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (auto& content : scene_.contents) widen(content, names);
+  }
+
+  int partNumber(const std::string& name) const {
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < imported().size(); ++p) {
+      names.push_back(imported()[p].name);
+      if (names.back() == name) return static_cast<int>(p);
+    }
+    const auto meant = closest(name, names);
+    throw DeckError("names part \"" + name + "\", but " + (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean \"" + meant + "\"?"));
+  }
+
+  void giveLoads() {
+    for (const auto& load : settings_.loads)
+      attempt(load.where, [&] {
+        auto& content = scene_.contents[static_cast<std::size_t>(partNumber(load.part))];
+        const auto at = positionsOf(content, std::to_string(load.node) + " " + load.component);
+        Vector force = Vector::Zero(content.part.model.size());
+        force[at.front()] = load.value;
+        content.part.model.loads.push_back({load.name, force, content.part.model.lawIndex({load.law, {}})});
+        loaded_.emplace_back(load.where, static_cast<int>(&content - scene_.contents.data()), content.part.model.dofs[static_cast<std::size_t>(at.front())]);
+      });
+  }
+
+  void giveLaws() {
+    std::set<std::string> used;
+    for (auto& content : scene_.contents)
+      for (auto& law : content.part.model.laws) {
+        if (law.name == "1") continue;
+        used.insert(law.name);
+        const auto it = std::find_if(settings_.laws.begin(), settings_.laws.end(), [&](const auto& one) { return one.name == law.name; });
+        if (it != settings_.laws.end())
+          law = *it;
+        else
+          faults_.push_back(settings_.where + "/Laws does not give the law \"" + law.name + "\", which terms or loads of part \"" + content.part.name + "\" (" + content.file +
+                            ") follow. Add a list \"" + law.name + "\" with its Form.");
+      }
+    for (const auto& law : settings_.laws)
+      if (used.count(law.name) == 0)
+        faults_.push_back(settings_.where + "/Laws/" + law.name + " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
+  }
+
+  void holdAndRetain() {
+    for (std::size_t p = 0; p < imported().size(); ++p) {
+      const auto& given = imported()[p];
+      auto& content = scene_.contents[p];
+      std::vector<char> held(static_cast<std::size_t>(content.part.model.size()), 0);
+      for (const auto& text : given.fixed)
+        attempt(given.where + "/Fixed", [&] {
+          for (int i : positionsOf(content, text)) held[static_cast<std::size_t>(i)] = 1;
+        });
+      std::set<int> kept(content.part.retained.begin(), content.part.retained.end());
+      for (const auto& text : given.retained)
+        attempt(given.where + "/Retained", [&] {
+          for (int i : positionsOf(content, text)) kept.insert(i);
+        });
+      for (int i = 0; i < content.part.model.size(); ++i) {
+        if (!given.reduce) kept.insert(i);
+        if (held[static_cast<std::size_t>(i)]) checkHeld(given, content, i);
+      }
+      const auto& inner = content.part.interface;
+      content.part.retained.clear();
+      for (int i : kept)
+        if (!std::binary_search(inner.begin(), inner.end(), i)) content.part.retained.push_back(i);
+      if (std::count(held.begin(), held.end(), char{0}) == 0)
+        faults_.push_back(given.where + "/Fixed holds every dof of the part; nothing is left to compute. Leave the part out, or release some.");
+      else
+        hold(content, held);
+    }
+    for (const auto& [where, p, label] : loaded_)
+      if (held_.count({p, label}) > 0) faults_.push_back(where + " acts on a dof that is fixed. Release it, or leave the load out.");
+  }
+
+  void checkHeld(const ImportedPart& given, const PartContent& content, int i) {
+    const auto& m = content.part.model;
+    held_.insert({static_cast<int>(&content - scene_.contents.data()), m.dofs[static_cast<std::size_t>(i)]});
+    if (m.initialDisplacement[i] == 0.0 && m.initialVelocity[i] == 0.0) return;
+    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file + " starts at " + formatNumber(m.initialDisplacement[i]) + " with velocity " +
+                      formatNumber(m.initialVelocity[i]) + ". A fixed dof stays at zero.");
+  }
+
+  /// Joints of the list Parts as joints and releases of the plan.
+  void join() {
+    if (settings_.joints.empty()) return;
+    plan_.ownNumbers = true;
+    const JointReader reader(scene_.contents, held_, settings_.where + "/Joints");
+    for (const auto& text : settings_.joints)
+      attempt("", [&] {
+        const auto joint = reader.read(text);
+        for (const auto& side : joint.partial)
+          if (imported()[static_cast<std::size_t>(side)].turned)
+            throw DeckError(settings_.where + "/Joints joins only some components in \"" + text + "\", and part \"" + imported()[static_cast<std::size_t>(side)].name +
+                            "\" is turned. Join whole nodes, and release components in the list Coupling.");
+        plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
+        plan_.releases.insert(plan_.releases.end(), joint.releases.begin(), joint.releases.end());
+      });
+  }
+
+  /// The parts as coupling::plan takes them: interface dofs are those another part has.
+  std::vector<model::Substructure> plain() {
+    std::map<DofLabel, int> owners;
+    for (const auto& content : scene_.contents)
+      for (const auto& label : content.part.model.dofs) ++owners[label];
+    std::vector<model::Substructure> parts;
+    for (std::size_t p = 0; p < scene_.contents.size(); ++p) {
+      parts.push_back(scene_.contents[p].part);
+      auto& part = parts.back();
+      std::set<int> kept(part.retained.begin(), part.retained.end());
+      std::vector<int> joined;
+      for (int i : part.interface) {
+        const bool shared = !plan_.ownNumbers && owners.at(part.model.dofs[static_cast<std::size_t>(i)]) > 1;
+        if (shared)
+          joined.push_back(i);
+        else
+          kept.insert(i);
+      }
+      part.interface = joined;
+      part.retained.assign(kept.begin(), kept.end());
+      if (imported()[p].turned) {
+        coupling::FramePlan frame;
+        frame.name = imported()[p].name;
+        frame.path = imported()[p].where + "/Rotation Angle";
+        frame.frame.part = imported()[p].name;
+        frame.frame.axes = imported()[p].axes;
+        plan_.frames.insert(plan_.frames.begin(), frame);  // frames of the list Coupling go on top
+      }
+    }
+    return parts;
+  }
+
+  void nameNodes() {
+    for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
+      auto& now = scene_.parts[p].model;
+      const auto& own = scene_.contents[p].part.model;
+      std::set<std::int64_t> done;
+      const auto note = [&](std::int64_t number, std::int64_t node) {
+        if (done.insert(number).second) scene_.nodes[number].push_back({static_cast<int>(p), node});
+      };
+      for (std::size_t i = 0; i < now.dofs.size(); ++i) {
+        if (now.dofs[i].kind == DofLabel::Kind::Physical) note(now.dofs[i].entity, own.dofs[i].entity);
+        if (now.dofs[i].kind == DofLabel::Kind::Modal) now.dofs[i].entity = static_cast<std::int64_t>(p);
+      }
+      for (std::size_t i = 0; i < now.recoveryNodes.size(); ++i) note(now.recoveryNodes[i], own.recoveryNodes[i]);
+    }
+  }
+
+  const PartsSettings& settings_;
+  coupling::CouplingPlan plan_;
+  const std::function<std::string(const std::string&)>& resolve_;
+  PartsScene scene_;
+  std::vector<std::string> faults_;
+  std::set<std::pair<int, DofLabel>> held_;
+  std::vector<std::tuple<std::string, int, DofLabel>> loaded_;
+};
+
+}  // namespace
+
+int PartsScene::dofs() const {
+  int sum = 0;
+  for (const auto& part : parts) sum += part.model.size();
+  return sum;
+}
+
+PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given, const std::function<std::string(const std::string&)>& resolve) {
+  return Builder(settings, given, resolve).build();
+}
+
+void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver, PartsScene& scene) {
+  if (!settings.atRest && settings.starts.empty()) return;
+  auto options = scene.coupling;
+  options.assembly = coupling::Assembly::Primal;
+  const auto full = coupling::coupleWithPositions(scene.parts, options);
+  Vector z = settings.atRest ? restState(full.model, t, solver) : full.model.initialDisplacement;
+  Vector zDot = settings.atRest ? Vector(Vector::Zero(z.size())) : full.model.initialVelocity;
+  if (settings.atRest)
+    for (std::size_t p = 0; p < scene.parts.size(); ++p) scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
+  for (const auto& start : settings.starts) {
+    const auto it = std::find_if(scene.contents.begin(), scene.contents.end(), [&](const auto& content) { return content.part.name == start.part; });
+    if (it == scene.contents.end()) throw DeckError(start.where + "/Part names part \"" + start.part + "\", but there is no such part.");
+    int position = 0;
+    try {
+      position = positionsOf(*it, std::to_string(start.node) + " " + start.component).front();
+    } catch (const DeckError& fault) {
+      throw DeckError(start.where + " " + fault.what() + ".");
+    }
+    // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would not give the value asked for
+    const Vector row = Vector(full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
+    if (std::abs(row.squaredNorm() - 1.0) > 1e-9)
+      throw DeckError(start.where + " starts a dof that a constraint ties to others. Start those instead.");
+    z += row * start.displacement;
+    zDot += row * start.velocity;
+  }
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    scene.parts[p].model.initialDisplacement = full.maps[p] * z + full.offsets[p];
+    scene.parts[p].model.initialVelocity = full.maps[p] * zDot;
+  }
+}
+
+}  // namespace tooljoint::parts

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/ReducedPart.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "common/Error.hpp"
+
+namespace tooljoint::parts {
+
+using model::DofLabel;
+
+PartContent contentOf(const model::Substructure& part) {
+  PartContent content;
+  content.part = part;
+  std::map<std::int64_t, std::size_t> sets;
+  for (int i : part.interface) {
+    const auto node = part.model.dofs[static_cast<std::size_t>(i)].entity;
+    if (sets.emplace(node, content.interfaces.size()).second) content.interfaces.push_back({std::to_string(node), {}, {node}});
+    content.interfaces[sets.at(node)].dofs.push_back(i);
+  }
+  return content;
+}
+
+namespace {
+
+/// Labels of the coordinates: kept dofs as they were called, modes counted through.
+std::vector<DofLabel> coordinateLabels(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
+  std::vector<DofLabel> labels;
+  int modes = 0;
+  for (int i : reduced.basis.partition.kept) {
+    const auto& label = original.part.model.dofs[static_cast<std::size_t>(i)];
+    labels.push_back(label.kind == DofLabel::Kind::Modal ? DofLabel::modal(0, modes++) : label);
+  }
+  for (int k = 0; k < reduced.modes; ++k) labels.push_back(DofLabel::modal(0, modes++));
+  return labels;
+}
+
+}  // namespace
+
+PartContent reducedContent(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
+  if (reduced.boundary)
+    throw ModelError("Part \"" + reduced.name + "\" cannot be exported: its basis \"" + reduced.report.basis +
+                     "\" does not have the interface dofs among its coordinates, so there is nothing that others could be joined to. Take "
+                     "another basis, Craig-Bampton for instance.");
+  const auto& kept = reduced.basis.partition.kept;
+  if (reduced.basis.vectors.rows() != original.part.model.size())
+    throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
+  PartContent out;
+  out.part.name = reduced.name;
+  auto& m = out.part.model;
+  m = reduced.model;
+  m.dofs = coordinateLabels(original, reduced);
+  m.points.clear();
+  out.omitted = original.omitted;
+  for (const auto& set : reduced.model.points) out.omitted.push_back(set.name);
+
+  // coordinates q + s: K_i s joins the loads with the law of K_i
+  Vector s = Vector::Zero(m.size());
+  for (std::size_t k = 0; k < kept.size() && reduced.offset.size() > 0; ++k) s[static_cast<Eigen::Index>(k)] = reduced.offset[kept[k]];
+  if (!s.isZero(0.0)) {
+    for (const auto& term : m.stiffness) m.loads.push_back({"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
+    m.initialDisplacement += s;
+    out.part.reference = s;
+  }
+
+  const Vector offset = reduced.offset.size() > 0 ? reduced.offset : Vector(Vector::Zero(original.part.model.size()));
+  out.basis.dofs = original.part.model.dofs;
+  out.basis.vectors = reduced.basis.vectors;
+  out.basis.offset = offset - reduced.basis.vectors * s;
+  if (!original.basis.empty()) {
+    out.basis.dofs = original.basis.dofs;
+    out.basis.offset = original.basis.offset + original.basis.vectors * out.basis.offset;
+    out.basis.vectors = original.basis.vectors * reduced.basis.vectors;
+  }
+
+  std::map<int, int> coordinate;
+  for (std::size_t k = 0; k < kept.size(); ++k) coordinate[kept[k]] = static_cast<int>(k);
+  std::vector<char> inSet(kept.size(), 0);
+  for (const auto& set : original.interfaces) {
+    InterfaceSet moved{set.name, {}, {}};
+    for (int i : set.dofs) {
+      const auto it = coordinate.find(i);
+      if (it == coordinate.end()) continue;
+      moved.dofs.push_back(it->second);
+      inSet[static_cast<std::size_t>(it->second)] = 1;
+      const auto node = original.part.model.dofs[static_cast<std::size_t>(i)].entity;
+      if (std::find(moved.nodes.begin(), moved.nodes.end(), node) == moved.nodes.end()) moved.nodes.push_back(node);
+    }
+    if (!moved.dofs.empty()) out.interfaces.push_back(std::move(moved));
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) (inSet[k] ? out.part.interface : out.part.retained).push_back(static_cast<int>(k));
+  out.positions = original.positions;
+  return out;
+}
+
+}  // namespace tooljoint::parts
