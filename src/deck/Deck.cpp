@@ -73,6 +73,23 @@ Deck Deck::read(const std::string& file, const ListSpec& scene, const std::vecto
   return parse(text, file, scene, overrides);
 }
 
+std::vector<std::string> Deck::lists(const std::string& file, const std::vector<std::string>& overrides) {
+  std::string text;
+  parallel::agree([&] {
+    if (parallel::rank() == 0) text = readTextFile(file);
+  });
+  parallel::broadcast(text, 0);
+  std::vector<std::string> names;
+  try {
+    const RawList tree = readXml(text, file);
+    for (const RawList& list : tree.lists())
+      if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end()) names.push_back(list.name);
+  } catch (const DeckError&) {
+    return {};
+  }
+  return names;
+}
+
 Deck Deck::readNamed(const std::string& path, const std::string& name, const ListSpec& library) const {
   try {
     return read(resolve(name), library);

@@ -26,6 +26,10 @@ class Deck {
   /// UsageError (override without "=").
   static Deck read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides = {});
 
+  /// Names of the lists that stand in the root list of a file, overrides "!NAME" taken out: what kind of deck is it? Nothing is checked, and of a file that
+  /// is no deck there are none. Collective. Throws FileError as read() does.
+  static std::vector<std::string> lists(const std::string& file, const std::vector<std::string>& overrides = {});
+
   /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder. Collective. A file that
   /// cannot be opened is then a DeckError that points at the parameter.
   Deck readNamed(const std::string& path, const std::string& name, const ListSpec& library) const;
