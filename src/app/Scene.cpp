@@ -102,7 +102,16 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
     faults.add("Coupling/Node Numbers", "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it at \"Shared\".");
-  if (scene.coupling->assembly != coupling::Assembly::Dual) return;
+  const auto& plan = *scene.coupling;
+  if (scene.reduces()) {
+    const auto& reduction = list.sublist("Reduction");
+    const auto estimated = reduction.get<std::string>("Error Estimate");
+    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() && plan.constraints.empty() && plan.links.empty() && plan.hinges.empty();
+    if (!simple && (estimated == "Transient" || estimated == "Both" || reduction.isParameter("Motion Tolerance")))
+      faults.add("Coupling", "gives frames, constraints, links, hinges or dual assembly, and Reduction asks for the error of the motion, which is estimated only where parts are joined by "
+                             "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the \"Motion Tolerance\".");
+  }
+  if (plan.assembly != coupling::Assembly::Dual) return;
   if (!scene.reduces()) faults.add("Coupling/Assembly", "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
   if (scene.moves() && stepsExplicitly(list.sublist("Transient")))
     faults.add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator \"" + list.sublist("Transient").get<std::string>("Integrator") +

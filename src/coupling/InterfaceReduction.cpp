@@ -44,11 +44,19 @@ class Reducer {
     if (basis_.keepsPointLaws())
       for (const auto& set : model_.points)
         for (int r = 0; r < set.rows.outerSize(); ++r)
-          for (Sparse::InnerIterator it(set.rows, r); it; ++it)
-            if (it.value() != 0.0) loaded[at(static_cast<int>(it.col()))] = 1;
+          if (!throughModes(set.rows, r))
+            for (Sparse::InnerIterator it(set.rows, r); it; ++it)
+              if (it.value() != 0.0) loaded[at(static_cast<int>(it.col()))] = 1;
     std::vector<char> joined(model_.dofs.size(), 0);
     for (int i : coupling_.interface) joined[at(i)] = !loaded[at(i)];
     for (int i = 0; i < model_.size(); ++i) (joined[at(i)] ? reduced_ : others_).push_back(i);
+  }
+
+  /// Whether the coordinate belongs to an inner dof of a reduced part, which the joined dofs only carry along.
+  bool throughModes(const Sparse& rows, int r) const {
+    for (Sparse::InnerIterator it(rows, r); it; ++it)
+      if (it.value() != 0.0 && model_.dofs[at(static_cast<int>(it.col()))].kind == DofLabel::Kind::Modal) return true;
+    return false;
   }
 
   /// Interfaces: the sets of parts that a dof joins, in the order of their first dof.

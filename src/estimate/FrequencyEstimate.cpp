@@ -96,11 +96,22 @@ double smallestEigenvalue(const Sparse& K, const Sparse& M) {
   return rigid * rigid * scale;
 }
 
-/// Error and its shares of the j-th mode.
-void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all) {
+/// z' K z per mode of the point laws that join parts, which no part has in its own stiffness.
+Vector workOfConnectors(const std::vector<model::Substructure>& parts, const model::SecondOrderModel& coupled, const Matrix& modes) {
+  std::size_t own = 0;
+  for (const auto& part : parts) own += part.model.points.size();
+  if (own >= coupled.points.size()) return Vector::Zero(modes.cols());
+  model::SecondOrderModel joints;
+  joints.mass = Sparse(coupled.size(), coupled.size());
+  joints.points.assign(coupled.points.begin() + static_cast<std::ptrdiff_t>(own), coupled.points.end());
+  const Sparse K = reduction::symmetricPart(joints.pointStiffness(0.0, coupled.initialDisplacement, coupled.initialVelocity));
+  return modes.cwiseProduct(Matrix(K * modes)).colwise().sum().transpose();
+}
+
+/// Error and its shares of the j-th mode. \param work D' K D of what belongs to no part
+void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all, double work) {
   const double lambda = e.eigenvalue;
   double mass = 0;
-  double work = 0;
   std::vector<ResidualFlexibility::Step> steps;
   for (const auto& part : all) {
     const Share& share = part[static_cast<std::size_t>(j)];
@@ -149,13 +160,14 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   for (std::size_t p = 0; p < parts.size(); ++p) exchange(all[p], pairs.values.size(), owners[p]);
 
   const double smallest = smallestEigenvalue(K, M);
+  const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
   std::vector<FrequencyEstimate> estimates(static_cast<std::size_t>(pairs.values.size()));
   for (Eigen::Index j = 0; j < pairs.values.size(); ++j) {
     FrequencyEstimate& e = estimates[static_cast<std::size_t>(j)];
     e.eigenvalue = pairs.values[j];
     e.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
     if (std::abs(e.eigenvalue) <= smallest) continue;
-    assess(e, j, all);
+    assess(e, j, all, connectors[j]);
   }
   return estimates;
 }

@@ -149,6 +149,14 @@ TEST_P(InterfaceReduction, DofsWithPointLawsStay) {
   EXPECT_LT(samples::find(all.model, DofLabel::physical(5, 0)), 0);
 }
 
+TEST_P(InterfaceReduction, APointLawOnAnInnerDofKeepsNoJoinedOne) {
+  auto parts = frame.parts();
+  samples::addCubicSprings(parts[3], {403});
+  const auto coupled = synthesis(parts, 3, interfaceModes(GetParam(), 2)).coupled;
+  EXPECT_EQ(coupled.interfaceModes, GetParam() == Level::System ? 2 : 6);
+  for (int node : {3, 4, 5}) EXPECT_LT(samples::find(coupled.model, DofLabel::physical(node, 0)), 0) << node;
+}
+
 TEST_P(InterfaceReduction, ForcesOnDofsThatStayAreAnsweredExactly) {
   // A force on kept dofs deflects reduced ones through the attached shapes; without any mode of the interfaces.
   auto parts = frame.parts();
