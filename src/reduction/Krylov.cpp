@@ -17,7 +17,7 @@
 #include "common/Text.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/EigenSolver.hpp"
-#include "reduction/InteriorVectors.hpp"
+#include "reduction/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
 
@@ -276,7 +276,7 @@ class Krylov : public Basis {
     Growth growth(links);
     growth.grow(wanted(part, p, driven, request));
 
-    std::vector<InteriorVector> vectors;
+    std::vector<ModalVector> vectors;
     double orthogonality = 0, residual = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
       double defect = 0;
@@ -312,7 +312,7 @@ class Krylov : public Basis {
 
   /// Links that touch no kept dof are not driven: they keep their lowest modes, the ways they float first.
   static void addFloating(const model::Substructure& part, const Partition& p, const std::vector<int>& free, const ModeRequest& request,
-                          std::vector<InteriorVector>& vectors, double& orthogonality) {
+                          std::vector<ModalVector>& vectors, double& orthogonality) {
     if (free.empty()) return;
     Partition rest = p;
     rest.links.clear();
