@@ -5,6 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
+#include "coupling/Following.hpp"
 #include "coupling/InterfaceReduction.hpp"
 
 namespace tooljoint::coupling {
@@ -29,6 +30,7 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
     bool improved = false;
     parallel::agree([&] { improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases); });
     if (!improved) {
+      parallel::agree([&] { follow(result.coupled, basis.follow(result.coupled.model, result.coupled.maps, parts, bases)); });
       if (options.interface) parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
       return result;
     }

@@ -10,6 +10,7 @@
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
+#include "deck/FileName.hpp"
 #include "deck/Overrides.hpp"
 #include "deck/Validator.hpp"
 #include "deck/XmlReader.hpp"
@@ -59,6 +60,7 @@ Deck Deck::parse(const std::string& text, const std::string& file, const ListSpe
   deck.text_ = text;
   deck.name_ = tree.name;
   deck.overrides_ = overrides;
+  markOrigin(*list, file);
   deck.list_ = std::move(list);
   deck.places_ = std::move(map);
   return deck;

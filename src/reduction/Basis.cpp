@@ -8,6 +8,11 @@ bool Basis::improve(const model::SecondOrderModel&, const std::vector<std::vecto
   return false;
 }
 
+Followers Basis::follow(const model::SecondOrderModel&, const std::vector<Sparse>&, const std::vector<model::Substructure>&,
+                        const std::vector<BasisResult>&) const {
+  return {};
+}
+
 void truncate(BasisResult& basis, int modes, const std::string& why) {
   const int before = basis.modes();
   if (modes >= before) return;

@@ -48,6 +48,12 @@ void truncate(BasisResult& basis, int modes, const std::string& why);
 /// Keep only the modal columns with keep[k] != 0; their rows say `kept`, the others are marked dropped with the reason `dropped`.
 void select(BasisResult& basis, const std::vector<char>& keep, const std::string& kept, const std::string& dropped);
 
+/// Coordinates of a coupled model that follow the others: q_dofs = rows q_others, others in increasing order.
+struct Followers {
+  std::vector<int> dofs;  ///< of the coupled model
+  Matrix rows;            ///< dofs x others
+};
+
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on several ranks.
 class Basis {
  public:
@@ -61,6 +67,14 @@ class Basis {
   /// projected and coupled again. The default has nothing to improve.
   virtual bool improve(const model::SecondOrderModel& coupled, const std::vector<std::vector<int>>& positions,
                        const std::vector<model::Substructure>& parts, std::vector<BasisResult>& bases) const;
+
+  /// Third hook, after the last improvement: coordinates that are no unknowns of the coupled model but follow the others. maps[p] are the coordinates of part p
+  /// in coupled dofs. The default has none.
+  virtual Followers follow(const model::SecondOrderModel& coupled, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
+                           const std::vector<BasisResult>& bases) const;
+
+  /// True when build() looks at the name of the part: then identical parts are not reduced once for all.
+  virtual bool namesParts() const { return false; }
 };
 
 using BasisRegistry = deck::Registry<Basis, const Teuchos::ParameterList&>;

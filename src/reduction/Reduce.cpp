@@ -252,6 +252,8 @@ class Team {
     if (cache_.classes.empty()) {
       cache_.classes = findTwins(parts_, std::vector<ModeRequest>(parts_.size()));
       checkParts(parts_, cache_.classes);
+      if (options_.loadVectors.any()) cache_.classes = sameLoads(parts_, cache_.classes, options_.loadVectors);
+      if (basis_.namesParts()) std::iota(cache_.classes.begin(), cache_.classes.end(), 0);
     }
     twin_ = twins(cache_.classes, requests_);
     recall();
@@ -275,6 +277,7 @@ class Team {
     if (kind == ModeRule::Kind::Total) shareTotalModes();
     if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment) chooseByInterface();
     parallel::agree([&] {
+      forOwned([&](std::size_t p) { addLoadVectors(parts_[p], options_.loadVectors, bases_[p]); });
       forOwned([&](std::size_t p) { cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_)); });
     });
     exchange();

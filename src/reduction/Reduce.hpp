@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/Substructure.hpp"
+#include "reduction/LoadVectors.hpp"
 #include "reduction/ModeChoice.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 
@@ -34,6 +35,7 @@ struct ReductionOptions {
   ModeRule modes;
   InitialState initialState = InitialState::KeepStatic;
   bool checks = true;
+  LoadVectorOptions loadVectors;  ///< static answers to loads beside the modes; none by default
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
   std::shared_ptr<const InterfaceBasis> interface;    ///< reduction of the joined dofs of the coupled model (coupling::synthesise); null: none
 };

@@ -82,6 +82,7 @@ deck::ListSpec parameters() {
   list.real("Pair Tolerance", "", defaultPairTolerance, Range::between(0.0, 0.2),
             "Relative difference in frequency up to which two neighbouring modes count as a pair that is never cut; 0 keeps only "
             "equal frequencies together.");
+  declareLoadVectors(list);
   list.choice("Initial State", std::string("Keep static"), {"Keep static", "Least squares"},
               "\"Keep static\" reduces about the static state, which is then exact; \"Least squares\" projects it on the basis "
               "(Nguyen et al. 2020, (42)).");
@@ -109,6 +110,7 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   options.initialState =
       list.get<std::string>("Initial State") == "Keep static" ? InitialState::KeepStatic : InitialState::LeastSquares;
   options.checks = list.get<bool>("Basis Checks");
+  options.loadVectors = readLoadVectors(list);
   options.modes.pairTolerance = list.get<double>("Pair Tolerance");
   const std::string& choice = given.front();
   if (choice == "Modes") {
@@ -134,6 +136,7 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
     const auto& name = list.get<std::string>("Interface Reduction");
     options.interface = InterfaceRegistry::instance().make(name, list.isSublist(name) ? list.sublist(name) : Teuchos::ParameterList(name));
   }
+  makeBasis(options.basis, list);  // finds what is wrong with its own list now
   if (list.isSublist("Anasazi")) {
     auto eigen = std::make_shared<linalg::EigenOptions>();
     eigen->anasazi = &list.sublist("Anasazi");
