@@ -5,7 +5,7 @@
 ///
 ///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of velocities
 ///
-/// Both choose their steps; samples and the end come from the interpolation of the method.
+/// Both choose their steps; samples are interpolated.
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -21,14 +21,18 @@ namespace {
 constexpr const char* arkode = "SUNDIALS ARKODE";
 constexpr const char* cvode = "SUNDIALS CVODE";
 
+/// Motion smaller than this is not resolved to the relative tolerance [m], [m/s].
+constexpr double usualLength = 0.01;
+constexpr double usualVelocity = 1.0;
+
 void addCommon(deck::ListSpec& spec) {
   spec.real("Relative Tolerance", "", 1e-4, deck::Range::positive(),
-            "Error allowed per step, relative to each coordinate and velocity.")
-      .real(
-          "Absolute Tolerance", "m", 1e-6, deck::Range::positive(),
-          "Error of displacements allowed per step; the same number holds for rotations in rad and for the coordinates of modes.")
-      .real("Absolute Velocity Tolerance", "m/s", 1e-4, deck::Range::positive(),
-            "Error of velocities allowed per step, with the same number for rad/s and the rates of modes.")
+            "Error of a step allowed in each coordinate and velocity, relative to its size.")
+      .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
+            "Error of a step allowed in displacements beside that, and by the same number in rotations (rad) and coordinates of "
+            "modes; by default 0.01 m times Relative Tolerance.")
+      .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
+            "The same for velocities; by default 1 m/s times Relative Tolerance.")
       .real("Initial Step", "s", deck::Optional{}, deck::Range::positive(),
             "Length of the first step; by default Transient/Step, and without that what SUNDIALS estimates.")
       .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(), "Longest step allowed; by default there is no limit.")
@@ -63,11 +67,14 @@ class Sundials final : public Integrator {
   Sundials(const std::string& name, const Teuchos::ParameterList& given) : name_(name) {
     const auto own = withDefaults(given, name == arkode ? arkodeSpecification() : cvodeSpecification());
     options_.relative = own.get<double>("Relative Tolerance");
-    options_.positions = own.get<double>("Absolute Tolerance");
-    options_.velocities = own.get<double>("Absolute Velocity Tolerance");
+    const auto asked = [&own](const char* parameter, double usual) {
+      return own.isParameter(parameter) ? own.get<double>(parameter) : usual;
+    };
+    options_.positions = asked("Absolute Tolerance", usualLength * options_.relative);
+    options_.velocities = asked("Absolute Velocity Tolerance", usualVelocity * options_.relative);
     options_.maxIterations = own.get<int>("Maximum Newton Iterations");
-    if (own.isParameter("Initial Step")) options_.firstStep = own.get<double>("Initial Step");
-    if (own.isParameter("Maximum Step")) options_.maxStep = own.get<double>("Maximum Step");
+    options_.firstStep = asked("Initial Step", 0.0);
+    options_.maxStep = asked("Maximum Step", 0.0);
     if (name == arkode) options_.table = own.get<std::string>("Method");
     if (name == cvode) options_.maxOrder = own.get<int>("Maximum Order");
     maxSteps_ = own.get<int>("Maximum Steps");
@@ -163,6 +170,14 @@ class Sundials final : public Integrator {
     const double t = stepper_->time();
     const std::string own = "Transient/" + name_ + "/";
     std::ostringstream text;
+    // A force that is no number is met as a step that cannot be short enough.
+    State state = from;
+    for (const double later : {0.0, 1e-9 * (window_.end - window_.begin)}) {
+      if (!state.a.allFinite()) continue;
+      state.t = t + later;
+      complete(state);
+    }
+    if (!state.a.allFinite()) trouble = SundialsTrouble::NotFinite;
     switch (trouble) {
       case SundialsTrouble::Accuracy:
         text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise " << own
@@ -178,8 +193,6 @@ class Sundials final : public Integrator {
              << "Maximum Newton Iterations, lower the tolerances there, or use the integrator \"Generalized-alpha\".";
         break;
       case SundialsTrouble::NotFinite: {
-        State state = from;
-        complete(state);
         const int worst = state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
         text << "The motion is not finite however short the step of " << name_ << " from t = " << t << " s, first at "
              << form_.model().dofName(worst) << ": a load, a law of time or a point law gives no number there.";

@@ -146,8 +146,13 @@ class Stepper : public SundialsStepper {
 /// ARKStep, all terms implicit.
 class Arkode final : public Stepper {
  public:
-  using Stepper::Stepper;
-  ~Arkode() override { ARKStepFree(&memory_); }
+  Arkode(FirstOrderForm& form, const SundialsOptions& options) : Stepper(form, options) {
+    for (N_Vector* each : {&from_, &fromRate_, &rate_}) *each = N_VClone(y_);
+  }
+  ~Arkode() override {
+    ARKStepFree(&memory_);
+    for (N_Vector each : {from_, fromRate_, rate_}) N_VDestroy(each);
+  }
 
   void restart(double t, const double* q, const double* v, double end, double firstStep) override {
     load(t, q, v);
@@ -161,6 +166,7 @@ class Arkode final : public Stepper {
   }
 
   SundialsTrouble step() override {
+    interpolates_ = false;
     const int flag = ARKStepEvolve(memory_, end_, y_, &time_, ARK_ONE_STEP);
     rethrow();
     if (flag >= 0) {
@@ -190,11 +196,31 @@ class Arkode final : public Stepper {
     require(ARKStepGetCurrentStep(memory_, &h), "ARKStepGetCurrentStep");
     return h;
   }
+  /// The interpolation of ARKODE is of the third degree, less than the methods are worth; q, v and a at both ends of the step
+  /// give one of the fifth.
   void at(double t, double* q, double* v) override {
     if (t == time_) return unload(y_, q, v);
-    require(ARKStepGetDky(memory_, t, 0, work_), "ARKStepGetDky");
-    rethrow();
-    unload(work_, q, v);
+    if (!interpolates_) {
+      require(ARKStepGetDky(memory_, time_ - length_, 0, from_), "ARKStepGetDky");
+      require(ARKStepGetDky(memory_, time_ - length_, 1, fromRate_), "ARKStepGetDky");
+      require(ARKStepGetDky(memory_, time_, 1, rate_), "ARKStepGetDky");
+      rethrow();
+      interpolates_ = true;
+    }
+    const double h = length_;
+    const double x = (t - (time_ - h)) / h;
+    const int n = form_.dofs();
+    const double p = x * x * x * (10 - x * (15 - 6 * x)), dp = 30 * x * x * (1 - x) * (1 - x) / h;
+    const double v0 = h * x * (1 - x * x * (6 - x * (8 - 3 * x))), dv0 = 1 - x * x * (18 - x * (32 - 15 * x));
+    const double v1 = -h * x * x * x * (4 - x * (7 - 3 * x)), dv1 = -x * x * (12 - x * (28 - 15 * x));
+    const double a0 = 0.5 * h * h * x * x * (1 - x * (3 - x * (3 - x))), da0 = 0.5 * h * x * (2 - x * (9 - x * (12 - 5 * x)));
+    const double a1 = 0.5 * h * h * x * x * x * (1 - x * (2 - x)), da1 = 0.5 * h * x * x * (3 - x * (8 - 5 * x));
+    const double *Y0 = data(from_), *F0 = data(fromRate_), *Y1 = data(y_), *F1 = data(rate_);
+    for (int i = 0, k = n; i < n; ++i, ++k) {
+      const double step = Y1[i] - Y0[i];
+      q[i] = Y0[i] + p * step + v0 * Y0[k] + v1 * Y1[k] + a0 * F0[k] + a1 * F1[k];
+      v[i] = dp * step + dv0 * Y0[k] + dv1 * Y1[k] + da0 * F0[k] + da1 * F1[k];
+    }
   }
   SundialsCounts counts() const override {
     SundialsCounts c;
@@ -220,12 +246,16 @@ class Arkode final : public Stepper {
     require(ARKStepSetLinearSolver(memory_, solver_, matrix_), "ARKStepSetLinearSolver");
     require(ARKStepSetLinSysFn(memory_, newtonMatrix), "ARKStepSetLinSysFn");
     require(ARKStepSetMaxNonlinIters(memory_, options_.maxIterations), "ARKStepSetMaxNonlinIters");
+    // ARKODE takes a first correction as good when corrections shrank fast before, even if the factor has another gamma since.
+    require(ARKStepSetDeltaGammaMax(memory_, 1e-6), "ARKStepSetDeltaGammaMax");
     require(ARKStepSetMaxErrTestFails(memory_, maxTries), "ARKStepSetMaxErrTestFails");
     require(ARKStepSetMaxConvFails(memory_, maxTries), "ARKStepSetMaxConvFails");
     if (options_.maxStep > 0) require(ARKStepSetMaxStep(memory_, options_.maxStep), "ARKStepSetMaxStep");
   }
   void* memory_ = nullptr;
   double end_ = 0;
+  N_Vector from_ = nullptr, fromRate_ = nullptr, rate_ = nullptr;  ///< y and f where the last step began, f where it ended
+  bool interpolates_ = false;                                      ///< they belong to the last step
 };
 
 /// CVODE, backward differentiation formulas.

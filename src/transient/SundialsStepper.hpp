@@ -49,7 +49,7 @@ class SundialsStepper {
   virtual double lastStep() const = 0;
   /// Length proposed for the next step.
   virtual double nextStep() const = 0;
-  /// The solution at a time within the last step, by the interpolation of the method.
+  /// The solution at a time within the last step, by an interpolation as good as the method.
   virtual void at(double t, double* q, double* v) = 0;
   virtual SundialsCounts counts() const = 0;
   /// Position (of q, whose velocity or acceleration it may be) where the error of the last try was largest against its tolerance.
