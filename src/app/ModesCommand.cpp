@@ -34,7 +34,7 @@ void modes(const RunOptions& options) {
   const auto full = scene.coupling ? whole.model : fullModel(stage);
   const double t = timeOf(options, scene);
   if (!scene.reduces()) {
-    listFullModes(full, options.modeCount, t);
+    listFullModes(full, options, t);
     return;
   }
   const auto& parts = planned.parts;

@@ -10,6 +10,7 @@
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "io/Csv.hpp"
 
@@ -19,14 +20,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 
-void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
-  io::Csv table({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"coupled_mode", ""}, {"coupled", "Hz"}, {"coupled_damping", ""},
-                 {"mac", ""}, {"error", ""}, {"estimate", ""}});
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const auto& m = modes[i];
-    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error,
-               m.estimate});
-  }
+void writeInto(const std::string& folder, const std::string& name, const io::Csv& table) {
   parallel::agree([&] {
     if (parallel::rank() != 0) return;
     std::error_code failed;
@@ -36,11 +30,29 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
   });
 }
 
+/// True, and said so, when a dof has no mass: the quadratic eigenproblem is solved with the inverse of M.
+bool massless(const model::SecondOrderModel& full) {
+  const bool none = full.size() > 0 && full.mass.diagonal().minCoeff() <= 0.0;
+  if (none) log::info("Damped modes are not listed: they need a mass at every dof, and the model has dofs without one.");
+  return none;
+}
+
+void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
+  io::Csv table({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"coupled_mode", ""}, {"coupled", "Hz"}, {"coupled_damping", ""},
+                 {"mac", ""}, {"error", ""}, {"estimate", ""}});
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto& m = modes[i];
+    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error,
+               m.estimate});
+  }
+  writeInto(folder, name, table);
+}
+
 }  // namespace
 
-void listFullModes(const model::SecondOrderModel& full, int count, double t) {
-  const Vector values =
-      linalg::lowestModes(estimate::linearisedStiffness(full), reduction::symmetricPart(full.mass), std::min(count, full.size())).values;
+void listFullModes(const model::SecondOrderModel& full, const RunOptions& options, double t) {
+  const int count = options.modeCount;
+  const Vector values = coupling::lowestModes(full, std::min(count, full.size())).values;
   log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent):");
   log::info("  mode       full [Hz]");
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -48,6 +60,12 @@ void listFullModes(const model::SecondOrderModel& full, int count, double t) {
     std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), reduction::signedOmega(values(i)) / kTwoPi);
     log::info(line);
   }
+  if (!options.output.empty()) {
+    io::Csv table({{"mode", ""}, {"full", "Hz"}});
+    for (Eigen::Index i = 0; i < values.size(); ++i) table.row({static_cast<double>(i + 1), reduction::signedOmega(values(i)) / kTwoPi});
+    writeInto(options.output, "modes.csv", table);
+  }
+  if (massless(full)) return;
   const auto m = estimate::linearise(full, t);
   const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, std::min(count, full.size()));
   log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory):");
@@ -66,12 +84,12 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the coupled mode of "
             "the same shape, its true relative error and the one estimated without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
+  if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
+  if (massless(full)) return;
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
   log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory), errors of s:");
   log::info(estimate::comparisonTable(damped, true));
-  if (options.output.empty()) return;
-  writeTable(undamped, options.output, "modes.csv");
-  writeTable(damped, options.output, "damped_modes.csv");
+  if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }
 
 }  // namespace tooljoint::app

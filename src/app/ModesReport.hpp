@@ -10,8 +10,8 @@
 
 namespace tooljoint::app {
 
-/// Undamped and damped modes of one model: of a scene without Reduction.
-void listFullModes(const model::SecondOrderModel& full, int count, double t);
+/// Undamped and damped modes of one model: of a scene without Reduction; as CSV into options.output, if one is given.
+void listFullModes(const model::SecondOrderModel& full, const RunOptions& options, double t);
 
 /// Full and coupled modes side by side, undamped and with the matrices of time t; as CSV into options.output, if one is given.
 /// \param maps of the full model where it was coupled from the parts, see estimate::compareModes

@@ -65,7 +65,7 @@ void partsModes(const RunOptions& options) {
   const double end = deck.moves() ? deck.list().sublist("Transient").get<double>("End Time") : 0.0;
   const double t = options.modeTime.value_or(end);
   if (!deck.reduces()) {
-    listFullModes(whole.model, options.modeCount, t);
+    listFullModes(whole.model, options, t);
     return;
   }
   const auto& parts = deck.scene.parts;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "app/Commands.hpp"
+#include "app/PartsDeck.hpp"
 #include "app/ResultsWriter.hpp"
 #include "app/StudyFiles.hpp"
 #include "app/StudyPlan.hpp"
@@ -440,6 +441,8 @@ class Study {
 }  // namespace
 
 void study(const RunOptions& options) {
+  if (isPartsDeck(options))
+    throw DeckError(options.deck + " is a deck of parts, and a study compares motions of a string. Compare runs of parts by their summary.json and motion.csv.");
   const auto scene = readScene(options.deck, options.overrides);
   Study(options, scene).go();
 }

@@ -200,7 +200,7 @@ Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatr
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps) {
   const Sparse mass = reduction::symmetricPart(full.mass);
-  const auto exact = linalg::lowestModes(linearisedStiffness(full), mass, std::min(count, full.size()));
+  const auto exact = coupling::lowestModes(full, std::min(count, full.size()));
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(count + moreModes, coupled.size());
   const auto pairs = coupling::lowestModes(coupled, looked);

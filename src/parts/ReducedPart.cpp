@@ -61,6 +61,7 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
   if (!s.isZero(0.0)) {
     for (const auto& term : m.stiffness) m.loads.push_back({"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
     m.initialDisplacement += s;
+    if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
     out.part.reference = s;
   }
 
