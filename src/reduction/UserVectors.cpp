@@ -40,7 +40,8 @@ class UserVectors : public Basis {
     const ConstraintModes constraint = constraintModes(part, p, constantStiffness(part.model));
     const Sparse K = block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior), M = block(part.model.mass, p.interior, p.interior);
     const std::string file = fileOf(part.name);
-    const Matrix given = read(file, part);
+    // A part without interior dofs has nothing to give vectors for.
+    const Matrix given = p.interior.empty() ? Matrix(p.size, 0) : read(file, part);
     const auto wanted = request.kind == ModeRequest::Kind::Count ? std::min<Eigen::Index>(request.count, given.cols()) : given.cols();
     OrthonormalSet set(M, options_.independence, "Part \"" + part.name + "\", vectors of " + file + ": ");
     const std::vector<int> dropped = collect(given.leftCols(wanted), p, constraint, file, part, set);
@@ -54,7 +55,7 @@ class UserVectors : public Basis {
     BasisResult basis = fixedInterfaceBasis(part, p, constraint, {all}, std::move(vectors));
     basis.orthogonality = defect;
     basis.method = "Ritz vectors of " + file;
-    if (request.kind == ModeRequest::Kind::Count && request.count > given.cols())
+    if (request.kind == ModeRequest::Kind::Count && request.count > given.cols() && !p.interior.empty())
       basis.remarks.push_back("asked for " + std::to_string(request.count) + " modes, " + file + " has " + std::to_string(given.cols()) + " vectors");
     if (request.kind == ModeRequest::Kind::All && !basis.complete)
       basis.remarks.push_back("all " + std::to_string(basis.modes()) + " vectors of " + file + " are kept; the part has " + std::to_string(p.interior.size()) + " modes");
