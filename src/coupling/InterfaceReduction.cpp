@@ -27,6 +27,7 @@ class Reducer {
       throw ModelError("An interface reduction needs joined dofs, but dual assembly leaves every part its own. Set the assembly to Primal, or leave the interface "
                        "reduction out.");
     choose();
+    coupling_.joinedDofs = static_cast<int>(reduced_.size());
     if (reduced_.empty()) {
       coupling_.interfaceModes = 0;
       coupling_.remarks.push_back("There is no joined dof to reduce: point laws act on all of them.");
