@@ -44,7 +44,7 @@ coupling::Coupling PartsDeck::whole() const {
 namespace {
 
 /// The message of a room, with file and line in front.
-DeckError located(const deck::Deck& deck, const DeckError& fault) {
+std::string located(const deck::Deck& deck, const Error& fault) {
   std::vector<std::string> lines;
   for (const auto& line : split(fault.what(), '\n')) {
     const auto spec = partsSceneSpec();
@@ -53,7 +53,7 @@ DeckError located(const deck::Deck& deck, const DeckError& fault) {
       if (line.rfind(list.name() + "/", 0) == 0 || line.rfind(list.name() + " ", 0) == 0) rooted = "/" + deck.name() + "/" + line;
     lines.push_back(deck.located(rooted));
   }
-  return DeckError(join(lines, "\n"));
+  return join(lines, "\n");
 }
 
 Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const deck::ListSpec& spec) {
@@ -128,7 +128,9 @@ PartsDeck readPartsDeck(const RunOptions& options) {
     requireMass(out, whole.model);
     parts::findStart(out.settings, out.startTime(), noxSolver(Teuchos::ParameterList("Static")), out.scene);
   } catch (const DeckError& fault) {
-    throw located(out.deck, fault);
+    throw DeckError(located(out.deck, fault));
+  } catch (const ModelError& fault) {
+    throw ModelError(located(out.deck, fault));
   }
   return out;
 }

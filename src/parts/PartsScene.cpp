@@ -46,7 +46,8 @@ class Builder {
     try {
       work();
     } catch (const DeckError& fault) {
-      faults_.push_back(where.empty() ? std::string(fault.what()) : where + " " + fault.what() + ".");
+      const std::string what = fault.what();
+      faults_.push_back(where.empty() ? what : where + " " + what + (what.back() == '?' ? "" : "."));
     }
   }
   void raise() const {
