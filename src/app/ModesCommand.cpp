@@ -46,8 +46,6 @@ void modes(const RunOptions& options) {
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());
   log::info(reduction::summaryTable(outcome.synthesis.parts));
   log::info(describeCoupling(outcome.synthesis.coupled));
-  if (outcome.synthesis.coupled.interfaceModes >= 0)
-    log::info("The estimates below see what the reduction of the parts leaves out, not what the interface reduction does.");
   if (!outcome.rounds.empty()) log::info(estimate::roundTable(outcome.rounds));
   listComparedModes(full, whole.maps, parts, outcome.synthesis, options, t);
 }

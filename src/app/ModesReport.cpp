@@ -81,6 +81,7 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
 void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
                        const coupling::Synthesis& synthesis, const RunOptions& options, double t) {
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
+  if (synthesis.coupled.interfaceModes >= 0) log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");
   log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the coupled mode of "
             "the same shape, its true relative error and the one estimated without the full model:");
   log::info(estimate::comparisonTable(undamped, false));

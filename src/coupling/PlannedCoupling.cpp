@@ -26,6 +26,9 @@ class Planner {
     out_.parts = parts;
     out_.options.assembly = plan.assembly;
     if (out_.parts.empty()) throw ModelError("There is no part to couple.");
+    std::vector<PartOutline> outlines;
+    for (const auto& part : parts) outlines.push_back({part.name, {}});
+    checkNames(plan, outlines, names());
     if (plan.ownNumbers) numberTogetherByJoints(parts);
   }
 

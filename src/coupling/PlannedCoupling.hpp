@@ -23,7 +23,7 @@ struct PlannedCoupling {
 ///
 /// that its joint exerts on the part in the reference state, and the rest of the model its opposite, both as constant loads, unless the plan says
 /// otherwise or the part has no reference state. A hinge between two nodes of one number releases them first.
-/// ModelError as in couple().
+/// DeckError for parts and components that do not exist, with the place in the deck; ModelError as in couple().
 PlannedCoupling plan(const std::vector<model::Substructure>& parts, const CouplingPlan& plan);
 
 }  // namespace tooljoint::coupling

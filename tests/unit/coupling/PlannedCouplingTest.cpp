@@ -254,4 +254,21 @@ TEST(PlannedCouplingErrors, AreSentences) {
   }
 }
 
+TEST(PlannedCouplingErrors, NamePlaceAndPart) {
+  const auto sentence = [](const std::string& inside) {
+    try {
+      plan(twoBars(), read(inside));
+    } catch (const DeckError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(sentence(list("Sliders", list("brake", text("First", "botom:5") + text("Component", "u") + value("Force", "double", "1"))))
+                .find("/scene/Coupling/Sliders/brake/First names part \"botom\", but there is no such part. Did you mean \"bottom\"?"),
+            std::string::npos);
+  EXPECT_NE(sentence(list("Sliders", list("brake", text("First", "top:3") + text("Component", "w") + value("Force", "double", "1"))))
+                .find("/scene/Coupling/Sliders/brake/Component names the component \"w\""),
+            std::string::npos);
+}
+
 }  // namespace
