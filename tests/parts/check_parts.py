@@ -10,6 +10,7 @@ import importlib.util
 import json
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 
@@ -161,6 +162,25 @@ def bad_parts_on_ranks():
         expect(f"{name} says the same once", said[0].stderr.strip() != "" and said[1].stderr.count(said[0].stderr.strip()) == 1)
 
 
+def goes_on():
+    """An interrupted run of parts goes on to the numbers of one that was not."""
+    deck = str(ROOT / "xml" / "frame.xml")
+    long = ["--set", "Transient/End Time=200", "--set", "Transient/Sampling Interval=0.1"]
+    whole = tooljoint("run", deck, "--output", "whole", *long)
+    run = subprocess.Popen([PROGRAM, "run", deck, "--output", "halted", *long], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    for line in run.stdout:
+        if "%" in line:
+            run.send_signal(signal.SIGINT)
+            break
+    run.communicate(timeout=60)
+    expect("an interrupted run ends with 130", run.returncode == 130, str(run.returncode))
+    again = tooljoint("run", deck, "--output", "halted", "--restart", "halted", *long)
+    expect("it goes on", whole.returncode == 0 and again.returncode == 0, again.stderr[-300:])
+    with h5py.File("whole/results.h5") as a, h5py.File("halted/results.h5") as b:
+        same = all(np.array_equal(a[name][:], b[name][:]) for name in ("/transient/time", "/transient/displacement", "/transient/velocity"))
+    expect("to the same numbers", same)
+
+
 def refused():
     """A study of parts is refused with a sentence."""
     done = tooljoint("study", str(ROOT / "xml" / "frame.xml"))
@@ -173,6 +193,7 @@ if __name__ == "__main__":
     exported()
     string_part()
     bad_parts_on_ranks()
+    goes_on()
     refused()
     print(f"\n{len(FAULTS)} faults")
     sys.exit(1 if FAULTS else 0)
