@@ -33,7 +33,7 @@ struct Coupling {
   std::vector<Multiplier> multipliers;      ///< dual assembly
   std::vector<std::string> remarks;         ///< constraints that say nothing new, for instance
   std::vector<int> interface;               ///< coupled dofs that join parts: joined physical ones, or the modes they were reduced to, increasing
-  int joinedDofs = 0;                       ///< how many of `interface` there were before an interface reduction
+  int joinedDofs = 0;                       ///< how many of `interface` there are, or were replaced by an interface reduction
   int interfaceModes = -1;                  ///< modes of the interfaces; -1: their dofs are not reduced
 
   /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
