@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/Error.hpp"
+#include "reduction/ModalVectors.hpp"
 
 namespace tooljoint::estimate {
 
@@ -13,8 +14,9 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part, const 
     : interior_(basis.partition.interior) {
   const int size = static_cast<int>(interior_.size());
   std::vector<int> columns;
-  for (int k = 0; k < basis.modes(); ++k) columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
-  truncated_ = std::max(0, size - basis.modes());
+  for (int k = 0; k < basis.modes(); ++k)
+    if (basis.modeKind[static_cast<std::size_t>(k)] != reduction::followingKind) columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
+  truncated_ = std::max(0, size - static_cast<int>(columns.size()));
   if (truncated_ == 0) return;
   stiffness_ = reduction::block(stiffness, interior_, interior_);
   mass_ = reduction::block(part.model.mass, interior_, interior_);

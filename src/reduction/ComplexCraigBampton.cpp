@@ -216,7 +216,7 @@ deck::ListSpec ownParameters() {
   list.real("Time", "s", 0.0, Range::any(),
             "When laws of time are looked at: damping and stiffness of the modes are those of this time. Gyroscopics need a time at which the rotor turns.");
   list.real("Independence", "", 1e-6, Range{0.0, 0.1, true, false},
-            "A half of a mode of which less than this is new, measured by mass, is left out; lightly damped modes have one half.");
+            "The part of a half of a mode, measured by mass, that must be new for it to be taken; lightly damped modes have one half.");
   return list;
 }
 

@@ -18,11 +18,11 @@ namespace tooljoint::reduction {
 
 namespace {
 
-const std::string residual = "residual flexibility";
+const std::string freeKind = "residual";
 
 class EnhancedCraigBampton : public Basis {
  public:
-  EnhancedCraigBampton(bool tied, double independence) : tied_(tied), independence_(independence), base_(BasisRegistry::instance().make("Craig-Bampton", {})) {}
+  EnhancedCraigBampton(bool tied, double independence) : tied_(tied), kind_(tied ? followingKind : freeKind), independence_(independence), base_(BasisRegistry::instance().make("Craig-Bampton", {})) {}
 
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override { return base_->build(part, request); }
 
@@ -31,9 +31,9 @@ class EnhancedCraigBampton : public Basis {
                std::vector<BasisResult>& bases) const override {
     bool changed = false;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      const bool done = std::find(bases[p].modeKind.begin(), bases[p].modeKind.end(), residual) != bases[p].modeKind.end();
+      const bool done = std::find(bases[p].modeKind.begin(), bases[p].modeKind.end(), kind_) != bases[p].modeKind.end();
       if (done || bases[p].modes() >= static_cast<int>(bases[p].partition.interior.size())) continue;
-      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), residual, independence_, false, bases[p]) > 0 || changed;
+      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), kind_, independence_, false, bases[p]) > 0 || changed;
     }
     return changed;
   }
@@ -50,7 +50,7 @@ class EnhancedCraigBampton : public Basis {
     for (std::size_t p = 0; p < parts.size(); ++p) {
       answers.push_back(quasiStatic(parts[p], bases[p]));
       for (int k = 0; k < bases[p].modes(); ++k)
-        if (bases[p].modeKind[static_cast<std::size_t>(k)] == residual)
+        if (bases[p].modeKind[static_cast<std::size_t>(k)] == kind_)
           followers.dofs.push_back(position(maps[p], static_cast<int>(bases[p].partition.kept.size()) + k, parts[p]));
     }
     if (followers.dofs.empty()) return followers;
@@ -122,10 +122,10 @@ class EnhancedCraigBampton : public Basis {
   }
 
   /// Lambda_W^-1 W' L of a part, residual coordinates x kept dofs.
-  static Matrix quasiStatic(const model::Substructure& part, const BasisResult& basis) {
+  Matrix quasiStatic(const model::Substructure& part, const BasisResult& basis) const {
     std::vector<Eigen::Index> columns;
     for (int k = 0; k < basis.modes(); ++k)
-      if (basis.modeKind[static_cast<std::size_t>(k)] == residual) columns.push_back(k);
+      if (basis.modeKind[static_cast<std::size_t>(k)] == kind_) columns.push_back(k);
     Matrix answer(static_cast<Eigen::Index>(columns.size()), static_cast<Eigen::Index>(basis.partition.kept.size()));
     if (columns.empty()) return answer;
     const Matrix V = modalColumns(basis), L = inertia(part, basis);
@@ -141,6 +141,7 @@ class EnhancedCraigBampton : public Basis {
   }
 
   bool tied_;
+  std::string kind_;
   double independence_;
   std::unique_ptr<Basis> base_;
 };
@@ -151,7 +152,7 @@ deck::ListSpec ownParameters() {
               "\"Tied\": the residual vectors follow the other coordinates by M^-1 K of the coupled model (Kim and Lee 2015), which adds no dofs but makes the "
               "coupled matrices full; \"Free\": they are coordinates of their own, one for each kept dof at most, and the model stays sparse.");
   list.real("Independence", "", 1e-6, deck::Range{0.0, 0.1, true, false},
-            "A residual vector of which less than this is new, measured by mass, is left out.");
+            "The part of a residual vector, measured by mass, that must be new for it to be taken.");
   return list;
 }
 

@@ -351,7 +351,7 @@ deck::ListSpec ownParameters() {
                "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) instead of those of mass and stiffness alone.");
   list.real("Time", "s", 0.0, Range::any(), "When damping that varies, as gyroscopics do with the speed, is looked at; used with \"Damped\".");
   list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
-            "A vector of which less than this is new, measured by mass, is left out as dependent.");
+            "The part of a vector, measured by mass, that must be new for the vector to be taken.");
   return list;
 }
 

@@ -14,6 +14,10 @@
 
 namespace tooljoint::reduction {
 
+/// BasisResult::modeKind of columns whose coordinates follow the others (Basis::follow): estimates count them as left out, since they are not free to
+/// answer a residual.
+inline const std::string followingKind = "tied residual";
+
 /// A modal column: `shape` on interior dofs of one group, zero everywhere else.
 struct ModalVector {
   double eigenvalue = 0;  ///< omega^2, or the Ritz value

@@ -146,7 +146,7 @@ deck::ListSpec ownParameters() {
   list.textArray("Substructures", deck::Optional{}, {}, "Names of the substructures that have a file; the others take fixed-interface modes. All of them when absent.");
   list.choice("Dependent Vectors", std::string("Refuse"), {"Refuse", "Drop"},
               "What happens to a vector that is a combination of those before it and of constraint modes: an error, or it is left out with a remark.");
-  list.real("Independence", "", 1e-8, deck::Range{0.0, 0.1, true, false}, "A vector of which less than this is new, measured by mass, is dependent.");
+  list.real("Independence", "", 1e-8, deck::Range{0.0, 0.1, true, false}, "The part of a vector, measured by mass, that must be new, or it is dependent.");
   return list;
 }
 
