@@ -14,15 +14,20 @@ namespace tooljoint::app {
 
 namespace {
 
-io::ExportFormat format(const std::string& name) { return name == "mtx" ? io::ExportFormat::MatrixMarket : io::ExportFormat::Hdf5; }
+io::ExportFormat format(const std::string& name) {
+  return name == "mtx" ? io::ExportFormat::MatrixMarket : io::ExportFormat::Hdf5;
+}
 
 std::string folderOf(const RunOptions& options) {
-  return options.output.empty() ? (std::filesystem::path("results") / std::filesystem::path(options.deck).stem() / "parts").string() : options.output;
+  return options.output.empty()
+             ? (std::filesystem::path("results") / std::filesystem::path(options.deck).stem() / "parts").string()
+             : options.output;
 }
 
 void requireReduction(const deck::Deck& deck) {
   if (!deck.list().isSublist("Reduction"))
-    throw DeckError(deck.file() + ": /" + deck.name() + " has no Reduction list, so there is no reduced part to export. Add one.");
+    throw DeckError(deck.file() + ": /" + deck.name() +
+                    " has no Reduction list, so there is no reduced part to export. Add one.");
 }
 
 /// A motion tolerance needs the motion of the scene; an export has none to show, so the estimate is made on the side.
@@ -41,9 +46,13 @@ void exportOfParts(const RunOptions& options) {
   const auto whole = deck.whole();
   log::info(describeParts(deck, whole));
   const auto& parts = deck.scene.parts;
-  const auto outcome = estimate::synthesise(parts, deck.list().sublist("Reduction"), probe(deck, [&](const coupling::Synthesis& synthesis) {
-    return std::make_unique<estimate::MotionEstimator>(parts, synthesis, restOf(whole), motionOptions(whole.model));
-  }), deck.scene.coupling);
+  const auto outcome = estimate::synthesise(parts, deck.list().sublist("Reduction"),
+                                            probe(deck,
+                                                  [&](const coupling::Synthesis& synthesis) {
+                                                    return std::make_unique<estimate::MotionEstimator>(
+                                                        parts, synthesis, restOf(whole), motionOptions(whole.model));
+                                                  }),
+                                            deck.scene.coupling);
   log::info(reduction::summaryTable(outcome.synthesis.parts));
   exportParts(deck.scene.contents, outcome.synthesis.parts, format(options.format), folderOf(options));
 }
@@ -61,9 +70,13 @@ void exportReduced(const RunOptions& options) {
   const auto stage = settle(scene);
   log::info(describeStatic(stage));
   const auto planned = plannedParts(scene, stage);
-  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe(scene, [&](const coupling::Synthesis& synthesis) {
-    return std::make_unique<estimate::MotionEstimator>(planned.parts, synthesis, stage.state.displacement);
-  }), planned.options);
+  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"),
+                                            probe(scene,
+                                                  [&](const coupling::Synthesis& synthesis) {
+                                                    return std::make_unique<estimate::MotionEstimator>(planned.parts, synthesis,
+                                                                                                       stage.state.displacement);
+                                                  }),
+                                            planned.options);
   log::info(reduction::summaryTable(outcome.synthesis.parts));
   std::vector<parts::PartContent> originals;
   for (const auto& part : planned.parts) originals.push_back(parts::contentOf(part));

@@ -38,12 +38,19 @@ bool massless(const model::SecondOrderModel& full) {
 }
 
 void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
-  io::Csv table({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"coupled_mode", ""}, {"coupled", "Hz"}, {"coupled_damping", ""},
-                 {"mac", ""}, {"error", ""}, {"estimate", ""}});
+  io::Csv table({{"mode", ""},
+                 {"full", "Hz"},
+                 {"full_damping", ""},
+                 {"coupled_mode", ""},
+                 {"coupled", "Hz"},
+                 {"coupled_damping", ""},
+                 {"mac", ""},
+                 {"error", ""},
+                 {"estimate", ""}});
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto& m = modes[i];
-    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error,
-               m.estimate});
+    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(),
+               m.mac, m.error, m.estimate});
   }
   writeInto(folder, name, table);
 }
@@ -62,7 +69,8 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
   }
   if (!options.output.empty()) {
     io::Csv table({{"mode", ""}, {"full", "Hz"}});
-    for (Eigen::Index i = 0; i < values.size(); ++i) table.row({static_cast<double>(i + 1), reduction::signedOmega(values(i)) / kTwoPi});
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      table.row({static_cast<double>(i + 1), reduction::signedOmega(values(i)) / kTwoPi});
     writeInto(options.output, "modes.csv", table);
   }
   if (massless(full)) return;
@@ -73,17 +81,22 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
   for (Eigen::Index i = 0; i < damped.values.size(); ++i) {
     const auto s = damped.values[i];
     char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g  %12.4e", static_cast<long>(i + 1), std::abs(s) / kTwoPi, -s.real() / std::max(std::abs(s), 1e-300));
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g  %12.4e", static_cast<long>(i + 1), std::abs(s) / kTwoPi,
+                  -s.real() / std::max(std::abs(s), 1e-300));
     log::info(line);
   }
 }
 
-void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
-                       const coupling::Synthesis& synthesis, const RunOptions& options, double t) {
+void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
+                       const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+                       const RunOptions& options, double t) {
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
-  if (synthesis.coupled.interfaceModes >= 0) log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");
-  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the coupled mode of "
-            "the same shape, its true relative error and the one estimated without the full model:");
+  if (synthesis.coupled.interfaceModes >= 0)
+    log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");
+  log::info(
+      "Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the "
+      "coupled mode of "
+      "the same shape, its true relative error and the one estimated without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
   if (massless(full)) return;

@@ -15,7 +15,8 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
 
 /// Full and coupled modes side by side, undamped and with the matrices of time t; as CSV into options.output, if one is given.
 /// \param maps of the full model where it was coupled from the parts, see estimate::compareModes
-void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
-                       const coupling::Synthesis& synthesis, const RunOptions& options, double t);
+void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
+                       const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+                       const RunOptions& options, double t);
 
 }  // namespace tooljoint::app

@@ -25,25 +25,35 @@ void listParts(const PartsDeck& deck) {
     const auto& part = deck.scene.parts[p];
     std::vector<std::string> sets;
     for (const auto& set : content.interfaces) sets.push_back(set.name);
-    item(true, part.name, content.file + ": " + std::to_string(part.model.size()) + " dofs, " + std::to_string(part.interface.size()) + " joined, " +
-                              std::to_string(part.retained.size()) + " retained" + (sets.empty() ? "" : "; sets " + quotedList(sets)));
-    for (const auto& law : content.omitted) log::warn("Part \"" + part.name + "\" (" + content.file + ") had the point law \"" + law + "\" where it came from; it is not in the file.");
+    item(true, part.name,
+         content.file + ": " + std::to_string(part.model.size()) + " dofs, " + std::to_string(part.interface.size()) +
+             " joined, " + std::to_string(part.retained.size()) + " retained" +
+             (sets.empty() ? "" : "; sets " + quotedList(sets)));
+    for (const auto& law : content.omitted)
+      log::warn("Part \"" + part.name + "\" (" + content.file + ") had the point law \"" + law +
+                "\" where it came from; it is not in the file.");
   }
-  item(!deck.settings.joints.empty(), "joints", deck.settings.joints.empty() ? "no Joints in Parts" : join(deck.settings.joints, ", "));
-  item(deck.list().isSublist("Coupling"), "coupling", deck.list().isSublist("Coupling") ? coupling::describe(deck.plan) : "no Coupling list");
+  item(!deck.settings.joints.empty(), "joints",
+       deck.settings.joints.empty() ? "no Joints in Parts" : join(deck.settings.joints, ", "));
+  item(deck.list().isSublist("Coupling"), "coupling",
+       deck.list().isSublist("Coupling") ? coupling::describe(deck.plan) : "no Coupling list");
   item(!deck.settings.loads.empty(), "loads", std::to_string(deck.settings.loads.size()) + " beside those of the files");
 }
 
 void listWork(const PartsDeck& deck) {
   log::info("computed:");
-  item(deck.settings.atRest, "equilibrium", deck.settings.atRest ? "of the loads of the start time" : "Initial State is \"From files\"");
-  item(deck.reduces(), "reduction", deck.reduces() ? deck.list().sublist("Reduction").get<std::string>("Basis") : "no Reduction list: the full model runs");
+  item(deck.settings.atRest, "equilibrium",
+       deck.settings.atRest ? "of the loads of the start time" : "Initial State is \"From files\"");
+  item(deck.reduces(), "reduction",
+       deck.reduces() ? deck.list().sublist("Reduction").get<std::string>("Basis") : "no Reduction list: the full model runs");
   if (!deck.moves()) {
     item(false, "transient", "no Transient list");
     return;
   }
   const auto& list = deck.list().sublist("Transient");
-  item(true, "transient", list.get<std::string>("Integrator") + " over " + formatNumber(list.get<double>("End Time") - list.get<double>("Start Time")) + " s");
+  item(true, "transient",
+       list.get<std::string>("Integrator") + " over " +
+           formatNumber(list.get<double>("End Time") - list.get<double>("Start Time")) + " s");
 }
 
 }  // namespace

@@ -67,25 +67,35 @@ void requireNoFaults(const std::vector<std::string>& faults) {
 /// What only several lists together can tell.
 void crossCheck(const PartsDeck& deck) {
   std::vector<std::string> faults;
-  const auto add = [&](const std::string& path, const std::string& sentence) { faults.push_back(deck.deck.error(path, sentence)); };
+  const auto add = [&](const std::string& path, const std::string& sentence) {
+    faults.push_back(deck.deck.error(path, sentence));
+  };
   const auto& list = deck.list();
   if (deck.deck.gives("Output/XDMF") && deck.output.xdmf)
     add("Output/XDMF", "has no effect in a scene of parts: files of parts say nothing of what they look like. Leave it out.");
   if (deck.deck.gives("Output/XDMF Interval")) add("Output/XDMF Interval", "has no effect in a scene of parts. Leave it out.");
-  if (deck.output.exportFormat != io::ExportFormat::None && !deck.reduces()) add("Output/Export Parts", "has no effect without a Reduction list. Add one, or leave it out.");
+  if (deck.output.exportFormat != io::ExportFormat::None && !deck.reduces())
+    add("Output/Export Parts", "has no effect without a Reduction list. Add one, or leave it out.");
   const bool dual = deck.plan.assembly == coupling::Assembly::Dual;
-  if (dual && !deck.reduces()) add("Coupling/Assembly", "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
+  if (dual && !deck.reduces())
+    add("Coupling/Assembly",
+        "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
   if (dual && deck.moves() && transient::isExplicit(list.sublist("Transient")))
-    add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
+    add("Coupling/Assembly",
+        "is \"Dual\", whose multipliers have no mass, but the integrator needs a mass everywhere. Take \"Primal\", or an "
+        "implicit integrator.");
   if (deck.reduces()) {
     const auto& reduction = list.sublist("Reduction");
     const auto estimated = reduction.get<std::string>("Error Estimate");
     if (!deck.moves() && reduction.isParameter("Motion Tolerance"))
-      add("Reduction/Motion Tolerance", "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
+      add("Reduction/Motion Tolerance",
+          "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
     if (!deck.moves() && (estimated == "Transient" || estimated == "Both"))
-      add("Reduction/Error Estimate", "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
+      add("Reduction/Error Estimate",
+          "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
     if (dual && reduction.get<std::string>("Interface Reduction") != "None")
-      add("Reduction/Interface Reduction", "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
+      add("Reduction/Interface Reduction",
+          "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
   }
   requireNoFaults(faults);
 }
@@ -101,10 +111,13 @@ void requireMass(const PartsDeck& deck, const model::SecondOrderModel& full) {
     if (label.kind == model::DofLabel::Kind::Physical) {
       const auto& name = deck.scene.nodes.at(label.entity).front();
       const auto& part = deck.scene.contents[static_cast<std::size_t>(name.part)];
-      who = full.componentNames[static_cast<std::size_t>(label.component)] + " of node " + std::to_string(name.node) + " of part \"" + part.part.name + "\" (" + part.file + ")";
+      who = full.componentNames[static_cast<std::size_t>(label.component)] + " of node " + std::to_string(name.node) +
+            " of part \"" + part.part.name + "\" (" + part.file + ")";
     }
-    throw ModelError(deck.deck.error("Transient/Integrator", "is \"" + deck.list().sublist("Transient").get<std::string>("Integrator") + "\", which needs a mass at every dof, but " +
-                                                                 who + " has none. Take Generalized-alpha, or give that dof a mass."));
+    throw ModelError(deck.deck.error("Transient/Integrator", "is \"" +
+                                                                 deck.list().sublist("Transient").get<std::string>("Integrator") +
+                                                                 "\", which needs a mass at every dof, but " + who +
+                                                                 " has none. Take Generalized-alpha, or give that dof a mass."));
   }
 }
 
@@ -139,8 +152,8 @@ std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole
   std::set<std::string> files;
   for (const auto& content : deck.scene.contents) files.insert(content.file);
   char text[256];
-  std::snprintf(text, sizeof text, "parts       %zu from %zu file%s, %zu nodes, %d dofs, %d when joined", deck.scene.parts.size(), files.size(), files.size() == 1 ? "" : "s",
-                deck.scene.nodes.size(), deck.scene.dofs(), whole.model.size());
+  std::snprintf(text, sizeof text, "parts       %zu from %zu file%s, %zu nodes, %d dofs, %d when joined", deck.scene.parts.size(),
+                files.size(), files.size() == 1 ? "" : "s", deck.scene.nodes.size(), deck.scene.dofs(), whole.model.size());
   return text;
 }
 

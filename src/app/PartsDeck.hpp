@@ -37,7 +37,8 @@ struct PartsDeck {
   coupling::Coupling whole() const;
 };
 
-/// Reads deck and files, puts the parts together and finds the state they start from. DeckError, ModelError, ConvergenceError, FileError. Collective.
+/// Reads deck and files, puts the parts together and finds the state they start from. DeckError, ModelError, ConvergenceError,
+/// FileError. Collective.
 PartsDeck readPartsDeck(const RunOptions& options);
 
 /// "parts       5 parts from 2 files, 40 nodes, 117 dofs, 105 when joined".

@@ -24,15 +24,16 @@ std::string fileName(std::string name) {
 
 }  // namespace
 
-void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced, io::ExportFormat format,
-                 const std::string& folder) {
+void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced,
+                 io::ExportFormat format, const std::string& folder) {
   if (format == io::ExportFormat::None) return;
   std::set<std::string> names;
   std::vector<std::string> written;
   for (const auto& part : reduced) {
     std::string name = fileName(part.name);
     if (!names.insert(name).second)
-      throw DeckError("Two parts would be exported into the file \"" + name + "\": their names differ only in characters that file names cannot hold. Rename one.");
+      throw DeckError("Two parts would be exported into the file \"" + name +
+                      "\": their names differ only in characters that file names cannot hold. Rename one.");
     written.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
   }
   parallel::agree([&] {
@@ -44,7 +45,8 @@ void exportParts(const std::vector<parts::PartContent>& originals, const std::ve
     for (std::size_t p = 0; p < reduced.size(); ++p) {
       const auto content = parts::reducedContent(originals[p], reduced[p]);
       for (const auto& law : content.omitted)
-        log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law + "\", which a part file cannot hold.");
+        log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
+                  "\", which a part file cannot hold.");
       parts::writePart(content, (std::filesystem::path(folder) / written[p]).string(),
                        format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
     }

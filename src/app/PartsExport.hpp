@@ -13,9 +13,9 @@
 
 namespace tooljoint::app {
 
-/// Writes every reduced part into `folder`: NAME.h5, or a folder NAME; nothing for ExportFormat::None. Says what was written, and warns of point
-/// laws that a file cannot hold. FileError, ModelError. Collective.
-void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced, io::ExportFormat format,
-                 const std::string& folder);
+/// Writes every reduced part into `folder`: NAME.h5, or a folder NAME; nothing for ExportFormat::None. Says what was written, and
+/// warns of point laws that a file cannot hold. FileError, ModelError. Collective.
+void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced,
+                 io::ExportFormat format, const std::string& folder);
 
 }  // namespace tooljoint::app

@@ -49,21 +49,25 @@ PartsRecorder::PartsRecorder(const PartsDeck& deck, const model::SecondOrderMode
   const auto nodes = model.recoveryNodes.size(), width = model.componentNames.size();
   time_ = &file.series("/transient/time", {}, "s", "Time of the samples");
   const auto& output = deck.output;
-  if (output.hasField("displacement")) displacementSeries_ = add("/transient/displacement", nodes, width, "m, rad", "Displacements in the common frame");
+  if (output.hasField("displacement"))
+    displacementSeries_ = add("/transient/displacement", nodes, width, "m, rad", "Displacements in the common frame");
   if (output.hasField("velocity")) velocitySeries_ = add("/transient/velocity", nodes, width, "m/s, rad/s", "Velocities");
-  if (output.hasField("acceleration")) accelerationSeries_ = add("/transient/acceleration", nodes, width, "m/s2, rad/s2", "Accelerations");
+  if (output.hasField("acceleration"))
+    accelerationSeries_ = add("/transient/acceleration", nodes, width, "m/s2, rad/s2", "Accelerations");
   if (!output.hasField("normal_force")) return;
   for (const auto& set : model.points) {
     Points points{&set, {}, set.offset, set.offset, {}};
     const auto channels = set.law->channels();
     for (const auto& channel : channels)
-      points.channels.push_back(add("/transient/" + plain(set.name) + "/" + channel.name, static_cast<std::size_t>(set.law->size()), 0, channel.unit, channel.longName));
+      points.channels.push_back(add("/transient/" + plain(set.name) + "/" + channel.name,
+                                    static_cast<std::size_t>(set.law->size()), 0, channel.unit, channel.longName));
     points.values.resize(static_cast<Eigen::Index>(channels.size()) * set.law->size());
     points_.push_back(std::move(points));
   }
 }
 
-io::TimeSeries* PartsRecorder::add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit, const std::string& longName) {
+io::TimeSeries* PartsRecorder::add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit,
+                                   const std::string& longName) {
   auto* series = &file_.series(path, columns > 0 ? io::Shape{rows, columns} : io::Shape{rows}, unit, longName);
   fields_.push_back({path, series});
   return series;
@@ -85,7 +89,8 @@ void PartsRecorder::sample(double t, const Vector& q, const Vector& qDot, const 
     points.d = points.set->offset + points.set->rows * q;
     points.v = points.set->rows * qDot;
     points.set->law->record(t, points.d.data(), points.v.data(), points.values.data());
-    for (std::size_t c = 0; c < points.channels.size(); ++c) points.channels[c]->append(points.values.data() + c * static_cast<std::size_t>(points.set->law->size()));
+    for (std::size_t c = 0; c < points.channels.size(); ++c)
+      points.channels[c]->append(points.values.data() + c * static_cast<std::size_t>(points.set->law->size()));
   }
 }
 
@@ -94,7 +99,8 @@ void PartsRecorder::measure(double t, const double* displacement) {
   const auto width = model_.componentNames.size();
   std::vector<double> row(width + 1, 0.0);
   row[0] = t;
-  for (std::size_t i = 0; i < model_.recoveryNodes.size() * width; ++i) row[1 + i % width] = std::max(row[1 + i % width], std::abs(displacement[i]));
+  for (std::size_t i = 0; i < model_.recoveryNodes.size() * width; ++i)
+    row[1 + i % width] = std::max(row[1 + i % width], std::abs(displacement[i]));
   for (std::size_t c = 1; c < row.size(); ++c) largest_ = std::max(largest_, row[c]);
   table_.row(row);
   if (++samples_ % flushEvery == 0) file_.flush();
@@ -108,12 +114,16 @@ RecordedParts::RecordedParts(const std::string& resultsFile, const std::vector<s
 
 void PartsRecorder::replay(const RecordedParts& motion, std::size_t samples) {
   if (motion.time.size() < samples || !displacementSeries_)
-    throw FileError("The results to go on from hold fewer samples than their checkpoint, or no displacements; keep \"displacement\" in Output/Fields.");
+    throw FileError(
+        "The results to go on from hold fewer samples than their checkpoint, or no displacements; keep \"displacement\" in "
+        "Output/Fields.");
   for (std::size_t f = 0; f < fields_.size(); ++f)
-    if (motion.values[f].size() < samples * fields_[f].series->rowSize()) throw FileError("The results to go on from have another " + fields_[f].path + ".");
+    if (motion.values[f].size() < samples * fields_[f].series->rowSize())
+      throw FileError("The results to go on from have another " + fields_[f].path + ".");
   for (std::size_t i = 0; i < samples; ++i) {
     measure(motion.time[i], motion.values[0].data() + i * fields_[0].series->rowSize());
-    for (std::size_t f = 0; f < fields_.size(); ++f) fields_[f].series->append(motion.values[f].data() + i * fields_[f].series->rowSize());
+    for (std::size_t f = 0; f < fields_.size(); ++f)
+      fields_[f].series->append(motion.values[f].data() + i * fields_[f].series->rowSize());
   }
 }
 

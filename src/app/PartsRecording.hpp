@@ -51,7 +51,8 @@ class PartsRecorder : public transient::SampleSink {
     std::vector<io::TimeSeries*> channels;
     Vector d, v, values;
   };
-  io::TimeSeries* add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit, const std::string& longName);
+  io::TimeSeries* add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit,
+                      const std::string& longName);
   void measure(double t, const double* displacement);
 
   const model::SecondOrderModel& model_;

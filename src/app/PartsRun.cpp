@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <sys/resource.h>
 
 #include "app/PartsDeck.hpp"
 #include "app/PartsExport.hpp"
@@ -21,13 +20,16 @@
 
 namespace tooljoint::app {
 
-Vector restOf(const coupling::Coupling& whole) { return whole.model.recoveryOffset + whole.model.recovery * whole.model.initialDisplacement; }
+Vector restOf(const coupling::Coupling& whole) {
+  return whole.model.recoveryOffset + whole.model.recovery * whole.model.initialDisplacement;
+}
 
 estimate::MotionOptions motionOptions(const model::SecondOrderModel& model) {
   estimate::MotionOptions options;
   options.components.clear();
   for (int c = 0; c < static_cast<int>(model.componentNames.size()); ++c)
-    if (coupling::kindOf(model.componentNames[static_cast<std::size_t>(c)]) == coupling::ComponentKind::Translation) options.components.push_back(c);
+    if (coupling::kindOf(model.componentNames[static_cast<std::size_t>(c)]) == coupling::ComponentKind::Translation)
+      options.components.push_back(c);
   if (options.components.empty())
     for (int c = 0; c < static_cast<int>(model.componentNames.size()); ++c) options.components.push_back(c);
   return options;
@@ -76,9 +78,10 @@ class PartsRun {
     parallel::agree([&] {
       folder_.emplace(resultsFolder(options_, deck_));
       if (!options_.restart.empty()) readRestart();
-      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"),
-                                                io::Provenance{deck_.deck.file(), deck_.deck.text(), deck_.deck.sha256(), deck_.deck.overrides()},
-                                                io::ResultsOptions{deck_.output.compression});
+      file_ = std::make_unique<io::ResultsFile>(
+          folder_->file("results.h5"),
+          io::Provenance{deck_.deck.file(), deck_.deck.text(), deck_.deck.sha256(), deck_.deck.overrides()},
+          io::ResultsOptions{deck_.output.compression});
     });
     try {
       stages();
@@ -105,8 +108,8 @@ class PartsRun {
     const Vector rest = restOf(whole_);
     parallel::agree([&] {
       writePartsModel(deck_, whole_.model, *file_);
-      file_->write("/static/displacement", rest, {whole_.model.recoveryNodes.size(), whole_.model.componentNames.size()}, "m, rad",
-                   "Displacements at the start, in the common frame");
+      file_->write("/static/displacement", rest, {whole_.model.recoveryNodes.size(), whole_.model.componentNames.size()},
+                   "m, rad", "Displacements at the start, in the common frame");
       file_->flush();
     });
     if (deck_.settings.atRest) summary_.set("static.converged", true);
@@ -119,13 +122,15 @@ class PartsRun {
   void warnOfOmitted() const {
     for (const auto& content : deck_.scene.contents)
       for (const auto& law : content.omitted)
-        log::warn("Part \"" + content.part.name + "\" (" + content.file + ") had the point law \"" + law + "\" where it came from; it is not in the file.");
+        log::warn("Part \"" + content.part.name + "\" (" + content.file + ") had the point law \"" + law +
+                  "\" where it came from; it is not in the file.");
   }
 
   void reduce() {
     const auto start = Clock::now();
     const auto& list = deck_.list().sublist("Reduction");
-    outcome_ = estimate::synthesise(deck_.scene.parts, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); }, deck_.scene.coupling);
+    outcome_ = estimate::synthesise(
+        deck_.scene.parts, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); }, deck_.scene.coupling);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -141,7 +146,8 @@ class PartsRun {
       if (deck_.output.csv) stageBasisTable(reduced, *folder_);
       if (deck_.output.reducedBases) writeBases(reduced, *file_);
     });
-    exportParts(deck_.scene.contents, reduced, deck_.output.exportFormat, (std::filesystem::path(folder_->folder()) / "parts").string());
+    exportParts(deck_.scene.contents, reduced, deck_.output.exportFormat,
+                (std::filesystem::path(folder_->folder()) / "parts").string());
   }
 
   estimate::MotionEstimate probe(const coupling::Synthesis& synthesis) {
@@ -166,12 +172,15 @@ class PartsRun {
       if (parallel::rank() == 0) checkpoint.write(checkpointFile());
     };
     const bool estimates = estimatesMotion_ && !restartFile_;
-    if (estimatesMotion_ && restartFile_) log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
-    const auto report = estimates ? integrateEstimating(model, hooks) : transient::integrate(model, transientList(), *recorder_, hooks);
+    if (estimatesMotion_ && restartFile_)
+      log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
+    const auto report =
+        estimates ? integrateEstimating(model, hooks) : transient::integrate(model, transientList(), *recorder_, hooks);
     summariseMotion(report);
     if (report.interrupted)
-      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " + folder_->folder() +
-                             "; go on with: tooljoint run " + options_.deck + " --restart " + folder_->folder());
+      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " +
+                             folder_->folder() + "; go on with: tooljoint run " + options_.deck + " --restart " +
+                             folder_->folder());
     if (deck_.output.csv) recorder_->stageTable(*folder_);
   }
 
@@ -201,8 +210,11 @@ class PartsRun {
     summary_.set("transient.max_displacement", recorder_->largestDisplacement());
     if (report.hasEnergy) summary_.set("transient.energy_residual", report.energy.residual());
     char text[400];
-    std::snprintf(text, sizeof text, "transient   %s, %g to %g s: %ld steps in %.2f s wall; %ld Newton iterations, %ld unconverged steps; largest displacement %.4g",
-                  report.integrator.c_str(), report.start, report.end, c.steps, report.wall, c.newtonIterations, c.unconvergedSteps, recorder_->largestDisplacement());
+    std::snprintf(text, sizeof text,
+                  "transient   %s, %g to %g s: %ld steps in %.2f s wall; %ld Newton iterations, %ld unconverged steps; largest "
+                  "displacement %.4g",
+                  report.integrator.c_str(), report.start, report.end, c.steps, report.wall, c.newtonIterations,
+                  c.unconvergedSteps, recorder_->largestDisplacement());
     log::info(text);
   }
 
@@ -243,7 +255,8 @@ class PartsRun {
   void readRestart() {
     const auto folder = std::filesystem::path(options_.restart);
     if (!std::filesystem::exists(folder / kCheckpoint))
-      throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint + ". --restart goes on from the folder of an interrupted run.");
+      throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint +
+                      ". --restart goes on from the folder of an interrupted run.");
     for (const char* name : {"results.h5.part", "results.h5"}) {
       const auto file = (folder / name).string();
       if (restartFile_ || !std::filesystem::exists(file)) continue;
@@ -251,7 +264,8 @@ class PartsRun {
       for (const char* field : {"displacement", "velocity", "acceleration"})
         if (deck_.output.hasField(field)) series.push_back(std::string("/transient/") + field);
       if (deck_.output.hasField("normal_force") && !deck_.scene.coupling.connections.connectors.empty())
-        throw FileError("A run with point laws between parts goes on only without \"normal_force\" in Output/Fields; start it anew.");
+        throw FileError(
+            "A run with point laws between parts goes on only without \"normal_force\" in Output/Fields; start it anew.");
       restartFile_ = std::make_unique<RecordedParts>(file, series);
     }
     if (!restartFile_) throw FileError("\"" + options_.restart + "\" holds no results to go on from.");

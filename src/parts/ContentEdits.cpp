@@ -13,14 +13,16 @@ using model::DofLabel;
 
 std::string dofName(const model::SecondOrderModel& m, int position) {
   const auto& label = m.dofs[static_cast<std::size_t>(position)];
-  return label.kind == DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1) : model::describe(label, m.componentNames);
+  return label.kind == DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1)
+                                             : model::describe(label, m.componentNames);
 }
 
 void widen(PartContent& content, const model::ComponentNames& names) {
   auto& m = content.part.model;
   if (m.componentNames == names) return;
   std::vector<int> to;
-  for (const auto& name : m.componentNames) to.push_back(static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
+  for (const auto& name : m.componentNames)
+    to.push_back(static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
   for (auto* labels : {&m.dofs, &content.basis.dofs})
     for (auto& label : *labels)
       if (label.kind == DofLabel::Kind::Physical) label.component = to[static_cast<std::size_t>(label.component)];
@@ -84,19 +86,22 @@ std::vector<std::string> words(const std::string& text) {
 }
 
 /// Only those of `positions` with one of the components named.
-std::vector<int> filtered(const PartContent& content, const std::vector<int>& positions, const std::vector<std::string>& components, const std::string& who) {
+std::vector<int> filtered(const PartContent& content, const std::vector<int>& positions,
+                          const std::vector<std::string>& components, const std::string& who) {
   if (components.empty()) return positions;
   const auto& m = content.part.model;
   std::vector<int> out;
   for (const auto& name : components) {
     const auto it = std::find(m.componentNames.begin(), m.componentNames.end(), name);
     if (it == m.componentNames.end())
-      throw DeckError("names the component \"" + name + "\"; those of part \"" + content.part.name + "\" are " + quotedList(m.componentNames));
+      throw DeckError("names the component \"" + name + "\"; those of part \"" + content.part.name + "\" are " +
+                      quotedList(m.componentNames));
     const auto component = static_cast<int>(it - m.componentNames.begin());
     const std::size_t before = out.size();
     for (int i : positions)
       if (m.dofs[static_cast<std::size_t>(i)].component == component) out.push_back(i);
-    if (out.size() == before) throw DeckError("names " + name + " of " + who + ", which part \"" + content.part.name + "\" does not have");
+    if (out.size() == before)
+      throw DeckError("names " + name + " of " + who + ", which part \"" + content.part.name + "\" does not have");
   }
   return out;
 }
@@ -109,7 +114,8 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
   for (std::size_t length = all.size(); length > 0; --length) {  // names of sets may hold blanks
     const std::string name = join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
     for (const auto& set : content.interfaces)
-      if (set.name == name) return filtered(content, set.dofs, {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()}, "\"" + name + "\"");
+      if (set.name == name)
+        return filtered(content, set.dofs, {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()}, "\"" + name + "\"");
   }
   const auto& first = all.front();
   if (first.find_first_not_of("0123456789") != std::string::npos || first.size() > 15) {
@@ -117,14 +123,19 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
     for (const auto& set : content.interfaces) sets.push_back(set.name);
     const auto meant = closest(first, sets);
     throw DeckError("names \"" + text + "\", which is no node and no interface set of part \"" + content.part.name + "\"" +
-                    (!meant.empty() ? ". Did you mean \"" + meant + "\"?" : sets.empty() ? "; it has no sets" : "; its sets are " + quotedList(sets)));
+                    (!meant.empty() ? ". Did you mean \"" + meant + "\"?"
+                     : sets.empty() ? "; it has no sets"
+                                    : "; its sets are " + quotedList(sets)));
   }
   const std::int64_t node = std::stoll(first);
   std::vector<int> positions;
   const auto& m = content.part.model;
   for (int i = 0; i < m.size(); ++i)
-    if (const auto& label = m.dofs[static_cast<std::size_t>(i)]; label.kind == DofLabel::Kind::Physical && label.entity == node) positions.push_back(i);
-  if (positions.empty()) throw DeckError("names node " + first + ", which part \"" + content.part.name + "\" (" + content.file + ") does not have as a dof");
+    if (const auto& label = m.dofs[static_cast<std::size_t>(i)]; label.kind == DofLabel::Kind::Physical && label.entity == node)
+      positions.push_back(i);
+  if (positions.empty())
+    throw DeckError("names node " + first + ", which part \"" + content.part.name + "\" (" + content.file +
+                    ") does not have as a dof");
   return filtered(content, positions, {all.begin() + 1, all.end()}, "node " + first);
 }
 

@@ -65,7 +65,8 @@ class Hdf5Source : public PartSource {
     const auto shape = shapeOf(path);
     const auto values = numbers(path);
     const std::size_t width = shape.size() == 2 ? shape[1] : 1;
-    if (shape.empty() || shape.size() > 2 || width < 1 || width > 2) fail(path, "should be a list of nodes, or rows (node, component)");
+    if (shape.empty() || shape.size() > 2 || width < 1 || width > 2)
+      fail(path, "should be a list of nodes, or rows (node, component)");
     std::vector<DofName> out(values.size() / width);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].node = whole(path, values[i * width]);
@@ -106,7 +107,9 @@ class Hdf5Source : public PartSource {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& path, const std::string& what) const { throw DeckError(file_ + ": \"" + path + "\" " + what + "."); }
+  [[noreturn]] void fail(const std::string& path, const std::string& what) const {
+    throw DeckError(file_ + ": \"" + path + "\" " + what + ".");
+  }
 
   /// What the reader says of a results file is said of a file of the deck here.
   template <class Work>
@@ -124,7 +127,8 @@ class Hdf5Source : public PartSource {
     if (datasets_.count(path) == 0) fail(path, isGroup(path) ? "should be a dataset, and is a group" : "is missing");
   }
   std::int64_t whole(const std::string& path, double value) const {
-    if (!(std::abs(value) < 2147483648.0) || value != std::floor(value)) fail(path, "holds " + formatNumber(value) + ", expected whole numbers");
+    if (!(std::abs(value) < 2147483648.0) || value != std::floor(value))
+      fail(path, "holds " + formatNumber(value) + ", expected whole numbers");
     return static_cast<std::int64_t>(value);
   }
   bool isGroup(const std::string& path) const {
@@ -132,7 +136,9 @@ class Hdf5Source : public PartSource {
     return next != datasets_.end() && next->compare(0, path.size() + 1, path + "/") == 0;
   }
   bool isCoordinates(const std::string& path) const { return datasets_.count(path + "/value") > 0; }
-  bool isAttribute(const std::string& path) const { return path.find('/') == std::string::npos && reader_->hasAttribute("/", path); }
+  bool isAttribute(const std::string& path) const {
+    return path.find('/') == std::string::npos && reader_->hasAttribute("/", path);
+  }
 
   std::vector<std::size_t> shapeOf(const std::string& path) const {
     std::vector<std::size_t> shape;
@@ -148,8 +154,8 @@ class Hdf5Source : public PartSource {
 
   void checkFinite(const std::string& path, int row, int column, double value) const {
     if (std::isfinite(value)) return;
-    throw io::MatrixFileError(file_ + ": the entry of \"" + path + "\" in row " + std::to_string(row + 1) + ", column " + std::to_string(column + 1) + " is " +
-                                  formatNumber(value) + ", which is no finite number.",
+    throw io::MatrixFileError(file_ + ": the entry of \"" + path + "\" in row " + std::to_string(row + 1) + ", column " +
+                                  std::to_string(column + 1) + " is " + formatNumber(value) + ", which is no finite number.",
                               row, column);
   }
 
@@ -157,7 +163,8 @@ class Hdf5Source : public PartSource {
     if (!isCoordinates(path)) fail(path, "should be a dataset, or a group with row, column and value");
     const auto values = numbers(path + "/value"), rows = numbers(path + "/row"), columns = numbers(path + "/column");
     if (rows.size() != values.size() || columns.size() != values.size())
-      fail(path, "has " + std::to_string(values.size()) + " values, " + std::to_string(rows.size()) + " rows and " + std::to_string(columns.size()) + " columns");
+      fail(path, "has " + std::to_string(values.size()) + " values, " + std::to_string(rows.size()) + " rows and " +
+                     std::to_string(columns.size()) + " columns");
     double height = 0, width = 0;
     if (datasets_.count(path + "/shape") > 0) {
       const auto shape = numbers(path + "/shape");
@@ -172,8 +179,8 @@ class Hdf5Source : public PartSource {
       whole(path + "/row", rows[i]);
       whole(path + "/column", columns[i]);
       if (!(rows[i] >= 0 && rows[i] < height && columns[i] >= 0 && columns[i] < width))
-        fail(path, "has an entry in row " + formatNumber(rows[i]) + ", column " + formatNumber(columns[i]) + " (counted from 0), outside of the " +
-                       formatNumber(height) + " x " + formatNumber(width) + " matrix");
+        fail(path, "has an entry in row " + formatNumber(rows[i]) + ", column " + formatNumber(columns[i]) +
+                       " (counted from 0), outside of the " + formatNumber(height) + " x " + formatNumber(width) + " matrix");
       checkFinite(path, static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);
       entries.emplace_back(static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);
     }

@@ -27,8 +27,8 @@ class JointReader {
   JointReader(const std::vector<PartContent>& parts, const std::set<std::pair<int, model::DofLabel>>& held, std::string where)
       : parts_(parts), held_(held), where_(std::move(where)) {}
 
-  /// DeckError naming the text: unknown part, node or set; sets of different lengths; a dof that is fixed on one side and free on the
-  /// other; nothing in common.
+  /// DeckError naming the text: unknown part, node or set; sets of different lengths; a dof that is fixed on one side and free on
+  /// the other; nothing in common.
   ReadJoint read(const std::string& text) const;
 
  private:

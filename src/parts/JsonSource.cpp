@@ -81,7 +81,9 @@ class JsonSource : public PartSource {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& path, const std::string& what) const { throw DeckError(file_ + ": \"" + path + "\" " + what + "."); }
+  [[noreturn]] void fail(const std::string& path, const std::string& what) const {
+    throw DeckError(file_ + ": \"" + path + "\" " + what + ".");
+  }
 
   const Json* find(const std::string& path) const {
     const Json* value = &root_;
@@ -132,16 +134,20 @@ class JsonSource : public PartSource {
   Sparse matrixOf(const std::string& path, const Json& value) const {
     if (value.is_string()) {
       const std::filesystem::path name = value.get<std::string>();
-      return io::readMatrixMarket(name.is_absolute() ? name.string() : (std::filesystem::path(file_).parent_path() / name).string());
+      return io::readMatrixMarket(name.is_absolute() ? name.string()
+                                                     : (std::filesystem::path(file_).parent_path() / name).string());
     }
     if (!value.is_array() || value.empty()) fail(path, "should be the name of a Matrix Market file or a list of rows");
     const auto columns = value[0].is_array() ? value[0].size() : 1;
     Triplets entries;
     for (std::size_t i = 0; i < value.size(); ++i) {
       const Json row = value[i].is_array() ? value[i] : Json::array({value[i]});
-      if (row.size() != columns) fail(path, "has rows of different lengths: " + std::to_string(columns) + " and " + std::to_string(row.size()) + " numbers");
+      if (row.size() != columns)
+        fail(path,
+             "has rows of different lengths: " + std::to_string(columns) + " and " + std::to_string(row.size()) + " numbers");
       for (std::size_t j = 0; j < columns; ++j) {
-        if (!row[j].is_number()) fail(path, "has an entry in row " + std::to_string(i + 1) + " that is no number: " + row[j].dump());
+        if (!row[j].is_number())
+          fail(path, "has an entry in row " + std::to_string(i + 1) + " that is no number: " + row[j].dump());
         entries.emplace_back(static_cast<int>(i), static_cast<int>(j), row[j].get<double>());
       }
     }
@@ -173,7 +179,8 @@ class JsonSource : public PartSource {
   }
 
   DofName fromRow(const std::string& path, const Vector& row) const {
-    if (row.size() > 2 || (row.array() != row.array().round()).any()) fail(path, "should have rows \"node\" or \"node component\" of whole numbers");
+    if (row.size() > 2 || (row.array() != row.array().round()).any())
+      fail(path, "should have rows \"node\" or \"node component\" of whole numbers");
     DofName dof;
     dof.node = static_cast<std::int64_t>(row[0]);
     if (row.size() == 2) dof.number = static_cast<int>(row[1]);

@@ -27,7 +27,8 @@ class MassCheck {
   std::string dof(Eigen::Index i) const {
     const auto& m = content_.part.model;
     const auto& label = m.dofs[static_cast<std::size_t>(i)];
-    return label.kind == model::DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1) : model::describe(label, m.componentNames);
+    return label.kind == model::DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1)
+                                                      : model::describe(label, m.componentNames);
   }
   [[noreturn]] void fail(const std::string& what) const {
     throw ModelError("Part \"" + content_.part.name + "\" (" + content_.file + "): its mass " + what);
@@ -51,15 +52,18 @@ class MassCheck {
         column = it.col();
       }
     if (worst <= rounding) return;
-    fail("is not symmetric: " + formatNumber(M_.coeff(row, column)) + " in the row of " + dof(row) + " and the column of " + dof(column) + ", but " +
-         formatNumber(M_.coeff(column, row)) + " the other way round. Write both triangles alike, or one of them in a symmetric file.");
+    fail("is not symmetric: " + formatNumber(M_.coeff(row, column)) + " in the row of " + dof(row) + " and the column of " +
+         dof(column) + ", but " + formatNumber(M_.coeff(column, row)) +
+         " the other way round. Write both triangles alike, or one of them in a symmetric file.");
   }
 
   /// No negative pivot of S M S + 1e-10, S scaling the diagonal to 1.
   void definite() const {
     const Vector diagonal = M_.diagonal();
     for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-      if (diagonal[i] < 0.0) fail("is indefinite: " + formatNumber(diagonal[i]) + " on the diagonal of " + dof(i) + ". Kinetic energy is never negative.");
+      if (diagonal[i] < 0.0)
+        fail("is indefinite: " + formatNumber(diagonal[i]) + " on the diagonal of " + dof(i) +
+             ". Kinetic energy is never negative.");
     Vector scale(diagonal.size());
     for (Eigen::Index i = 0; i < diagonal.size(); ++i) scale[i] = diagonal[i] > 0.0 ? 1.0 / std::sqrt(diagonal[i]) : 0.0;
     for (int i = 0; i < M_.rows(); ++i)

@@ -16,9 +16,10 @@ namespace {
 
 using model::DofLabel;
 
-const std::vector<std::string> knownNames{"format",    "name",      "components", "dofs",      "mass",    "damping",
-                                          "stiffness", "loads",     "interfaces", "retained",  "reference", "initial_displacement",
-                                          "initial_velocity", "positions", "basis", "omitted"};
+const std::vector<std::string> knownNames{
+    "format",           "name",      "components", "dofs",     "mass",      "damping",
+    "stiffness",        "loads",     "interfaces", "retained", "reference", "initial_displacement",
+    "initial_velocity", "positions", "basis",      "omitted"};
 
 std::string shapeText(Eigen::Index rows, Eigen::Index columns) { return std::to_string(rows) + " x " + std::to_string(columns); }
 
@@ -79,7 +80,8 @@ class Reader {
     for (const auto& name : source_->names("")) {
       if (std::find(knownNames.begin(), knownNames.end(), name) != knownNames.end()) continue;
       const auto meant = closest(name, knownNames);
-      fail(name, "is nothing a part file holds" + (meant.empty() ? "; known are " + quotedList(knownNames) : ". Did you mean \"" + meant + "\"?"));
+      fail(name, "is nothing a part file holds" +
+                     (meant.empty() ? "; known are " + quotedList(knownNames) : ". Did you mean \"" + meant + "\"?"));
     }
     for (const char* needed : {"components", "dofs", "mass", "stiffness"})
       if (!source_->has(needed)) fail(needed, "is missing: a part has \"components\", \"dofs\", \"mass\" and \"stiffness\"");
@@ -101,12 +103,13 @@ class Reader {
     if (!dof.component.empty()) {
       const auto it = std::find(names.begin(), names.end(), dof.component);
       if (it == names.end())
-        fail(path, "names the component \"" + dof.component + "\" of node " + std::to_string(dof.node) + "; the components are " + quotedList(names));
+        fail(path, "names the component \"" + dof.component + "\" of node " + std::to_string(dof.node) + "; the components are " +
+                       quotedList(names));
       return static_cast<int>(it - names.begin());
     }
     if (dof.number < 1 || dof.number > static_cast<int>(names.size()))
-      fail(path, "names component " + std::to_string(dof.number) + " of node " + std::to_string(dof.node) + "; components are numbered 1 to " +
-                     std::to_string(names.size()));
+      fail(path, "names component " + std::to_string(dof.number) + " of node " + std::to_string(dof.node) +
+                     "; components are numbered 1 to " + std::to_string(names.size()));
     return dof.number - 1;
   }
 
@@ -116,7 +119,8 @@ class Reader {
       return DofLabel::modal(0, dof.number - 1);
     }
     if (dof.node < 1) fail(path, "names node " + std::to_string(dof.node) + "; nodes are numbered from 1");
-    if (dof.whole()) fail(path, "names node " + std::to_string(dof.node) + " without a component; a dof is a node and a component");
+    if (dof.whole())
+      fail(path, "names node " + std::to_string(dof.node) + " without a component; a dof is a node and a component");
     return DofLabel::physical(dof.node, component(path, dof));
   }
 
@@ -131,8 +135,8 @@ class Reader {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto [it, isNew] = seen.emplace(all[i], i);
       if (!isNew)
-        fail(path, "gives " + describe(all[i]) + " twice, as dof " + std::to_string(it->second + 1) + " and as dof " + std::to_string(i + 1) +
-                       ". Every dof has a label of its own");
+        fail(path, "gives " + describe(all[i]) + " twice, as dof " + std::to_string(it->second + 1) + " and as dof " +
+                       std::to_string(i + 1) + ". Every dof has a label of its own");
     }
   }
 
@@ -147,7 +151,8 @@ class Reader {
       if (terms.empty()) fail(path, "is empty");
       std::set<std::pair<std::string, std::string>> names;
       for (const auto& term : terms)
-        if (!names.emplace(term.name, term.law).second) fail(path, "has two terms of the name \"" + term.name + "\" and the law \"" + term.law + "\"");
+        if (!names.emplace(term.name, term.law).second)
+          fail(path, "has two terms of the name \"" + term.name + "\" and the law \"" + term.law + "\"");
       return terms;
     } catch (const io::MatrixFileError& fault) {
       throw explained(fault);
@@ -159,7 +164,8 @@ class Reader {
     const auto& dofs = content_.part.model.dofs;
     if (fault.row >= 0 && fault.row < size()) {
       where = " That is the row of " + describe(dofs[static_cast<std::size_t>(fault.row)]);
-      if (fault.column >= 0 && fault.column < size()) where += " and the column of " + describe(dofs[static_cast<std::size_t>(fault.column)]);
+      if (fault.column >= 0 && fault.column < size())
+        where += " and the column of " + describe(dofs[static_cast<std::size_t>(fault.column)]);
       where += ".";
     }
     return DeckError("Part \"" + name_ + "\": " + fault.what() + where);
@@ -169,7 +175,9 @@ class Reader {
     auto terms = termsOf(path);
     for (const auto& term : terms) {
       const auto rows = term.matrix.rows(), columns = term.matrix.cols();
-      if (rows != columns) fail(term.where, "is " + shapeText(rows, columns) + ", which is not square; the part has " + std::to_string(size()) + " dofs");
+      if (rows != columns)
+        fail(term.where,
+             "is " + shapeText(rows, columns) + ", which is not square; the part has " + std::to_string(size()) + " dofs");
       if (rows != size())
         fail(term.where, "is " + shapeText(rows, columns) + ", but \"dofs\" names " + std::to_string(size()) +
                              " dofs. Every row of the matrices needs its label, and every label a row");
@@ -185,14 +193,16 @@ class Reader {
       throw explained(fault);
     }
     if (values.cols() != 1 || values.rows() != rows)
-      fail(path, "is " + shapeText(values.rows(), values.cols()) + ", expected " + std::to_string(rows) + " numbers in one column");
+      fail(path,
+           "is " + shapeText(values.rows(), values.cols()) + ", expected " + std::to_string(rows) + " numbers in one column");
     return values.col(0);
   }
 
   void readLoads() {
     for (const auto& term : termsOf("loads")) {
       if (term.matrix.cols() != 1 || term.matrix.rows() != size())
-        fail(term.where, "is " + shapeText(term.matrix.rows(), term.matrix.cols()) + ", expected " + std::to_string(size()) + " numbers in one column, one for each dof");
+        fail(term.where, "is " + shapeText(term.matrix.rows(), term.matrix.cols()) + ", expected " + std::to_string(size()) +
+                             " numbers in one column, one for each dof");
       content_.part.model.loads.push_back({term.name, Vector(Matrix(term.matrix).col(0)), law(term.law)});
     }
   }
@@ -201,9 +211,10 @@ class Reader {
     auto& part = content_.part;
     if (source_->has("reference")) part.reference = vectorOf("reference", size());
     part.model.initialDisplacement = source_->has("initial_displacement") ? vectorOf("initial_displacement", size())
-                                     : part.reference.size() > 0         ? part.reference
-                                                                         : Vector(Vector::Zero(size()));
-    part.model.initialVelocity = source_->has("initial_velocity") ? vectorOf("initial_velocity", size()) : Vector(Vector::Zero(size()));
+                                     : part.reference.size() > 0          ? part.reference
+                                                                          : Vector(Vector::Zero(size()));
+    part.model.initialVelocity =
+        source_->has("initial_velocity") ? vectorOf("initial_velocity", size()) : Vector(Vector::Zero(size()));
   }
 
   /// Positions of dofs and whole nodes, in the order given.
@@ -217,11 +228,13 @@ class Reader {
         if (it != positions_.end()) out.push_back(it->second);
       } else {
         for (int i = 0; i < size(); ++i)
-          if (const auto& l = dofs[static_cast<std::size_t>(i)]; l.kind == DofLabel::Kind::Physical && l.entity == one.node) out.push_back(i);
+          if (const auto& l = dofs[static_cast<std::size_t>(i)]; l.kind == DofLabel::Kind::Physical && l.entity == one.node)
+            out.push_back(i);
       }
       if (out.size() > before) continue;
       const std::string what = one.whole() ? "node " + std::to_string(one.node) : describe(label(path, one));
-      fail(path, "names " + what + ", but the part has no such " + (one.whole() ? "node" : "dof") + ": \"dofs\" does not list it" + nodeRange());
+      fail(path, "names " + what + ", but the part has no such " + (one.whole() ? "node" : "dof") +
+                     ": \"dofs\" does not list it" + nodeRange());
     }
     for (auto it = out.begin(); it != out.end(); ++it)
       if (std::find(out.begin(), it, *it) != it) fail(path, "names " + describe(dofs[static_cast<std::size_t>(*it)]) + " twice");
@@ -246,7 +259,8 @@ class Reader {
         InterfaceSet set{name, positions("interfaces/" + name), {}};
         for (int i : set.dofs) {
           const auto& l = part.model.dofs[static_cast<std::size_t>(i)];
-          if (l.kind == DofLabel::Kind::Modal) fail("interfaces/" + name, "names " + describe(l) + ", which no other part can have");
+          if (l.kind == DofLabel::Kind::Modal)
+            fail("interfaces/" + name, "names " + describe(l) + ", which no other part can have");
           if (std::find(set.nodes.begin(), set.nodes.end(), l.entity) == set.nodes.end()) set.nodes.push_back(l.entity);
           joined.insert(i);
         }
@@ -265,8 +279,10 @@ class Reader {
     if (rows.cols() != 4) fail("positions", "is " + shapeText(rows.rows(), rows.cols()) + ", expected rows \"node x y z\"");
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       const auto node = static_cast<std::int64_t>(rows(i, 0));
-      if (static_cast<double>(node) != rows(i, 0) || node < 1) fail("positions", "has " + formatNumber(rows(i, 0)) + " for a node in row " + std::to_string(i + 1));
-      if (!content_.positions.emplace(node, rows.row(i).tail(3).transpose()).second) fail("positions", "gives node " + std::to_string(node) + " twice");
+      if (static_cast<double>(node) != rows(i, 0) || node < 1)
+        fail("positions", "has " + formatNumber(rows(i, 0)) + " for a node in row " + std::to_string(i + 1));
+      if (!content_.positions.emplace(node, rows.row(i).tail(3).transpose()).second)
+        fail("positions", "gives node " + std::to_string(node) + " twice");
     }
   }
 
@@ -283,8 +299,8 @@ class Reader {
     }
     const auto rows = static_cast<Eigen::Index>(basis.dofs.size());
     if (basis.vectors.rows() != rows || basis.vectors.cols() != size())
-      fail("basis/vectors", "is " + shapeText(basis.vectors.rows(), basis.vectors.cols()) + ", expected " + shapeText(rows, size()) +
-                                ": a row for each of \"basis/dofs\" and a column for each of \"dofs\"");
+      fail("basis/vectors", "is " + shapeText(basis.vectors.rows(), basis.vectors.cols()) + ", expected " +
+                                shapeText(rows, size()) + ": a row for each of \"basis/dofs\" and a column for each of \"dofs\"");
     basis.offset = source_->has("basis/offset") ? vectorOf("basis/offset", rows) : Vector(Vector::Zero(rows));
   }
 
@@ -311,7 +327,8 @@ class Reader {
         continue;
       }
       m.recoveryOffset[row] = content_.basis.offset[i];
-      for (Sparse::InnerIterator it(content_.basis.vectors, i); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+      for (Sparse::InnerIterator it(content_.basis.vectors, i); it; ++it)
+        entries.emplace_back(row, static_cast<int>(it.col()), it.value());
     }
     m.recovery.resize(all, size());
     m.recovery.setFromTriplets(entries.begin(), entries.end());

@@ -21,7 +21,8 @@ const std::string& lawName(const model::SecondOrderModel& m, int law) { return m
 /// part.json and matrices beside it.
 class FolderWriter {
  public:
-  FolderWriter(const PartContent& content, const std::string& folder) : content_(content), m_(content.part.model), folder_(folder) {}
+  FolderWriter(const PartContent& content, const std::string& folder)
+      : content_(content), m_(content.part.model), folder_(folder) {}
 
   void write() {
     std::error_code failed;
@@ -76,13 +77,17 @@ class FolderWriter {
   Json terms(const std::string& kind, const std::vector<model::MatrixTerm>& all) const {
     Json out = Json::array();
     for (const auto& term : all)
-      out.push_back({{"name", term.name}, {"law", lawName(m_, term.law)}, {"matrix", matrix(kind + "_" + std::to_string(out.size() + 1) + ".mtx", term.matrix)}});
+      out.push_back({{"name", term.name},
+                     {"law", lawName(m_, term.law)},
+                     {"matrix", matrix(kind + "_" + std::to_string(out.size() + 1) + ".mtx", term.matrix)}});
     return out;
   }
   void loads() {
     Json out = Json::array();
     for (const auto& term : m_.loads)
-      out.push_back({{"name", term.name}, {"law", lawName(m_, term.law)}, {"vector", column("load_" + std::to_string(out.size() + 1) + ".mtx", term.vector)}});
+      out.push_back({{"name", term.name},
+                     {"law", lawName(m_, term.law)},
+                     {"vector", column("load_" + std::to_string(out.size() + 1) + ".mtx", term.vector)}});
     root_["loads"] = out;
   }
   void interfaces() {
@@ -98,7 +103,8 @@ class FolderWriter {
 /// One HDF5 file with the same names.
 class Hdf5Writer {
  public:
-  Hdf5Writer(const PartContent& content, const std::string& path) : content_(content), m_(content.part.model), file_(path, {}, {}) {}
+  Hdf5Writer(const PartContent& content, const std::string& path)
+      : content_(content), m_(content.part.model), file_(path, {}, {}) {}
 
   void write() {
     file_.write("/components", m_.componentNames, "Names of the components of a node");
@@ -107,9 +113,11 @@ class Hdf5Writer {
     terms("/stiffness", m_.stiffness);
     terms("/damping", m_.damping);
     for (std::size_t i = 0; i < m_.loads.size(); ++i) load(m_.loads[i]);
-    for (const auto& set : content_.interfaces) names("/interfaces/" + set.name, at(set.dofs), "Dofs that may be joined with those of another part");
+    for (const auto& set : content_.interfaces)
+      names("/interfaces/" + set.name, at(set.dofs), "Dofs that may be joined with those of another part");
     if (!content_.part.retained.empty()) names("/retained", at(content_.part.retained), "Dofs that a reduction keeps");
-    if (content_.part.reference.size() > 0) column("/reference", content_.part.reference, "m, rad", "State the matrices are taken about");
+    if (content_.part.reference.size() > 0)
+      column("/reference", content_.part.reference, "m, rad", "State the matrices are taken about");
     column("/initial_displacement", m_.initialDisplacement, "m, rad", "State at the start");
     column("/initial_velocity", m_.initialVelocity, "m/s, rad/s", "Velocity at the start");
     if (!content_.positions.empty()) positions();
@@ -151,7 +159,8 @@ class Hdf5Writer {
     file_.write(path + "/row", row, {count}, "1", longName + ": row of each entry, from 0");
     file_.write(path + "/column", column, {count}, "1", longName + ": column of each entry, from 0");
     file_.write(path + "/value", value, {count}, "1", longName + ": entries, SI");
-    file_.write(path + "/shape", std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1", longName + ": rows and columns");
+    file_.write(path + "/shape", std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1",
+                longName + ": rows and columns");
   }
   void column(const std::string& path, const Vector& values, const std::string& unit, const std::string& longName) {
     file_.write(path, values, {static_cast<std::size_t>(values.size())}, unit, longName);
@@ -165,7 +174,8 @@ class Hdf5Writer {
     }
   }
   void load(const model::LoadTerm& term) {
-    const std::string path = "/loads/" + plain(term.name) + (lawName(m_, term.law) == "1" ? "" : " times " + plain(lawName(m_, term.law)));
+    const std::string path =
+        "/loads/" + plain(term.name) + (lawName(m_, term.law) == "1" ? "" : " times " + plain(lawName(m_, term.law)));
     column(path, term.vector, "N, N m", "Load \"" + term.name + "\"");
     file_.attribute(path, "law", lawName(m_, term.law));
     file_.attribute(path, "name", term.name);

@@ -21,15 +21,18 @@ using Teuchos::ParameterList;
 ListSpec importedParameters() {
   return ListSpec("part", "A part from a file; the name of the list is its name. Several parts may come from one file.")
       .text("File", Required{},
-            "The part: a folder with part.json, a .json file, or an HDF5 file, relative to the deck; docs/file-formats.md describes them.")
+            "The part: a folder with part.json, a .json file, or an HDF5 file, relative to the deck; docs/file-formats.md "
+            "describes them.")
       .realArray("Rotation Axis", "", std::vector<double>{0.0, 0.0, 1.0}, Range::any(),
                  "Axis about which the part is turned from the frame of its file into the common one.")
       .real("Rotation Angle", "rad", 0.0, Range::any(), "Angle of that turn, right-handed.")
       .textArray("Fixed", Optional{}, {},
-                 "Dofs that do not move: a node or the name of an interface set, and components unless all of them are meant, e.g. {1, 5 u v, "
+                 "Dofs that do not move: a node or the name of an interface set, and components unless all of them are meant, "
+                 "e.g. {1, 5 u v, "
                  "clamp}.")
       .textArray("Retained", Optional{}, {}, "Dofs that stay physical beside those the file says, written as in \"Fixed\".")
-      .boolean("Reduce", true, "Let the list Reduction reduce this part; false keeps all its dofs, for a part that was reduced before.");
+      .boolean("Reduce", true,
+               "Let the list Reduction reduce this part; false keeps all its dofs, for a part that was reduced before.");
 }
 
 ListSpec loadParameters() {
@@ -55,7 +58,8 @@ std::vector<std::string> texts(const ParameterList& list, const std::string& nam
 }
 
 /// Calls visit(name, list) for every list in the sublist `kind`, in the order of the deck.
-void forEachList(const ParameterList& list, const std::string& kind, const std::function<void(const std::string&, const ParameterList&)>& visit) {
+void forEachList(const ParameterList& list, const std::string& kind,
+                 const std::function<void(const std::string&, const ParameterList&)>& visit) {
   if (!list.isSublist(kind)) return;
   const auto& all = list.sublist(kind);
   for (auto it = all.begin(); it != all.end(); ++it)
@@ -68,9 +72,11 @@ ImportedPart readImported(const std::string& name, const ParameterList& list) {
   part.where = list.name();
   part.file = list.get<std::string>("File");
   const auto axis = list.get<Teuchos::Array<double>>("Rotation Axis").toVector();
-  if (axis.size() != 3) throw DeckError(list.name() + "/Rotation Axis has " + std::to_string(axis.size()) + " numbers; give three.");
+  if (axis.size() != 3)
+    throw DeckError(list.name() + "/Rotation Axis has " + std::to_string(axis.size()) + " numbers; give three.");
   const Vector3 direction(axis[0], axis[1], axis[2]);
-  if (!(direction.norm() > 0.0)) throw DeckError(list.name() + "/Rotation Axis has no direction: give a vector that is not zero.");
+  if (!(direction.norm() > 0.0))
+    throw DeckError(list.name() + "/Rotation Axis has no direction: give a vector that is not zero.");
   const double angle = list.get<double>("Rotation Angle");
   part.turned = angle != 0.0;
   if (part.turned) part.axes = Eigen::AngleAxisd(angle, direction.normalized()).toRotationMatrix();
@@ -88,11 +94,14 @@ deck::ListSpec parameters() {
   imported.namedLists(importedParameters());
   list.requiredList(imported);
   list.textArray("Joints", Optional{}, {},
-                 "What is joined: nodes or interface sets of two or more parts, {left:tip = right:root, a:7 = b:1 = c:1}; sets are joined node by node in "
-                 "their order, in the components all of them have. Every part then numbers its nodes for itself; without Joints, interface nodes of one number "
+                 "What is joined: nodes or interface sets of two or more parts, {left:tip = right:root, a:7 = b:1 = c:1}; sets "
+                 "are joined node by node in "
+                 "their order, in the components all of them have. Every part then numbers its nodes for itself; without Joints, "
+                 "interface nodes of one number "
                  "are one node unless Coupling/Node Numbers is \"Own\".")
       .choice("Initial State", std::string("From files"), {"From files", "Equilibrium"},
-              "\"From files\": initial displacements of the files, which are zero where they give none; \"Equilibrium\": rest under the loads of the start time, "
+              "\"From files\": initial displacements of the files, which are zero where they give none; \"Equilibrium\": rest "
+              "under the loads of the start time, "
               "about which parts are then reduced.");
   ListSpec loads("Loads", "Loads on single dofs, beside those of the files.");
   loads.namedLists(loadParameters());
@@ -109,13 +118,14 @@ deck::ListSpec parameters() {
 PartsSettings readSettings(const ParameterList& list) {
   PartsSettings settings;
   settings.where = list.name();
-  forEachList(list, "Imported", [&](const std::string& name, const ParameterList& one) { settings.imported.push_back(readImported(name, one)); });
+  forEachList(list, "Imported",
+              [&](const std::string& name, const ParameterList& one) { settings.imported.push_back(readImported(name, one)); });
   if (settings.imported.empty()) throw DeckError(list.name() + "/Imported is empty: a scene has one part at least.");
   settings.joints = texts(list, "Joints");
   settings.atRest = list.get<std::string>("Initial State") == "Equilibrium";
   forEachList(list, "Loads", [&](const std::string& name, const ParameterList& one) {
-    settings.loads.push_back({name, one.name(), one.get<std::string>("Part"), one.get<int>("Node"), one.get<std::string>("Component"), one.get<double>("Value"),
-                              one.get<std::string>("Law")});
+    settings.loads.push_back({name, one.name(), one.get<std::string>("Part"), one.get<int>("Node"),
+                              one.get<std::string>("Component"), one.get<double>("Value"), one.get<std::string>("Law")});
   });
   forEachList(list, "Starts", [&](const std::string& /*name*/, const ParameterList& one) {
     settings.starts.push_back({one.name(), one.get<std::string>("Part"), one.get<int>("Node"), one.get<std::string>("Component"),

@@ -16,8 +16,8 @@ namespace tooljoint::parts {
 /// One part of a scene.
 struct ImportedPart {
   std::string name;
-  std::string where;               ///< path of its list, for messages
-  std::string file;                ///< as the deck gives it
+  std::string where;                   ///< path of its list, for messages
+  std::string file;                    ///< as the deck gives it
   Matrix3 axes = Matrix3::Identity();  ///< axes of the part in the common frame, columns
   bool turned = false;
   std::vector<std::string> fixed;

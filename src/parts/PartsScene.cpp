@@ -19,7 +19,8 @@ using model::DofLabel;
 
 class Builder {
  public:
-  Builder(const PartsSettings& settings, const coupling::CouplingPlan& given, const std::function<std::string(const std::string&)>& resolve)
+  Builder(const PartsSettings& settings, const coupling::CouplingPlan& given,
+          const std::function<std::string(const std::string&)>& resolve)
       : settings_(settings), plan_(given), resolve_(resolve) {}
 
   PartsScene build() {
@@ -88,7 +89,9 @@ class Builder {
       if (names.back() == name) return static_cast<int>(p);
     }
     const auto meant = closest(name, names);
-    throw DeckError("names part \"" + name + "\", but " + (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean \"" + meant + "\"?"));
+    throw DeckError(
+        "names part \"" + name + "\", but " +
+        (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean \"" + meant + "\"?"));
   }
 
   void giveLoads() {
@@ -99,7 +102,8 @@ class Builder {
         Vector force = Vector::Zero(content.part.model.size());
         force[at.front()] = load.value;
         content.part.model.loads.push_back({load.name, force, content.part.model.lawIndex({load.law, {}})});
-        loaded_.emplace_back(load.where, static_cast<int>(&content - scene_.contents.data()), content.part.model.dofs[static_cast<std::size_t>(at.front())]);
+        loaded_.emplace_back(load.where, static_cast<int>(&content - scene_.contents.data()),
+                             content.part.model.dofs[static_cast<std::size_t>(at.front())]);
       });
   }
 
@@ -109,16 +113,19 @@ class Builder {
       for (auto& law : content.part.model.laws) {
         if (law.name == "1") continue;
         used.insert(law.name);
-        const auto it = std::find_if(settings_.laws.begin(), settings_.laws.end(), [&](const auto& one) { return one.name == law.name; });
+        const auto it =
+            std::find_if(settings_.laws.begin(), settings_.laws.end(), [&](const auto& one) { return one.name == law.name; });
         if (it != settings_.laws.end())
           law = *it;
         else
-          faults_.push_back(settings_.where + "/Laws does not give the law \"" + law.name + "\", which terms or loads of part \"" + content.part.name + "\" (" + content.file +
+          faults_.push_back(settings_.where + "/Laws does not give the law \"" + law.name +
+                            "\", which terms or loads of part \"" + content.part.name + "\" (" + content.file +
                             ") follow. Add a list \"" + law.name + "\" with its Form.");
       }
     for (const auto& law : settings_.laws)
       if (used.count(law.name) == 0)
-        faults_.push_back(settings_.where + "/Laws/" + law.name + " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
+        faults_.push_back(settings_.where + "/Laws/" + law.name +
+                          " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
   }
 
   void holdAndRetain() {
@@ -144,20 +151,23 @@ class Builder {
       for (int i : kept)
         if (!std::binary_search(inner.begin(), inner.end(), i)) content.part.retained.push_back(i);
       if (std::count(held.begin(), held.end(), char{0}) == 0)
-        faults_.push_back(given.where + "/Fixed holds every dof of the part; nothing is left to compute. Leave the part out, or release some.");
+        faults_.push_back(given.where +
+                          "/Fixed holds every dof of the part; nothing is left to compute. Leave the part out, or release some.");
       else
         hold(content, held);
     }
     for (const auto& [where, p, label] : loaded_)
-      if (held_.count({p, label}) > 0) faults_.push_back(where + " acts on a dof that is fixed. Release it, or leave the load out.");
+      if (held_.count({p, label}) > 0)
+        faults_.push_back(where + " acts on a dof that is fixed. Release it, or leave the load out.");
   }
 
   void checkHeld(const ImportedPart& given, const PartContent& content, int i) {
     const auto& m = content.part.model;
     held_.insert({static_cast<int>(&content - scene_.contents.data()), m.dofs[static_cast<std::size_t>(i)]});
     if (m.initialDisplacement[i] == 0.0 && m.initialVelocity[i] == 0.0) return;
-    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file + " starts at " + formatNumber(m.initialDisplacement[i]) + " with velocity " +
-                      formatNumber(m.initialVelocity[i]) + ". A fixed dof stays at zero.");
+    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file + " starts at " +
+                      formatNumber(m.initialDisplacement[i]) + " with velocity " + formatNumber(m.initialVelocity[i]) +
+                      ". A fixed dof stays at zero.");
   }
 
   /// Joints of the list Parts as joints and releases of the plan.
@@ -170,7 +180,8 @@ class Builder {
         const auto joint = reader.read(text);
         for (const auto& side : joint.partial)
           if (imported()[static_cast<std::size_t>(side)].turned)
-            throw DeckError(settings_.where + "/Joints joins only some components in \"" + text + "\", and part \"" + imported()[static_cast<std::size_t>(side)].name +
+            throw DeckError(settings_.where + "/Joints joins only some components in \"" + text + "\", and part \"" +
+                            imported()[static_cast<std::size_t>(side)].name +
                             "\" is turned. Join whole nodes, and release components in the list Coupling.");
         plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
         plan_.releases.insert(plan_.releases.end(), joint.releases.begin(), joint.releases.end());
@@ -242,7 +253,8 @@ int PartsScene::dofs() const {
   return sum;
 }
 
-PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given, const std::function<std::string(const std::string&)>& resolve) {
+PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given,
+                      const std::function<std::string(const std::string&)>& resolve) {
   return Builder(settings, given, resolve).build();
 }
 
@@ -256,8 +268,10 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
   if (settings.atRest)
     for (std::size_t p = 0; p < scene.parts.size(); ++p) scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
   for (const auto& start : settings.starts) {
-    const auto it = std::find_if(scene.contents.begin(), scene.contents.end(), [&](const auto& content) { return content.part.name == start.part; });
-    if (it == scene.contents.end()) throw DeckError(start.where + "/Part names part \"" + start.part + "\", but there is no such part.");
+    const auto it = std::find_if(scene.contents.begin(), scene.contents.end(),
+                                 [&](const auto& content) { return content.part.name == start.part; });
+    if (it == scene.contents.end())
+      throw DeckError(start.where + "/Part names part \"" + start.part + "\", but there is no such part.");
     int position = 0;
     try {
       position = positionsOf(*it, std::to_string(start.node) + " " + start.component).front();

@@ -40,9 +40,10 @@ std::vector<DofLabel> coordinateLabels(const PartContent& original, const reduct
 
 PartContent reducedContent(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
   if (reduced.boundary)
-    throw ModelError("Part \"" + reduced.name + "\" cannot be exported: its basis \"" + reduced.report.basis +
-                     "\" does not have the interface dofs among its coordinates, so there is nothing that others could be joined to. Take "
-                     "another basis, Craig-Bampton for instance.");
+    throw ModelError(
+        "Part \"" + reduced.name + "\" cannot be exported: its basis \"" + reduced.report.basis +
+        "\" does not have the interface dofs among its coordinates, so there is nothing that others could be joined to. Take "
+        "another basis, Craig-Bampton for instance.");
   const auto& kept = reduced.basis.partition.kept;
   if (reduced.basis.vectors.rows() != original.part.model.size())
     throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
@@ -57,9 +58,11 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
 
   // coordinates q + s: K_i s joins the loads with the law of K_i
   Vector s = Vector::Zero(m.size());
-  for (std::size_t k = 0; k < kept.size() && reduced.offset.size() > 0; ++k) s[static_cast<Eigen::Index>(k)] = reduced.offset[kept[k]];
+  for (std::size_t k = 0; k < kept.size() && reduced.offset.size() > 0; ++k)
+    s[static_cast<Eigen::Index>(k)] = reduced.offset[kept[k]];
   if (!s.isZero(0.0)) {
-    for (const auto& term : m.stiffness) m.loads.push_back({"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
+    for (const auto& term : m.stiffness)
+      m.loads.push_back({"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
     m.initialDisplacement += s;
     if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
     out.part.reference = s;
@@ -90,7 +93,8 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
     }
     if (!moved.dofs.empty()) out.interfaces.push_back(std::move(moved));
   }
-  for (std::size_t k = 0; k < kept.size(); ++k) (inSet[k] ? out.part.interface : out.part.retained).push_back(static_cast<int>(k));
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    (inSet[k] ? out.part.interface : out.part.retained).push_back(static_cast<int>(k));
   out.positions = original.positions;
   return out;
 }

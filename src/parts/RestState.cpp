@@ -26,7 +26,9 @@ class Equilibrium : public model::NonlinearProblem {
     if (size == 0.0) size = model_.pointForce(time_, model_.initialDisplacement, still_).cwiseAbs().maxCoeff();
     return Vector::Constant(model_.size(), size > 0.0 ? 1.0 / size : 1.0);
   }
-  std::string unknownName(int i) const override { return model::describe(model_.dofs[static_cast<std::size_t>(i)], model_.componentNames); }
+  std::string unknownName(int i) const override {
+    return model::describe(model_.dofs[static_cast<std::size_t>(i)], model_.componentNames);
+  }
 
  private:
   const model::SecondOrderModel& model_;
@@ -54,8 +56,9 @@ Vector restState(const model::SecondOrderModel& model, double t, const model::No
   request.tolerance = 1e-10;
   const auto outcome = solver(problem, q, request);
   if (!outcome.converged)
-    throw ConvergenceError("The equilibrium of the parts was not found: residual " + formatNumber(outcome.residual) + " of the largest load after " +
-                           std::to_string(outcome.iterations) + " iterations. " + outcome.message + " Start \"From files\" and let a damped transient find it.");
+    throw ConvergenceError("The equilibrium of the parts was not found: residual " + formatNumber(outcome.residual) +
+                           " of the largest load after " + std::to_string(outcome.iterations) + " iterations. " +
+                           outcome.message + " Start \"From files\" and let a damped transient find it.");
   return q;
 }
 

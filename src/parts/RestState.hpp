@@ -8,7 +8,8 @@
 
 namespace tooljoint::parts {
 
-/// q with K(t) q = F(t) + sum R' f(d, 0, t), from the initial displacement of the model. ConvergenceError; ModelError when something floats.
+/// q with K(t) q = F(t) + sum R' f(d, 0, t), from the initial displacement of the model. ConvergenceError; ModelError when
+/// something floats.
 Vector restState(const model::SecondOrderModel& model, double t, const model::NonlinearSolver& solver);
 
 }  // namespace tooljoint::parts

@@ -40,9 +40,13 @@ class Harmonic : public TimeLaw {
         phase_(list.get<double>("Phase")),
         start_(list.get<double>("Start Time")),
         end_(list.isParameter("End Time") ? list.get<double>("End Time") : std::numeric_limits<double>::infinity()) {
-    if (!(end_ > start_)) throw DeckError(list.name() + "/End Time is " + formatNumber(end_) + " s, which is not after its start, " + formatNumber(start_) + " s.");
+    if (!(end_ > start_))
+      throw DeckError(list.name() + "/End Time is " + formatNumber(end_) + " s, which is not after its start, " +
+                      formatNumber(start_) + " s.");
   }
-  double value(double t) const override { return t < start_ || t >= end_ ? mean_ : mean_ + amplitude_ * std::sin(pulsation_ * t + phase_); }
+  double value(double t) const override {
+    return t < start_ || t >= end_ ? mean_ : mean_ + amplitude_ * std::sin(pulsation_ * t + phase_);
+  }
 
  private:
   double mean_, amplitude_, pulsation_, phase_, start_, end_;
@@ -52,7 +56,10 @@ class Harmonic : public TimeLaw {
 class Ramp : public TimeLaw {
  public:
   explicit Ramp(const ParameterList& list)
-      : from_(list.get<double>("From")), to_(list.get<double>("To")), start_(list.get<double>("Start Time")), duration_(list.get<double>("Duration")) {}
+      : from_(list.get<double>("From")),
+        to_(list.get<double>("To")),
+        start_(list.get<double>("Start Time")),
+        duration_(list.get<double>("Duration")) {}
   double value(double t) const override { return from_ + (to_ - from_) * std::clamp((t - start_) / duration_, 0.0, 1.0); }
 
  private:
@@ -63,12 +70,15 @@ class Ramp : public TimeLaw {
 class Table : public TimeLaw {
  public:
   explicit Table(const ParameterList& list)
-      : times_(list.get<Teuchos::Array<double>>("Times").toVector()), values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
+      : times_(list.get<Teuchos::Array<double>>("Times").toVector()),
+        values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
     if (times_.empty() || times_.size() != values_.size())
-      throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " + std::to_string(values_.size()) + " values; give one value for each time.");
+      throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " + std::to_string(values_.size()) +
+                      " values; give one value for each time.");
     for (std::size_t i = 1; i < times_.size(); ++i)
       if (!(times_[i] > times_[i - 1]))
-        throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) + " s is followed by " + formatNumber(times_[i]) + " s.");
+        throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) + " s is followed by " +
+                        formatNumber(times_[i]) + " s.");
   }
   double value(double t) const override {
     if (t <= times_.front()) return values_.front();
@@ -85,21 +95,22 @@ class Table : public TimeLaw {
 template <class Law>
 bool add(ListSpec parameters) {
   const std::string name = parameters.name(), doc = parameters.doc();
-  return TimeLaws::instance().add(
-      name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<TimeLaw> { return std::make_unique<Law>(list); }});
+  return TimeLaws::instance().add(name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<TimeLaw> {
+                                           return std::make_unique<Law>(list);
+                                         }});
 }
 
-[[maybe_unused]] const bool constant =
-    add<Constant>(ListSpec("Constant", "One value at all times.").real("Value", "", deck::Required{}, Range::any(), "The value."));
+[[maybe_unused]] const bool constant = add<Constant>(
+    ListSpec("Constant", "One value at all times.").real("Value", "", deck::Required{}, Range::any(), "The value."));
 
-[[maybe_unused]] const bool harmonic = add<Harmonic>(
-    ListSpec("Harmonic", "Mean + Amplitude sin(2 pi Frequency t + Phase).")
-        .real("Mean", "", 0.0, Range::any(), "Value about which it swings, and before and after it does.")
-        .real("Amplitude", "", 1.0, Range::any(), "Amplitude.")
-        .real("Frequency", "Hz", deck::Required{}, Range::nonNegative(), "Frequency.")
-        .real("Phase", "rad", 0.0, Range::any(), "Phase at time 0.")
-        .real("Start Time", "s", 0.0, Range::any(), "Time at which the swing begins.")
-        .real("End Time", "s", deck::Optional{}, Range::any(), "Time at which it ends; never by default."));
+[[maybe_unused]] const bool harmonic =
+    add<Harmonic>(ListSpec("Harmonic", "Mean + Amplitude sin(2 pi Frequency t + Phase).")
+                      .real("Mean", "", 0.0, Range::any(), "Value about which it swings, and before and after it does.")
+                      .real("Amplitude", "", 1.0, Range::any(), "Amplitude.")
+                      .real("Frequency", "Hz", deck::Required{}, Range::nonNegative(), "Frequency.")
+                      .real("Phase", "rad", 0.0, Range::any(), "Phase at time 0.")
+                      .real("Start Time", "s", 0.0, Range::any(), "Time at which the swing begins.")
+                      .real("End Time", "s", deck::Optional{}, Range::any(), "Time at which it ends; never by default."));
 
 [[maybe_unused]] const bool ramp = add<Ramp>(ListSpec("Ramp", "From one value to another along a straight line.")
                                                  .real("From", "", 0.0, Range::any(), "Value before the ramp.")
@@ -124,7 +135,8 @@ deck::ListSpec timeLawParameters() {
 
 model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list) {
   const auto form = list.get<std::string>("Form");
-  if (!list.isSublist(form)) throw DeckError(list.name() + "/Form is \"" + form + "\", but the list \"" + form + "\" with its numbers is missing.");
+  if (!list.isSublist(form))
+    throw DeckError(list.name() + "/Form is \"" + form + "\", but the list \"" + form + "\" with its numbers is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
   return {name, [law](double t) { return law->value(t); }};
 }

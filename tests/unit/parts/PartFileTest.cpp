@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part files of both kinds: what is written is read again, and what is wrong is named.
-#include <gtest/gtest.h>
+#include "parts/PartFile.hpp"
 
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "parts/PartFile.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
@@ -136,29 +136,31 @@ class BadPart {
 };
 
 std::string json(const std::string& dofs = R"([[1,"u"],[2,"u"]])", const std::string& more = "") {
-  return R"({"format": "tooljoint part 1", "components": ["u"], "dofs": )" + dofs + R"(, "mass": "M.mtx", "stiffness": "K.mtx")" + more + "}";
+  return R"({"format": "tooljoint part 1", "components": ["u"], "dofs": )" + dofs + R"(, "mass": "M.mtx", "stiffness": "K.mtx")" +
+         more + "}";
 }
 
-TEST(PartFile, OfTwoDofsIsRead) {
-  EXPECT_NO_THROW(BadPart(json()).read());
-}
+TEST(PartFile, OfTwoDofsIsRead) { EXPECT_NO_THROW(BadPart(json()).read()); }
 
 TEST(PartFile, NamesFaultsOfLabels) {
   BadPart(json(R"([[1,"u"],[1,"u"]])")).expect<DeckError>("\"dofs\" gives u of node 1 twice, as dof 1 and as dof 2");
   BadPart(json(R"([[1,"u"],[2,"x"]])")).expect<DeckError>("names the component \"x\" of node 2; the components are \"u\"");
   BadPart(json(R"([[1,"u"],[0,"u"]])")).expect<DeckError>("names node 0; nodes are numbered from 1");
   BadPart(json(R"([[1,"u"],[2,"u"],[3,"u"]])")).expect<DeckError>("mass (M.mtx)\" is 2 x 2, but \"dofs\" names 3 dofs");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [7]})")).expect<DeckError>("\"interfaces/end\" names node 7, but the part has no such node");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [7]})"))
+      .expect<DeckError>("\"interfaces/end\" names node 7, but the part has no such node");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [2, [2, "u"]]})")).expect<DeckError>("names u of node 2 twice");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "stifness": 1)")).expect<DeckError>("Did you mean \"stiffness\"?");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0]])")).expect<DeckError>("\"positions\" is 1 x 3, expected rows \"node x y z\"");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0]])"))
+      .expect<DeckError>("\"positions\" is 1 x 3, expected rows \"node x y z\"");
 }
 
 TEST(PartFile, NamesFaultsOfMatrices) {
   {
     BadPart bad(json());
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 1\n1 2 0.5\n");
-    bad.expect<ModelError>("its mass is not symmetric: 0.5 in the row of u of node 1 and the column of u of node 2, but 0 the other way round");
+    bad.expect<ModelError>(
+        "its mass is not symmetric: 0.5 in the row of u of node 1 and the column of u of node 2, but 0 the other way round");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 1\n2 1 2\n");
     bad.expect<ModelError>("its mass is indefinite: there is a motion with negative kinetic energy, and u of node");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 2 -1\n");
@@ -176,7 +178,8 @@ TEST(PartFile, NamesFaultsOfMatrices) {
     bad.write("K.mtx", "%MatrixMarket matrix array real general\n2 1\n1\n1\n");
     bad.expect<DeckError>("K.mtx");
   }
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "loads": [{"vector": [1, 2, 3]}])")).expect<DeckError>("is 3 x 1, expected 2 numbers in one column");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "loads": [{"vector": [1, 2, 3]}])"))
+      .expect<DeckError>("is 3 x 1, expected 2 numbers in one column");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "damping": "C.mtx")")).expect<DeckError>("C.mtx cannot be read");
   BadPart("{").expect<DeckError>("is no JSON");
   BadPart(R"({"format": "tooljoint part 9"})").expect<DeckError>("expected \"tooljoint part 1\"");
@@ -197,7 +200,9 @@ TEST(PartFile, NamesFaultsOfHdf5) {
     readPart(path, "bar");
     FAIL() << "was read";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("Part \"bar\": " + path + " is no part file: it cannot be read: "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Part \"bar\": " + path + " is no part file: it cannot be read: "),
+              std::string::npos)
+        << error.what();
   }
   try {
     readPart(scratch / "nowhere.h5", "bar");

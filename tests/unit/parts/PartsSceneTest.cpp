@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes of imported parts against closed forms: joints, turned parts, equilibrium, starts, laws of time.
+#include "parts/PartsScene.hpp"
+
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "linalg/DirectSolver.hpp"
-#include "parts/PartsScene.hpp"
 #include "parts/TimeLaw.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"
@@ -43,7 +43,8 @@ class Files {
     writePart(content, path, FileKind::Hdf5);
     return path;
   }
-  /// A mass point with components v, u, theta at node 1, on springs to the ground along u and theta; sets "all" and "pin" (u alone).
+  /// A mass point with components v, u, theta at node 1, on springs to the ground along u and theta; sets "all" and "pin" (u
+  /// alone).
   std::string point(const std::string& name) {
     PartContent content;
     auto& part = content.part;
@@ -207,11 +208,18 @@ TEST(PartsScene, RefusesWhatDoesNotFit) {
 }
 
 Teuchos::Array<double> numbers(const std::vector<double>& values) { return Teuchos::Array<double>(values); }
-double at(const std::string& form, const Teuchos::ParameterList& list, double t) { return TimeLaws::instance().make(form, list)->value(t); }
+double at(const std::string& form, const Teuchos::ParameterList& list, double t) {
+  return TimeLaws::instance().make(form, list)->value(t);
+}
 
 TEST(TimeLaw, FormsAreTheirFormulas) {
   Teuchos::ParameterList harmonic;
-  harmonic.set("Mean", 1.0).set("Amplitude", 2.0).set("Frequency", 0.25).set("Phase", 0.5).set("Start Time", 1.0).set("End Time", 3.0);
+  harmonic.set("Mean", 1.0)
+      .set("Amplitude", 2.0)
+      .set("Frequency", 0.25)
+      .set("Phase", 0.5)
+      .set("Start Time", 1.0)
+      .set("End Time", 3.0);
   EXPECT_EQ(at("Harmonic", harmonic, 0.5), 1.0);
   EXPECT_NEAR(at("Harmonic", harmonic, 2.0), 1.0 + 2.0 * std::sin(std::acos(-1.0) + 0.5), 1e-15);
   EXPECT_EQ(at("Harmonic", harmonic, 3.0), 1.0);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A part that was reduced, written, read and used again is the part that was reduced.
+#include "parts/ReducedPart.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
-
 
 #include "common/Error.hpp"
 #include "coupling/Assembler.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "parts/PartFile.hpp"
-#include "parts/ReducedPart.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"
