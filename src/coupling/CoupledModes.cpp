@@ -27,7 +27,7 @@ linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count) 
   const Sparse M = reduction::symmetricPart(model.mass);
   linalg::EigenOptions options;
   options.name = [&](int i) { return model::describe(model.dofs[static_cast<std::size_t>(i)], model.componentNames); };
-  return isSingular(M) ? linalg::semidefiniteModes(K, M, count, options) : linalg::lowestModes(K, M, count, options);
+  return isSingular(M) ? linalg::semidefiniteModes(K, M, count < model.size() ? count : -1, options) : linalg::lowestModes(K, M, count, options);
 }
 
 }  // namespace tooljoint::coupling

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "coupling/Congruence.hpp"
 #include "linalg/DirectSolver.hpp"
 
@@ -16,6 +18,8 @@ using model::DofLabel;
 using model::SecondOrderModel;
 
 const char* const joiningForces = "joining forces";
+/// Largest force left where parts meet in a static state, as a fraction of the largest one between parts.
+constexpr double balance = 1e-5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -30,6 +34,7 @@ class Builder {
     dropInterfacesThatAreNoCoordinates();
     addForces();
     putForcesInPlace();
+    requireBalance();
     startConsistently();
     return std::move(out_);
   }
@@ -145,12 +150,20 @@ class Builder {
     return size > 0.0 ? size : 1.0;
   }
 
-  /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by its coordinates.
+  /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by its coordinates: forces, and modes that are not rigid-body motion
+  /// (with rounding for stiffness).
   double stiffnessOf(int unknown, const Vector& stiffness) const {
     if (virtual_[at(unknown)] < 0) return std::abs(stiffness[column_[at(unknown)]]);
-    double flexibility = 0;
-    for (Sparse::InnerIterator it(out_.map, unknown); it; ++it)
-      if (stiffness[it.col()] != 0.0) flexibility = std::max(flexibility, it.value() * it.value() / std::abs(stiffness[it.col()]));
+    const Piece& piece = pieces_[at(owner_[at(unknown)])];
+    const auto& from = labelled_.columns[at(owner_[at(unknown)])];
+    const auto place = [&](int i) { return static_cast<Eigen::Index>(column_[at(from[at(i)])]); };
+    const int modes = piece.coordinates - piece.forces;
+    double largest = 0, flexibility = 0;
+    for (int i = 0; i < modes; ++i) largest = std::max(largest, std::abs(stiffness[place(i)]));
+    for (int i = 0; i < piece.coordinates; ++i) {
+      const double own = std::abs(stiffness[place(i)]), row = out_.map.coeff(unknown, place(i));
+      if (own > (i < modes ? 1e-12 * largest : 0.0)) flexibility = std::max(flexibility, row * row / own);
+    }
     return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
   }
 
@@ -199,7 +212,6 @@ class Builder {
     s.map = Sparse(static_cast<Eigen::Index>(replaced.size()), next);
     s.map.setFromTriplets(entries.begin(), entries.end());
     s.offset = Vector::Zero(static_cast<Eigen::Index>(replaced.size()));
-    startForces(s, to);
     substitute(out_.model, s);
     out_.map = Sparse(out_.map * s.map);
     for (auto& multiplier : out_.multipliers) {
@@ -208,19 +220,29 @@ class Builder {
     }
   }
 
-  /// lambda(0) = g(0) of the part whose dof the row is solved for, in halves.
-  void startForces(Substitution& s, const std::vector<int>& to) const {
-    for (int k = 0; k < constraints(); ++k) {
-      const int y = solved_[at(k)].unknown;
-      const Piece& piece = pieces_[at(owner_[at(y)])];
-      if (virtual_[at(y)] < 0 || piece.forces == 0) continue;
-      const int x = column_[at(labelled_.columns[at(owner_[at(y)])][at(piece.coordinates - piece.forces + virtual_[at(y)])])];
-      for (int row : {2 * k, 2 * k + 1}) {
-        const auto lambda = static_cast<Eigen::Index>(to[at(coordinates_ + row)]);
-        s.initialDisplacement[lambda] = 0.5 * out_.model.initialDisplacement[x] / out_.multipliers[at(k)].scale;
-        s.initialVelocity[lambda] = 0.5 * out_.model.initialVelocity[x] / out_.multipliers[at(k)].scale;
+  /// Forces of the static state between parts, which load them, are forces between parts only when they balance where parts meet.
+  void requireBalance() const {
+    Vector total = Vector::Zero(all_);
+    double largest = 0;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const Piece& piece = pieces_[p];
+      const int n = piece.coordinates;
+      for (int j = 0; j < piece.staticForces.size(); ++j) {
+        largest = std::max(largest, std::abs(piece.staticForces[j]));
+        for (int i = 0; i < piece.forces; ++i)
+          total[labelled_.columns[p][at(n + i)]] += (piece.turn.rows() > 0 ? piece.turn.coeff(n + j, n + i) : i == j ? 1.0 : 0.0) * piece.staticForces[j];
       }
     }
+    for (const auto& solved : solved_) {
+      for (const auto& [other, factor] : solved.rest) total[other] += factor * total[solved.unknown];
+      total[solved.unknown] = 0;
+    }
+    for (int y = 0; y < all_; ++y)
+      if (virtual_[at(y)] >= 0 && std::abs(total[y]) > balance * largest)
+        throw ModelError("The static state is not one of equilibrium at " + model::describe(labelled_.model.dofs[at(y)], labelled_.model.componentNames) +
+                         ": the forces of the parts that meet there leave " + formatNumber(total[y]) + ", where the largest one is " + formatNumber(largest) +
+                         ". The dual Craig-Bampton basis keeps static forces between parts, so they must balance: reduce about a state of equilibrium, or take "
+                         "another basis.");
   }
 
   /// Multipliers that nothing but constraints determines, at t = 0 (J: what addForces() has added):

@@ -50,6 +50,7 @@ void appendBoundary(const reduction::Boundary& boundary, Piece& piece) {
   piece.offset.conservativeResize(all);
   piece.offset.tail(all - n) = boundary.offset;
   piece.forces = boundary.forces;
+  piece.staticForces = boundary.staticForces;
   piece.own = m;
   piece.model = m.get();
 }

@@ -30,6 +30,7 @@ struct Piece {
   int coordinates = 0;     ///< of the part itself
   Sparse boundaryRows;     ///< u_b = rows q + offset; no rows without Boundary
   int forces = 0;          ///< the last so many coordinates of the part
+  Vector staticForces;     ///< reduction::Boundary::staticForces, in the frames of the part
 };
 
 std::vector<Piece> makePieces(const std::vector<reduction::ReducedSubstructure>& parts);

@@ -9,6 +9,7 @@
 
 #include "common/Parallel.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "reduction/Distribution.hpp"
@@ -141,6 +142,7 @@ Sparse linearisedStiffness(const model::SecondOrderModel& model) {
 
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
                                                    const coupling::Synthesis& synthesis, const FrequencyWindow& window) {
+  requireRitz(synthesis);
   const auto& coupled = synthesis.coupled.model;
   const Sparse K = linearisedStiffness(coupled);
   const Sparse M = reduction::symmetricPart(coupled.mass);

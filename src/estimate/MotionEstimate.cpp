@@ -47,6 +47,7 @@ struct MotionEstimator::Impl {
         compiled(model),
         mass(compiled.pattern()),
         step(compiled.pattern()) {
+    requireRitz(synthesis_);
     if (!synthesis_.coupled.boolean())
       throw ModelError("The error of the motion is estimated only where parts are joined by their labels alone: without frames of their own, constraints between "
                        "several dofs or an interface reduction. Leave \"Error Estimate\" at \"Frequencies\".");

@@ -3,7 +3,17 @@
 
 #include <utility>
 
+#include "common/Error.hpp"
+
 namespace tooljoint::estimate {
+
+void requireRitz(const coupling::Synthesis& synthesis) {
+  for (const auto& part : synthesis.parts)
+    if (part.basis.inertial.size() > 0 || part.basis.forces() > 0)
+      throw ModelError("The errors of the basis \"" + part.report.basis + "\" (part \"" + part.name +
+                       "\") cannot be estimated: its mass or its interfaces are not those of the motions it can make, and residuals do not tell the error then. "
+                       "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and tolerances out.");
+}
 
 PartResidual::PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, std::vector<int> positions)
     : part_(part),

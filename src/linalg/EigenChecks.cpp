@@ -130,11 +130,12 @@ void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double
   const Sparse absK = K.cwiseAbs(), absM = M.cwiseAbs();
   const Matrix KSize = absK * size, MSize = absM * size;
   // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a diagonal K has |K||phi| = 0.
-  const double rounding = 64.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : absK.coeffs().maxCoeff());
+  const double rounding = 2048.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : absK.coeffs().maxCoeff());
   modes.residuals.resize(modes.values.size());
-  for (Eigen::Index j = 0; j < modes.values.size(); ++j)
-    modes.residuals[j] = R.col(j).norm() / (KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() +
-                                            rounding * size.col(j).norm());
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+    const double defect = R.col(j).norm();  // nothing at all where there is no stiffness
+    modes.residuals[j] = defect == 0.0 ? 0.0 : defect / (KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() + rounding * size.col(j).norm());
+  }
   const Matrix gram = modes.vectors.transpose() * MPhi - Matrix::Identity(modes.count(), modes.count());
   modes.orthogonality = modes.count() == 0 ? 0.0 : gram.cwiseAbs().maxCoeff();
   for (Eigen::Index j = 0; j < modes.residuals.size(); ++j)

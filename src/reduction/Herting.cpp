@@ -30,7 +30,7 @@ class Herting : public Basis {
     const InteriorStatics statics(part, p, K, free);
     const ConstraintModes constraint = statics.constraintModes();
     addConstraintRows(part, constraint, basis);
-    std::vector<InteriorVectors> groups = freeInterfaceVectors(part, K, p, free, statics, inertiaRelief_, !fixed_);
+    std::vector<VectorGroup> groups = freeInterfaceVectors(part, K, p, free, statics, inertiaRelief_, !fixed_);
     if (fixed_)
       addFixed(fixedInterfaceModes(part, p, symmetricPart(K), request), free, groups, basis);
     else
@@ -42,7 +42,7 @@ class Herting : public Basis {
 
  private:
   /// Fixed-interface modes beside the inertia-relief vectors of their free link.
-  static void addFixed(const FixedInterfaceModes& fixed, const FreeInterfaceModes& free, std::vector<InteriorVectors>& groups, BasisResult& basis) {
+  static void addFixed(const FixedInterfaceModes& fixed, const FreeInterfaceModes& free, std::vector<VectorGroup>& groups, BasisResult& basis) {
     const Partition& p = basis.partition;
     std::vector<int> groupOf(static_cast<std::size_t>(p.size), 0), rowOf(static_cast<std::size_t>(p.size), -1);
     for (std::size_t g = 0; g < free.links.size(); ++g)
@@ -58,7 +58,7 @@ class Herting : public Basis {
       if (k >= fixed.kept) continue;
       const auto& link = p.links[static_cast<std::size_t>(mode.link)];
       const int first = p.interior[static_cast<std::size_t>(link.front())];
-      InteriorVectors& group = groups[static_cast<std::size_t>(groupOf[static_cast<std::size_t>(first)])];
+      VectorGroup& group = groups[static_cast<std::size_t>(groupOf[static_cast<std::size_t>(first)])];
       Vector shape = Vector::Zero(static_cast<Eigen::Index>(group.positions.size()));
       for (std::size_t i = 0; i < link.size(); ++i)
         shape[rowOf[static_cast<std::size_t>(p.interior[static_cast<std::size_t>(link[i])])]] = mode.shape[static_cast<Eigen::Index>(i)];

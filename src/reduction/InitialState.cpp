@@ -34,15 +34,11 @@ StartState startState(const model::Substructure& part, const BasisResult& basis,
     start.displacement = fitState(basis, m.initialDisplacement - reference);
     return start;
   }
-  Vector g = Vector::Zero(basis.vectors.cols());
-  const Vector& state = keepStatic ? reference : m.initialDisplacement;
-  if (!state.isZero(0.0)) {
-    const Vector force = m.stiffnessAt(0.0) * state - m.loadAt(0.0) - m.pointForce(0.0, state, Vector::Zero(m.size()));
-    for (int j = 0; j < basis.forces(); ++j) g[g.size() - basis.forces() + j] = force[basis.boundary[static_cast<std::size_t>(j)]];
-  }
-  const Vector bent = basis.vectors * g;
-  if (keepStatic) start.offset -= bent;
-  start.displacement = g + fitState(basis, m.initialDisplacement - (keepStatic ? reference : bent));
+  start.displacement = fitState(basis, m.initialDisplacement - reference);
+  start.forces = Vector::Zero(basis.forces());
+  if (reference.isZero(0.0)) return start;
+  const Vector force = m.stiffnessAt(0.0) * reference - m.loadAt(0.0) - m.pointForce(0.0, reference, Vector::Zero(m.size()));
+  for (int j = 0; j < basis.forces(); ++j) start.forces[j] = force[basis.boundary[static_cast<std::size_t>(j)]];
   return start;
 }
 

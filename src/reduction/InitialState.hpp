@@ -16,10 +16,11 @@ struct StartState {
   Vector offset;        ///< dofs of the part
   Vector displacement;  ///< reduced coordinates
   Vector velocity;      ///< reduced coordinates
+  Vector forces;        ///< on the interface in the static state, one for each of BasisResult::boundary
 };
 
-/// With `keepStatic`, offset = D_s, the reference state of the part (zero without one), else 0. Where interface forces g are coordinates, D = offset + Phi_a a + Psi g,
-/// they start with those of the static state, g_s = (K D_s - F - R' f(D_s))_b at t = 0, and offset = D_s - Psi g_s; a state of zeros has none.
+/// With `keepStatic`, offset = D_s, the reference state of the part (zero without one), else 0. Where interface forces are coordinates, these are the changes of the forces
+/// from those of the static state, forces = (K D_s - F - R' f(D_s))_b at t = 0, which load the part from then on.
 StartState startState(const model::Substructure& part, const BasisResult& basis, bool keepStatic);
 
 }  // namespace tooljoint::reduction

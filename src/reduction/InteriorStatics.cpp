@@ -62,6 +62,7 @@ InteriorStatics::InteriorStatics(const model::Substructure& part, const Partitio
 void InteriorStatics::findMechanisms(const FreeInterfaceModes& modes) {
   const auto interior = static_cast<Eigen::Index>(partition_.interior.size());
   mechanisms_.resize(interior, 0);
+  carriers_.resize(partition_.size, 0);
   for (int link = 0; link < static_cast<int>(modes.links.size()); ++link) {
     FreeInterfaceModes own;
     own.links = modes.links;
@@ -76,6 +77,8 @@ void InteriorStatics::findMechanisms(const FreeInterfaceModes& modes) {
       Eigen::Index rank = 0;
       while (rank < svd.singularValues().size() && svd.singularValues()[rank] > notMoved) ++rank;
       combined = (combined * svd.matrixV().rightCols(all.cols() - rank)).eval();
+      carriers_.conservativeResize(partition_.size, carriers_.cols() + rank);
+      carriers_.rightCols(rank) = all * svd.matrixV().leftCols(rank);
     }
     mechanisms_.conservativeResize(interior, mechanisms_.cols() + combined.cols());
     mechanisms_.rightCols(combined.cols()) = combined;

@@ -27,6 +27,8 @@ class InteriorStatics {
   ConstraintModes constraintModes() const;
   /// N, interior x mechanisms, M-orthonormal; usually without columns.
   const Matrix& mechanisms() const { return mechanisms_; }
+  /// The other rigid-body modes of the free part, those that move kept dofs, dofs of the part x modes.
+  const Matrix& carriers() const { return carriers_; }
 
  private:
   void findMechanisms(const FreeInterfaceModes& modes);
@@ -34,7 +36,7 @@ class InteriorStatics {
 
   Partition partition_;
   Sparse KII_, KIC_, MII_;
-  Matrix mechanisms_;
+  Matrix mechanisms_, carriers_;
   std::unique_ptr<linalg::DirectSolver> solver_;
   Vector keptMass_;  ///< sqrt of the diagonal of M
 };

@@ -94,6 +94,15 @@ void tidyMass(Sparse& m, Eigen::Index kept, ProjectedMatrices& out) {
   m = withoutExactZeros(m);
 }
 
+bool isRounding(double value, Eigen::Index i, Eigen::Index j, const Vector& size) { return std::abs(value) <= roundingLevel * size[i] * size[j]; }
+
+/// Without the entries that are rounding of the projection: rigid-body motion has no stiffness at all.
+Sparse withoutRounding(const Sparse& k, const Vector& size) {
+  Sparse out = k;
+  out.prune([&](Eigen::Index i, Eigen::Index j, double value) { return !isRounding(value, i, j, size); });
+  return out;
+}
+
 /// Largest off-diagonal of sym(k_DD) relative to max(sqrt(k_ii k_jj), rounding level).
 double offDiagonal(const Sparse& k, Eigen::Index kept, const Vector& size) {
   const Vector diagonal = k.diagonal().cwiseAbs();
@@ -131,6 +140,7 @@ void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& 
       const bool zeroInTheory = modalRow != modalColumn && (modalRow || symmetric);
       if (modalRow && modalColumn && j != i) continue;
       if (zeroInTheory && negligible(it.value(), i, j)) continue;
+      if (isRounding(it.value(), i, j, size)) continue;
       entries.emplace_back(i, static_cast<int>(j), it.value());
     }
   if (!symmetric)
@@ -196,7 +206,11 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
     Sparse reduced = project(term.matrix, Phi);
     if (part.model.laws[static_cast<std::size_t>(term.law)].name == "1") {
       if (nearlySymmetric(K, 1e-13)) reduced = symmetricPart(reduced);
-      if (basis.orthonormal) tidyStiffness(reduced, K, kept, naturalSize(K, Phi), out);
+      const Vector size = naturalSize(K, Phi);
+      if (basis.orthonormal)
+        tidyStiffness(reduced, K, kept, size, out);
+      else
+        reduced = withoutRounding(reduced, size);
       out.constantStiffness = reduced;
     }
     out.stiffness.push_back({term.name, reduced, term.law});

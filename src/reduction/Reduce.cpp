@@ -153,7 +153,12 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
   reducePoints(part, Phi, out.offset, shared, m);
   m.initialDisplacement = start.displacement;
   m.initialVelocity = start.velocity;
-  if (core.basis.forces() > 0) out.boundary = forcesAsCoordinates(part, core.basis, out.offset);
+  if (core.basis.forces() > 0) {
+    out.boundary = forcesAsCoordinates(part, core.basis, out.offset);
+    out.boundary->staticForces = start.forces;
+    if (!start.forces.isZero(0.0))
+      m.loads.push_back({"reference state: forces between parts", Vector(out.boundary->rows.transpose() * start.forces), m.lawIndex(model::ScalarLaw::one())});
+  }
 
   out.report.part = part.name;
   if (core.report.part != part.name) out.report.sharedWith = core.report.part;

@@ -30,7 +30,7 @@ Matrix rows(const Matrix& A, const std::vector<int>& which) {
 }
 
 /// M = P' L L' P; the columns of L' P Z are orthogonalised by Householder reflections with pivoting, then K is made diagonal.
-Ritz ritzModes(const model::Substructure& part, const Sparse& K, const InteriorVectors& group) {
+Ritz ritzModes(const model::Substructure& part, const Sparse& K, const VectorGroup& group) {
   const Sparse M = block(part.model.mass, group.positions, group.positions), k = block(K, group.positions, group.positions);
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor{Eigen::SparseMatrix<double>(M)};
   if (factor.info() != Eigen::Success)
@@ -60,8 +60,8 @@ Ritz ritzModes(const model::Substructure& part, const Sparse& K, const InteriorV
 }
 
 /// Columns of `all` (interior x columns) that are not zero on the dofs of a link.
-InteriorVectors restricted(const Matrix& all, const std::vector<int>& interior, const std::vector<char>& inLink) {
-  InteriorVectors group;
+VectorGroup restricted(const Matrix& all, const std::vector<int>& interior, const std::vector<char>& inLink) {
+  VectorGroup group;
   std::vector<int> members;
   for (std::size_t i = 0; i < interior.size(); ++i)
     if (inLink[at(interior[i])]) {
@@ -92,7 +92,7 @@ void addConstraintRows(const model::Substructure& part, const ConstraintModes& c
 }
 
 void completeWithRitzModes(const model::Substructure& part, const Sparse& symmetricK, const ConstraintModes& constraint,
-                           const std::vector<InteriorVectors>& groups, const std::string& kind, BasisResult& basis) {
+                           const std::vector<VectorGroup>& groups, const std::string& kind, BasisResult& basis) {
   std::vector<Ritz> found;
   struct Place {
     double value;
@@ -133,27 +133,32 @@ void completeWithRitzModes(const model::Substructure& part, const Sparse& symmet
   basis.removable = false;
 }
 
-std::vector<InteriorVectors> freeInterfaceVectors(const model::Substructure& part, const Sparse& K, const Partition& p, const FreeInterfaceModes& modes,
+std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, const Sparse& K, const Partition& p, const FreeInterfaceModes& modes,
                                                   const InteriorStatics& statics, bool rigid, bool elastic) {
   const bool symmetric = nearlySymmetric(K, 1e-13);
   const Sparse skew = K - symmetricPart(K);
-  std::vector<InteriorVectors> groups;
+  std::vector<VectorGroup> groups;
   const Matrix shapes = modes.columns(modes.kept, p.size);
   for (int link = 0; link < static_cast<int>(modes.links.size()); ++link) {
     std::vector<int> numbers;
     for (int k = 0; k < modes.kept; ++k) {
       const auto& mode = modes.modes[at(k)];
-      if (mode.link == link && (mode.rigid ? rigid : elastic)) numbers.push_back(k);
+      if (mode.link == link && !mode.rigid && elastic) numbers.push_back(k);
     }
-    Matrix forces(p.size, static_cast<Eigen::Index>(numbers.size()));
+    const auto& carriers = statics.carriers();
+    const auto relief = rigid ? carriers.cols() : 0;  // of other links: zero here, and left out below
+    Matrix forces(p.size, static_cast<Eigen::Index>(numbers.size()) + relief);
+    forces.rightCols(relief) = part.model.mass * carriers.leftCols(relief);
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       const auto& mode = modes.modes[at(numbers[j])];
       const auto phi = shapes.col(numbers[j]);
       const Vector inertia = part.model.mass * phi;
-      forces.col(static_cast<Eigen::Index>(j)) = symmetric || mode.rigid ? inertia : Vector(mode.eigenvalue * inertia + skew * phi);
+      forces.col(static_cast<Eigen::Index>(j)) = symmetric ? inertia : Vector(mode.eigenvalue * inertia + skew * phi);
     }
     std::vector<char> inLink(at(p.size), 0);
     for (int i : modes.links[at(link)]) inLink[at(i)] = 1;
+    for (int i = 0; i < p.size; ++i)
+      if (!inLink[at(i)]) forces.row(i).setZero();
     const Matrix answers = statics.solve(rows(forces, p.interior));
     Matrix all(answers.rows(), answers.cols() + statics.mechanisms().cols());
     all << statics.mechanisms(), answers;

@@ -13,7 +13,7 @@
 namespace tooljoint::reduction {
 
 /// Vectors that live on some interior dofs.
-struct InteriorVectors {
+struct VectorGroup {
   std::vector<int> positions;  ///< of the part, increasing
   Matrix columns;              ///< positions x vectors; of any length, not necessarily independent
 };
@@ -24,7 +24,7 @@ struct InteriorVectors {
 /// Craig and Bampton's. Sets vectors, eigenvalues, modeKind, orthonormal, orthogonality.
 /// Throws ModelError when M_II is not positive definite.
 void completeWithRitzModes(const model::Substructure& part, const Sparse& symmetricK, const ConstraintModes& constraint,
-                           const std::vector<InteriorVectors>& groups, const std::string& kind, BasisResult& basis);
+                           const std::vector<VectorGroup>& groups, const std::string& kind, BasisResult& basis);
 
 /// Rows of `basis` for its constraint modes.
 void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint, BasisResult& basis);
@@ -36,7 +36,7 @@ void addConstraintRows(const model::Substructure& part, const ConstraintModes& c
 ///
 /// without the difference of nearly equal vectors, and with the inertia-relief answer to rigid-body acceleration as the limit omega -> 0. One group for each free link;
 /// mechanisms of the interior are among its vectors. Rigid-body modes and elastic ones can be left out.
-std::vector<InteriorVectors> freeInterfaceVectors(const model::Substructure& part, const Sparse& K, const Partition& partition,
+std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, const Sparse& K, const Partition& partition,
                                                   const FreeInterfaceModes& modes, const InteriorStatics& statics, bool rigid = true, bool elastic = true);
 
 }  // namespace tooljoint::reduction

@@ -251,10 +251,21 @@ class Run {
   int runawaySamples_ = 0;
 };
 
+/// A force that joins parts, with -flexibility for stiffness and a mass: an eigenvalue omega^2 < 0.
+void refuseForcesWithMass(const model::SecondOrderModel& model) {
+  const Vector mass = model.mass.diagonal();
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (model.dofs[i].force != 0 && mass[static_cast<Eigen::Index>(i)] != 0.0)
+      throw ModelError("The model has no bounded motion: " + model::describe(model.dofs[i], model.componentNames) +
+                       " has a mass, that of the residual flexibility of the dual Craig-Bampton basis, and so a negative eigenvalue. Such a model is good for "
+                       "frequencies only; for motion set \"Residual Mass\" of \"Dual Craig-Bampton\" to false, or take \"Rubin\".");
+}
+
 }  // namespace
 
 TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
                           const RunHooks& hooks) {
+  refuseForcesWithMass(model);
   return Run(model, options, sink, hooks).go();
 }
 
