@@ -153,6 +153,22 @@ def string_part():
     expect("parts of a string are exported", done.returncode == 0, done.stderr[-400:] if done.returncode else "")
     expect("point laws that stay behind are named", "point law \"contact\"" in done.stdout + done.stderr)
     expect("files of all parts", len(list(pathlib.Path("string parts").glob("*.h5"))) >= 2)
+    plain = ["--without", "Contact", "--without", "Rotary Speed"]
+    tooljoint("export", str(deck), "--output", "plain parts", *plain)
+    part = '<ParameterList name="{}"><Parameter name="File" type="string" value="{}"/></ParameterList>'
+    law = '<ParameterList name="{}"><Parameter name="Form" type="string" value="Constant"/><ParameterList name="Constant"><Parameter name="Value" type="double" value="1"/>' \
+          "</ParameterList></ParameterList>"
+    files = sorted(pathlib.Path("plain parts").glob("*.h5"))
+    laws = set()
+    for file in files:
+        with h5py.File(file) as content:
+            content.visititems(lambda _, item: laws.add(item.attrs["law"]) if "law" in item.attrs else None)
+    text = "".join(part.format(file.stem, file) for file in files)
+    pathlib.Path("string.xml").write_text(
+        f'<ParameterList name="string"><ParameterList name="Parts"><ParameterList name="Imported">{text}</ParameterList><ParameterList name="Laws">' +
+        "".join(law.format(name) for name in sorted(laws - {"1"})) + "</ParameterList></ParameterList></ParameterList>", encoding="utf-8")
+    there, here = hertz("string.xml", "full [Hz]"), hertz(deck, "coupled [Hz]", *plain)
+    expect("parts of a string join by their node numbers to its frequencies", np.abs(there / here - 1).max() < 1e-12, f"{np.abs(there / here - 1).max():.1e}")
 
 
 def bad_parts_on_ranks():
