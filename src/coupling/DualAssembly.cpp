@@ -5,8 +5,6 @@
 #include <cmath>
 #include <string>
 
-#include "common/Error.hpp"
-#include "common/Text.hpp"
 #include "coupling/Congruence.hpp"
 #include "linalg/DirectSolver.hpp"
 
@@ -18,8 +16,6 @@ using model::DofLabel;
 using model::SecondOrderModel;
 
 const char* const joiningForces = "joining forces";
-/// Largest force left where parts meet in a static state, as a fraction of the largest one between parts.
-constexpr double balance = 1e-5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -34,7 +30,7 @@ class Builder {
     dropInterfacesThatAreNoCoordinates();
     addForces();
     putForcesInPlace();
-    requireBalance();
+    returnImbalance();
     startConsistently();
     return std::move(out_);
   }
@@ -160,9 +156,10 @@ class Builder {
     const int modes = piece.coordinates - piece.forces;
     double largest = 0, flexibility = 0;
     for (int i = 0; i < modes; ++i) largest = std::max(largest, std::abs(stiffness[place(i)]));
-    for (int i = 0; i < piece.coordinates; ++i) {
+    for (int i = piece.coordinates - 1; i >= 0; --i) {
+      if (i == modes - 1 && flexibility > 0.0) break;  // the residual flexibility says it
       const double own = std::abs(stiffness[place(i)]), row = out_.map.coeff(unknown, place(i));
-      if (own > (i < modes ? 1e-12 * largest : 0.0)) flexibility = std::max(flexibility, row * row / own);
+      if (own > (i < modes ? 1e-8 * largest : 0.0)) flexibility = std::max(flexibility, row * row / own);
     }
     return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
   }
@@ -220,15 +217,14 @@ class Builder {
     }
   }
 
-  /// Forces of the static state between parts, which load them, are forces between parts only when they balance where parts meet.
-  void requireBalance() const {
+  /// Forces of the static state load the parts (reduction::Boundary). What they leave where parts meet is no force between parts but what the static state lacks to
+  /// equilibrium, and is taken back.
+  void returnImbalance() {
     Vector total = Vector::Zero(all_);
-    double largest = 0;
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const Piece& piece = pieces_[p];
       const int n = piece.coordinates;
       for (int j = 0; j < piece.staticForces.size(); ++j) {
-        largest = std::max(largest, std::abs(piece.staticForces[j]));
         for (int i = 0; i < piece.forces; ++i)
           total[labelled_.columns[p][at(n + i)]] += (piece.turn.rows() > 0 ? piece.turn.coeff(n + j, n + i) : i == j ? 1.0 : 0.0) * piece.staticForces[j];
       }
@@ -237,12 +233,9 @@ class Builder {
       for (const auto& [other, factor] : solved.rest) total[other] += factor * total[solved.unknown];
       total[solved.unknown] = 0;
     }
-    for (int y = 0; y < all_; ++y)
-      if (virtual_[at(y)] >= 0 && std::abs(total[y]) > balance * largest)
-        throw ModelError("The static state is not one of equilibrium at " + model::describe(labelled_.model.dofs[at(y)], labelled_.model.componentNames) +
-                         ": the forces of the parts that meet there leave " + formatNumber(total[y]) + ", where the largest one is " + formatNumber(largest) +
-                         ". The dual Craig-Bampton basis keeps static forces between parts, so they must balance: reduce about a state of equilibrium, or take "
-                         "another basis.");
+    if (total.isZero(0.0)) return;
+    const Vector load = -(out_.map.transpose() * total);
+    out_.model.loads.push_back({"reference state: imbalance where parts meet", load, out_.model.lawIndex(model::ScalarLaw::one())});
   }
 
   /// Multipliers that nothing but constraints determines, at t = 0 (J: what addForces() has added):

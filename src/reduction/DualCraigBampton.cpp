@@ -15,7 +15,7 @@ namespace {
 ///
 ///     [I 0; 0 C M_r C'] (p, lambda)'' + [Lambda  -Phi_b' C'; -C Phi_b  -C F_r C'] (p, lambda) = ...,   F_r = Psi_b, M_r = Psi' M Psi,
 ///
-/// for symmetric parts; every matrix is projected full.
+/// for symmetric parts; every matrix is projected full, on Phi and Psi of the symmetric part of K.
 class DualCraigBampton : public Basis {
  public:
   explicit DualCraigBampton(bool residualMass) : residualMass_(residualMass) {}
@@ -23,6 +23,8 @@ class DualCraigBampton : public Basis {
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
     model::Substructure open = part;
     open.interface.clear();
+    // Phi and Psi of the symmetric part: then Phi' K Psi is what skew stiffness makes of it, little, and rigid-body modes are those of the elastic part.
+    open.model.stiffness = {{"symmetric part", symmetricPart(constantStiffness(part.model)), open.model.lawIndex(model::ScalarLaw::one())}};
     FreeInterfaceBasis free = freeInterfaceBasis(open, request);
     BasisResult& basis = free.basis;
     if (part.interface.empty()) return std::move(basis);

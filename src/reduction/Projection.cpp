@@ -103,6 +103,21 @@ Sparse withoutRounding(const Sparse& k, const Vector& size) {
   return out;
 }
 
+/// Rows of interface forces that say u_b = Phi_b p + Psi_b g and nothing of the residual forces of skew or time-dependent stiffness, which without mass would
+/// drive the forces: k_gp = 0, k_gg = Psi_b' of the constant stiffness.
+Sparse withExactInterfaces(const Sparse& k, const BasisResult& basis, bool constant) {
+  const auto first = static_cast<int>(k.rows()) - basis.forces();
+  Triplets entries;
+  for (int i = 0; i < first; ++i)
+    for (Sparse::InnerIterator it(k, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+  for (int j = 0; constant && j < basis.forces(); ++j)
+    for (Sparse::InnerIterator it(basis.vectors, basis.boundary[static_cast<std::size_t>(j)]); it; ++it)
+      if (it.col() >= first) entries.emplace_back(static_cast<int>(it.col()), first + j, it.value());
+  Sparse out(k.rows(), k.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
 /// Largest off-diagonal of sym(k_DD) relative to max(sqrt(k_ii k_jj), rounding level).
 double offDiagonal(const Sparse& k, Eigen::Index kept, const Vector& size) {
   const Vector diagonal = k.diagonal().cwiseAbs();
@@ -204,7 +219,9 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
   out.constantStiffness = Sparse(Phi.cols(), Phi.cols());
   for (const auto& term : stiffnessTerms(part.model)) {
     Sparse reduced = project(term.matrix, Phi);
-    if (part.model.laws[static_cast<std::size_t>(term.law)].name == "1") {
+    const bool constant = part.model.laws[static_cast<std::size_t>(term.law)].name == "1";
+    if (basis.forces() > 0 && masslessFlexibility) reduced = withExactInterfaces(reduced, basis, constant);
+    if (constant) {
       if (nearlySymmetric(K, 1e-13)) reduced = symmetricPart(reduced);
       const Vector size = naturalSize(K, Phi);
       if (basis.orthonormal)

@@ -20,7 +20,7 @@ struct Boundary {
   /// The last so many coordinates are the forces g that the rest of the model exerts on `dofs`, one for each; 0: there are none. They need dual
   /// assembly, which puts its multipliers in their place, g = C' lambda, after K and M were projected on all coordinates (D. J. Rixen 2004).
   int forces = 0;
-  Vector staticForces;  ///< with `forces`: those of the static state, about which the coordinates count; the loads of the part have them. They must balance where parts meet
+  Vector staticForces;  ///< with `forces`: those of the static state, about which the coordinates count; the loads of the part have them
 };
 
 /// A reduced part: a small SecondOrderModel in q = (interface, retained, modes), with D = offset + Phi q.
