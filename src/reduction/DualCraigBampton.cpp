@@ -3,6 +3,7 @@
 /// Free-interface modes and residual flexibility with interface forces as coordinates: D. J. Rixen, A dual Craig-Bampton method for dynamic
 /// substructuring, Journal of Computational and Applied Mathematics 168 (2004) 383-391.
 #include <Teuchos_ParameterList.hpp>
+#include <cmath>
 #include <utility>
 
 #include "reduction/FreeInterfaceBasis.hpp"
@@ -55,7 +56,7 @@ class DualCraigBampton : public Basis {
     return out;
   }
 
-  /// Answers to unit forces on the interface with the retained dofs held, less what the modal columns W hold of them: (1 - W W' M) K_II^-1 B.
+  /// Answers to unit forces on the interface with the retained dofs held, less what the modal columns W hold of them: (1 - W (W' K W)^-1 W' K) K_II^-1 B.
   static Matrix residualAttachments(const model::Substructure& part, const FreeInterfaceBasis& free) {
     const Partition& p = free.basis.partition;
     const auto interior = static_cast<Eigen::Index>(p.interior.size());
@@ -68,7 +69,20 @@ class DualCraigBampton : public Basis {
     Matrix Psi = free.statics->solve(B);
     const Sparse W = block(free.basis.vectors, p.interior, columns), M = block(part.model.mass, p.interior, p.interior);
     const Sparse transposed = W.transpose();
-    for (int again = 0; again < 2; ++again) Psi -= W * Matrix(transposed * Matrix(M * Psi));
+    const Sparse K = block(constantStiffness(part.model), p.interior, p.interior), absolute = K.cwiseAbs();
+    for (int again = 0; again < 2; ++again) {
+      Matrix amplitudes = transposed * Matrix(K * Psi);
+      const Matrix inertial = transposed * Matrix(M * Psi);
+      for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
+        const double omega2 = free.basis.eigenvalues[k];
+        const Vector size = Vector(W.col(k)).cwiseAbs();
+        if (std::abs(omega2) > 1e-12 * size.dot(absolute * size))
+          amplitudes.row(k) /= omega2;
+        else
+          amplitudes.row(k) = inertial.row(k);  // a rigid-body motion
+      }
+      Psi -= W * amplitudes;
+    }
     return Psi;
   }
 
