@@ -57,9 +57,9 @@ class Springs final : public Batch<SpringParameters, Springs> {
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
     Power sum;
-    for (int p = 0; p < size(); ++p) {
+    for (int p : points) {
       const auto& s = points_[at(p)];
       sum.stored += 0.5 * s.stiffness * d[p] * d[p] + 0.25 * s.cubicStiffness * std::pow(d[p], 4);
       sum.damping += s.damping * v[p] * v[p];
@@ -148,10 +148,10 @@ class Stops final : public Batch<StopParameters, Stops> {
     for (int p : points) gap[p] = d[p * width()] + points_[at(p)].gap - points_[at(p)].smoothing;
   }
 
-  Power power(double, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
     Power sum;
     const int w = width();
-    for (int p = 0; p < size(); ++p) {
+    for (int p : points) {
       const auto& s = points_[at(p)];
       const double depth = -(d[p * w] + s.gap), rate = -v[p * w];
       const Normal n = normal(s, d[p * w], v[p * w]);
@@ -212,9 +212,9 @@ class Frictions final : public Batch<FrictionParameters, Frictions> {
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const double*, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double*, const double* v) const override {
     Power sum;
-    for (int p = 0; p < size(); ++p) sum.friction -= force(p, v[p]) * v[p];
+    for (int p : points) sum.friction -= force(p, v[p]) * v[p];
     return sum;
   }
   std::vector<Channel> channels() const override { return {{"friction_force", "N", "Friction force along its coordinate"}}; }

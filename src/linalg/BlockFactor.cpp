@@ -95,7 +95,8 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   swaps_.assign(z(pattern.size()), 0);
   workScale_.assign(z(widest), 0.0);
   work_.assign(z(widest), 0.0);
-  panel_.assign(panel, 0.0);
+  const std::size_t inverted = z(std::min(widest, kernel::largestInverse));
+  panel_.assign(std::max(panel, inverted * inverted), 0.0);
 }
 
 TOOLJOINT_CLONES int BlockFactor::factor() {
@@ -111,7 +112,7 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
   }
   for (const Pivot& p : pivots_) {
     double* D = values + p.diagonal;
-    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)]);
+    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)], panel_.data());
     if (bad >= 0) return p.start + bad;
     // W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj
     for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {

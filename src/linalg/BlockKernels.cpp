@@ -74,4 +74,14 @@ void solveLarge(int n, int columns, const double* lu, const int* pivots, double*
   }
 }
 
+int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel) {
+  const int bad = factorLarge(n, a, scale, workScale, pivots);
+  if (bad >= 0) return bad;
+  std::fill(panel, panel + n * n, 0.0);
+  for (int i = 0; i < n; ++i) panel[i * (n + 1)] = 1.0;
+  solveLarge(n, n, a, pivots, panel);
+  std::copy(panel, panel + n * n, a);
+  return -1;
+}
+
 }  // namespace tooljoint::linalg::kernel

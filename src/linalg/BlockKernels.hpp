@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The few dense operations block solvers are made of, on raw column-major storage. Blocks of 6 x 6 (one node of a spatial
-/// beam) are unrolled; blocks up to 8 keep an explicit inverse, larger ones a pivoted LU. Nothing here allocates for blocks
+/// beam) are unrolled; blocks up to 64 keep an explicit inverse, larger ones a pivoted LU. Nothing here allocates for blocks
 /// below about 600 rows.
 #pragma once
 
@@ -12,7 +12,9 @@
 namespace tooljoint::linalg::kernel {
 
 /// Blocks up to this size are inverted explicitly: a product is faster than two triangular solves.
-constexpr int largestInverse = 8;
+constexpr int largestInverse = 64;
+/// Up to this size by Gauss and Jordan at once, above through LU.
+constexpr int largestDirect = 8;
 
 // Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one with AVX2 and FMA, and the
 // loader chooses. The two differ in the last bit.
@@ -39,6 +41,11 @@ struct Six {
       b += *reinterpret_cast<const Pair*>(A + 6 * j + 4) * x[j];
     }
   }
+  /// this += a x, a one column.
+  void addColumn(const double* column, double x) {
+    a += *reinterpret_cast<const Quad*>(column) * x;
+    b += *reinterpret_cast<const Pair*>(column + 4) * x;
+  }
   /// this -= A x, A 6 x 6.
   void subtract(const double* A, const double* x) {
     for (int j = 0; j < 6; ++j) {
@@ -53,32 +60,52 @@ using MutableBlock = Eigen::Map<Eigen::MatrixXd>;
 using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
 using MutableSegment = Eigen::Map<Eigen::VectorXd>;
 
-/// y += A x.
-inline void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
-  if (rows == 6 && columns == 6) {
-    Six s(y);
-    s.add(A, x);
-    s.to(y);
-  } else if (rows <= 12) {
-    for (int j = 0; j < columns; ++j)
-      for (int i = 0; i < rows; ++i) y[i] += A[j * rows + i] * x[j];
-  } else {
-    MutableSegment(y, rows).noalias() += ConstBlock(A, rows, columns) * ConstSegment(x, columns);
+/// y += sign A x by four columns at a time.
+template <int sign>
+inline void addColumns(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
+  int j = 0;
+  for (; j + 4 <= columns; j += 4) {
+    const double a = sign * x[j], b = sign * x[j + 1], c = sign * x[j + 2], d = sign * x[j + 3];
+    const double* __restrict A0 = A + j * rows;
+    const double* __restrict A1 = A0 + rows;
+    const double* __restrict A2 = A1 + rows;
+    const double* __restrict A3 = A2 + rows;
+    for (int i = 0; i < rows; ++i) y[i] += (A0[i] * a + A1[i] * b) + (A2[i] * c + A3[i] * d);
+  }
+  for (; j < columns; ++j) {
+    const double a = sign * x[j];
+    for (int i = 0; i < rows; ++i) y[i] += A[j * rows + i] * a;
   }
 }
 
-/// y -= A x.
-inline void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
-  if (rows == 6 && columns == 6) {
-    Six s(y);
-    s.subtract(A, x);
-    s.to(y);
-  } else if (rows <= 12) {
-    for (int j = 0; j < columns; ++j)
-      for (int i = 0; i < rows; ++i) y[i] -= A[j * rows + i] * x[j];
-  } else {
-    MutableSegment(y, rows).noalias() -= ConstBlock(A, rows, columns) * ConstSegment(x, columns);
+/// The same for six rows.
+template <int sign>
+inline void addSixRows(int columns, const double* A, const double* x, double* y) {
+  Six even(y), odd;
+  int j = 0;
+  for (; j + 2 <= columns; j += 2) {
+    even.addColumn(A + 6 * j, sign * x[j]);
+    odd.addColumn(A + 6 * j + 6, sign * x[j + 1]);
   }
+  if (j < columns) even.addColumn(A + 6 * j, sign * x[j]);
+  even.a += odd.a, even.b += odd.b;
+  even.to(y);
+}
+
+/// y += A x; y and x do not overlap.
+inline void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
+  if (rows == 6)
+    addSixRows<1>(columns, A, x, y);
+  else
+    addColumns<1>(rows, columns, A, x, y);
+}
+
+/// y -= A x; y and x do not overlap.
+inline void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
+  if (rows == 6)
+    addSixRows<-1>(columns, A, x, y);
+  else
+    addColumns<-1>(rows, columns, A, x, y);
 }
 
 /// C -= A B with A rows x inner, B inner x columns.
@@ -89,7 +116,7 @@ inline void multiplySubtract(int rows, int inner, int columns, const double* A, 
       s.subtract(A, B + 6 * j);
       s.to(C + 6 * j);
     }
-  } else if (rows <= 12 && inner <= 12) {
+  } else if (rows <= 64 && inner <= 64) {
     for (int j = 0; j < columns; ++j) multiplySubtract(rows, inner, A, B + j * inner, C + j * rows);
   } else {
     // Slices of the inner dimension keep Eigen's packing buffers on the stack.
@@ -105,7 +132,7 @@ inline void multiplySubtract(int rows, int inner, int columns, const double* A, 
 
 /// C += A B with A rows x inner, B inner x columns.
 inline void multiplyAddTo(int rows, int inner, int columns, const double* A, const double* B, double* C) {
-  if (rows <= 12 && inner <= 12) {
+  if (rows <= 64 && inner <= 64) {
     for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
   } else {
     MutableBlock(C, rows, columns).noalias() += ConstBlock(A, rows, inner) * ConstBlock(B, inner, columns);
@@ -162,8 +189,12 @@ int factorLarge(int n, double* a, const double* scale, double* workScale, int* p
 /// B := A^-1 B with the factors of factorLarge; B is n x columns.
 void solveLarge(int n, int columns, const double* lu, const int* pivots, double* B);
 
-/// Factor a diagonal block: explicit inverse up to largestInverse, LU above. Returns -1 or the position of the bad pivot.
-inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots) {
+/// Replace a by its inverse through its LU.
+int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel);
+
+/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), LU above. Returns -1 or the
+/// position of the bad pivot.
+inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel) {
   switch (n) {
     case 1:
       return invert<1>(a, scale);
@@ -182,7 +213,7 @@ inline int factorBlock(int n, double* a, const double* scale, double* workScale,
     case 8:
       return invert<8>(a, scale);
     default:
-      return factorLarge(n, a, scale, workScale, pivots);
+      return n <= largestInverse ? invertLarge(n, a, scale, workScale, pivots, panel) : factorLarge(n, a, scale, workScale, pivots);
   }
 }
 

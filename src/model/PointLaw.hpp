@@ -41,14 +41,14 @@ class PointLaw {
   /// The first so many coordinates decide about it: it changes by no more than the length of their change.
   virtual int reach() const { return width(); }
 
-  /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction] summed over the batch, for the energy ledger.
+  /// Stored energy [J] and dissipated power [W >= 0: normal damping, friction] summed over the points given, for the energy ledger.
   struct Power {
     double stored = 0;      ///< potential of the conservative part [J]
     double damping = 0;     ///< power lost in normal damping [W]
     double friction = 0;    ///< power lost in friction [W]
     double drive = 0;       ///< power fed in through prescribed motion (the rotary drive acting through friction) [W]
   };
-  virtual Power power(double t, const double* d, const double* v) const = 0;
+  virtual Power power(double t, const std::vector<int>& points, const double* d, const double* v) const = 0;
 
   /// What can be recorded; `record` fills out[channel*size()+point].
   virtual std::vector<Channel> channels() const = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace tooljoint::transient {
 namespace {
@@ -35,6 +36,56 @@ Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) 
   Sparse coupling(n, n);
   coupling.setFromTriplets(triplets.begin(), triplets.end());
   return coupling;
+}
+
+/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there are families that neither
+/// matrices nor point laws couple among each other: lateral modes of one run between two kept nodes, torsional ones, ...
+struct Groups {
+  std::vector<int> group, kind;
+};
+
+Groups groupDofs(const model::SecondOrderModel& model) {
+  const int n = model.size();
+  std::vector<int> parent(z(n));
+  for (int i = 0; i < n; ++i) parent[z(i)] = i;
+  const auto root = [&](int i) {
+    while (parent[z(i)] != i) i = parent[z(i)] = parent[z(parent[z(i)])];
+    return i;
+  };
+  const auto isModal = [&](int i) { return model.dofs[z(i)].kind == model::DofLabel::Kind::Modal; };
+  const auto join = [&](int i, int j) {
+    if (model.dofs[z(i)].entity != model.dofs[z(j)].entity) return;
+    const int a = root(i), b = root(j);
+    parent[z(std::max(a, b))] = std::min(a, b);
+  };
+  const auto joinModes = [&](const Sparse& matrix) {
+    for (int i = 0; i < n; ++i)
+      if (isModal(i))
+        for (Sparse::InnerIterator it(matrix, i); it; ++it)
+          if (it.value() != 0.0 && isModal(static_cast<int>(it.col()))) join(i, static_cast<int>(it.col()));
+  };
+  joinModes(model.mass);
+  for (const auto* terms : {&model.damping, &model.stiffness})
+    for (const auto& term : *terms) joinModes(term.matrix);
+  std::map<std::int64_t, int> first;  // per part: the first of its modes a point hangs on
+  for (const auto& set : model.points)
+    for (int p = 0; p < set.law->size(); ++p) {
+      first.clear();
+      for (int r = p * set.law->width(); r < (p + 1) * set.law->width(); ++r)
+        for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
+          const int dof = static_cast<int>(it.col());
+          if (it.value() != 0.0 && isModal(dof)) join(first.emplace(model.dofs[z(dof)].entity, dof).first->second, dof);
+        }
+    }
+  Groups groups;
+  std::map<std::tuple<int, std::int64_t, int>, int> entities;
+  for (int i = 0; i < n; ++i) {
+    const auto& label = model.dofs[z(i)];
+    groups.kind.push_back(static_cast<int>(label.kind));
+    const auto key = std::make_tuple(groups.kind.back(), label.entity, isModal(i) ? root(i) : 0);
+    groups.group.push_back(entities.emplace(key, static_cast<int>(entities.size())).first->second);
+  }
+  return groups;
 }
 
 bool isSkew(const Sparse& matrix) {
@@ -151,14 +202,7 @@ void MatrixSum::combine(double factor, double* values, std::size_t storage) cons
 CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(model) {
   model.validate();
   const int n = model.size();
-  std::vector<int> group(z(n));
-  std::vector<int> kind(z(n));
-  std::map<std::pair<int, std::int64_t>, int> entities;
-  for (int i = 0; i < n; ++i) {
-    const auto& label = model.dofs[z(i)];
-    kind[z(i)] = static_cast<int>(label.kind);
-    group[z(i)] = entities.emplace(std::make_pair(kind[z(i)], label.entity), static_cast<int>(entities.size())).first->second;
-  }
+  const auto [group, kind] = groupDofs(model);
   std::vector<Sparse> couplings;
   for (const auto& set : model.points) couplings.push_back(pointCoupling(set, group));
   std::vector<const Sparse*> matrices{&model.mass};

@@ -32,11 +32,10 @@ void EnergyLedger::allocate(CompiledModel& model) {
   account_.damping.resize(dissipative_.size(), 0.0);
 }
 
-EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v) {
+EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, bool all) {
   Powers sum;
   for (auto& batch : model.points()) {
-    batch.gatherAll(q.data(), v.data());
-    const auto power = batch.law().power(t, batch.d(), batch.v());
+    const auto power = batch.power(t, q.data(), v.data(), all);
     sum.stored += power.stored;
     sum.damping += power.damping;
     sum.friction += power.friction;
@@ -56,7 +55,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   q_ = state.q;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
-  stored_ = pointPowers(model, state.t, state.q, state.v).stored;
+  stored_ = pointPowers(model, state.t, state.q, state.v, true).stored;
   const EnergyAccount now = account(model, state);
   account_.initial = now.kinetic + now.strain + now.contact;
   account_.supplied = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.contact);
@@ -111,9 +110,9 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
-    const double stored = pointPowers(model, to.t, to.q, to.v).stored;
-    exchanged += std::abs(stored - stored_);
-    stored_ = stored;
+    for (auto& batch : model.points()) batch.bookPowers();
+    exchanged += std::abs(mean.stored - stored_);
+    stored_ = mean.stored;
   }
   account_.exchanged += exchanged;
   account_.supplied +=
@@ -130,7 +129,7 @@ bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = kinetic(model, state);
   account_.strain = strain_;
-  account_.contact = stored_;
+  account_.contact = pointPowers(model, state.t, state.q, state.v, true).stored;
   return account_.runaway();
 }
 
@@ -139,7 +138,7 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   EnergyAccount result = account_;
   result.kinetic = kinetic(model, state);
   result.strain = strain_;
-  result.contact = stored_;
+  result.contact = pointPowers(model, state.t, state.q, state.v, true).stored;
   return result;
 }
 

@@ -57,7 +57,7 @@ class EnergyLedger {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
   void allocate(CompiledModel& model);
-  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v);
+  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, bool all = false);
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work

@@ -40,7 +40,7 @@ deck::ListSpec specification() {
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above the step in one step. Walls "
             "too stiff for the "
             "step (more than about 1 rad of contact frequency per step) need 0.2 or less.")
-      .real("Tolerance", "", 1e-6, deck::Range::positive(),
+      .real("Tolerance", "", 1e-5, deck::Range::positive(),
             "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls below this times the largest "
             "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")

@@ -161,8 +161,12 @@ bool ImplicitStep::settle(State& to) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
   drift_.setZero();
-  if (norm > 0) addDrift(guess_, drift_);
+  const double negligible = 0.1 * tolerance();
   delta_ = guess_;
+  if (norm * guess_.cwiseAbs().maxCoeff() > negligible)
+    addDrift(guess_, drift_);
+  else
+    guess_.setZero();  // what drift_ stands for
   relaxation_.guess(to.t, c, delta_);
   bool phase = correctsPhase();
   const double settled = std::sqrt(options_.tolerance);
@@ -180,7 +184,7 @@ bool ImplicitStep::settle(State& to) {
       correctPhase(to);
       phase = error_ > settled * reference_;  // taken from an iterate that is near
     }
-    if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > 0.1 * tolerance()) {
+    if (norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
       drift_.setZero();
       addDrift(delta_, drift_);
       guess_ = delta_;

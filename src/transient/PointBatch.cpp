@@ -69,6 +69,9 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   active_.reserve(z(points_));
   frozen_.reserve(z(points_));
   isActive_.assign(z(points_), 0);
+  hasActed_.assign(z(points_), 0);
+  acted_.reserve(z(points_));
+  for (int p = 0; p < points_; ++p) all_.push_back(p);
   isFrozen_.assign(z(points_), 0);
   scale_.assign(z(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
@@ -101,8 +104,10 @@ void PointBatch::gatherAll(const double* q, const double* v) {
   }
 }
 
-void PointBatch::gatherActive(const double* q, const double* v) {
-  for (int p : active_)
+void PointBatch::gatherActive(const double* q, const double* v) { gatherThese(active_, q, v); }
+
+void PointBatch::gatherThese(const std::vector<int>& points, const double* q, const double* v) {
+  for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r) {
       if (single_) {
         const int i = index_[z(r)];
@@ -142,16 +147,33 @@ void PointBatch::look(double t, double h, const double* q) {
   // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank since the look before.
   const double reach = gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
   for (int p : active_) isActive_[z(p)] = 0;
-  active_.clear();
   for (int p : watch_.awake()) {
     const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
     isActive_[z(p)] = !(gap_[z(p)] > reach * closing);
   }
   // What stands in a factored matrix has to be looked at as long as it stands there.
   for (int p : frozen_) isActive_[z(p)] = 1;
-  for (int p = 0; p < points_; ++p)
-    if (isActive_[z(p)]) active_.push_back(p);
+  listActive();
 }
+
+void PointBatch::listActive() {
+  active_.clear();
+  for (int p = 0; p < points_; ++p)
+    if (isActive_[z(p)]) active_.push_back(p), hasActed_[z(p)] = 1;
+}
+
+model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v, bool all) {
+  if (!all) {
+    acted_.clear();
+    for (int p = 0; p < points_; ++p)
+      if (hasActed_[z(p)]) acted_.push_back(p);
+  }
+  const auto& points = all ? all_ : acted_;
+  gatherThese(points, q, v);
+  return law_->power(t, points, d_.data(), v_.data());
+}
+
+void PointBatch::bookPowers() { hasActed_ = isActive_; }
 
 bool PointBatch::addMissed(const double* q, double t) {
   if (static_cast<int>(active_.size()) == points_) return false;
@@ -160,11 +182,8 @@ bool PointBatch::addMissed(const double* q, double t) {
   bool any = false;
   for (int p : watch_.awake())
     if (!isActive_[z(p)] && !(check_[z(p)] > 0)) isActive_[z(p)] = 1, any = true;
-  if (!any) return false;
-  active_.clear();
-  for (int p = 0; p < points_; ++p)
-    if (isActive_[z(p)]) active_.push_back(p);
-  return true;
+  if (any) listActive();
+  return any;
 }
 
 void PointBatch::evaluate(double t, const double* q, const double* v) {
@@ -408,7 +427,7 @@ void PointBatch::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {gapTime_, lastGapTime_, static_cast<double>(gapsSeen_)});
   memory.insert(memory.end(), gap_.begin(), gap_.end());
   memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
-  for (char on : isActive_) memory.push_back(on);
+  for (const auto* flags : {&isActive_, &hasActed_}) memory.insert(memory.end(), flags->begin(), flags->end());
   memory.insert(memory.end(), scale_.begin(), scale_.end());
   watch_.save(memory);
   memory.push_back(static_cast<double>(frozen_.size()));
@@ -425,11 +444,9 @@ void PointBatch::restore(const double*& memory) {
   gapsSeen_ = static_cast<int>(*memory++);
   for (double& gap : gap_) gap = *memory++;
   for (double& gap : lastGap_) gap = *memory++;
-  active_.clear();
-  for (int p = 0; p < points_; ++p) {
-    isActive_[z(p)] = *memory++ != 0.0;
-    if (isActive_[z(p)]) active_.push_back(p);
-  }
+  for (char& on : isActive_) on = *memory++ != 0.0;
+  listActive();
+  for (char& on : hasActed_) on = *memory++ != 0.0;
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
   watch_.restore(memory);
   forgetTangent();

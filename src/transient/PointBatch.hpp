@@ -98,6 +98,10 @@ class PointBatch {
   /// The law at one point for width() coordinates d, v; tangents row-major, both null if not wanted.
   void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv);
 
+  /// Powers at (q, v), summed over the points that were active since the last bookPowers(), or over all points.
+  model::PointLaw::Power power(double t, const double* q, const double* v, bool all = false);
+  /// What is booked up to now is not looked at again.
+  void bookPowers();
   /// Position, velocity of all points for recording (all of them are gathered).
   void gatherAll(const double* q, const double* v);
   const double* d() const { return d_.data(); }
@@ -110,6 +114,8 @@ class PointBatch {
   void restore(const double*& memory);
 
  private:
+  void gatherThese(const std::vector<int>& points, const double* q, const double* v);
+  void listActive();
   void measure(const double* q, std::vector<double>& gap);
   void subtract(const std::vector<double>& frozen, double* values) const;
   void applyScale(bool tangent);
@@ -143,6 +149,8 @@ class PointBatch {
 
   std::vector<int> active_;
   std::vector<char> isActive_;
+  std::vector<char> hasActed_;  ///< active since the last bookPowers()
+  std::vector<int> acted_, all_;
   std::vector<char> isFrozen_;  ///< in the frozen tangent
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> scale_;

@@ -111,10 +111,10 @@ class BoreholeContactOf final : public BoreholeContact {
     }
   }
 
-  Power power(double t, const double* d, const double* v) const override {
+  Power power(double t, const std::vector<int>& points, const double* d, const double* v) const override {
     Power sum;
     const double omega = frictionless_ ? 0.0 : speed_(t);
-    for (int p = 0; p < size(); ++p) {
+    for (int p : points) {
       const auto i = static_cast<std::size_t>(p);
       const WallKinematics at = where(i, d + 3 * p, v + 3 * p);
       double dG = 0.0;

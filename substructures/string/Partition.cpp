@@ -4,6 +4,7 @@
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "common/Error.hpp"
@@ -27,6 +28,12 @@ deck::ListSpec partitionParameters() {
               "Which nodes are retained: static gap below Retained Gap, nodes in contact in the static state, gauges, every "
               "node that can touch, Node List, or none.");
   list.real("Retained Gap", "m", 0.008, Range::nonNegative(), "Static gap below which a node is retained by the choice \"Gap\".");
+  list.real("Whole Below", "m", deck::Optional{}, Range::nonNegative(),
+            "Depth below which every node is retained, beside those of Retained Nodes: where the action is (the bottom-hole assembly and the pipes that strike "
+            "the wall above it) stays as it is while the long string above is reduced.");
+  list.integer("Shortest Run", 1, Range::atLeast(1),
+               "Nodes in runs shorter than this between kept nodes (retained ones, loads, ends of parts) are retained too: a few nodes cost less as they "
+               "are than as constraint modes and modes. 8 is a good choice for speed; 1 keeps all runs.");
   list.integerArray("Node List", deck::Optional{}, Range::atLeast(1), "Nodes (1-based) of the choice \"List\"; required there.");
   list.choice("Contact Nodes", std::string("All"), {"All", "Retained"},
               "Where contact is evaluated in the reduced model: at every node that can touch, or at retained nodes alone (a short "
@@ -66,6 +73,8 @@ PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIn
   }
   rules.retainedNodes = list.get<std::string>("Retained Nodes");
   rules.retainedGap = list.get<double>("Retained Gap");
+  if (list.isParameter("Whole Below")) rules.wholeBelow = list.get<double>("Whole Below");
+  rules.shortestRun = list.get<int>("Shortest Run");
   if (rules.retainedNodes == "List") rules.nodeList = integers(list, "Node List", "List");
   rules.contactAtRetainedOnly = list.get<std::string>("Contact Nodes") == "Retained";
   return rules;
@@ -135,6 +144,39 @@ std::vector<int> chosenNodes(const DrillString& string, const PartitionRules& ru
   return nodes;
 }
 
+namespace {
+
+/// Nodes at or below rules.wholeBelow.
+std::vector<int> wholeNodes(const DrillString& string, const PartitionRules& rules) {
+  const auto depths = string.depths();
+  std::vector<int> nodes;
+  for (int node = 0; node < string.nodeCount(); ++node)
+    if (depths[static_cast<std::size_t>(node)] >= rules.wholeBelow * (1.0 - 1e-12)) nodes.push_back(node);
+  return nodes;
+}
+
+/// Inner nodes of runs of fewer than rules.shortestRun nodes between kept ones.
+std::vector<int> nodesOfShortRuns(const DrillString& string, const PartitionRules& rules, const std::set<int>& keptDofs,
+                                  const std::vector<int>& chosen) {
+  std::vector<char> kept(static_cast<std::size_t>(string.nodeCount()), 0);
+  for (int node : wholeNodes(string, rules)) kept[static_cast<std::size_t>(node)] = 1;
+  for (int dof : keptDofs) kept[static_cast<std::size_t>(dof / 6)] = 1;
+  for (int node : chosen) kept[static_cast<std::size_t>(node)] = 1;
+  for (const auto& part : cutParts(string, rules)) kept[static_cast<std::size_t>(part.firstElement)] = kept[static_cast<std::size_t>(part.lastElement + 1)] = 1;
+  std::vector<int> nodes, run;
+  for (int node = 0; node < string.nodeCount(); ++node) {
+    if (!kept[static_cast<std::size_t>(node)]) {
+      run.push_back(node);
+      continue;
+    }
+    if (static_cast<int>(run.size()) < rules.shortestRun) nodes.insert(nodes.end(), run.begin(), run.end());
+    run.clear();
+  }
+  return nodes;
+}
+
+}  // namespace
+
 std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& rules, const NodeState& state) {
   std::set<int> dofs(state.loadedDofs.begin(), state.loadedDofs.end());
   std::vector<int> components;
@@ -143,8 +185,14 @@ std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& r
     case Retain::Contact: components = {0, 1, 5}; break;
     case Retain::Translations: components = {0, 1}; break;
   }
-  for (int node : chosenNodes(string, rules, state))
+  const auto chosen = chosenNodes(string, rules, state);
+  const auto shortRuns = nodesOfShortRuns(string, rules, dofs, chosen);
+  for (int node : chosen)
     for (int component : components) dofs.insert(6 * node + component);
+  for (int node : wholeNodes(string, rules))
+    for (int component = 0; component < 6; ++component) dofs.insert(6 * node + component);
+  for (int node : shortRuns)
+    for (int component = 0; component < 6; ++component) dofs.insert(6 * node + component);
   return {dofs.begin(), dofs.end()};
 }
 

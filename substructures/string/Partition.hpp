@@ -3,6 +3,7 @@
 /// Where the string is cut into parts and which dofs stay physical. Deck list `Substructures`.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct PartitionRules {
   Retain retain = Retain::Nodes;
   std::string retainedNodes = "Gap";
   double retainedGap = 0.008;  ///< [m]
+  int shortestRun = 1;         ///< inner nodes; shorter runs between kept nodes stay physical
+  double wholeBelow = std::numeric_limits<double>::infinity();  ///< depth [m]; all nodes from there on stay physical
   std::vector<int> nodeList;   ///< "List": 1-based
   bool contactAtRetainedOnly = false;
 };

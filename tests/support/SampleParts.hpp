@@ -241,7 +241,7 @@ class CubicSpring : public model::PointLaw {
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const double*, const double*) const override { return {}; }
+  Power power(double, const std::vector<int>&, const double*, const double*) const override { return {}; }
   std::vector<model::Channel> channels() const override { return {}; }
   void record(double, const double*, const double*, double*) const override {}
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& points) const override {

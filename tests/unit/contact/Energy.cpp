@@ -23,7 +23,7 @@ TEST_P(Energy, PowersBalance) {
       state.d.insert(state.d.end(), {0.0285 + 2e-4, 1e-3, 0.0});
       state.v.insert(state.v.end(), {-0.4, 0.2, -3.0});
       const auto f = force(*contact, 0.0, state.d, state.v);
-      const auto power = contact->power(0.0, state.d.data(), state.v.data());
+      const auto power = contact->power(0.0, {0, 1}, state.d.data(), state.v.data());
       double work = 0.0;
       for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * state.v[i];
       const double h = 2e-7;
@@ -33,7 +33,7 @@ TEST_P(Energy, PowersBalance) {
         after[i] += h * state.v[i];
       }
       const double storing =
-          (contact->power(0.0, after.data(), state.v.data()).stored - contact->power(0.0, before.data(), state.v.data()).stored) /
+          (contact->power(0.0, {0, 1}, after.data(), state.v.data()).stored - contact->power(0.0, {0, 1}, before.data(), state.v.data()).stored) /
           (2.0 * h);
       const double scale = std::abs(storing) + power.damping + std::abs(power.friction) + std::abs(power.drive) + 1.0;
       EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale)
@@ -71,7 +71,7 @@ TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
         sum += (i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * N * 3.0 * x * x * edge / n / 3.0;
       }
       const std::vector<double> d = {p.clearance + G, 0.0, 0.0};
-      EXPECT_NEAR(contact->power(0.0, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15)
+      EXPECT_NEAR(contact->power(0.0, {0}, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15)
           << GetParam() << " " << lambda << " " << G;
     }
   }

@@ -110,7 +110,7 @@ class Trampoline final : public model::PointLaw {
     dfdv[0] = d[0] < 0 ? 40 : 0.0;
   }
   void clearanceLeft(const std::vector<int>&, const double* d, double* gap) const override { gap[0] = d[0]; }
-  Power power(double, const double* d, const double*) const override {
+  Power power(double, const std::vector<int>&, const double* d, const double*) const override {
     Power power;
     power.stored = d[0] < 0 ? 0.5e4 * d[0] * d[0] : 0.0;
     return power;

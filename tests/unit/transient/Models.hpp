@@ -72,9 +72,9 @@ class Floor final : public model::PointLaw {
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
     for (int p : points) gap[p] = d[p] - tail();
   }
-  Power power(double, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
     Power sum;
-    for (int p = 0; p < points_; ++p) {
+    for (int p : points) {
       if (d[p] < 0) sum.stored += 0.5 * k_ * d[p] * d[p];
       sum.damping += c_ * step(-d[p]) * v[p] * v[p];
     }

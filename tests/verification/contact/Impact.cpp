@@ -30,7 +30,7 @@ class Body {
     return next;
   }
 
-  model::PointLaw::Power power(const Motion& x) const { return contact_->power(0.0, x.data(), x.data() + 3); }
+  model::PointLaw::Power power(const Motion& x) const { return contact_->power(0.0, {0}, x.data(), x.data() + 3); }
 
  private:
   static Motion moved(Motion x, const Motion& rate, double h) {
