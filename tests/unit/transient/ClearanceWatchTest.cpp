@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// No point loses its clearance in its sleep, and most of them do sleep.
+#include "transient/ClearanceWatch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace tooljoint::transient {
+namespace {
+
+/// Points of three coordinates (two of them lengths) on one block of coordinates, clearance = gap - |(d_0, d_1)|.
+struct Cloud {
+  static constexpr int points = 40, width = 3, coordinates = 30;
+  std::vector<int> rowBegin{0}, column;
+  std::vector<double> value;
+  Matrix rows = Matrix::Zero(points * width, coordinates);
+  linalg::BlockPattern pattern;
+
+  explicit Cloud(unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    for (int r = 0; r < points * width; ++r) {
+      for (int j = 0; j < coordinates; ++j) {
+        rows(r, j) = r % width == 2 ? 100.0 * normal(random) : normal(random) / (1 + j);
+        column.push_back(j);
+        value.push_back(rows(r, j));
+      }
+      rowBegin.push_back(static_cast<int>(column.size()));
+    }
+    const Sparse full = Matrix::Ones(coordinates, coordinates).sparseView();
+    const std::vector<int> group(coordinates, 0);
+    pattern = linalg::BlockPattern(linalg::partitionDofs({&full}, group, group), {&full});
+  }
+  double clearance(int p, const Vector& q) const {
+    return 1.0 + 0.05 * p - (rows.middleRows(p * width, 2) * q).norm();
+  }
+  ClearanceWatch watch() const { return {points, width, 2, rowBegin, column, value, pattern}; }
+};
+
+struct Walk {
+  long looks = 0;
+  int touches = 0, missed = 0;
+};
+
+/// A damped walk about zero in steps of this size.
+Walk walk(double size, int steps) {
+  const Cloud cloud(3);
+  auto watch = cloud.watch();
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Vector q = Vector::Zero(Cloud::coordinates), v = q;
+  std::vector<double> measured(Cloud::points, 0.0);
+  Walk result;
+  for (int step = 0; step < steps; ++step) {
+    for (int j = 0; j < Cloud::coordinates; ++j) {
+      v[j] += size * normal(random) - 0.02 * v[j] - 0.002 * q[j];
+      q[j] += 0.1 * v[j];
+    }
+    watch.wake(q.data());
+    const auto seen = watch.awake();
+    for (int p : seen) measured[static_cast<std::size_t>(p)] = cloud.clearance(p, q);
+    result.looks += static_cast<long>(seen.size());
+    watch.settle(q.data(), measured.data());
+    for (int p = 0; p < Cloud::points; ++p) {
+      if (cloud.clearance(p, q) > 0) continue;
+      ++result.touches;
+      result.missed += !std::binary_search(seen.begin(), seen.end(), p);
+    }
+  }
+  return result;
+}
+
+TEST(ClearanceWatch, NoPointTouchesInItsSleep) {
+  const Walk wild = walk(0.01, 4000);
+  EXPECT_GT(wild.touches, 10) << "the walk must reach the wall";
+  EXPECT_EQ(wild.missed, 0);
+}
+
+TEST(ClearanceWatch, PointsFarFromTheWallSleep) {
+  const Walk calm = walk(0.002, 4000);
+  EXPECT_EQ(calm.touches, 0);
+  EXPECT_LT(calm.looks, 4000L * Cloud::points / 2);
+}
+
+TEST(ClearanceWatch, CheapPointsStayAwake) {
+  const std::vector<int> rowBegin{0, 1, 2}, column{0, 1};
+  const std::vector<double> value{1.0, 1.0};
+  const Sparse full = Matrix::Ones(2, 2).sparseView();
+  const linalg::BlockPattern pattern(linalg::partitionDofs({&full}, {0, 0}, {0, 0}), {&full});
+  ClearanceWatch watch(2, 1, 1, rowBegin, column, value, pattern);
+  const double q[2] = {0.0, 0.0}, clearance[2] = {1.0, 1.0};
+  watch.wake(q);
+  watch.settle(q, clearance);
+  EXPECT_EQ(watch.awake(), (std::vector<int>{0, 1}));
+}
+
+TEST(ClearanceWatch, GoesOnAsItWas) {
+  const Cloud cloud(11);
+  auto first = cloud.watch();
+  Vector q = Vector::Constant(Cloud::coordinates, 1e-3);
+  std::vector<double> measured(Cloud::points, 0.0);
+  const auto step = [&](ClearanceWatch& watch) {
+    watch.wake(q.data());
+    for (int p : watch.awake()) measured[static_cast<std::size_t>(p)] = cloud.clearance(p, q);
+    watch.settle(q.data(), measured.data());
+  };
+  for (int i = 0; i < 50; ++i) q *= 1.05, step(first);
+  std::vector<double> memory;
+  first.save(memory);
+  auto second = cloud.watch();
+  const double* read = memory.data();
+  second.restore(read);
+  EXPECT_EQ(read, memory.data() + memory.size());
+  for (int i = 0; i < 100; ++i) {
+    q *= 1.05;
+    step(first);
+    step(second);
+    EXPECT_EQ(first.awake(), second.awake());
+  }
+}
+
+}  // namespace
+}  // namespace tooljoint::transient
