@@ -12,6 +12,7 @@
 #include "common/Text.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/ModeComparison.hpp"
+#include "estimate/PartResidual.hpp"
 #include "io/Csv.hpp"
 
 namespace tooljoint::app {
@@ -46,11 +47,17 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
                  {"coupled_damping", ""},
                  {"mac", ""},
                  {"error", ""},
-                 {"estimate", ""}});
+                 {"estimate", ""},
+                 {"definite", ""}});
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto& m = modes[i];
-    table.row({static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(),
-               m.mac, m.error, m.estimate});
+    std::vector<std::string> cells;
+    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(),
+                          m.mac, m.error})
+      cells.push_back(formatNumber(number));
+    cells.push_back(m.estimated ? formatNumber(m.estimate) : "");
+    cells.push_back(m.definite ? "1" : "0");
+    table.row(cells);
   }
   writeInto(folder, name, table);
 }
@@ -100,6 +107,10 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
   if (massless(full)) return;
+  if (!estimate::isRitz(synthesis)) {
+    log::info("Damped modes are not listed: they need a mass at every coordinate, and the coupled model has coordinates without one.");
+    return;
+  }
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
   log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory), errors of s:");
   log::info(estimate::comparisonTable(damped, true));

@@ -30,7 +30,7 @@ namespace {
 using study::RunKind;
 using study::StudyRow;
 
-constexpr int kStoreFormat = 1;           ///< raised when the meaning of a stored row changes
+constexpr int kStoreFormat = 2;           ///< raised when the meaning of a stored row changes
 constexpr std::size_t kCurvePoints = 2000;  ///< of a thinned curve
 
 /// Every so many-th value, so that at most kCurvePoints + 1 are left.
@@ -308,6 +308,7 @@ class Study {
     row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations;
     row.minStep = c.minStep, row.maxStep = c.maxStep;
     if (report.hasEnergy) row.energyResidual = report.energy.residual();
+    row.estimatedDyn = execution.estimatedDyn;
     row.maxPenetration = execution.maxPenetration;
     row.missedNodes = execution.missedNodes;
     curves(row, history);

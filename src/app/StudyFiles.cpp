@@ -94,6 +94,7 @@ io::SummaryRow summaryRow(const StudyRow& row, const study::Ratios& ratios) {
   if (row.energyResidual) out.set("energy_residual", *row.energyResidual);
   if (row.errors)
     out.set("eps_t_max", row.errors->epsTMax).set("eps_t_mean", row.errors->epsTMean).set("eps_n_max", row.errors->epsNMax).set("dyn", row.errors->dyn);
+  if (row.estimatedDyn) out.set("estimated_dyn", *row.estimatedDyn);
   if (ratios.baseline) out.set("speedup_baseline", *ratios.baseline);
   if (ratios.bestFull) out.set("speedup_best_full", *ratios.bestFull);
   if (row.statistics)

@@ -33,18 +33,20 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
 };
 
-/// Recovers u, v, w of all nodes and the bit speed, and measures how long that takes.
+/// Recovers u, v, w of all nodes and the bit speed, lets the estimator see the motion if there is one, and measures how long that takes.
 class HistoryRecorder : public transient::SampleSink {
  public:
-  HistoryRecorder(const Scene& scene, const model::SecondOrderModel& model, bool record) : scene_(scene), model_(model), record_(record) {
+  HistoryRecorder(const Scene& scene, const model::SecondOrderModel& model, bool record, estimate::MotionEstimator* estimator)
+      : scene_(scene), model_(model), record_(record), estimator_(estimator) {
     history_.nodes = static_cast<std::size_t>(scene.string.nodeCount());
     Vector unit = Vector::Zero(model.recovery.rows());
     unit(unit.size() - 1) = 1.0;  // theta_z of the last node
     bit_ = model.recovery.transpose() * unit;
   }
 
-  void sample(double t, const Vector& q, const Vector& qDot, const Vector& /*qDDot*/) override {
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
     const Stopwatch watch;
+    if (estimator_ != nullptr) estimator_->sample(t, q, qDot, qDDot);
     if (record_) {
       displacement_ = model_.recoveryOffset;
       displacement_.noalias() += model_.recovery * q;
@@ -65,6 +67,7 @@ class HistoryRecorder : public transient::SampleSink {
   const Scene& scene_;
   const model::SecondOrderModel& model_;
   bool record_;
+  estimate::MotionEstimator* estimator_;
   Vector bit_, displacement_;
   study::RecordedHistory history_;
   double cpu_ = 0.0, wall_ = 0.0;
@@ -93,9 +96,9 @@ void countContact(const Scene& scene, const model::SecondOrderModel& model, Exec
 }
 
 /// Reduced model of the scene, with what it cost.
-estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, Execution& execution) {
+estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, coupling::PlannedCoupling& planned, Execution& execution) {
   const Stopwatch watch;
-  const auto planned = plannedParts(scene, stage);
+  planned = plannedParts(scene, stage);
   const auto& parts = planned.parts;
   const auto& list = scene.list().sublist("Reduction");
   const auto probe = [&](const coupling::Synthesis& synthesis) {
@@ -113,13 +116,14 @@ estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, Execution
   return outcome;
 }
 
-void integrate(const Scene& scene, model::SecondOrderModel& model, const ExecutionOptions& options, Execution& execution) {
+void integrate(const Scene& scene, model::SecondOrderModel& model, const ExecutionOptions& options, Execution& execution,
+               estimate::MotionEstimator* estimator = nullptr) {
   if (options.perturbation > 0.0) perturb(model, options.perturbation);
   auto transientOptions = transient::readOptions(scene.list().sublist("Transient"));
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
   hooks.title = options.title;
-  HistoryRecorder recorder(scene, model, options.record);
+  HistoryRecorder recorder(scene, model, options.record, estimator);
   double cpu = 0.0, wall = 0.0;
   bool late = false;
   parallel::agree([&] {
@@ -158,8 +162,13 @@ Execution StudyRunner::execute(const Scene& scene, const ExecutionOptions& optio
   Execution execution;
   const auto stage = statics(scene);
   if (scene.reduces()) {
-    auto outcome = reduce(scene, *stage, execution);
-    integrate(scene, outcome.synthesis.coupled.model, options, execution);
+    coupling::PlannedCoupling planned;
+    auto outcome = reduce(scene, *stage, planned, execution);
+    std::optional<estimate::MotionEstimator> estimator;
+    if (options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion)
+      estimator.emplace(planned.parts, outcome.synthesis, stage->state.displacement);
+    integrate(scene, outcome.synthesis.coupled.model, options, execution, estimator ? &*estimator : nullptr);
+    if (estimator) execution.estimatedDyn = estimator->result().error;
   } else {
     auto model = fullModel(scene, *stage);
     integrate(scene, model, options, execution);

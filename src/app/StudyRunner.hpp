@@ -34,6 +34,7 @@ struct Execution {
   long modes = 0;
   long missedNodes = 0;
   double maxPenetration = 0.0;
+  std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the transient; its time is not in `cpu` and `wall`
 };
 
 /// A run that took more than its time.

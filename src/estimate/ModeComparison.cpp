@@ -11,6 +11,7 @@
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/FrequencyEstimate.hpp"
+#include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
 
 namespace tooljoint::estimate {
@@ -204,7 +205,8 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(count + moreModes, coupled.size());
   const auto pairs = coupling::lowestModes(coupled, looked);
-  const auto estimates = estimateFrequencies(parts, synthesis, {looked, 0});
+  const bool estimated = isRitz(synthesis);
+  const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0}) : std::vector<FrequencyEstimate>();
   std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
   match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps)), modes);
   const auto root = [](double eigenvalue) { return Complex(0, reduction::signedOmega(eigenvalue)); };
@@ -213,6 +215,8 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
     mode.full = root(exact.values[static_cast<Eigen::Index>(i)]);
     mode.coupled = root(pairs.values[mode.coupledMode]);
     mode.error = mode.full == 0.0 ? 0.0 : mode.coupled.imag() / mode.full.imag() - 1.0;
+    mode.estimated = estimated;
+    if (!estimated) continue;
     const auto& e = estimates[static_cast<std::size_t>(mode.coupledMode)];
     mode.estimate = e.error;
     mode.definite = e.definite;
@@ -245,13 +249,14 @@ std::string comparisonTable(const std::vector<ModeComparison>& modes, bool dampe
                             : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
-    char line[200];
+    char line[200], estimate[16] = "         -";
+    if (m.estimated) std::snprintf(estimate, sizeof estimate, "%10.2e", m.estimate);
     if (damped)
       std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %10.2e\n", i + 1, m.fullHz(), m.coupledHz(),
                     m.fullDamping(), m.coupledDamping(), m.mac, m.error, m.estimate);
     else
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %10.2e%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac, m.error,
-                    m.estimate, m.definite ? "" : "  (a part lacks a mode below)");
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac, m.error,
+                    estimate, m.definite ? "" : "  (a part lacks a mode below)");
     text += line;
   }
   return text;

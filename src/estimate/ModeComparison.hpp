@@ -20,6 +20,7 @@ struct ModeComparison {
   double mac = 0;                ///< |psi^H M phi|^2 / (psi^H M psi phi^H M phi) of the full shape and the recovered coupled one
   double error = 0;              ///< undamped: f / f_full - 1; damped: |s - s_full| / |s_full|
   double estimate = 0;           ///< of `error`, without the full model
+  bool estimated = true;         ///< false: no estimate for this basis (MacNeal, dual Craig-Bampton)
   bool definite = true;          ///< see FrequencyEstimate
   double fullHz() const;         ///< |s| / 2 pi, negative for a divergent mode
   double coupledHz() const;

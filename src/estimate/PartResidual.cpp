@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimate/PartResidual.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/Error.hpp"
 
 namespace tooljoint::estimate {
 
+namespace {
+
+bool ownMass(const reduction::ReducedSubstructure& part) { return part.basis.inertial.size() == 0 && part.basis.forces() == 0; }
+
+}  // namespace
+
+bool isRitz(const coupling::Synthesis& synthesis) {
+  return std::all_of(synthesis.parts.begin(), synthesis.parts.end(), ownMass);
+}
+
 void requireRitz(const coupling::Synthesis& synthesis) {
   for (const auto& part : synthesis.parts)
-    if (part.basis.inertial.size() > 0 || part.basis.forces() > 0)
+    if (!ownMass(part))
       throw ModelError("The errors of the basis \"" + part.report.basis + "\" (part \"" + part.name +
                        "\") cannot be estimated: its mass or its interfaces are not those of the motions it can make, and residuals do not tell the error then. "
                        "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and tolerances out.");

@@ -13,6 +13,8 @@ namespace tooljoint::estimate {
 /// Estimates rest on residuals of Rayleigh-Ritz: throws ModelError, naming the basis, where mass or interfaces of a part are not those of the space (MacNeal,
 /// dual Craig-Bampton).
 void requireRitz(const coupling::Synthesis& synthesis);
+/// False where requireRitz throws.
+bool isRitz(const coupling::Synthesis& synthesis);
 
 /// State of a part, or its means over an interval.
 struct PartMotion {

@@ -135,6 +135,7 @@ const std::vector<std::string>& documentedKeys() {
       "study[].eps_t_mean",
       "study[].eps_n_max",
       "study[].dyn",
+      "study[].estimated_dyn",
       "study[].bit_speed_difference_rpm",
       "study[].contact_duty_difference_max",
       "study[].contact_duty_difference_mean",

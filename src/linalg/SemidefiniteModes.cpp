@@ -37,11 +37,12 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       scaled(i, j) = dense(massive[static_cast<std::size_t>(i)], massive[static_cast<std::size_t>(j)]) / (size(i) * size(j));
+  if (n == 0) return Matrix::Zero(M.rows(), 0);
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(scaled);
   const Vector& values = spectrum.eigenvalues();
   Eigen::Index first = 0;
   while (first < n && values[first] <= massless * values[n - 1]) ++first;
-  if (n > 0 && values[0] < -1e-9 * values[n - 1]) {
+  if (values[0] < -1e-9 * values[n - 1]) {
     Eigen::Index worst = 0;
     spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
     throw ModelError("The mass matrix is indefinite, most of all in " + nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) + ".");
@@ -100,6 +101,13 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const 
   if (K.rows() != M.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
   const Sparse k = symmetricPart(K, "stiffness", options.name), m = symmetricPart(M, "mass", options.name);
   const Matrix W = root(m, options.name), dense = k;
+  if (W.cols() == 0) {  // no mass: no finite modes
+    EigenPairs none;
+    none.values.resize(0);
+    none.vectors.resize(K.rows(), 0);
+    none.method = "no mass";
+    return none;
+  }
   EigenPairs modes = shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count);
   if (count > 0 && modes.count() > 0 && !options.shift) {  // again with a shift among what is wanted
     const double wanted = std::abs(modes.values[modes.count() - 1]);

@@ -91,6 +91,7 @@ std::string StudyRow::toJson() const {
   eachNumber(*this, [&](const char* key, const auto& value) { json[key] = value; });
   json["step_or_tolerance"] = orNull(stepOrTolerance);
   json["energy_residual"] = orNull(energyResidual);
+  json["estimated_dyn"] = orNull(estimatedDyn);
   json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn} : Json(nullptr);
   json["statistics"] = statistics ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean, statistics->lateralRms, statistics->spectrum}
                                   : Json(nullptr);
@@ -104,6 +105,7 @@ void StudyRow::fromJson(const std::string& text) {
     eachNumber(*this, [&](const char* key, auto& value) { take(json, key, value); });
     take(json, "step_or_tolerance", stepOrTolerance);
     take(json, "energy_residual", energyResidual);
+    take(json, "estimated_dyn", estimatedDyn);
     errors.reset();
     statistics.reset();
     if (const auto& e = json.at("errors"); !e.is_null()) errors = PointwiseErrors{e.at(0), e.at(1), e.at(2), e.at(3)};

@@ -46,6 +46,7 @@ struct StudyRow {
   double minStep = 0.0, maxStep = 0.0;
   std::optional<double> energyResidual;
   std::optional<PointwiseErrors> errors;  ///< none for the reference itself
+  std::optional<double> estimatedDyn;     ///< of dyn, without the reference; where Reduction/Error Estimate asks for it
   std::optional<StatisticsDifference> statistics;
   double maxPenetration = 0.0;
   long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact

@@ -15,7 +15,7 @@ constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 const std::vector<io::Csv::Column>& columns() {
   static const std::vector<io::Csv::Column> all{
       {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"integrator", ""},
-      {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""},
+      {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
       {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
       {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
       {"newton_iterations", ""}, {"factorisations", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
@@ -42,6 +42,7 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   const auto* e = known && row.errors ? &*row.errors : nullptr;
   for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean, &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
     out.push_back(e != nullptr ? formatNumber(e->*member) : std::string());
+  out.push_back(known ? text(row.estimatedDyn) : "");
   number(row.bestCpu()), number(row.spread()), number(row.cpu.size()), number(row.cpuPerSimulatedSecond()), number(row.bestWall());
   number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
   out.push_back(text(ratios.baseline));
