@@ -11,7 +11,9 @@
 namespace tooljoint::transient {
 namespace {
 
-constexpr char magic[] = "Tooljoint checkpoint 1";
+constexpr char family[] = "Tooljoint checkpoint ";
+/// Counts up whenever Counters or anything that save() writes changes.
+constexpr char version[] = "2";
 
 class Writer {
  public:
@@ -73,7 +75,7 @@ class Reader {
 void Checkpoint::write(const std::string& file) const {
   const std::string part = file + ".part";
   Writer out(part);
-  out.text(magic);
+  out.text(std::string(family) + version);
   out.text(integrator);
   out.one(fingerprint);
   out.one(state.t);
@@ -89,7 +91,12 @@ void Checkpoint::write(const std::string& file) const {
 Checkpoint Checkpoint::read(const std::string& file) {
   Reader in(file);
   if (!in.good()) throw FileError("Cannot open the checkpoint \"" + file + "\".");
-  if (in.text() != magic) throw FileError("\"" + file + "\" is not a checkpoint of this version.");
+  const std::string magic = in.text();
+  if (magic.rfind(family, 0) != 0) throw FileError("\"" + file + "\" is not a checkpoint.");
+  const std::string written = magic.substr(sizeof family - 1);
+  if (written != version)
+    throw FileError("The checkpoint \"" + file + "\" has the layout " + written + " of another version of the program; this one reads layout " +
+                    version + ". Go on with the program that wrote it, or run the deck from the start.");
   Checkpoint point;
   point.integrator = in.text();
   point.fingerprint = in.one<double>();

@@ -20,6 +20,12 @@
 /// which never makes energy, and is of first order where it is used.
 ///
 /// The nonlinear equations are those of ImplicitStep; a step in which they do not converge is halved.
+///
+/// With `Step Tolerance` the step follows its error (StepControl), that of the displacement of one step: the third term of its
+/// series that the scheme has wrong (Zienkiewicz and Xie 1991), and all that impacts have moved, whose time is not known better
+/// than the step:
+///
+///     e = (d/2 + b - 1/6) h^2 (A_{n+1} - A_n) + h^2/2 M^-1 R'f,   d = am - af
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -30,6 +36,7 @@
 #include "linalg/BlockFactor.hpp"
 #include "transient/ImplicitStep.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/StepControl.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -45,6 +52,11 @@ deck::ListSpec specification() {
             "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")
       .integer("Max Halvings", 4, deck::Range::between(0, 16), "Times a step may be halved before the run stops.")
+      .real("Step Tolerance", "m", deck::Optional{}, deck::Range::positive(),
+            "Error of the displacement allowed in one step, as root of the mean square over the mass. Steps are then Transient/Step "
+            "cut into halves as often as this asks for; without it all steps are equal.")
+      .real("Smallest Step", "s", deck::Optional{}, deck::Range::positive(),
+            "With Step Tolerance: a step that would have to be shorter than this ends the run; by default 1/1024 of Transient/Step.")
       .boolean("Phase Correction", true,
                "Make up for the period error of the scheme: vibration is then followed to fourth order in the step, at about a "
                "third more work per step.")
@@ -67,19 +79,22 @@ class GeneralizedAlpha final : public Integrator {
     equations_ = {own.get<double>("Tolerance"), own.get<int>("Max Iterations")};
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
-    units_ = 1L << maxHalvings_;
+    controlled_ = own.isParameter("Step Tolerance");
+    if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
+    if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
     if (own.get<bool>("Phase Correction")) setPhaseCorrection();
   }
 
   int ledgerStride() const override { return 2; }
+  void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 
  private:
-  /// One step of length to.t - from.t; false when Newton fails (unless `keep`, which accepts the last iterate).
-  bool attempt(const State& from, State& to, double h, bool keep);
+  /// One step of length to.t - from.t; false when Newton fails (unless `anyway`, which accepts the last iterate).
+  bool attempt(const State& from, State& to, double h, bool anyway);
   void startAcceleration(State& state);
   void predict(const State& from, State& to, double h);
   void setPhaseCorrection();
@@ -87,15 +102,21 @@ class GeneralizedAlpha final : public Integrator {
     const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
     return {h, gamma_ / (beta_ * h), ca, filter_, phase_, massive_ ? 0.5 * h * h * ca : 1.0};
   }
-  void finish(State& to, double h);
+  void complete(State& to, double h);
+  void keep();
+  bool isAccurate(double h);
+  int deepestLevel() const;
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
+  [[noreturn]] void giveUpAccuracy(const State& from, double h);
   std::string describeFailure(double t, double h) const;
 
   double alphaM_, alphaF_, beta_, gamma_;
   ImplicitStep::Options equations_;
   int maxHalvings_;
   bool acceptUnconverged_;
+  bool controlled_ = false;  ///< steps follow their error
+  double stepTolerance_ = 0, smallest_ = 0;
   double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
 
   CompiledModel* model_ = nullptr;
@@ -105,14 +126,20 @@ class GeneralizedAlpha final : public Integrator {
   long index_ = 0;   ///< full steps done
   long done_ = 0;    ///< units done of the step under way
   int level_ = 0;    ///< halvings in force
+  int deepest_ = 4;  ///< halvings possible
+
+  StepControl control_;
+  MassNorm length_;
+  double error_ = 0;   ///< of the step under way [m]
+  bool hit_ = false;   ///< impacts acted in it
 
   ImplicitStep equation_;
   linalg::BlockFactor mass_;  ///< unit pivots where there is no mass
   std::vector<char> massless_;
   bool massive_ = true;       ///< the mass matrix is regular but for dofs without any
   Vector smooth_, nextSmooth_;  ///< q'' without impacts at t_n, t_{n+1}
-  Vector impact_;
-  Vector A_;  ///< algorithmic acceleration at t_n
+  Vector impact_, stepError_;
+  Vector A_, nextA_;  ///< algorithmic acceleration at t_n, t_{n+1}
 };
 
 /// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors of the scheme,
@@ -133,12 +160,19 @@ void GeneralizedAlpha::setPhaseCorrection() {
 }
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
+  checkParameters(window.step);
   model_ = &model;
   window_ = window;
   step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
   equation_.bind(model, equations_);
+  deepest_ = controlled_ ? deepestLevel() : maxHalvings_;
+  units_ = 1L << deepest_;
+  if (controlled_) {
+    control_.set(stepTolerance_, deepest_);
+    length_.bind(model);
+  }
   startAcceleration(state);
-  A_ = smooth_ = nextSmooth_ = state.a;
+  A_ = nextA_ = smooth_ = nextSmooth_ = stepError_ = state.a;
   impact_.setZero(model.size());
   equation_.prepare(scheme(step_), state.t);
 }
@@ -183,24 +217,60 @@ double GeneralizedAlpha::gridTime() const {
   return window_.end - t < 1e-9 * step_ ? window_.end : t;
 }
 
+void GeneralizedAlpha::checkParameters(double step) const {
+  if (!(smallest_ > 0)) return;
+  if (!controlled_)
+    throw DeckError(
+        "Transient/Generalized-alpha/Smallest Step bounds the steps that Transient/Generalized-alpha/Step Tolerance chooses, which "
+        "is not given. Give it, or leave Smallest Step out.");
+  const double longest = step > 0 ? step : defaultStep;
+  if (smallest_ <= longest) return;
+  std::ostringstream text;
+  text << "Transient/Generalized-alpha/Smallest Step (" << smallest_ << " s) is longer than the longest step, Transient/Step (" << longest
+       << " s).";
+  throw DeckError(text.str());
+}
+
+/// Halvings of the longest step that leave it no shorter than allowed.
+int GeneralizedAlpha::deepestLevel() const {
+  constexpr int usual = 10, most = 30;
+  if (!(smallest_ > 0)) return usual;
+  return std::clamp(static_cast<int>(std::floor(std::log2(step_ / smallest_) + 1e-9)), 0, most);
+}
+
 void GeneralizedAlpha::advance(const State& from, State& to) {
   double h = 0;
+  int failures = 0;
   for (;;) {
     const long stride = units_ >> level_;
     done_ += stride;
     to.t = gridTime();
-    const bool last = level_ >= maxHalvings_;
+    const bool last = level_ >= deepest_ || failures >= maxHalvings_;
     // The nominal length, equal from step to step to the last digit; shorter only where the run ends.
     h = step_ * static_cast<double>(stride) / static_cast<double>(units_);
     if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
-    if (attempt(from, to, h, last && acceptUnconverged_)) break;
+    const bool solved = attempt(from, to, h, last && acceptUnconverged_);
+    if (solved && (!controlled_ || isAccurate(h))) break;
     done_ -= stride;
+    if (solved) {
+      ++counters_.rejected;
+      level_ = control_.shorter(error_, level_);
+      if (level_ > deepest_) giveUpAccuracy(from, h);
+      continue;
+    }
     if (last) giveUp(from, h);
     ++level_;
+    ++failures;
     ++counters_.halved;
+    control_.forget();
   }
+  keep();
   counters_.accept(h);
   if (done_ == units_) ++index_, done_ = 0;
+  if (controlled_) {
+    level_ = control_.next(error_, level_, done_);
+    return;
+  }
   // Grow back as soon as the sub-steps done fill a longer one.
   while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
 }
@@ -213,22 +283,22 @@ void GeneralizedAlpha::predict(const State& from, State& to, double h) {
   to.a = (A_ - alphaF_ * smooth_) / (1 - alphaF_);
 }
 
-bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool keep) {
+bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool anyway) {
   predict(from, to, h);
   if (!equation_.solve(to, scheme(h), counters_)) {
-    if (!keep || !equation_.isFinite()) return false;
+    if (!anyway || !equation_.isFinite()) return false;
     ++counters_.unconvergedSteps;
   }
-  finish(to, h);
+  complete(to, h);
   return true;
 }
 
-/// A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
-void GeneralizedAlpha::finish(State& to, double h) {
+/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
+void GeneralizedAlpha::complete(State& to, double h) {
   nextSmooth_ = to.a;
-  bool any = false;
-  for (const auto& batch : model_->points()) any = any || batch.isScaled();
-  if (any) {
+  hit_ = false;
+  for (const auto& batch : model_->points()) hit_ = hit_ || batch.isScaled();
+  if (hit_) {
     // impact_ = M^-1 R' f of the impacts, whose forces stand in the batches multiplied by the scheme's factor
     impact_.setZero();
     for (const auto& batch : model_->points()) batch.addScaledForce(impact_.data());
@@ -238,8 +308,19 @@ void GeneralizedAlpha::finish(State& to, double h) {
     nextSmooth_ -= impact_;
     to.a = nextSmooth_ + impact_ / scheme(h).impact;
   }
-  A_ = ((1 - alphaF_) * nextSmooth_ + alphaF_ * smooth_ - alphaM_ * A_) / (1 - alphaM_);
+  nextA_ = ((1 - alphaF_) * nextSmooth_ + alphaF_ * smooth_ - alphaM_ * A_) / (1 - alphaM_);
+}
+
+void GeneralizedAlpha::keep() {
+  A_.swap(nextA_);
   smooth_.swap(nextSmooth_);
+}
+
+bool GeneralizedAlpha::isAccurate(double h) {
+  stepError_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
+  if (hit_) stepError_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
+  error_ = length_(stepError_);
+  return control_.accepts(error_);
 }
 
 std::string GeneralizedAlpha::describeFailure(double t, double h) const {
@@ -256,9 +337,18 @@ void GeneralizedAlpha::giveUp(const State& from, double h) const {
                          "happens at that node (contact stiffness, regularisation, friction velocity).");
 }
 
+void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
+  std::ostringstream text;
+  text << "Generalized-alpha needs a step below " << h << " s at t = " << from.t << " s: the displacement is wrong by " << error_
+       << " m in one step, tolerance " << stepTolerance_ << " m, most at " << model_->dofName(worstPosition(stepError_))
+       << ". Raise Transient/Generalized-alpha/Step Tolerance, or allow a shorter Transient/Generalized-alpha/Smallest Step.";
+  throw ConvergenceError(text.str());
+}
+
 void GeneralizedAlpha::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_), static_cast<double>(level_)});
   for (const Vector* x : {&A_, &smooth_}) memory.insert(memory.end(), x->begin(), x->end());
+  control_.save(memory);
   equation_.save(memory);
 }
 
@@ -268,6 +358,7 @@ void GeneralizedAlpha::restore(const double*& memory) {
   level_ = static_cast<int>(*memory++);
   for (Vector* vector : {&A_, &smooth_})
     for (double& x : *vector) x = *memory++;
+  control_.restore(memory);
   equation_.restore(memory);
 }
 

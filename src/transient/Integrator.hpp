@@ -54,6 +54,10 @@ class Integrator {
   /// Every how many steps the energy ledger has to look, for steps that are short beside what moves.
   virtual int ledgerStride() const { return 1; }
 
+  /// What can be said without a model about the parameters together and with Transient/Step (0 when the deck gives none).
+  /// Throws DeckError.
+  virtual void checkParameters(double /*step*/) const {}
+
   /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the integrator.
   /// Throws ModelError for a model this integrator cannot treat (a singular mass matrix for an explicit one).
   virtual void prepare(CompiledModel& model, const Window& window, State& state) = 0;

@@ -80,7 +80,18 @@ class Sundials final : public Integrator {
     maxSteps_ = own.get<int>("Maximum Steps");
   }
 
+  void checkParameters(double step) const override {
+    requireLibrary();
+    const double first = options_.firstStep > 0 ? options_.firstStep : step;
+    if (!(options_.maxStep > 0) || first <= options_.maxStep) return;
+    std::ostringstream text;
+    text << "The first step (" << first << " s, " << (options_.firstStep > 0 ? "Transient/" + name_ + "/Initial Step" : "Transient/Step")
+         << ") is longer than Transient/" << name_ << "/Maximum Step (" << options_.maxStep << " s).";
+    throw DeckError(text.str());
+  }
+
   void prepare(CompiledModel& model, const Window& window, State& state) override {
+    checkParameters(window.step);
     form_.bind(model, name_);
     window_ = window;
     if (!(options_.firstStep > 0)) options_.firstStep = window.step;
@@ -112,6 +123,15 @@ class Sundials final : public Integrator {
 
  private:
   std::unique_ptr<SundialsStepper> makeStepper();
+
+  /// Throws where makeStepper() has nothing to make.
+  void requireLibrary() const {
+#ifndef TOOLJOINT_HAS_SUNDIALS
+    throw DeckError(
+        "Transient/Integrator: this program was built without SUNDIALS, which \"" + name_ +
+        "\" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
+#endif
+  }
 
   /// A restart takes the step of the checkpoint, but not what the method remembers of earlier steps.
   void goOn(const State& from) {
@@ -222,11 +242,7 @@ std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
   return name_ == arkode ? makeArkode(form_, options_) : makeCvode(form_, options_);
 }
 #else
-std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
-  throw DeckError(
-      "Transient/Integrator: this program was built without SUNDIALS, which \"" + name_ +
-      "\" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
-}
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() { return nullptr; }  // prepare() has refused before
 #endif
 
 const bool registeredArkode = IntegratorRegistry::instance().add(

@@ -14,9 +14,8 @@ deck::ListSpec parameters() {
       .real("Start Time", "s", 0.0, deck::Range::any(), "Time at which the motion starts.")
       .real("End Time", "s", deck::Required{}, deck::Range::any(), "Time at which the motion ends; later than Start Time.")
       .real("Step", "s", deck::Optional{}, deck::Range::positive(),
-            "Fixed step; shortened so that it divides the sampling interval. By default 0.001 s for Generalized-alpha and 0.9 of "
-            "the "
-            "stability limit for RK4; RK4 adaptive chooses its own.")
+            "Fixed step, or with Generalized-alpha/Step Tolerance the longest; shortened so that it divides the sampling interval. "
+            "By default 0.001 s for Generalized-alpha and 0.9 of the stability limit for RK4; RK4 adaptive chooses its own.")
       .real("Sampling Interval", "s", 0.005, deck::Range::positive(),
             "Time between two recorded states; both ends of the motion are recorded when they fall on it.")
       .boolean("Progress", true, "Show a progress bar, or a line per 10 % when the output is not a terminal.")
@@ -53,6 +52,7 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   if (!(options.end > options.start))
     throw DeckError("Transient/End Time (" + std::to_string(options.end) + " s) must be later than Transient/Start Time (" +
                     std::to_string(options.start) + " s).");
+  IntegratorRegistry::instance().make(options.integrator, options.own)->checkParameters(options.step);
   return options;
 }
 

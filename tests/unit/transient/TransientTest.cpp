@@ -210,11 +210,25 @@ model::SecondOrderModel eventful() {
   return model;
 }
 
+/// With steps that follow their error, too.
+std::vector<std::string> allWaysToStep() {
+  auto ways = allIntegrators;
+  ways.push_back("Generalized-alpha with Step Tolerance");
+  return ways;
+}
+
+TransientOptions wayToStep(const std::string& way, double end) {
+  const bool controlled = way == "Generalized-alpha with Step Tolerance";
+  auto o = options(controlled ? "Generalized-alpha" : way, end, way == "RK4" ? 5e-5 : 0, 0.005);
+  if (controlled) o.own.set("Step Tolerance", 1e-5);
+  return o;
+}
+
 class Restart : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Restart, goesOnWithTheSameNumbers) {
   const auto model = eventful();
-  const auto o = options(GetParam(), 0.3, GetParam() == "RK4" ? 5e-5 : 0, 0.005);
+  const auto o = wayToStep(GetParam(), 0.3);
   Keep whole;
   const auto reference = integrate(model, o, whole);
 
@@ -254,7 +268,7 @@ TEST_P(Restart, goesOnWithTheSameNumbers) {
   EXPECT_EQ(report.energy.numerical(), reference.energy.numerical());
   EXPECT_EQ(report.energy.exchanged, reference.energy.exchanged);
 }
-INSTANTIATE_TEST_SUITE_P(Transient, Restart, ::testing::ValuesIn(allIntegrators));
+INSTANTIATE_TEST_SUITE_P(Transient, Restart, ::testing::ValuesIn(allWaysToStep()));
 
 TEST(Checkpoints, comeAtTheirInterval) {
   const auto model = eventful();
@@ -298,6 +312,15 @@ TEST(Checkpoints, filesThatAreNoneAreRefused) {
   EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("Cannot open"), std::string::npos);
   std::ofstream(file) << "something else entirely, and long enough to be read as numbers";
   EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("not a checkpoint"), std::string::npos);
+  {
+    std::ofstream old(file, std::ios::binary);
+    const std::string magic = "Tooljoint checkpoint 1";
+    const std::uint64_t length = magic.size();
+    old.write(reinterpret_cast<const char*>(&length), sizeof length);
+    old << magic << std::string(200, '\0');
+  }
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 2"),
+            std::string::npos);
   Checkpoint point;
   point.integrator = "RK4";
   point.state.resize(100);
@@ -325,9 +348,9 @@ class AllocationProbe final : public SampleSink {
 
 TEST(Cost, theStepLoopAllocatesNothing) {
   auto model = eventful();
-  for (const auto& integrator : allIntegrators) {
+  for (const auto& integrator : allWaysToStep()) {
     AllocationProbe probe;
-    auto o = options(integrator, 0.2, integrator == "RK4" ? 5e-5 : 0, 0.005);
+    auto o = wayToStep(integrator, 0.2);
     const auto report = integrate(model, o, probe);
     EXPECT_GT(report.counters.steps, 100);
     EXPECT_EQ(probe.last - probe.first, 0) << integrator;
