@@ -195,27 +195,11 @@ class PartsRun {
   }
 
   void summariseMotion(const transient::TransientReport& report) {
-    const auto& c = report.counters;
-    summary_.set("transient.model", deck_.reduces() ? "reduced" : "full");
-    summary_.set("transient.integrator", report.integrator);
-    summary_.set("transient.start", report.start);
-    summary_.set("transient.end", report.end);
-    summary_.set("transient.steps", c.steps);
-    summary_.set("transient.rejected", c.rejected + c.halved);
-    summary_.set("transient.newton_iterations", c.newtonIterations);
-    summary_.set("transient.unconverged_steps", c.unconvergedSteps);
-    summary_.set("transient.wall_s", report.wall);
-    summary_.set("transient.cpu_s", report.cpu);
-    summary_.set("transient.real_time_factor", report.realTimeFactor);
+    summarise(report, deck_.reduces(), summary_);
     summary_.set("transient.max_displacement", recorder_->largestDisplacement());
-    if (report.hasEnergy) summary_.set("transient.energy_residual", report.energy.residual());
-    char text[400];
-    std::snprintf(text, sizeof text,
-                  "transient   %s, %g to %g s: %ld steps in %.2f s wall; %ld Newton iterations, %ld unconverged steps; largest "
-                  "displacement %.4g",
-                  report.integrator.c_str(), report.start, report.end, c.steps, report.wall, c.newtonIterations,
-                  c.unconvergedSteps, recorder_->largestDisplacement());
-    log::info(text);
+    char text[100];
+    std::snprintf(text, sizeof text, "            largest displacement %.4g", recorder_->largestDisplacement());
+    log::info(describeSteps(report) + text);
   }
 
   void finish() {

@@ -61,13 +61,18 @@ std::string describeMotionError(const estimate::MotionEstimate& error) {
                 error.largest, error.samples, error.wall);
 }
 
-std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures) {
+std::string describeSteps(const transient::TransientReport& report) {
   const auto& c = report.counters;
   std::string text = format("transient   %s, %g to %g s: %ld steps of %.3g to %.3g s in %.2f s wall, %.2f s CPU: %.3g times real time\n",
                             report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep, report.wall, report.cpu,
                             report.realTimeFactor);
-  text += format("            %ld Newton iterations, %ld factorisations, %ld halved, %ld rejected, %ld unconverged steps\n",
-                 c.newtonIterations, c.factorisations, c.halved, c.rejected, c.unconvergedSteps);
+  text += format("            %ld Newton iterations, %ld factorisations, %ld right-hand sides, %ld halved, %ld rejected, %ld unconverged steps\n",
+                 c.newtonIterations, c.factorisations, c.rightHandSides, c.halved, c.rejected, c.unconvergedSteps);
+  return text;
+}
+
+std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures) {
+  std::string text = describeSteps(report);
   text += format("            bit speed %.4g to %.4g rpm, mean %.4g rpm; largest penetration %.3g mm", figures.minBitSpeed * kRpm,
                  figures.maxBitSpeed * kRpm, figures.meanBitSpeed() * kRpm, figures.maxPenetration * 1e3);
   if (report.hasEnergy) text += format("\n            energy balance closes to %.2g of the energy exchanged", report.energy.residual());

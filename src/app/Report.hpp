@@ -21,6 +21,8 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
+/// Integrator, steps and what was counted, two lines.
+std::string describeSteps(const transient::TransientReport& report);
 std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures);
 
 }  // namespace tooljoint::app

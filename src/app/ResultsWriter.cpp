@@ -72,10 +72,10 @@ void writeBases(const std::vector<reduction::ReducedSubstructure>& parts, io::Re
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& part = parts[p];
     const std::string group = "/reduction/part_" + std::to_string(p + 1);
-    file.write(group + "/basis", Matrix(part.basis.vectors), "1", "Basis Phi of " + part.name + ": D = offset + Phi q");
+    file.write(group + "/basis", Matrix(part.basis->vectors), "1", "Basis Phi of " + part.name + ": D = offset + Phi q");
     file.write(group + "/offset", part.offset, {static_cast<std::size_t>(part.offset.size())}, "m, rad", "D at q = 0");
-    if (part.basis.eigenvalues.size() > 0)
-      file.write(group + "/eigenvalues", part.basis.eigenvalues, {static_cast<std::size_t>(part.basis.eigenvalues.size())}, "rad2/s2",
+    if (part.basis->eigenvalues.size() > 0)
+      file.write(group + "/eigenvalues", part.basis->eigenvalues, {static_cast<std::size_t>(part.basis->eigenvalues.size())}, "rad2/s2",
                  "Squared angular frequencies of the modes");
   }
 }
@@ -104,7 +104,7 @@ void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts, i
   io::Csv table({{"part", ""}, {"kind", ""}, {"vector", ""}, {"frequency", "Hz"}, {"omega2", "rad2/s2"}, {"residual", ""}, {"kept", ""}, {"why", ""}});
   const auto number = [](double value) { return std::isfinite(value) ? formatNumber(value) : std::string(); };
   for (const auto& part : parts)
-    for (const auto& row : part.report.rows)
+    for (const auto& row : part.basisRows())
       table.row({part.name, row.kind, row.name, number(row.frequency()), number(row.eigenvalue), number(row.residual),
                  row.kept ? "kept" : "dropped", row.why});
   table.stage(folder.file("basis.csv"));
@@ -184,22 +184,32 @@ void summarise(const estimate::MotionEstimate& error, io::Summary& summary) {
   summary.set("reduction.estimate.motion_wall_s", error.wall);
 }
 
-void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary) {
+void summarise(const transient::TransientReport& report, bool reduced, io::Summary& summary) {
+  const auto& c = report.counters;
   summary.set("transient.model", reduced ? "reduced" : "full");
   summary.set("transient.integrator", report.integrator);
   summary.set("transient.start", report.start);
   summary.set("transient.end", report.end);
-  summary.set("transient.steps", report.counters.steps);
-  summary.set("transient.rejected", report.counters.rejected + report.counters.halved);
-  summary.set("transient.newton_iterations", report.counters.newtonIterations);
-  summary.set("transient.unconverged_steps", report.counters.unconvergedSteps);
+  summary.set("transient.steps", c.steps);
+  summary.set("transient.min_step", c.minStep);
+  summary.set("transient.max_step", c.maxStep);
+  summary.set("transient.rejected", c.rejected);
+  summary.set("transient.halved", c.halved);
+  summary.set("transient.newton_iterations", c.newtonIterations);
+  summary.set("transient.unconverged_steps", c.unconvergedSteps);
+  summary.set("transient.factorisations", c.factorisations);
+  summary.set("transient.right_hand_sides", c.rightHandSides);
   summary.set("transient.wall_s", report.wall);
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);
+  if (report.hasEnergy) summary.set("transient.energy_residual", report.energy.residual());
+}
+
+void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary) {
+  summarise(report, reduced, summary);
   summary.set("transient.bit_speed_rpm.min", figures.minBitSpeed * kRpm);
   summary.set("transient.bit_speed_rpm.max", figures.maxBitSpeed * kRpm);
   summary.set("transient.bit_speed_rpm.mean", figures.meanBitSpeed() * kRpm);
-  if (report.hasEnergy) summary.set("transient.energy_residual", report.energy.residual());
   summary.set("transient.max_penetration", figures.maxPenetration);
 }
 

@@ -40,6 +40,8 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
 void summarise(const coupling::Coupling& coupled, io::Summary& summary);
 void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary);
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary);
+/// Counts and times of a transient.
+void summarise(const transient::TransientReport& report, bool reduced, io::Summary& summary);
 void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary);
 
 }  // namespace tooljoint::app

@@ -68,7 +68,7 @@ std::optional<double> stepOrTolerance(const StudyRun& run, const transient::Coun
       if (const auto number = numberAt(parameter)) return number;
   const auto own = "Transient/" + list.get<std::string>("Integrator") + "/";
   const bool varied = counters.halved == 0 && counters.minStep < 0.5 * counters.maxStep;
-  for (const char* name : {"Relative Tolerance", "Tolerance"})
+  for (const char* name : {"Step Tolerance", "Relative Tolerance", "Tolerance"})
     if (const auto tolerance = varied ? numberAt(own + name) : std::nullopt) return tolerance;
   return counters.maxStep > 0.0 ? std::optional<double>(counters.maxStep) : std::nullopt;
 }
@@ -305,7 +305,7 @@ class Study {
     row.setupCpu = execution.setupCpu;
     row.setupWall = execution.setupWall;
     row.steps = c.steps, row.rejected = c.rejected, row.halved = c.halved, row.unconverged = c.unconvergedSteps;
-    row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations;
+    row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations, row.rightHandSides = c.rightHandSides;
     row.minStep = c.minStep, row.maxStep = c.maxStep;
     if (report.hasEnergy) row.energyResidual = report.energy.residual();
     row.estimatedDyn = execution.estimatedDyn;

@@ -90,7 +90,7 @@ io::SummaryRow summaryRow(const StudyRow& row, const study::Ratios& ratios) {
   out.set("cpu_s", row.bestCpu()).set("cpu_spread", row.spread()).set("cpu_per_simulated_s", row.cpuPerSimulatedSecond());
   out.set("wall_s", row.bestWall()).set("setup_cpu_s", row.setupCpu).set("real_time_factor", row.realTimeFactor());
   out.set("steps", row.steps).set("rejected", row.rejected).set("halved", row.halved).set("unconverged_steps", row.unconverged);
-  out.set("newton_iterations", row.newtonIterations).set("factorisations", row.factorisations).set("missed_nodes", row.missedNodes);
+  out.set("newton_iterations", row.newtonIterations).set("factorisations", row.factorisations).set("right_hand_sides", row.rightHandSides).set("missed_nodes", row.missedNodes);
   if (row.energyResidual) out.set("energy_residual", *row.energyResidual);
   if (row.errors)
     out.set("eps_t_max", row.errors->epsTMax).set("eps_t_mean", row.errors->epsTMean).set("eps_n_max", row.errors->epsNMax).set("dyn", row.errors->dyn);

@@ -66,6 +66,7 @@ void eachNumber(Row& row, const Visit& visit) {
   visit("unconverged", row.unconverged);
   visit("newton_iterations", row.newtonIterations);
   visit("factorisations", row.factorisations);
+  visit("right_hand_sides", row.rightHandSides);
   visit("min_step", row.minStep);
   visit("max_step", row.maxStep);
   visit("max_penetration", row.maxPenetration);

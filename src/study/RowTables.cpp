@@ -18,7 +18,7 @@ const std::vector<io::Csv::Column>& columns() {
       {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
       {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
       {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
-      {"newton_iterations", ""}, {"factorisations", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
+      {"newton_iterations", ""}, {"factorisations", ""}, {"right_hand_sides", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
       {"missed_nodes", ""}, {"bit_speed_p05", "rpm"}, {"bit_speed_p50", "rpm"}, {"bit_speed_p95", "rpm"}, {"bit_speed_difference", "rpm"},
       {"contact_duty_difference_max", ""}, {"contact_duty_difference_mean", ""}, {"lateral_rms_difference", ""}, {"spectrum_difference", "dB"}};
   return all;
@@ -48,7 +48,7 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   out.push_back(text(ratios.baseline));
   out.push_back(text(ratios.bestFull));
   number(row.steps), number(row.rejected), number(row.halved), number(row.unconverged), number(row.newtonIterations), number(row.factorisations);
-  number(row.minStep), number(row.maxStep);
+  number(row.rightHandSides), number(row.minStep), number(row.maxStep);
   out.push_back(known ? text(row.energyResidual) : "");
   number(row.maxPenetration), number(row.missedNodes);
   const auto& speeds = row.curves.statistics.bitSpeed;

@@ -9,8 +9,9 @@
 
 namespace tooljoint::transient {
 
-void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integrator) {
+void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integrator, Counters& counters) {
   model_ = &model;
+  counters_ = &counters;
   mass_ = linalg::BlockFactor(model.pattern());
   model.combine(1.0, 0.0, 0.0, mass_.values());
   const int bad = mass_.factor();
@@ -21,6 +22,7 @@ void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integr
 }
 
 void ExplicitRightHandSide::acceleration(double t, const double* q, const double* v, double* a) {
+  ++counters_->rightHandSides;
   model_->setTime(t);
   const int n = model_->size();
   // a = -(K q + C v), then the difference to F + R'f, then M^-1

@@ -11,8 +11,8 @@ namespace tooljoint::transient {
 
 class ExplicitRightHandSide {
  public:
-  /// Factors M. Throws ModelError naming a dof without mass.
-  void bind(CompiledModel& model, const std::string& integrator);
+  /// Factors M; evaluations are added to counters.rightHandSides. Throws ModelError naming a dof without mass.
+  void bind(CompiledModel& model, const std::string& integrator, Counters& counters);
 
   /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look().
   void acceleration(double t, const double* q, const double* v, double* a);
@@ -30,6 +30,7 @@ class ExplicitRightHandSide {
 
  private:
   CompiledModel* model_ = nullptr;
+  Counters* counters_ = nullptr;
   linalg::BlockFactor mass_;
 };
 

@@ -86,6 +86,10 @@ class GeneralizedAlpha final : public Integrator {
   }
 
   int ledgerStride() const override { return 2; }
+  std::string advice() const override {
+    return std::string("Choose a smaller ") + (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
+           ", or a smaller Transient/Generalized-alpha/Spectral Radius";
+  }
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;

@@ -31,7 +31,7 @@ struct Counters {
   long newtonIterations = 0;  ///< linear solves inside Newton
   long unconvergedSteps = 0;  ///< steps kept although Newton had not converged (only when the deck accepts that)
   long factorisations = 0;    ///< of the mass matrix or the effective matrix
-  long rightHandSides = 0;    ///< evaluations of all forces, where the integrator counts them
+  long rightHandSides = 0;    ///< evaluations of q'' = M^-1 (all forces); 0 for an integrator that makes none
   double minStep = 0;
   double maxStep = 0;
   void accept(double h);
@@ -53,6 +53,9 @@ class Integrator {
 
   /// Every how many steps the energy ledger has to look, for steps that are short beside what moves.
   virtual int ledgerStride() const { return 1; }
+
+  /// What to change when a motion is wrong: "Choose a smaller ...", without a full stop.
+  virtual std::string advice() const = 0;
 
   /// What can be said without a model about the parameters together and with Transient/Step (0 when the deck gives none).
   /// Throws DeckError.

@@ -22,9 +22,10 @@ class RungeKutta4 final : public Integrator {
 
   bool isExplicit() const override { return true; }
   int ledgerStride() const override { return 4; }
+  std::string advice() const override { return "Choose a smaller Transient/Step, or the integrator \"Generalized-alpha\""; }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {
-    rhs_.bind(model, "RK4");
+    rhs_.bind(model, "RK4", counters_);
     ++counters_.factorisations;
     stage_.resize(model.size());
     window_ = window;

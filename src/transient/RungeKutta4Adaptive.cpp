@@ -37,9 +37,12 @@ class RungeKutta4Adaptive final : public Integrator {
   }
 
   bool isExplicit() const override { return true; }
+  std::string advice() const override {
+    return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator \"Generalized-alpha\"";
+  }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {
-    rhs_.bind(model, "RK4 adaptive");
+    rhs_.bind(model, "RK4 adaptive", counters_);
     ++counters_.factorisations;
     stage_.resize(model.size());
     end_ = window.end;

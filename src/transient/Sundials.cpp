@@ -80,6 +80,10 @@ class Sundials final : public Integrator {
     maxSteps_ = own.get<int>("Maximum Steps");
   }
 
+  std::string advice() const override {
+    return "Choose a smaller Transient/" + name_ + "/Relative Tolerance, and smaller absolute tolerances there if given, or the "
+           "integrator \"Generalized-alpha\"";
+  }
   void checkParameters(double step) const override {
     requireLibrary();
     const double first = options_.firstStep > 0 ? options_.firstStep : step;

@@ -79,7 +79,7 @@ class Sampler {
 };
 
 /// Not a number, infinite or absurdly large: say when and where.
-void checkFinite(const CompiledModel& model, const State& from, const State& to) {
+void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from, const State& to) {
   const double size = to.q.cwiseAbs().sum() + to.v.cwiseAbs().sum() * 1e-6;
   if (std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp)) return;
   const int q = worstPosition(to.q);
@@ -88,9 +88,7 @@ void checkFinite(const CompiledModel& model, const State& from, const State& to)
   std::ostringstream text;
   text << "The motion blew up in the step from t = " << from.t << " s to " << to.t << " s: " << model.dofName(worst)
        << " reached " << (worst == q ? to.q[worst] : to.v[worst])
-       << ". Choose a smaller Transient/Step (or Tolerance), or the integrator \"Generalized-alpha\"; if it happens at any step, "
-          "the model itself "
-          "is unstable there.";
+       << ". " << integrator.advice() << "; if it happens however small, the model itself is unstable there.";
   throw ConvergenceError(text.str());
 }
 
@@ -152,7 +150,7 @@ class Run {
       resume(*hooks_.resume);
       return;
     }
-    checkFinite(model_, state_, state_);
+    checkFinite(model_, *integrator_, state_, state_);
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
     sampler_.first(state_);
   }
@@ -198,7 +196,7 @@ class Run {
         return true;
       }
       integrator_->advance(state_, next_);
-      checkFinite(model_, state_, next_);
+      checkFinite(model_, *integrator_, state_, next_);
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
@@ -226,8 +224,7 @@ class Run {
     std::ostringstream text;
     text << "By t = " << state_.t << " s the integrator had made " << -account.numerical() << " J out of nothing, more than the "
          << account.supplied
-         << " J the model was given: the motion is an artefact of the step, not a result. Choose a smaller Transient/Step"
-         << (integrator_->isExplicit() ? "." : ", or a smaller Transient/Generalized-alpha/Spectral Radius.");
+         << " J the model was given: the motion is an artefact of the step, not a result. " << integrator_->advice() << ".";
     throw ConvergenceError(text.str());
   }
 

@@ -151,6 +151,33 @@ TEST(Transient, everyIntegratorDescribesItself) {
 // Failures
 // -----------------------------------------------------------------------------------------------------------------------------
 
+/// Advice after a motion that is wrong names parameters this integrator has.
+TEST(Transient, adviceFitsTheIntegrator) {
+  const auto& registry = IntegratorRegistry::instance();
+  for (const auto& name : allIntegrators) {
+    const auto advice = registry.make(name, Teuchos::ParameterList())->advice();
+    EXPECT_EQ(advice.rfind("Choose a smaller Transient/", 0), 0u) << advice;
+    const bool hasStep = name == "Generalized-alpha" || name == "RK4";
+    EXPECT_EQ(advice.find("Transient/Step") != std::string::npos, hasStep) << advice;
+    if (!hasStep) {
+      EXPECT_NE(advice.find("Transient/" + name + "/"), std::string::npos) << advice;
+      EXPECT_NE(advice.find("Tolerance"), std::string::npos) << advice;
+    }
+  }
+  Teuchos::ParameterList own;
+  own.set("Step Tolerance", 1e-6);
+  EXPECT_NE(registry.make("Generalized-alpha", own)->advice().find("Generalized-alpha/Step Tolerance"), std::string::npos);
+}
+
+TEST(Transient, rightHandSidesAreCounted) {
+  const auto model = springChain(4, 1, 0.1, 100);
+  Keep samples;
+  EXPECT_EQ(integrate(model, options("RK4", 1, 0.01, 0.1), samples).counters.rightHandSides, 1 + 4 * 100);
+  const auto adaptive = integrate(model, options("RK4 adaptive", 1, 0.01, 0.1), samples).counters;
+  EXPECT_EQ(adaptive.rightHandSides, 1 + 10 * (adaptive.steps + adaptive.rejected) + adaptive.steps);
+  EXPECT_EQ(integrate(model, options("Generalized-alpha", 1, 0.01, 0.1), samples).counters.rightHandSides, 0);
+}
+
 TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
   auto model = springChain(3, 1.0, 0.0, 100.0);
   Sparse negative(3, 3);
