@@ -97,6 +97,7 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
 void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
                        const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
                        const RunOptions& options, double t) {
+  log::info("reduced     " + std::to_string(full.size()) + " dofs to " + std::to_string(synthesis.coupled.model.size()));
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
   if (synthesis.coupled.interfaceModes >= 0)
     log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");

@@ -296,6 +296,7 @@ class Coupler {
         local = piece.turn * local;
       }
       out_.maps.push_back(own.topRows(piece.coordinates));
+      out_.recoveryTurns.push_back(piece.recoveryTurn);
       out_.offsets.push_back(local.head(piece.coordinates));
       out_.positions.push_back(positionsOf(out_.maps.back()));
     }

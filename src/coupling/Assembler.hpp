@@ -30,10 +30,12 @@ struct Coupling {
   std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is coordinate i of part p; -1 where it is not just one
   std::vector<Sparse> maps;                 ///< coordinates of part p (in its own frames) x coupled dofs
   std::vector<Vector> offsets;              ///< zero unless a constraint has a value
+  std::vector<Sparse> recoveryTurns;        ///< recovery rows of part p in the common frame = recoveryTurns[p] * its own; empty: the same
   std::vector<Multiplier> multipliers;      ///< dual assembly
   std::vector<std::string> remarks;         ///< constraints that say nothing new, for instance
   std::vector<int> interface;               ///< coupled dofs that join parts: joined physical ones, or the modes they were reduced to, increasing
   int joinedDofs = 0;                       ///< how many of `interface` there are, or were replaced by an interface reduction
+  int followers = 0;                        ///< coordinates that follow the others
   int interfaceModes = -1;                  ///< modes of the interfaces; -1: their dofs are not reduced
 
   /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).

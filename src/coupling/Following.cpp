@@ -24,6 +24,7 @@ Vector fit(const Sparse& M, const Sparse& S, const Vector& q, const std::vector<
 
 void follow(Coupling& coupling, const reduction::Followers& followers) {
   if (followers.dofs.empty()) return;
+  coupling.followers = static_cast<int>(followers.dofs.size());
   model::SecondOrderModel& model = coupling.model;
   if (!coupling.multipliers.empty())
     throw ModelError("Coordinates that follow the others need joined dofs, but dual assembly leaves every part its own. Set the assembly to Primal, or give the "

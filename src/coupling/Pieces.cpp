@@ -66,7 +66,7 @@ std::vector<Piece> makePieces(const std::vector<reduction::ReducedSubstructure>&
     piece.reduced = true;
     piece.coordinates = part.model.size();
     piece.offset = Vector::Zero(part.model.size());
-    const auto& kept = part.boundary ? part.basis.partition.retained : part.basis.partition.kept;
+    const auto& kept = part.boundary ? part.basis->partition.retained : part.basis->partition.kept;
     for (int i = 0; i < part.interface + part.retained; ++i) {
       (i < part.interface ? piece.interface : piece.retained).push_back(i);
       if (part.offset.size() > 0) piece.offset[i] = part.offset[kept[at(i)]];
@@ -108,15 +108,18 @@ void alignComponents(std::vector<Piece>& pieces) {
     for (const auto& name : names) to.push_back(static_cast<int>(std::find(first.begin(), first.end(), name) - first.begin()));
     for (auto& label : m->dofs)
       if (label.kind == DofLabel::Kind::Physical) label.component = to[at(label.component)];
-    Triplets rows;
+    Triplets rows, order;
     Vector offset(m->recoveryOffset.size());
     for (int i = 0; i < m->recovery.rows(); ++i) {
       const int row = i / width * width + to[at(i % width)];
       offset[row] = m->recoveryOffset[i];
+      order.emplace_back(row, i, 1.0);
       for (Sparse::InnerIterator it(m->recovery, i); it; ++it) rows.emplace_back(row, static_cast<int>(it.col()), it.value());
     }
     m->recovery.setFromTriplets(rows.begin(), rows.end());
     m->recoveryOffset = offset;
+    piece.recoveryTurn = Sparse(m->recovery.rows(), m->recovery.rows());
+    piece.recoveryTurn.setFromTriplets(order.begin(), order.end());
     m->componentNames = first;
     piece.own = m;
     piece.model = m.get();
@@ -248,7 +251,7 @@ class Turning {
   }
 
   /// Rows of the recovery of a node, component by component, into the common frame.
-  void turnRecovery(SecondOrderModel& m) const {
+  void turnRecovery(SecondOrderModel& m) {
     const int width = static_cast<int>(m.componentNames.size());
     if (m.recovery.rows() != static_cast<Eigen::Index>(m.recoveryNodes.size()) * width) return;
     Triplets entries;
@@ -270,6 +273,7 @@ class Turning {
     R.setFromTriplets(entries.begin(), entries.end());
     m.recovery = R * m.recovery;
     m.recoveryOffset = R * m.recoveryOffset;
+    piece_.recoveryTurn = piece_.recoveryTurn.size() > 0 ? Sparse(R * piece_.recoveryTurn) : R;
   }
 
   Piece& piece_;

@@ -24,6 +24,7 @@ struct Piece {
   std::vector<int> retained;                               ///< positions
   Vector offset;                                           ///< D at q = 0, 0 for modes
   Sparse turn;                                             ///< dofs in the frames of the part = turn * dofs here; empty: the same
+  Sparse recoveryTurn;                                     ///< recovery rows here = recoveryTurn * those of the part; empty: the same
   std::set<model::DofLabel> unturned;                      ///< dofs with a frame that could not be turned: nothing may be attached to them
 
   // Of parts with reduction::Boundary: the interface dofs stand behind the coordinates of the part, without mass or stiffness.

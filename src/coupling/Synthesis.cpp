@@ -24,8 +24,8 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
   for (int round = 0; round <= rounds; ++round) {
     std::vector<reduction::BasisResult> bases;
     for (const auto& part : result.parts) {
-      bases.push_back(part.basis);
-      bases.back().rows = part.report.rows;
+      bases.push_back(*part.basis);
+      bases.back().rows = part.basisRows();
     }
     bool improved = false;
     parallel::agree([&] { improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases); });

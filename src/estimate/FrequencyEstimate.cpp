@@ -155,8 +155,8 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   parallel::agree([&] {
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (owners[p] == parallel::rank()) {
-        const Matrix shapes = synthesis.parts[p].basis.vectors * synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
-        all[p] = shares(parts[p], synthesis.parts[p].basis, shapes, pairs.values);
+        const Matrix shapes = synthesis.parts[p].basis->vectors * synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
+        all[p] = shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values);
       }
   });
   for (std::size_t p = 0; p < parts.size(); ++p) exchange(all[p], pairs.values.size(), owners[p]);

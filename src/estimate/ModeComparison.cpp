@@ -87,7 +87,7 @@ ComplexVector dampedErrors(const std::vector<model::Substructure>& parts, const 
   ComplexVector work = ComplexVector::Zero(count);
   ComplexVector slope = ComplexVector::Zero(count);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& basis = synthesis.parts[p].basis;
+    const auto& basis = *synthesis.parts[p].basis;
     const Linearised part = linearise(parts[p].model, t);
     const ResidualFlexibility flexibility(parts[p], basis, reduction::symmetricPart(part.stiffness));
     const auto& interior = flexibility.interior();
@@ -151,7 +151,7 @@ ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const Compl
   for (std::size_t p = 0; p < maps.size(); ++p) {
     const Eigen::SparseMatrix<double> transposed = maps[p].transpose();
     normal += Eigen::SparseMatrix<double>(transposed * maps[p]);
-    const ComplexMatrix D = synthesis.parts[p].basis.vectors.cast<Complex>() * localShapes(synthesis, p, shapes);
+    const ComplexMatrix D = synthesis.parts[p].basis->vectors.cast<Complex>() * localShapes(synthesis, p, shapes);
     right.real() += transposed * D.real();
     right.imag() += transposed * D.imag();
   }
@@ -174,7 +174,7 @@ ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<mod
   std::vector<char> found(full.dofs.size(), 0);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const ComplexMatrix q = localShapes(synthesis, p, shapes);
-    const ComplexMatrix D = synthesis.parts[p].basis.vectors.cast<Complex>() * q;
+    const ComplexMatrix D = synthesis.parts[p].basis->vectors.cast<Complex>() * q;
     for (std::size_t i = 0; i < parts[p].model.dofs.size(); ++i) {
       const auto it = position.find(parts[p].model.dofs[i]);
       if (it == position.end()) continue;

@@ -48,12 +48,14 @@ struct MotionEstimator::Impl {
         mass(compiled.pattern()),
         step(compiled.pattern()) {
     requireRitz(synthesis_);
-    if (!synthesis_.coupled.boolean())
-      throw ModelError("The error of the motion is estimated only where parts are joined by their labels alone: without frames of their own, constraints between "
-                       "several dofs or an interface reduction. Leave \"Error Estimate\" at \"Frequencies\".");
+    if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.followers > 0 || !synthesis_.coupled.multipliers.empty())
+      throw ModelError("The error of the motion is estimated only where the coordinates of the parts are those of the coupled model: without interface reduction, "
+                       "coordinates that follow others (\"Residual Coordinates\" = \"Tied\") and dual assembly. Leave \"Error Estimate\" at \"Frequencies\".");
     std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.positions[p]);
+      residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p], synthesis_.coupled.offsets[p]);
+      const Sparse& turn = synthesis_.coupled.recoveryTurns[p];
+      recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery) : parts[p].model.recovery);
       for (const auto& points : parts[p].model.points) pointSets.push_back({p, &points.rows, set++, {}, {}});
     }
     energies.assign(parts.size(), 0.0);
@@ -87,6 +89,7 @@ struct MotionEstimator::Impl {
   MotionOptions options;
   std::vector<PartResidual> residuals;
   std::vector<std::vector<int>> recovered;
+  std::vector<Sparse> recovery;  ///< of the parts, in the common frame
   /// The points of a part, and what the truncated motion does at them.
   struct PartPoints {
     std::size_t part;
@@ -247,7 +250,7 @@ void MotionEstimator::Impl::measure(const Vector& qNew) {
   Vector error = model.recovery * correction;
   for (std::size_t p = 0; p < w.size(); ++p) {
     if (w[p].size() == 0) continue;
-    const Vector local = parts[p].model.recovery * w[p];
+    const Vector local = recovery[p] * w[p];
     for (std::size_t i = 0; i < recovered[p].size(); ++i) error[recovered[p][i]] += local[static_cast<Eigen::Index>(i)];
   }
   const Vector motion = model.recoveryOffset + model.recovery * qNew - rest;

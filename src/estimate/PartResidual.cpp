@@ -2,7 +2,6 @@
 #include "estimate/PartResidual.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "common/Error.hpp"
 
@@ -10,7 +9,7 @@ namespace tooljoint::estimate {
 
 namespace {
 
-bool ownMass(const reduction::ReducedSubstructure& part) { return part.basis.inertial.size() == 0 && part.basis.forces() == 0; }
+bool ownMass(const reduction::ReducedSubstructure& part) { return part.basis->inertial.size() == 0 && part.basis->forces() == 0; }
 
 }  // namespace
 
@@ -26,21 +25,19 @@ void requireRitz(const coupling::Synthesis& synthesis) {
                        "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and tolerances out.");
 }
 
-PartResidual::PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, std::vector<int> positions)
+PartResidual::PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, const Sparse& map, const Vector& mapOffset)
     : part_(part),
       reduced_(reduced),
-      positions_(std::move(positions)),
       constant_(reduction::constantStiffness(part.model)),
-      transposed_(reduced.basis.vectors.transpose()),
-      flexibility_(part, reduced.basis, reduction::symmetricPart(constant_)) {}
+      basis_(reduced.basis->vectors * map),
+      transposed_(basis_.transpose()),
+      offset_(reduced.offset),
+      flexibility_(part, *reduced.basis, reduction::symmetricPart(constant_)) {
+  if (mapOffset.size() > 0) offset_ += reduced.basis->vectors * mapOffset;
+}
 
 PartMotion PartResidual::motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const {
-  const auto local = [&](const Vector& x) {
-    Vector y(static_cast<Eigen::Index>(positions_.size()));
-    for (std::size_t i = 0; i < positions_.size(); ++i) y[static_cast<Eigen::Index>(i)] = x[positions_[i]];
-    return Vector(reduced_.basis.vectors * y);
-  };
-  return {reduced_.offset + local(q), local(qDot), local(qDDot)};
+  return {offset_ + basis_ * q, basis_ * qDot, basis_ * qDDot};
 }
 
 Vector PartResidual::stiffnessTimes(double t, const Vector& x) const {
@@ -68,9 +65,6 @@ Vector PartResidual::truncated(double t, const PartMotion& mean) const {
   return w;
 }
 
-void PartResidual::scatter(const Vector& force, Vector& coupled) const {
-  const Vector local = transposed_ * force;
-  for (std::size_t i = 0; i < positions_.size(); ++i) coupled[positions_[i]] += local[static_cast<Eigen::Index>(i)];
-}
+void PartResidual::scatter(const Vector& force, Vector& coupled) const { coupled += transposed_ * force; }
 
 }  // namespace tooljoint::estimate

@@ -24,10 +24,10 @@ struct PartMotion {
 /// One part with modes left out.
 class PartResidual {
  public:
-  PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, std::vector<int> positions);
+  /// \param map coordinates of the part = map * coupled dofs + mapOffset
+  PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, const Sparse& map, const Vector& mapOffset);
 
   bool complete() const { return flexibility_.truncated() == 0; }
-  const std::vector<int>& positions() const { return positions_; }
   const model::Substructure& part() const { return part_; }
   const reduction::ReducedSubstructure& reduced() const { return reduced_; }
 
@@ -48,9 +48,10 @@ class PartResidual {
 
   const model::Substructure& part_;
   const reduction::ReducedSubstructure& reduced_;
-  std::vector<int> positions_;
   Sparse constant_;
-  Sparse transposed_;  ///< Phi'
+  Sparse basis_;       ///< Phi map: dofs of the part x coupled dofs
+  Sparse transposed_;  ///< its transpose
+  Vector offset_;      ///< displacement where the coupled dofs are zero
   ResidualFlexibility flexibility_;
 };
 

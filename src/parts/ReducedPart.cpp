@@ -28,7 +28,7 @@ namespace {
 std::vector<DofLabel> coordinateLabels(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
   std::vector<DofLabel> labels;
   int modes = 0;
-  for (int i : reduced.basis.partition.kept) {
+  for (int i : reduced.basis->partition.kept) {
     const auto& label = original.part.model.dofs[static_cast<std::size_t>(i)];
     labels.push_back(label.kind == DofLabel::Kind::Modal ? DofLabel::modal(0, modes++) : label);
   }
@@ -44,8 +44,8 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
         "Part \"" + reduced.name + "\" cannot be exported: its basis \"" + reduced.report.basis +
         "\" does not have the interface dofs among its coordinates, so there is nothing that others could be joined to. Take "
         "another basis, Craig-Bampton for instance.");
-  const auto& kept = reduced.basis.partition.kept;
-  if (reduced.basis.vectors.rows() != original.part.model.size())
+  const auto& kept = reduced.basis->partition.kept;
+  if (reduced.basis->vectors.rows() != original.part.model.size())
     throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
   PartContent out;
   out.part.name = reduced.name;
@@ -70,12 +70,12 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
 
   const Vector offset = reduced.offset.size() > 0 ? reduced.offset : Vector(Vector::Zero(original.part.model.size()));
   out.basis.dofs = original.part.model.dofs;
-  out.basis.vectors = reduced.basis.vectors;
-  out.basis.offset = offset - reduced.basis.vectors * s;
+  out.basis.vectors = reduced.basis->vectors;
+  out.basis.offset = offset - reduced.basis->vectors * s;
   if (!original.basis.empty()) {
     out.basis.dofs = original.basis.dofs;
     out.basis.offset = original.basis.offset + original.basis.vectors * out.basis.offset;
-    out.basis.vectors = original.basis.vectors * reduced.basis.vectors;
+    out.basis.vectors = original.basis.vectors * reduced.basis->vectors;
   }
 
   std::map<int, int> coordinate;

@@ -33,13 +33,13 @@ double BasisRow::frequency() const { return std::sqrt(std::abs(eigenvalue)) / tw
 
 double BasisReport::cutOffHz() const {
   double highest = 0;
-  for (const auto& row : rows)
+  for (const auto& row : *rows)
     if (row.kept && row.kind != "constraint" && row.eigenvalue > 0) highest = std::max(highest, row.frequency());
   return highest;
 }
 
 double BasisReport::firstDroppedHz() const {
-  for (const auto& row : rows)
+  for (const auto& row : *rows)
     if (!row.kept) return row.frequency();
   return 0;
 }
@@ -51,13 +51,13 @@ std::string BasisReport::table(bool all) const {
   if (!sharedWith.empty()) text += "  taken over from the identical part \"" + sharedWith + "\"\n";
   text += format("  %-16s %-24s %18s %10s  %-8s %s\n", "kind", "name", "frequency [Hz]", "residual", "", "why");
   double worst = 0;
-  for (const auto& row : rows)
+  for (const auto& row : *rows)
     if (row.kind == "constraint") worst = std::max(worst, row.residual);
   if (!all && interface + retained > 0)
     text += format("  %-16s %-24s %18s %10.1e  %-8s %s\n", "constraint", format("%d dofs", interface + retained).c_str(), "",
                    worst, "kept", "interface and retained dofs");
   int dropped = 0;
-  for (const auto& row : rows) {
+  for (const auto& row : *rows) {
     if (!all && row.kind == "constraint") continue;
     if (!row.kept && ++dropped > 2 && !all) continue;
     text += rowLine(row);
@@ -84,7 +84,7 @@ std::string summaryTable(const std::vector<const BasisReport*>& reports) {
   double step = -1;
   for (const BasisReport* r : reports) {
     double residual = 0;
-    for (const auto& row : r->rows)
+    for (const auto& row : *r->rows)
       if (row.kept) residual = std::max(residual, row.residual);
     const double dropped = r->firstDroppedHz();
     text += format("%-20s %9d %9d %9d %7d %11.5g %11s %9.1e %9.1e %9s %6s %11s %10s%s\n", r->part.c_str(), r->interface,

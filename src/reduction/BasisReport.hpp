@@ -3,6 +3,7 @@
 /// What is known about a basis: every mode with its frequency and residual, kept or dropped and why, and the checks made on it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct BasisReport {
   int interior = 0;        ///< dofs
   int modes = 0;           ///< kept modal coordinates
   int negativeModes = 0;   ///< kept modes with omega^2 < 0
-  std::vector<BasisRow> rows;
+  std::shared_ptr<const std::vector<BasisRow>> rows = std::make_shared<const std::vector<BasisRow>>();  ///< one for all identical parts
 
   double orthogonality = 0;        ///< max |Phi_D' M Phi_D - I|
   double massDefect = 0;           ///< max |m_DD - I| as projected

@@ -155,7 +155,10 @@ void travel(Archive& archive, BasisReport& report) {
     travel(archive, *number);
   travel(archive, report.structureEnforced);
   travel(archive, report.checked);
-  travel(archive, report.rows);
+  std::vector<BasisRow> rows;
+  if constexpr (Archive::writing) rows = *report.rows;
+  travel(archive, rows);
+  if constexpr (!Archive::writing) report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   travel(archive, report.remarks);
 }
 

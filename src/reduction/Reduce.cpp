@@ -38,19 +38,20 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   report.interior = static_cast<int>(basis.partition.interior.size()) - basis.forces();
   report.modes = basis.modes();
   report.negativeModes = static_cast<int>((basis.eigenvalues.array() < 0).count());
-  report.rows = std::move(core.basis.rows);
+  std::vector<BasisRow> rows = std::move(core.basis.rows);
   core.basis.rows.clear();
   report.orthogonality = basis.orthogonality;
   report.massDefect = core.matrices.massDefect;
   report.stiffnessDefect = core.matrices.stiffnessDefect;
   report.structureEnforced = core.matrices.structureEnforced;
   report.remarks = basis.remarks;
-  for (std::size_t j = 0; j < report.rows.size(); ++j) {
-    if (report.rows[j].kind != "constraint") continue;
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    if (rows[j].kind != "constraint") continue;
     const double stiffness = core.matrices.constantStiffness.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
     const double mass = core.matrices.mass.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
-    report.rows[j].eigenvalue = mass > 0 ? stiffness / mass : 0;
+    rows[j].eigenvalue = mass > 0 ? stiffness / mass : 0;
   }
+  report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   if (basis.orthonormal && !report.structureEnforced && report.modes > 0)
     report.remarks.push_back("the modes are not orthonormal to 1e-10; the projected matrices are kept as they are");
   if (options.checks) checkBasis(part, basis, core.matrices, report);
@@ -124,11 +125,12 @@ Boundary forcesAsCoordinates(const model::Substructure& part, const BasisResult&
 }
 
 /// The reduced part from what its owner (or the owner of its twin) computed.
-ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& core, const ReductionOptions& options, int index,
-                           Shared& shared) {
+ReducedSubstructure finish(const model::Substructure& part, const std::shared_ptr<const ReducedCore>& common, const ReductionOptions& options,
+                           int index, Shared& shared) {
+  const ReducedCore& core = *common;
   ReducedSubstructure out;
   out.name = part.name;
-  out.basis = core.basis;
+  out.basis = std::shared_ptr<const BasisResult>(common, &core.basis);
   out.report = core.report;
   const Partition& p = core.basis.partition;
   const Sparse& Phi = core.basis.vectors;
@@ -162,8 +164,6 @@ ReducedSubstructure finish(const model::Substructure& part, const ReducedCore& c
 
   out.report.part = part.name;
   if (core.report.part != part.name) out.report.sharedWith = core.report.part;
-  for (std::size_t j = 0; j < p.kept.size() && j < out.report.rows.size(); ++j)
-    if (out.report.rows[j].kind == "constraint") out.report.rows[j].name = model::describe(m.dofs[j], m.componentNames);
   const double size = part.model.initialDisplacement.norm();
   if (size > 0) {
     Vector missed = part.model.initialDisplacement - out.offset;
@@ -293,7 +293,7 @@ class Team {
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
         auto& common = shared.try_emplace(t, parts_[t], cores_[t]->basis.vectors).first->second;
-        reduced[p] = finish(parts_[p], *cores_[t], options_, static_cast<int>(p), common);
+        reduced[p] = finish(parts_[p], cores_[t], options_, static_cast<int>(p), common);
       }
     });
     return reduced;
@@ -432,9 +432,17 @@ class Team {
 
 ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options,
                            int index) {
-  const ReducedCore core = makeCore(part, basis, options);
-  Shared shared(part, core.basis.vectors);
+  const auto core = std::make_shared<const ReducedCore>(makeCore(part, basis, options));
+  Shared shared(part, core->basis.vectors);
   return finish(part, core, options, index, shared);
+}
+
+std::vector<BasisRow> ReducedSubstructure::basisRows() const {
+  std::vector<BasisRow> rows = *report.rows;
+  const std::size_t kept = basis->partition.kept.size();
+  for (std::size_t j = 0; j < kept && j < rows.size(); ++j)
+    if (rows[j].kind == "constraint") rows[j].name = model::describe(model.dofs[j], model.componentNames);
+  return rows;
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,

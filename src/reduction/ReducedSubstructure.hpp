@@ -3,6 +3,7 @@
 /// A part after reduction.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,11 +32,13 @@ struct ReducedSubstructure {
   int retained = 0;               ///< the next `retained` ones are physical dofs of this part alone
   int modes = 0;                  ///< the last `modes` ones are modal
   Vector offset;                  ///< D at q = 0, dofs of the part: the static state, or zero
-  BasisResult basis;              ///< its rows stand in the report
+  std::shared_ptr<const BasisResult> basis;  ///< one for all identical parts; its rows stand in the report
   BasisReport report;
   std::optional<Boundary> boundary;  ///< only where the basis does not have the interface dofs as coordinates; then `interface` is 0
 
   int size() const { return model.size(); }
+  /// report.rows with the names of the dofs of this part: those of the report are of the first of identical parts.
+  std::vector<BasisRow> basisRows() const;
 };
 
 }  // namespace tooljoint::reduction

@@ -77,7 +77,7 @@ TEST(DistributedEstimate, CriteriaOfTheInterfaceChooseTheSameOnEveryRank) {
     const auto parts = samples::loopFrame(12, true, true);
     const auto reduced = reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
     Vector numbers(static_cast<Eigen::Index>(parts.size()));
-    for (std::size_t p = 0; p < parts.size(); ++p) numbers[static_cast<Eigen::Index>(p)] = reduced[p].basis.eigenvalues.sum();
+    for (std::size_t p = 0; p < parts.size(); ++p) numbers[static_cast<Eigen::Index>(p)] = reduced[p].basis->eigenvalues.sum();
     EXPECT_EQ(spread(numbers), 0.0);
   }
 }

@@ -115,7 +115,7 @@ TEST(DistributedReduction, RanksWithoutAPartIdleWithOneWarning) {
   reduceAll({part}, *basis, options(ModeRule::Kind::PerPart));
   EXPECT_EQ(log::warnings().size(), parallel::size() > 1 ? 1u : 0u);
   EXPECT_EQ(reduced[0].modes, 5);
-  EXPECT_EQ(spread(reduced[0].basis.eigenvalues), 0.0);
+  EXPECT_EQ(spread(reduced[0].basis->eigenvalues), 0.0);
 }
 
 }  // namespace

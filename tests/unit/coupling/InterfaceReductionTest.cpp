@@ -181,7 +181,7 @@ TEST_P(InterfaceReduction, MapsAndRecoveryAgree) {
   for (int i = 0; i < z.size(); ++i) z[i] = std::sin(1.0 + i);
   const Vector all = coupled.model.recovery * z;
   for (std::size_t p = 0; p < result.parts.size(); ++p) {
-    const Vector D = result.parts[p].basis.vectors * coupled.local(static_cast<int>(p), z);
+    const Vector D = result.parts[p].basis->vectors * coupled.local(static_cast<int>(p), z);
     const auto part = frame.parts()[p];
     for (std::size_t i = 0; i < part.model.dofs.size(); ++i) {
       const auto& label = part.model.dofs[i];

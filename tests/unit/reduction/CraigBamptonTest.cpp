@@ -92,7 +92,7 @@ TEST(CraigBampton, ModalBlocksHaveTheirTheoreticalForm) {
       if (i != j)
         EXPECT_EQ(k(2 + i, 2 + j), 0.0);
       else
-        EXPECT_NEAR(k(2 + i, 2 + i), cb.basis.eigenvalues[i], 1e-13 * cb.basis.eigenvalues[i]);
+        EXPECT_NEAR(k(2 + i, 2 + i), cb.basis->eigenvalues[i], 1e-13 * cb.basis->eigenvalues[i]);
 }
 
 TEST(CraigBampton, KeepsTheSkewPartsOfAnUnsymmetricPart) {
@@ -117,7 +117,7 @@ TEST(CraigBampton, TermsKeepTheirLaws) {
   ASSERT_EQ(cb.model.damping.size(), 2u);
   EXPECT_EQ(cb.model.damping[0].name, "gyroscopic");
   EXPECT_EQ(cb.model.laws[static_cast<std::size_t>(cb.model.damping[0].law)].name, "Omega");
-  const Matrix Phi = cb.basis.vectors;
+  const Matrix Phi = cb.basis->vectors;
   const Matrix expected = Phi.transpose() * Matrix(parts[2].model.damping[0].matrix) * Phi;
   EXPECT_LT((Matrix(cb.model.damping[0].matrix) - expected).norm(), 1e-13 * expected.norm());
 }
@@ -155,7 +155,7 @@ TEST(CraigBampton, PartWithoutInterfaceKeepsItsRigidBodyMode) {
   auto part = samples::bar("loose", 1, 8, 3.0, 2.0);
   const auto cb = reduced(part, modes(3));
   EXPECT_EQ(cb.interface + cb.retained, 0);
-  EXPECT_NEAR(cb.basis.eigenvalues[0], 0.0, 1e-12);
+  EXPECT_NEAR(cb.basis->eigenvalues[0], 0.0, 1e-12);
   EXPECT_EQ(cb.report.zeroEnergyFull, 1);
   EXPECT_EQ(cb.report.zeroEnergyReduced, 1);
 }
@@ -172,8 +172,8 @@ TEST(CraigBampton, LinkThatTouchesNothingFloats) {
   }
   samples::classify(part, {1});
   const auto cb = reduced(part, allModes());
-  EXPECT_EQ(cb.basis.partition.links.size(), 2u);
-  EXPECT_NEAR(cb.basis.eigenvalues[0], 0.0, 1e-12);
+  EXPECT_EQ(cb.basis->partition.links.size(), 2u);
+  EXPECT_NEAR(cb.basis->eigenvalues[0], 0.0, 1e-12);
   EXPECT_EQ(cb.report.zeroEnergyFull, 2);
   EXPECT_EQ(cb.report.zeroEnergyReduced, 2);
 }
@@ -185,9 +185,9 @@ TEST(CraigBampton, NegativeEigenvaluesAreKeptAndReported) {
   part.model.stiffness.push_back({"softening", softening, 0});
   const auto stable = reduced(barWithInterface(), modes(3));
   const auto buckled = reduced(part, modes(3));
-  EXPECT_GT(stable.basis.eigenvalues[0], 0.0);
-  EXPECT_LT(buckled.basis.eigenvalues[0], 0.0);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(buckled.basis.eigenvalues[k], stable.basis.eigenvalues[k] - 0.5, 1e-12);
+  EXPECT_GT(stable.basis->eigenvalues[0], 0.0);
+  EXPECT_LT(buckled.basis->eigenvalues[0], 0.0);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(buckled.basis->eigenvalues[k], stable.basis->eigenvalues[k] - 0.5, 1e-12);
   EXPECT_EQ(buckled.report.negativeModes, 1);
   EXPECT_NE(buckled.report.table().find("omega^2 = "), std::string::npos);
   EXPECT_TRUE(Matrix(buckled.model.stiffness.front().matrix).allFinite());
@@ -264,7 +264,7 @@ TEST(CraigBampton, PairOfAShaftIsNotCut) {
   EXPECT_EQ(reduced(part, strict).modes, 3);
   ModeRequest below;
   below.kind = ModeRequest::Kind::Below;
-  const auto values = reduced(part, modes(4)).basis.eigenvalues;
+  const auto values = reduced(part, modes(4)).basis->eigenvalues;
   below.omegaMax = 0.5 * (std::sqrt(values[2]) + std::sqrt(values[3]));  // between u and v
   EXPECT_EQ(reduced(part, below).modes, 4);
 }
@@ -282,8 +282,8 @@ TEST(CraigBampton, ReportSaysWhatWasChecked) {
   EXPECT_EQ(r.zeroEnergyReduced, 3);
   EXPECT_LT(r.orthogonality, 1e-12);
   EXPECT_NEAR(r.explicitStep * r.largestOmega, 2.78, 1e-12);
-  EXPECT_EQ(r.rows.size(), 6u + 7u) << "six constraint modes, five kept, two more looked at for the cut";
-  EXPECT_FALSE(r.rows.back().kept);
+  EXPECT_EQ(r.rows->size(), 6u + 7u) << "six constraint modes, five kept, two more looked at for the cut";
+  EXPECT_FALSE(r.rows->back().kept);
   EXPECT_GT(r.firstDroppedHz(), r.cutOffHz());
   const std::string table = r.table();
   for (const char* word : {"constraint", "fixed-interface", "kept", "dropped", "above the cut", "RK4"})

@@ -113,7 +113,7 @@ TEST(DualCraigBampton, KeepsTheStaticState) {
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const auto& small = coupled.parts[p];
       const Vector q = coupled.coupled.local(static_cast<int>(p), coupled.coupled.model.initialDisplacement);
-      EXPECT_LT((small.offset + small.basis.vectors * q - parts[p].reference).cwiseAbs().maxCoeff(), 1e-10 * size) << small.name;
+      EXPECT_LT((small.offset + small.basis->vectors * q - parts[p].reference).cwiseAbs().maxCoeff(), 1e-10 * size) << small.name;
     }
     const auto states = motion(coupled.coupled.model);
     EXPECT_LT(largestDifference(states, std::vector<Vector>(states.size(), states.front())), 1e-7 * size) << "nothing moves";

@@ -41,7 +41,7 @@ TEST(Herting, InertiaReliefAddsOneVectorForEachRigidBodyMode) {
   const auto without = reduced(part, "Herting", "Fixed", false, 4), with = reduced(part, "Herting", "Fixed", true, 4);
   EXPECT_EQ(without.modes, 4);
   EXPECT_EQ(with.modes, 7);
-  EXPECT_EQ(std::count_if(with.report.rows.begin(), with.report.rows.end(), [](const auto& row) { return row.kind == "inertia-relief"; }), 3);
+  EXPECT_EQ(std::count_if(with.report.rows->begin(), with.report.rows->end(), [](const auto& row) { return row.kind == "inertia-relief"; }), 3);
   EXPECT_EQ(reduced(samples::loopFrame(8, false)[0], "Herting", "Fixed", true, 4).modes, 4) << "a clamped part has none";
 }
 
@@ -53,10 +53,10 @@ TEST(Herting, WeightIsAnsweredExactly) {
   const Vector weight = part.model.mass * gravity;
   for (const auto* support : {"Free", "Fixed"}) {
     const auto small = reduced(part, "Herting", support, true, 0);
-    const Matrix Phi = small.basis.vectors, k = small.model.stiffness.front().matrix;
+    const Matrix Phi = small.basis->vectors, k = small.model.stiffness.front().matrix;
     const Eigen::Index modes = small.modes, kept = small.interface;
     const Vector answer = k.bottomRightCorner(modes, modes).ldlt().solve((Phi.transpose() * weight).tail(modes));
-    const auto& interior = small.basis.partition.interior;
+    const auto& interior = small.basis->partition.interior;
     Vector load(static_cast<Eigen::Index>(interior.size()));
     for (std::size_t i = 0; i < interior.size(); ++i) load[static_cast<Eigen::Index>(i)] = weight[interior[i]];
     const Vector exact = linalg::DirectSolver(block(constantStiffness(part.model), interior, interior)).solve(load);

@@ -103,7 +103,7 @@ TEST(LoadVectors, KeepTheStructureAndTheModes) {
   const auto without = synthesise(parts, "Craig-Bampton", {}, 3), with = synthesise(parts, "Craig-Bampton", loadsOnly(), 3);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     EXPECT_TRUE(with.parts[p].report.structureEnforced) << with.parts[p].report.massDefect << " " << with.parts[p].report.stiffnessDefect;
-    const Vector &before = without.parts[p].basis.eigenvalues, &after = with.parts[p].basis.eigenvalues;
+    const Vector &before = without.parts[p].basis->eigenvalues, &after = with.parts[p].basis->eigenvalues;
     for (const double value : before) EXPECT_LT((after.array() - value).abs().minCoeff(), 1e-9 * value) << "the modes are still there";
   }
 }

@@ -70,7 +70,7 @@ TEST(MacNeal, MatricesAreThoseOfTheFormulas) {
   withMass.bottomRightCorner(m, m) += Phib.transpose() * H * Phib;
   EXPECT_LT(near(craigChang.model.stiffness.front().matrix, k), 1e-7);
   EXPECT_LT(near(craigChang.model.mass, withMass), 1e-7);
-  for (int i = 0; i < m; ++i) EXPECT_NEAR(craigChang.basis.eigenvalues[i], lambda[i], 1e-9 * lambda[i]);
+  for (int i = 0; i < m; ++i) EXPECT_NEAR(craigChang.basis->eigenvalues[i], lambda[i], 1e-9 * lambda[i]);
 }
 
 TEST(MacNeal, DampingActsOnTheModesAlone) {
@@ -80,7 +80,7 @@ TEST(MacNeal, DampingActsOnTheModesAlone) {
   const Matrix c = small.model.damping.front().matrix;
   EXPECT_LT(c.topRows(3).cwiseAbs().maxCoeff(), 1e-10 * c.cwiseAbs().maxCoeff());
   for (int i = 0; i < 4; ++i) {
-    const double expected = 0.3 + 1e-4 * small.basis.eigenvalues[i];
+    const double expected = 0.3 + 1e-4 * small.basis->eigenvalues[i];
     EXPECT_NEAR(c(3 + i, 3 + i), expected, 1e-8 * expected);
   }
 }

@@ -71,7 +71,7 @@ TEST(Humar, BarOfTwoComponents) {
   samples::classify(parts[0], {4});
   samples::classify(parts[1], {4});
   const auto small = reduced(parts, 2);
-  const Matrix Phi = small[0].basis.vectors;
+  const Matrix Phi = small[0].basis->vectors;
   const double printed[3] = {0.5264, 0.7444, 0.5264};
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(Phi(i, 0), 0.25 * (i + 1), 1e-14);
@@ -127,9 +127,9 @@ TEST(FreeBeam, LateralModesComeInPairsThatAreNotCut) {
   EXPECT_EQ(reduced({pipe}, 1)[0].modes, 2);
   EXPECT_EQ(reduced({pipe}, 2)[0].modes, 2);
   EXPECT_EQ(reduced({pipe}, 3)[0].modes, 4);
-  const Vector values = reduced({pipe}, 3)[0].basis.eigenvalues;
+  const Vector values = reduced({pipe}, 3)[0].basis->eigenvalues;
   EXPECT_NEAR(values[0], values[1], 1e-9 * values[0]);
-  EXPECT_EQ(reduced({pipe}, 3)[0].basis.partition.links.size(), 4u) << "two planes, the axis and torsion are links of their own";
+  EXPECT_EQ(reduced({pipe}, 3)[0].basis->partition.links.size(), 4u) << "two planes, the axis and torsion are links of their own";
 }
 
 TEST(FreeBeam, ExplicitStepFollowsTheRetainedDofs) {
