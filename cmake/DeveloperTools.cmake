@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Targets for developers: `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, without precompiled headers).
+# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, without precompiled headers).
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   file(GLOB_RECURSE formatted CONFIGURE_DEPENDS src/*.[ch]pp substructures/*.[ch]pp tests/*.[ch]pp examples/*.[ch]pp benchmarks/*.[ch]pp)
@@ -13,4 +13,10 @@ if(RUN_CLANG_TIDY)
     COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}/tidy --target tooljoint_git_hash
     COMMAND ${RUN_CLANG_TIDY} -quiet -j 2 -p ${PROJECT_BINARY_DIR}/tidy "${PROJECT_SOURCE_DIR}/(src|substructures)/.*"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} USES_TERMINAL VERBATIM)
+endif()
+
+find_program(PYTHON3_FOR_FIGURES NAMES /usr/bin/python3 python3)
+if(PYTHON3_FOR_FIGURES)
+  add_custom_target(cms-variants COMMAND ${PYTHON3_FOR_FIGURES} ${PROJECT_SOURCE_DIR}/tools/cms_variants.py --program $<TARGET_FILE:tooljoint>
+    --work ${PROJECT_BINARY_DIR}/cms_variants --fresh DEPENDS tooljoint USES_TERMINAL VERBATIM)
 endif()

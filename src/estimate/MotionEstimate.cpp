@@ -140,15 +140,18 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot, cons
   m.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The error of the initial state: u = P e.
+/// The error of the initial state: u = P e, u' = P e'.
 void MotionEstimator::Impl::begin(double t) {
   compiled.setTime(t);
-  Vector g = Vector::Zero(model.size());
+  Vector g = Vector::Zero(model.size()), gDot = g;
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& part = parts[p].model;
     const PartMotion state = residuals[p].motion(q, qDot, qDot);
-    residuals[p].scatter(parts[p].model.mass * (parts[p].model.initialDisplacement - state.displacement), g);
+    residuals[p].scatter(part.mass * (part.initialDisplacement - state.displacement), g);
+    residuals[p].scatter(part.mass * (part.initialVelocity - state.velocity), gDot);
   }
   u = mass.solve(positions(g));
+  uDot = mass.solve(positions(gDot));
 }
 
 /// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
