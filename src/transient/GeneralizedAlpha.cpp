@@ -37,6 +37,7 @@
 #include "transient/ImplicitStep.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/StepControl.hpp"
+#include "transient/StepResolution.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -60,6 +61,8 @@ deck::ListSpec specification() {
       .boolean("Phase Correction", true,
                "Make up for the period error of the scheme: vibration is then followed to fourth order in the step, at about a "
                "third more work per step.")
+      .boolean("Accept Coarse Steps", false,
+               "Take a motion as a result although fixed steps do not follow it (their local error is more than a tenth of what moves in them).")
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
 }
@@ -79,6 +82,7 @@ class GeneralizedAlpha final : public Integrator {
     equations_ = {own.get<double>("Tolerance"), own.get<int>("Max Iterations")};
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
+    acceptCoarse_ = own.get<bool>("Accept Coarse Steps");
     controlled_ = own.isParameter("Step Tolerance");
     if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
     if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
@@ -93,6 +97,7 @@ class GeneralizedAlpha final : public Integrator {
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
+  void finish() const override;
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 
@@ -108,7 +113,8 @@ class GeneralizedAlpha final : public Integrator {
   }
   void complete(State& to, double h);
   void keep();
-  bool isAccurate(double h);
+  double localError(double h, bool impacts);
+  void judge(const State& from, const State& to, double h);
   int deepestLevel() const;
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
@@ -118,7 +124,7 @@ class GeneralizedAlpha final : public Integrator {
   double alphaM_, alphaF_, beta_, gamma_;
   ImplicitStep::Options equations_;
   int maxHalvings_;
-  bool acceptUnconverged_;
+  bool acceptUnconverged_, acceptCoarse_;
   bool controlled_ = false;  ///< steps follow their error
   double stepTolerance_ = 0, smallest_ = 0;
   double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
@@ -133,6 +139,7 @@ class GeneralizedAlpha final : public Integrator {
   int deepest_ = 4;  ///< halvings possible
 
   StepControl control_;
+  StepResolution resolution_;
   MassNorm length_;
   double error_ = 0;   ///< of the step under way [m]
   bool hit_ = false;   ///< impacts acted in it
@@ -171,10 +178,8 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   equation_.bind(model, equations_);
   deepest_ = controlled_ ? deepestLevel() : maxHalvings_;
   units_ = 1L << deepest_;
-  if (controlled_) {
-    control_.set(stepTolerance_, deepest_);
-    length_.bind(model);
-  }
+  if (controlled_) control_.set(stepTolerance_, deepest_);
+  length_.bind(model);
   startAcceleration(state);
   A_ = nextA_ = smooth_ = nextSmooth_ = stepError_ = state.a;
   impact_.setZero(model.size());
@@ -254,7 +259,8 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     h = step_ * static_cast<double>(stride) / static_cast<double>(units_);
     if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
     const bool solved = attempt(from, to, h, last && acceptUnconverged_);
-    if (solved && (!controlled_ || isAccurate(h))) break;
+    if (solved && controlled_) error_ = localError(h, true);
+    if (solved && (!controlled_ || control_.accepts(error_))) break;
     done_ -= stride;
     if (solved) {
       ++counters_.rejected;
@@ -268,6 +274,7 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     ++counters_.halved;
     control_.forget();
   }
+  if (!controlled_ && counters_.steps % StepResolution::stride == 0) judge(from, to, h);
   keep();
   counters_.accept(h);
   if (done_ == units_) ++index_, done_ = 0;
@@ -320,11 +327,27 @@ void GeneralizedAlpha::keep() {
   smooth_.swap(nextSmooth_);
 }
 
-bool GeneralizedAlpha::isAccurate(double h) {
+double GeneralizedAlpha::localError(double h, bool impacts) {
   stepError_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
-  if (hit_) stepError_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
-  error_ = length_(stepError_);
-  return control_.accepts(error_);
+  if (hit_ && impacts) stepError_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
+  return length_(stepError_);
+}
+
+void GeneralizedAlpha::judge(const State& from, const State& to, double h) {
+  const double error = localError(h, false);
+  stepError_ = to.q - from.q;
+  resolution_.add(error, length_(stepError_), length_(to.q));
+}
+
+void GeneralizedAlpha::finish() const {
+  const double ratio = resolution_.ratio();
+  if (ratio < StepResolution::coarse) return;
+  std::ostringstream text;
+  text << "Steps of " << counters_.maxStep << " s " << (ratio < StepResolution::lost ? "hardly follow" : "do not follow")
+       << " the motion: their local error is " << std::round(100 * ratio) << " % of what moves in a step. Choose a smaller Transient/Step, or let "
+       << "Transient/Generalized-alpha/Step Tolerance choose it.";
+  if (ratio < StepResolution::lost || acceptCoarse_) return log::warn(text.str());
+  throw ConvergenceError(text.str());
 }
 
 std::string GeneralizedAlpha::describeFailure(double t, double h) const {
@@ -353,6 +376,7 @@ void GeneralizedAlpha::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_), static_cast<double>(level_)});
   for (const Vector* x : {&A_, &smooth_}) memory.insert(memory.end(), x->begin(), x->end());
   control_.save(memory);
+  resolution_.save(memory);
   equation_.save(memory);
 }
 
@@ -363,6 +387,7 @@ void GeneralizedAlpha::restore(const double*& memory) {
   for (Vector* vector : {&A_, &smooth_})
     for (double& x : *vector) x = *memory++;
   control_.restore(memory);
+  resolution_.restore(memory);
   equation_.restore(memory);
 }
 

@@ -68,6 +68,9 @@ class Integrator {
   /// One accepted step: writes `to` (all vectors sized already). Allocates nothing. Throws ConvergenceError.
   virtual void advance(const State& from, State& to) = 0;
 
+  /// After the last step: throws ConvergenceError when the steps, taken together, did not follow the motion.
+  virtual void finish() const {}
+
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;

@@ -210,6 +210,7 @@ class Run {
     }
     if (bar) bar->finish();
     if (runawaySamples_ > 0) runaway();
+    integrator_->finish();
     return false;
   }
 

@@ -107,6 +107,7 @@ TEST(Integrators, phaseCorrectionIsUnconditionallyStable) {
     Keep samples;
     auto o = options("Generalized-alpha", 4.0, 1e-3, 0.5);
     o.own = with("Spectral Radius", radius);
+    o.own.set("Accept Coarse Steps", true);
     o.ledger = false;
     integrate(model, o, samples);
     for (int i = 0; i < 40; ++i)
