@@ -6,9 +6,11 @@
 #include "app/PartsDeck.hpp"
 #include "app/Report.hpp"
 #include "app/Scene.hpp"
+#include "app/Stages.hpp"
 #include "app/StudyPlan.hpp"
 #include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "estimate/AdaptiveReduction.hpp"
 
 namespace tooljoint::app {
 
@@ -112,6 +114,25 @@ void listStudy(const Scene& scene) {
                           " of the reference; to " + formatNumber(plan.end) + " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)");
 }
 
+/// Settles and reduces the scene to know both models.
+void predictCost(const Scene& scene) {
+  if (!scene.reduces() || !scene.moves()) {
+    log::info("cost        nothing to compare: the deck has " + std::string(scene.moves() ? "no Reduction list" : "no Transient list"));
+    return;
+  }
+  const auto stage = settle(scene);
+  log::info(describeStatic(stage));
+  const auto planned = plannedParts(scene, stage);
+  auto options = transient::readOptions(scene.list().sublist("Transient"));
+  const auto probe = [&](const coupling::Synthesis& synthesis) {
+    estimate::MotionEstimator estimator(planned.parts, synthesis, stage.state.displacement);
+    transient::integrate(synthesis.coupled.model, options, estimator);
+    return estimator.result();
+  };
+  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe, planned.options);
+  log::info(describeCost(fullStepCost(scene, stage), transient::stepCost(outcome.synthesis.coupled.model, options)));
+}
+
 }  // namespace
 
 void check(const RunOptions& options) {
@@ -125,6 +146,7 @@ void check(const RunOptions& options) {
   listPhysics(scene);
   listWork(scene);
   if (scene.list().isSublist("Study")) listStudy(scene);
+  if (options.cost) predictCost(scene);
 }
 
 }  // namespace tooljoint::app

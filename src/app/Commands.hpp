@@ -15,6 +15,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< "PATH=VALUE", or "!PATH" for a list taken out
   std::vector<std::string> without;    ///< lists taken out before the other overrides
   std::string output;                  ///< results folder; empty: results/<name of the deck>
+  bool cost = false;                   ///< `check` also settles and reduces, to predict what a step costs
   bool fresh = false;                  ///< `study` forgets the runs it has done before
   std::string restart;                 ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;                  ///< frequencies listed by `modes`
@@ -34,7 +35,8 @@ struct CompareOptions {
 void run(const RunOptions& options);
 /// `tooljoint study`: many runs of one deck against a reference run; study.csv, study.h5, summary.json and plots of speed against error.
 void study(const RunOptions& options);
-/// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates; runs nothing.
+/// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates; runs nothing. With options.cost: path, static
+/// state and reduction are computed, and the cost of a step of both models predicted.
 void check(const RunOptions& options);
 /// `tooljoint modes`: bases of the parts; undamped and damped modes of the full and the coupled model with MAC values, true and estimated
 /// errors; modes.csv and damped_modes.csv in the output folder, if one is given.

@@ -49,6 +49,14 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
   return format("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s", parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
+std::string describeCost(const transient::StepCost& full, const transient::StepCost& reduced) {
+  const double ratio = reduced.total() / full.total();
+  std::string text = format("cost        a step of the reduced model takes about %.2f of the work of one of the full model (%.3g of %.3g multiplications)\n", ratio,
+                            reduced.total(), full.total());
+  if (ratio < transient::worthReducing) return text + "            the reduced model is the cheaper one";
+  return text + "            the full model is the cheaper one, or as cheap, and the more accurate: run it with --without Reduction --without Substructures";
+}
+
 std::string describeCoupling(const coupling::Coupling& coupled) {
   if (!coupled.multipliers.empty())
     return format("coupling    dual: %zu forces join %zu dofs of the parts", coupled.multipliers.size(), coupled.interface.size());

@@ -122,6 +122,7 @@ class Run {
     for (const auto& remark : outcome_.synthesis.coupled.remarks) log::warn(remark);
     if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
     summarise(reduced, list.get<std::string>("Basis"), dofs, wall, summary_);
+    predictCost();
     summarise(outcome_.synthesis.coupled, summary_);
     summarise(outcome_, parts_, summary_);
     exportReducedParts();
@@ -131,6 +132,13 @@ class Run {
       if (scene_.output.csv) stageBasisTable(reduced, *folder_);
       if (scene_.output.reducedBases) writeBases(reduced, *file_);
     });
+  }
+
+  void predictCost() {
+    const auto full = fullStepCost(scene_, stage_);
+    const auto reduced = transient::stepCost(outcome_.synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")));
+    log::info(describeCost(full, reduced));
+    summary_.set("reduction.cost_ratio", reduced.total() / full.total());
   }
 
   void exportReducedParts() const {

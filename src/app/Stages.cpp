@@ -152,6 +152,10 @@ coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned) {
   return coupling::coupleWithPositions(planned.parts, options);
 }
 
+transient::StepCost fullStepCost(const Scene& scene, const StaticStage& stage) {
+  return transient::stepCost(fullModel(scene, stage), transient::readOptions(scene.list().sublist("Transient")));
+}
+
 model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage) {
   return scene.coupling ? joinUnreduced(plannedParts(scene, stage)).model : fullModel(stage);
 }

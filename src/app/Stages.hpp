@@ -15,6 +15,7 @@
 #include "substructures/equilibrium/StaticState.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/string/StringModel.hpp"
+#include "transient/StepCost.hpp"
 
 namespace tooljoint::app {
 
@@ -43,6 +44,9 @@ std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stag
 coupling::PlannedCoupling plannedParts(const Scene& scene, const StaticStage& stage);
 /// Unreduced parts joined, in primal assembly.
 coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned);
+
+/// What a step of the deck's transient costs with the full model.
+transient::StepCost fullStepCost(const Scene& scene, const StaticStage& stage);
 
 /// Nodes (0-based, increasing) where contact is evaluated in the reduced model.
 std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage);

@@ -81,6 +81,7 @@ int run(int argc, char** argv) {
 
   auto* checkCommand = program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
   addDeckOptions(*checkCommand, options, false);
+  checkCommand->add_flag("--cost", options.cost, "compute static state and reduction too, and predict which model is the cheaper one to move");
   checkCommand->callback([&] { command = [&] { app::check(options); }; });
 
   auto* modesCommand = program.add_subcommand("modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");

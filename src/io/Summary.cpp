@@ -60,6 +60,7 @@ const std::vector<std::string>& documentedKeys() {
       "reduction.substructures[].cutoff_hz",
       "reduction.reduced_dofs",
       "reduction.wall_s",
+      "reduction.cost_ratio",
       "reduction.coupling.assembly",
       "reduction.coupling.joined_dofs",
       "reduction.coupling.multipliers",
