@@ -22,8 +22,8 @@ struct StepCost {
 /// inconsistent.
 StepCost stepCost(const model::SecondOrderModel& model, const TransientOptions& options);
 
-/// A reduced model pays when a step of it costs less than this part of one of the full model: below, the prediction is
-/// surer than its error.
+/// A reduced model is called the cheaper one when a step of it is predicted to cost less than this part of one of the full
+/// model: the prediction knows nothing of the iterations and factorisations a reduced model may need beside.
 constexpr double worthReducing = 0.85;
 
 }  // namespace tooljoint::transient
