@@ -344,7 +344,7 @@ void GeneralizedAlpha::finish() const {
   if (ratio < StepResolution::coarse) return;
   std::ostringstream text;
   text << "Steps of " << counters_.maxStep << " s " << (ratio < StepResolution::lost ? "hardly follow" : "do not follow")
-       << " the motion: their local error is " << std::round(100 * ratio) << " % of what moves in a step. Choose a smaller Transient/Step, or let "
+       << " the motion: their local error is " << std::round(1000 * ratio) / 10 << " % of what moves in a step. Choose a smaller Transient/Step, or let "
        << "Transient/Generalized-alpha/Step Tolerance choose it.";
   if (ratio < StepResolution::lost || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
