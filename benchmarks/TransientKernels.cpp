@@ -54,12 +54,13 @@ struct Kernel {
   transient::CompiledModel model;
   transient::State state;
   transient::ExplicitRightHandSide rhs;
+  transient::Counters counters;
   explicit Kernel(const model::SecondOrderModel& source) : model(source) {
     state.resize(model.size());
     state.t = 1.0;
     model.toPositions(source.initialDisplacement, state.q);
     model.toPositions(source.initialVelocity, state.v);
-    rhs.bind(model, "benchmark");
+    rhs.bind(model, "benchmark", counters);
     rhs.look(1.0, 0.0, state.q.data());
   }
 };

@@ -135,6 +135,7 @@ const std::vector<std::string>& documentedKeys() {
       "study[].unconverged_steps",
       "study[].newton_iterations",
       "study[].factorisations",
+      "study[].right_hand_sides",
       "study[].missed_nodes",
       "study[].energy_residual",
       "study[].eps_t_max",
