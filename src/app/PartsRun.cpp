@@ -3,13 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
-#include <sys/resource.h>
-
 #include "app/PartsDeck.hpp"
 #include "app/PartsExport.hpp"
 #include "app/PartsRecording.hpp"
 #include "app/Report.hpp"
 #include "app/ResultsWriter.hpp"
+#include "app/RunSupport.hpp"
 #include "common/Error.hpp"
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
@@ -37,38 +36,6 @@ estimate::MotionOptions motionOptions(const model::SecondOrderModel& model) {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr const char* kCheckpoint = "checkpoint.bin";
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-double peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return parallel::sum(static_cast<double>(usage.ru_maxrss) / 1024.0);
-}
-
-std::string resultsFolder(const RunOptions& options, const PartsDeck& deck) {
-  if (!options.output.empty()) return options.output;
-  if (!options.restart.empty()) return options.restart;
-  if (!deck.output.folder.empty()) return deck.output.folder;
-  return (std::filesystem::path("results") / std::filesystem::path(options.deck).stem()).string();
-}
-
-class Both : public transient::SampleSink {
- public:
-  Both(transient::SampleSink& first, transient::SampleSink& second) : first_(first), second_(second) {}
-  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
-    first_.sample(t, q, qDot, qDDot);
-    second_.sample(t, q, qDot, qDDot);
-  }
-
- private:
-  transient::SampleSink& first_;
-  transient::SampleSink& second_;
-};
-
 /// One run of one deck of parts into one folder.
 class PartsRun {
  public:
@@ -76,7 +43,7 @@ class PartsRun {
 
   void go() {
     parallel::agree([&] {
-      folder_.emplace(resultsFolder(options_, deck_));
+      folder_.emplace(resultsFolder(options_, deck_.output.folder));
       if (!options_.restart.empty()) readRestart();
       file_ = std::make_unique<io::ResultsFile>(
           folder_->file("results.h5"),

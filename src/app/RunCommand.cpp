@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sys/resource.h>
-
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "app/Recording.hpp"
 #include "app/Report.hpp"
 #include "app/ResultsWriter.hpp"
+#include "app/RunSupport.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
 #include "common/Error.hpp"
@@ -26,47 +25,13 @@ namespace tooljoint::app {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr const char* kCheckpoint = "checkpoint.bin";
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Largest resident memory so far, summed over the ranks [MB].
-double peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return parallel::sum(static_cast<double>(usage.ru_maxrss) / 1024.0);
-}
-
-std::string resultsFolder(const RunOptions& options, const Scene& scene) {
-  if (!options.output.empty()) return options.output;
-  if (!options.restart.empty()) return options.restart;
-  if (!scene.output.folder.empty()) return scene.output.folder;
-  return (std::filesystem::path("results") / std::filesystem::path(options.deck).stem()).string();
-}
-
-/// Hands every sample to two sinks.
-class Both : public transient::SampleSink {
- public:
-  Both(transient::SampleSink& first, transient::SampleSink& second) : first_(first), second_(second) {}
-  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
-    first_.sample(t, q, qDot, qDDot);
-    second_.sample(t, q, qDot, qDDot);
-  }
-
- private:
-  transient::SampleSink& first_;
-  transient::SampleSink& second_;
-};
-
 /// One run of one scene into one folder.
 class Run {
  public:
   Run(const RunOptions& options, Scene scene) : options_(options), scene_(std::move(scene)) {}
 
   void go() {
-    const auto folderName = resultsFolder(options_, scene_);
+    const auto folderName = resultsFolder(options_, scene_.output.folder);
     if (!options_.restart.empty()) readRestart();
     parallel::agree([&] {
       folder_.emplace(folderName);

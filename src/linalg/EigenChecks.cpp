@@ -123,18 +123,39 @@ void applyConventions(EigenPairs& modes, const Sparse& M) {
   modes = std::move(sorted);
 }
 
+namespace {
+
+/// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; massless dofs take part by their stiffness.
+Vector unitMassScale(const Sparse& K, const Sparse& M) {
+  const Vector k = K.diagonal().cwiseAbs(), m = M.diagonal().cwiseAbs();
+  double stiffest = 0.0;  // largest K_ii / M_ii
+  for (Eigen::Index i = 0; i < m.size(); ++i)
+    if (m[i] > 0.0) stiffest = std::max(stiffest, k[i] / m[i]);
+  Vector scale = Vector::Ones(m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double mass = m[i] > 0.0 ? m[i] : stiffest > 0.0 ? k[i] / stiffest : 0.0;
+    if (mass > 0.0) scale[i] = 1.0 / std::sqrt(mass);
+  }
+  return scale;
+}
+
+}  // namespace
+
 void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double tolerance, double orthogonality) {
+  // |D (K - lambda M) phi| against |D| (|K| + |lambda| |M|) |phi| with D = diag(M)^(-1/2)
+  const Vector d = unitMassScale(K, M);
   const Matrix MPhi = M * modes.vectors;
-  const Matrix R = K * modes.vectors - MPhi * modes.values.asDiagonal();
+  const Matrix R = d.asDiagonal() * (K * modes.vectors - MPhi * modes.values.asDiagonal());
   const Matrix size = modes.vectors.cwiseAbs();
-  const Sparse absK = K.cwiseAbs(), absM = M.cwiseAbs();
-  const Matrix KSize = absK * size, MSize = absM * size;
+  const Sparse absK = d.asDiagonal() * K.cwiseAbs(), absM = d.asDiagonal() * M.cwiseAbs();
+  const Matrix KSize = absK * size, MSize = absM * size, dSize = d.cwiseInverse().asDiagonal() * size;
   // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a diagonal K has |K||phi| = 0.
-  const double rounding = 2048.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : absK.coeffs().maxCoeff());
+  const double rounding = 64.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : Sparse(absK * d.asDiagonal()).coeffs().maxCoeff());
   modes.residuals.resize(modes.values.size());
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
     const double defect = R.col(j).norm();  // nothing at all where there is no stiffness
-    modes.residuals[j] = defect == 0.0 ? 0.0 : defect / (KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() + rounding * size.col(j).norm());
+    const double scale = KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() + rounding * dSize.col(j).norm();
+    modes.residuals[j] = defect == 0.0 ? 0.0 : defect / scale;
   }
   const Matrix gram = modes.vectors.transpose() * MPhi - Matrix::Identity(modes.count(), modes.count());
   modes.orthogonality = modes.count() == 0 ? 0.0 : gram.cwiseAbs().maxCoeff();
