@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the plots of a study: plot_study.py DIR [--output DIR] [--formats png,svg]
 
-Reads study.csv and study.h5 in DIR and writes study_speed, study_modes, study_error_over_time, study_bit_speed, study_statistics,
+Reads study.csv and study.h5 in DIR and writes study_speed, study_bases, study_modes, study_error_over_time, study_bit_speed, study_statistics,
 study_static and study_reference there, each where the study has what it shows. Needs h5py, numpy and matplotlib.
 """
 import argparse
@@ -24,8 +24,8 @@ except ImportError as missing:
 
 RPM = 30 / np.pi
 # Okabe and Ito's colours that can be told apart by all, darkened where they are too light for thin lines.
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D", "#8C2D04", "#5C7A00"]
-MARKERS = "osD^vPX*hp"
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D", "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255", "#1B9E9E", "#6B4C2A", "#9A6FB0"]
+MARKERS = "osD^vPX*hp<>d"  # their number has no divisor in common with that of the colours, so that no pair comes twice
 GREY = "#8a8a8a"
 STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left",
          "axes.edgecolor": "#555555", "xtick.color": "#555555", "ytick.color": "#555555", "axes.grid": True, "grid.color": "#e6e6e6", "grid.linewidth": 0.6,
@@ -188,8 +188,9 @@ def draw_speed(study):
     if own > 0:
         axes.axhspan(low, own, color="#d9d9d9", alpha=0.6, linewidth=0, zorder=0)
         axes.text(0.008, own, " error of the reference itself", transform=axes.get_yaxis_transform(), va="top", fontsize=8, color="#666666", style="italic")
-    axes.axvline(1, color=GREY, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-    axes.text(1, 0.012, " real time ", transform=axes.get_xaxis_transform(), fontsize=8, color="#666666", style="italic", ha="left")
+    if axes.get_xlim()[0] < 1 < axes.get_xlim()[1]:
+        axes.axvline(1, color=GREY, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+        axes.text(1, 0.012, " real time ", transform=axes.get_xaxis_transform(), fontsize=8, color="#666666", style="italic", ha="left")
     figure.canvas.draw()
     labels = Labels(axes)
     for name, runs in study.lines.items():
@@ -216,7 +217,7 @@ def draw_speed(study):
             labels.put(short(run.value), [(run.number("cpu_per_simulated_s"), run.number("dyn"))], study.colour[name], size=7.5, reach=(6, 10, 16), limit=60)
     logarithmic(axes.xaxis), logarithmic(axes.yaxis, percent)
     axes.set_xlabel(f"CPU time per simulated second [s]  ({study.machine()})")
-    axes.set_ylabel(f"dyn: error of the lateral vibration, {study.window()[0]:g} to {study.window()[1]:g} s")
+    axes.set_ylabel(f"dyn: error of the vibration, {study.window()[0]:g} to {study.window()[1]:g} s")
     axes.set_title(f"Speed against error: {study.attribute('deck_name', '')}")
     note = "solid: full model, dashed: reduced"
     if study.failed:
@@ -292,6 +293,50 @@ def draw_modes(study):
     axes.set_xlabel("modes, all parts together")
     axes.set_ylabel(f"dyn, {study.window()[0]:g} to {study.window()[1]:g} s")
     axes.set_title("Error against the number of modes")
+    return figure
+
+
+def known(runs, x, y):
+    """Points of a line where both numbers are known and can stand on logarithmic axes."""
+    return [(x(run), y(run)) for run in runs if x(run) > 0 and y(run) > 0]
+
+
+def draw_bases(study):
+    """What a reduced model costs and how wrong it is: one line per basis, or per variant of one. Failed motions show the frequencies they had."""
+    lines = {}
+    for run in study.all:
+        if run.kind == "method" and run.reduced and run.row["reduced_dofs"]:
+            lines.setdefault(run.line, []).append(run)
+    if len(lines) < 2 or len({run.row["reduced_dofs"] for runs in lines.values() for run in runs}) < 2:
+        return None
+    dofs, dyn, cpu = (lambda run, name=name: run.number(name) for name in ("reduced_dofs", "dyn", "cpu_per_simulated_s"))
+    setup, error = (lambda run: run.number("setup_cpu")), (lambda run: max(run.number("frequency_error"), 1e-12) if run.row["frequency_error"] else math.nan)
+    count = int(study.attribute("frequencies", 0))
+    motion, shapes = "dyn of the motion", f"largest error of {count} frequencies"
+    plots = [(cpu, dyn, "CPU time per simulated second [s]", motion), (dofs, dyn, "reduced dofs", motion)]
+    if any(run.row["frequency_error"] for runs in lines.values() for run in runs):
+        plots += [(setup, error, "CPU time of the reduction [s]", shapes), (dofs, error, "reduced dofs", shapes)]
+    figure, grid = plt.subplots(len(plots) // 2, 2, figsize=(11, 2.4 + 3.6 * len(plots) / 2), squeeze=False, constrained_layout=True)
+    for axes, (x, y, xlabel, ylabel) in zip(grid.flat, plots):
+        for name, runs in lines.items():
+            points = known(runs, x, y)
+            if points:
+                axes.plot(*zip(*points), marker=study.marker[name], markersize=4.5, linewidth=1.2, color=study.colour[name], label=name, markeredgecolor="white",
+                          markeredgewidth=0.4)
+        axes.set_yscale("log"), axes.set_xlabel(xlabel), axes.set_ylabel(ylabel)
+        if x is not dofs:
+            axes.set_xscale("log"), logarithmic(axes.xaxis)
+    full = known([run for run in study.methods if not run.reduced], cpu, dyn)
+    if full:
+        grid[0, 0].plot(*zip(*sorted(full)), "k.", label="full model")
+    for axes in grid[0]:
+        own = float(study.attribute("self_error", 0.0))
+        if own > 0:
+            axes.axhline(own, color=GREY, linewidth=0.8, linestyle="--", label="error of the reference")
+    found = {label: handle for axes in grid.flat for handle, label in zip(*axes.get_legend_handles_labels())}
+    figure.legend(found.values(), found.keys(), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=4, fontsize=8)
+    figure.suptitle(f"Bases: {study.attribute('deck_name', '')}, {study.window()[0]:g} to {study.window()[1]:g} s  ({study.machine()})", x=0.01, ha="left", fontsize=10,
+                    fontweight="bold")
     return figure
 
 
@@ -466,7 +511,7 @@ def draw_reference(study):
     return figure
 
 
-PLOTS = {"speed": draw_speed, "modes": draw_modes, "error_over_time": draw_error_over_time, "bit_speed": draw_bit_speed, "statistics": draw_statistics,
+PLOTS = {"speed": draw_speed, "bases": draw_bases, "modes": draw_modes, "error_over_time": draw_error_over_time, "bit_speed": draw_bit_speed, "statistics": draw_statistics,
          "static": draw_static, "reference": draw_reference}
 
 

@@ -106,14 +106,6 @@ void listWork(const Scene& scene) {
   item(true, "results.h5", size);
 }
 
-void listStudy(const Scene& scene) {
-  const auto plan = planStudy(scene);
-  const auto runs = plan.runs.size() - plan.referenceRuns();
-  item(true, "study", std::to_string(runs) + " runs of " + std::to_string(plan.settings.methods.size()) + " methods, each " +
-                          std::to_string(plan.settings.repeats) + " times, and " + std::to_string(plan.referenceRuns()) +
-                          " of the reference; to " + formatNumber(plan.end) + " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)");
-}
-
 /// Settles and reduces the scene to know both models.
 void predictCost(const Scene& scene) {
   if (!scene.reduces() || !scene.moves()) {
@@ -145,7 +137,7 @@ void check(const RunOptions& options) {
   log::info(describeScene(scene));
   listPhysics(scene);
   listWork(scene);
-  if (scene.list().isSublist("Study")) listStudy(scene);
+  if (scene.list().isSublist("Study")) item(true, "study", describe(planStudy(*readStringStudy(options))));
   if (options.cost) predictCost(scene);
 }
 

@@ -5,6 +5,7 @@
 #include "app/ModesReport.hpp"
 #include "app/PartsDeck.hpp"
 #include "app/Report.hpp"
+#include "app/StudyPlan.hpp"
 #include "common/Log.hpp"
 #include "common/Text.hpp"
 
@@ -66,6 +67,7 @@ void checkParts(const RunOptions& options) {
   for (const auto& remark : whole.remarks) log::info(remark);
   listParts(deck);
   listWork(deck);
+  if (deck.list().isSublist("Study")) item(true, "study", describe(planStudy(*readPartsStudy(options))));
 }
 
 void partsModes(const RunOptions& options) {

@@ -11,6 +11,7 @@
 #include "estimate/AdaptiveReduction.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
+#include "study/StudyParameters.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
 
@@ -24,6 +25,7 @@ deck::ListSpec partsSceneSpec() {
   scene.list(reduction::parameters());
   scene.list(transient::parameters());
   scene.list(io::parameters());
+  scene.list(study::parameters());
   return scene;
 }
 
@@ -100,33 +102,24 @@ void crossCheck(const PartsDeck& deck) {
   requireNoFaults(faults);
 }
 
-/// An explicit integrator divides by the mass of every dof.
-void requireMass(const PartsDeck& deck, const model::SecondOrderModel& full) {
-  if (!deck.moves() || !transient::isExplicit(deck.list().sublist("Transient"))) return;
-  const Vector diagonal = full.mass.diagonal();
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
-    if (diagonal[i] > 0.0) continue;
-    const auto& label = full.dofs[static_cast<std::size_t>(i)];
-    std::string who = "A mode";
-    if (label.kind == model::DofLabel::Kind::Physical) {
-      const auto& name = deck.scene.nodes.at(label.entity).front();
-      const auto& part = deck.scene.contents[static_cast<std::size_t>(name.part)];
-      who = full.componentNames[static_cast<std::size_t>(label.component)] + " of node " + std::to_string(name.node) +
-            " of part \"" + part.part.name + "\" (" + part.file + ")";
-    }
-    throw ModelError(deck.deck.error("Transient/Integrator", "is \"" +
-                                                                 deck.list().sublist("Transient").get<std::string>("Integrator") +
-                                                                 "\", which needs a mass at every dof, but " + who +
-                                                                 " has none. Take Generalized-alpha, or give that dof a mass."));
+/// Messages of `work` with file and line in front.
+template <class Work>
+void locating(const deck::Deck& deck, const Work& work) {
+  try {
+    work();
+  } catch (const DeckError& fault) {
+    throw DeckError(located(deck, fault));
+  } catch (const ModelError& fault) {
+    throw ModelError(located(deck, fault));
   }
 }
 
 }  // namespace
 
-PartsDeck readPartsDeck(const RunOptions& options) {
+PartsDeck readPartsLists(const RunOptions& options) {
   PartsDeck out{deck::Deck::read(options.deck, partsSceneSpec(), options.overrides), {}, {}, {}, {}};
   const auto& list = out.list();
-  try {
+  locating(out.deck, [&] {
     out.settings = parts::readSettings(list.sublist("Parts"));
     if (list.isSublist("Coupling")) out.plan = coupling::readCoupling(list.sublist("Coupling"));
     out.output = io::readOutput(listOrDefaults(list, io::parameters()));
@@ -135,16 +128,44 @@ PartsDeck readPartsDeck(const RunOptions& options) {
       reduction::readOptions(list.sublist("Reduction"), static_cast<int>(out.settings.imported.size()));
       estimate::readEstimateOptions(list.sublist("Reduction"));
     }
+    if (list.isSublist("Study")) study::readStudy(list.sublist("Study"));
     crossCheck(out);
-    out.scene = parts::buildScene(out.settings, out.plan, [&](const std::string& name) { return out.deck.resolve(name); });
-    const auto whole = out.whole();
-    requireMass(out, whole.model);
-    parts::findStart(out.settings, out.startTime(), noxSolver(Teuchos::ParameterList("Static")), out.scene);
-  } catch (const DeckError& fault) {
-    throw DeckError(located(out.deck, fault));
-  } catch (const ModelError& fault) {
-    throw ModelError(located(out.deck, fault));
+  });
+  return out;
+}
+
+void PartsDeck::build() {
+  locating(deck, [&] { scene = parts::buildScene(settings, plan, [&](const std::string& name) { return deck.resolve(name); }); });
+}
+
+void PartsDeck::start() {
+  locating(deck, [&] { parts::findStart(settings, startTime(), noxSolver(Teuchos::ParameterList("Static")), scene); });
+}
+
+void requireMass(const deck::Deck& deck, const parts::PartsScene& scene, const model::SecondOrderModel& full) {
+  if (!deck.list().isSublist("Transient") || !transient::isExplicit(deck.list().sublist("Transient"))) return;
+  const Vector diagonal = full.mass.diagonal();
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) {
+    if (diagonal[i] > 0.0) continue;
+    const auto& label = full.dofs[static_cast<std::size_t>(i)];
+    std::string who = "A mode";
+    if (label.kind == model::DofLabel::Kind::Physical) {
+      const auto& name = scene.nodes.at(label.entity).front();
+      const auto& part = scene.contents[static_cast<std::size_t>(name.part)];
+      who = full.componentNames[static_cast<std::size_t>(label.component)] + " of node " + std::to_string(name.node) +
+            " of part \"" + part.part.name + "\" (" + part.file + ")";
+    }
+    throw ModelError(deck.error("Transient/Integrator", "is \"" + deck.list().sublist("Transient").get<std::string>("Integrator") +
+                                                            "\", which needs a mass at every dof, but " + who +
+                                                            " has none. Take Generalized-alpha, or give that dof a mass."));
   }
+}
+
+PartsDeck readPartsDeck(const RunOptions& options) {
+  auto out = readPartsLists(options);
+  out.build();
+  requireMass(out.deck, out.scene, out.whole().model);
+  out.start();
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "deck/Deck.hpp"
 #include "estimate/MotionEstimate.hpp"
 #include "io/OutputParameters.hpp"
+#include "io/Summary.hpp"
 #include "parts/PartsScene.hpp"
 
 namespace tooljoint::app {
@@ -33,6 +34,10 @@ struct PartsDeck {
   bool reduces() const { return list().isSublist("Reduction"); }
   bool moves() const { return list().isSublist("Transient"); }
   double startTime() const;
+  /// Reads the files and puts the parts together. DeckError, ModelError, FileError. Collective.
+  void build();
+  /// Finds the state the parts start from. DeckError, ConvergenceError. Collective.
+  void start();
   /// The unreduced parts in one model (always primal).
   coupling::Coupling whole() const;
 };
@@ -41,13 +46,23 @@ struct PartsDeck {
 /// FileError. Collective.
 PartsDeck readPartsDeck(const RunOptions& options);
 
+/// The lists alone, checked, before any part is read. DeckError, FileError. Collective.
+PartsDeck readPartsLists(const RunOptions& options);
+
+/// Throws ModelError naming a dof without mass where the deck's integrator divides by it.
+void requireMass(const deck::Deck& deck, const parts::PartsScene& scene, const model::SecondOrderModel& full);
+
 /// "parts       5 parts from 2 files, 40 nodes, 117 dofs, 105 when joined".
 std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole);
 
 /// Displacements of all nodes at the start.
 Vector restOf(const coupling::Coupling& whole);
-/// What an estimate of the motion measures: translations, or everything where there are none.
+/// What errors of a motion are measured in: translations, or everything where there are none.
+std::vector<int> measuredComponents(const model::ComponentNames& names);
 estimate::MotionOptions motionOptions(const model::SecondOrderModel& model);
+
+/// Deck and size of a scene of parts.
+void summarise(const PartsDeck& deck, const coupling::Coupling& whole, io::Summary& summary);
 
 void runParts(const RunOptions& options);
 void checkParts(const RunOptions& options);

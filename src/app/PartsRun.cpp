@@ -23,15 +23,26 @@ Vector restOf(const coupling::Coupling& whole) {
   return whole.model.recoveryOffset + whole.model.recovery * whole.model.initialDisplacement;
 }
 
+std::vector<int> measuredComponents(const model::ComponentNames& names) {
+  std::vector<int> all, translations;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    all.push_back(static_cast<int>(c));
+    if (coupling::kindOf(names[c]) == coupling::ComponentKind::Translation) translations.push_back(static_cast<int>(c));
+  }
+  return translations.empty() ? all : translations;
+}
+
 estimate::MotionOptions motionOptions(const model::SecondOrderModel& model) {
   estimate::MotionOptions options;
-  options.components.clear();
-  for (int c = 0; c < static_cast<int>(model.componentNames.size()); ++c)
-    if (coupling::kindOf(model.componentNames[static_cast<std::size_t>(c)]) == coupling::ComponentKind::Translation)
-      options.components.push_back(c);
-  if (options.components.empty())
-    for (int c = 0; c < static_cast<int>(model.componentNames.size()); ++c) options.components.push_back(c);
+  options.components = measuredComponents(model.componentNames);
   return options;
+}
+
+void summarise(const PartsDeck& deck, const coupling::Coupling& whole, io::Summary& summary) {
+  summary.set("deck.file", deck.deck.file());
+  summary.set("deck.sha256", deck.deck.sha256());
+  summary.set("model.nodes", static_cast<long>(whole.model.recoveryNodes.size()));
+  summary.set("model.free_dofs", whole.model.size());
 }
 
 namespace {
@@ -47,7 +58,7 @@ class PartsRun {
       if (!options_.restart.empty()) readRestart();
       file_ = std::make_unique<io::ResultsFile>(
           folder_->file("results.h5"),
-          io::Provenance{deck_.deck.file(), deck_.deck.text(), deck_.deck.sha256(), deck_.deck.overrides()},
+          provenance(deck_.deck),
           io::ResultsOptions{deck_.output.compression});
     });
     try {
@@ -68,10 +79,7 @@ class PartsRun {
     log::info(describeParts(deck_, whole_));
     for (const auto& remark : whole_.remarks) log::warn(remark);
     warnOfOmitted();
-    summary_.set("deck.file", deck_.deck.file());
-    summary_.set("deck.sha256", deck_.deck.sha256());
-    summary_.set("model.nodes", static_cast<long>(whole_.model.recoveryNodes.size()));
-    summary_.set("model.free_dofs", whole_.model.size());
+    summarise(deck_, whole_, summary_);
     const Vector rest = restOf(whole_);
     parallel::agree([&] {
       writePartsModel(deck_, whole_.model, *file_);

@@ -22,9 +22,7 @@ std::vector<double> rows(const std::vector<Vector3>& vectors) {
 
 }  // namespace
 
-io::Provenance provenance(const Scene& scene) {
-  return {scene.deck.file(), scene.deck.text(), scene.deck.sha256(), scene.deck.overrides()};
-}
+io::Provenance provenance(const deck::Deck& deck) { return {deck.file(), deck.text(), deck.sha256(), deck.overrides()}; }
 
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
   const auto nodes = nodeCount(scene);

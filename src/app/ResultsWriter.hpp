@@ -19,7 +19,7 @@
 
 namespace tooljoint::app {
 
-io::Provenance provenance(const Scene& scene);
+io::Provenance provenance(const deck::Deck& deck);
 
 /// Groups /model, /path and /static of the results file.
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);

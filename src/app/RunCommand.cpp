@@ -36,7 +36,7 @@ class Run {
     parallel::agree([&] {
       folder_.emplace(folderName);
       folder_->requireSpace(expectedBytes());
-      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_), io::ResultsOptions{scene_.output.compression});
+      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_.deck), io::ResultsOptions{scene_.output.compression});
     });
     summarise(scene_, summary_);
     try {

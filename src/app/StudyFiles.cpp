@@ -31,7 +31,14 @@ void writeCurve(io::ResultsFile& file, const std::string& path, const std::vecto
 
 void writeRow(io::ResultsFile& file, const std::string& group, const StudyRow& row) {
   const auto& c = row.curves;
-  file.write(group + "/cpu", row.cpu, {row.cpu.size()}, "s", "CPU time of each repeat, transient only, summed over the ranks");
+  const auto& m = row.modeErrors;
+  writeCurve(file, group + "/cpu", row.cpu, "s", "CPU time of each repeat, transient only, summed over the ranks");
+  writeCurve(file, group + "/mode_full", m.full, "Hz", "Lowest frequencies of the full model, negative when divergent");
+  writeCurve(file, group + "/mode_coupled", m.coupled, "Hz", "Those of the coupled modes of the same shape");
+  writeCurve(file, group + "/mode_mac", m.mac, "1", "Modal assurance criterion of both shapes");
+  writeCurve(file, group + "/mode_error", m.error, "1", "Coupled over full frequency, minus 1");
+  writeCurve(file, group + "/mode_estimate", m.estimate, "1", "The same estimated without the full model");
+  writeCurve(file, group + "/mode_definite", m.definite, "1", "0 where a part lacks a mode below that frequency");
   writeCurve(file, group + "/error_time", c.errorTime, "s", "Times of eps_t");
   writeCurve(file, group + "/eps_t", c.errorOverTime, "1", "eps_t against the reference");
   writeCurve(file, group + "/bit_time", c.bitTime, "s", "Times of the bit speed");
@@ -47,24 +54,6 @@ void writeRow(io::ResultsFile& file, const std::string& group, const StudyRow& r
   file.attribute(group, "line", row.plan.line);
   file.attribute(group, "kind", study::kindName(row.plan.kind));
   file.attribute(group, "model", row.plan.reduced ? "reduced" : "full");
-}
-
-void writeProfiles(io::ResultsFile& file, const Scene& scene, const StaticStage& stage) {
-  std::vector<double> s, clearance, radius;
-  const auto& state = stage.state;
-  for (int i = 0; i < scene.string.nodeCount(); ++i) {
-    const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
-    s.push_back(node.s);
-    clearance.push_back(node.clearance);
-    radius.push_back(std::hypot(state.displacement(6 * i), state.displacement(6 * i + 1)));
-  }
-  const auto elements = static_cast<std::size_t>(state.axialForce.size());
-  file.write("/profile/s", s, {s.size()}, "m", "Depth of the nodes along the well");
-  file.write("/profile/clearance", clearance, {s.size()}, "m", "Radial clearance between node and wall");
-  file.write("/profile/radius", radius, {s.size()}, "m", "Static lateral distance of the nodes from the well axis");
-  file.write("/profile/normal_force", state.normalForce, {s.size()}, "N", "Static normal contact force");
-  file.write("/profile/axial_force", state.axialForce, {elements}, "N", "Static axial force of the elements, tension positive");
-  file.write("/profile/torque", state.torque, {elements}, "N m", "Static torque of the elements");
 }
 
 void writePublished(io::ResultsFile& file, const std::vector<study::Published>& published) {
@@ -83,9 +72,11 @@ io::SummaryRow summaryRow(const StudyRow& row, const study::Ratios& ratios) {
   out.set("kind", study::kindName(row.plan.kind)).set("method", row.plan.method).set("label", row.plan.label);
   out.set("model", row.plan.reduced ? "reduced" : "full").set("status", row.status);
   if (!row.reason.empty()) out.set("reason", row.reason);
+  if (row.hasModel() && !row.basis.empty()) out.set("basis", row.basis).set("modes", row.modes);
+  if (row.hasModel()) out.set("reduced_dofs", row.dofs);
+  if (row.modeErrors.known()) out.set("frequency_error", row.modeErrors.worst()).set("least_mac", row.modeErrors.leastMac());
   if (!row.done()) return out;
-  if (!row.basis.empty()) out.set("basis", row.basis).set("modes", row.modes);
-  out.set("reduced_dofs", row.dofs).set("integrator", row.integrator);
+  out.set("integrator", row.integrator);
   if (row.stepOrTolerance) out.set("step_or_tolerance", *row.stepOrTolerance);
   out.set("cpu_s", row.bestCpu()).set("cpu_spread", row.spread()).set("cpu_per_simulated_s", row.cpuPerSimulatedSecond());
   out.set("wall_s", row.bestWall()).set("setup_cpu_s", row.setupCpu).set("real_time_factor", row.realTimeFactor());
@@ -125,10 +116,11 @@ void stageStudyTable(const StudyResult& result, io::OutputFolder& folder) {
   io::stageText(folder.file("study.csv"), study::table(result.rows, study::ratios(result.rows, result.plan.settings.baseline)));
 }
 
-void stageStudyFile(const StudyResult& result, const Scene& scene, io::OutputFolder& folder) {
-  io::ResultsFile file(folder.file("study.h5"), provenance(scene));
+void stageStudyFile(const StudyResult& result, io::OutputFolder& folder) {
+  const auto& reference = *result.plan.runs.front().scene;
+  io::ResultsFile file(folder.file("study.h5"), provenance(reference.deck()));
   file.attribute("/", "machine", result.machine);
-  file.attribute("/", "deck_name", scene.deck.name());
+  file.attribute("/", "deck_name", reference.deck().name());
   file.attribute("/", "window_begin", result.plan.start);
   file.attribute("/", "window_end", result.plan.windowEnd);
   file.attribute("/", "end", result.plan.end);
@@ -136,9 +128,10 @@ void stageStudyFile(const StudyResult& result, const Scene& scene, io::OutputFol
   file.attribute("/", "perturbation", result.plan.settings.perturbation);
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors) file.attribute("/", "self_error", check->errors->dyn);
   if (const auto* moved = result.find(RunKind::Sensitivity); moved != nullptr && moved->errors) file.attribute("/", "sensitivity", moved->errors->dyn);
-  if (result.stage != nullptr) writeProfiles(file, scene, *result.stage);
+  file.attribute("/", "frequencies", result.plan.settings.frequencies);
+  if (result.settled) reference.write(file);
   for (std::size_t i = 0; i < result.rows.size(); ++i)
-    if (result.rows[i].done()) writeRow(file, numbered("/runs", i), result.rows[i]);
+    if (result.rows[i].done() || result.rows[i].modeErrors.known()) writeRow(file, numbered("/runs", i), result.rows[i]);
   writePublished(file, result.plan.settings.published);
   file.flush();
   file.close();

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/Stages.hpp"
 #include "app/StudyPlan.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/Summary.hpp"
@@ -17,7 +16,7 @@ namespace tooljoint::app {
 /// All rows of a study, reference first, and what they mean together.
 struct StudyResult {
   const StudyPlan& plan;
-  const StaticStage* stage = nullptr;  ///< static state of the reference; null when it was not reached
+  bool settled = false;  ///< the reference found its state at rest
   std::vector<study::StudyRow> rows;
   std::string machine;
 
@@ -26,7 +25,7 @@ struct StudyResult {
 };
 
 void stageStudyTable(const StudyResult& result, io::OutputFolder& folder);
-void stageStudyFile(const StudyResult& result, const Scene& scene, io::OutputFolder& folder);
+void stageStudyFile(const StudyResult& result, io::OutputFolder& folder);
 void summarise(const StudyResult& result, io::Summary& summary);
 
 /// What the reference is worth, in two lines.

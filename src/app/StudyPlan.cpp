@@ -2,10 +2,12 @@
 #include "app/StudyPlan.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "deck/FileName.hpp"
 #include "io/TextFile.hpp"
 #include "study/RowStore.hpp"
 
@@ -13,10 +15,10 @@ namespace tooljoint::app {
 
 namespace {
 
-double transientNumber(const Scene& scene, const char* name) { return scene.list().sublist("Transient").get<double>(name); }
+double transientNumber(const StudyScene& scene, const char* name) { return scene.list().sublist("Transient").get<double>(name); }
 
 /// The lists of a deck that decide what is computed.
-Teuchos::ParameterList computed(const Scene& scene) {
+Teuchos::ParameterList computed(const StudyScene& scene) {
   auto list = scene.list();
   list.remove("Output", false);
   if (list.isSublist("Transient"))
@@ -24,18 +26,38 @@ Teuchos::ParameterList computed(const Scene& scene) {
   return list;
 }
 
+/// Files of the basis "User Vectors", whatever part the "%" in their name stands for.
+std::vector<std::string> vectorFiles(const StudyScene& scene) {
+  const auto& list = scene.list();
+  if (!scene.reduces() || !list.sublist("Reduction").isSublist("User Vectors") || !list.sublist("Reduction").sublist("User Vectors").isParameter("File")) return {};
+  const std::filesystem::path pattern(deck::fileName(list.sublist("Reduction").sublist("User Vectors"), "File"));
+  const auto name = pattern.filename().string();
+  const auto mark = name.find('%');
+  const auto fits = [&](const std::string& file) {
+    if (mark == std::string::npos) return file == name;
+    const auto tail = name.substr(mark + 1);
+    return file.size() + 1 >= name.size() && file.compare(0, mark, name, 0, mark) == 0 && file.compare(file.size() - tail.size(), tail.size(), tail) == 0;
+  };
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(pattern.has_parent_path() ? pattern.parent_path() : ".", failed))
+    if (entry.is_regular_file() && fits(entry.path().filename().string())) files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 class Planner {
  public:
-  explicit Planner(const Scene& scene) : scene_(scene) {}
+  explicit Planner(const StudyScene& scene) : scene_(scene) {}
 
   StudyPlan plan() {
     if (!scene_.list().isSublist("Study"))
-      throw DeckError(scene_.deck.file() + ": /" + scene_.deck.name() + " has no Study list, so there is nothing to compare. Add one; tooljoint doc Study describes it.");
-    if (!scene_.moves()) throw DeckError(scene_.deck.error("Study", "compares motions, and the scene has no Transient list. Add one."));
+      throw DeckError(scene_.deck().file() + ": /" + scene_.deck().name() + " has no Study list, so there is nothing to compare. Add one; tooljoint doc Study describes it.");
+    if (!scene_.moves()) throw DeckError(scene_.deck().error("Study", "compares motions, and the scene has no Transient list. Add one."));
     plan_.settings = study::readStudy(scene_.list().sublist("Study"));
     span();
-    auto planned = study::references(plan_.settings);
-    for (auto& run : study::expand(plan_.settings)) planned.push_back(std::move(run));
+    auto planned = study::references(plan_.settings, scene_.reductionLists());
+    for (auto& run : study::expand(plan_.settings, scene_.reductionLists())) planned.push_back(std::move(run));
     baseline(planned);
     for (auto& run : planned) add(std::move(run));
     if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
@@ -45,7 +67,7 @@ class Planner {
   }
 
  private:
-  void fault(const std::string& path, const std::string& sentence) { keep(scene_.deck.error(path, sentence)); }
+  void fault(const std::string& path, const std::string& sentence) { keep(scene_.deck().error(path, sentence)); }
   void keep(const std::string& line) {
     if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
   }
@@ -67,15 +89,17 @@ class Planner {
   }
 
   void add(study::PlannedRun run) {
-    auto overrides = scene_.deck.overrides();
+    auto overrides = scene_.deck().overrides();
     overrides.push_back("!Study");
     overrides.push_back("Transient/End Time=" + formatNumber(plan_.end));
     for (const auto& item : run.overrides) overrides.push_back(item.text);
     try {
-      Scene scene = readScene(scene_.deck.file(), overrides);
+      auto scene = scene_.with(overrides);
       plan_.runs.push_back({std::move(run), std::move(scene), plan_.runs.size()});
     } catch (const DeckError& error) {
       for (const auto& line : split(error.what(), '\n')) relocate(run, line);
+    } catch (const ModelError& error) {
+      throw ModelError(scene_.deck().error(run.source, "makes a model that cannot be built (" + run.label + "): " + error.what()));
     }
   }
 
@@ -104,24 +128,24 @@ class Planner {
 
   /// Runs that can be compared have the same nodes at the same times; those of one method, and of the reference, are different.
   void compare() {
-    const auto& reference = plan_.runs.front().scene;
+    const auto& reference = *plan_.runs.front().scene;
     std::map<std::string, std::size_t> seen;
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
       auto& run = plan_.runs[i];
       const auto& source = run.plan.source;
-      if (!run.scene.moves()) {
+      if (!run.scene->moves()) {
         fault(source, "takes the Transient list out: nothing would move.");
         continue;
       }
-      if (run.scene.reduces() != run.plan.reduced)
+      if (run.scene->reduces() != run.plan.reduced)
         fault(source, run.plan.reduced ? "asks for the reduced model, but its deck has no Reduction list. Add one to the deck or with Set."
                                        : "asks for the full model, but puts a Reduction list back with Set.");
-      if (run.scene.string.nodeCount() != reference.string.nodeCount())
-        fault(source, "has " + std::to_string(run.scene.string.nodeCount()) + " nodes (" + run.plan.label + "), the reference " +
-                          std::to_string(reference.string.nodeCount()) + ": their motions cannot be compared node by node.");
+      if (run.scene->nodes() != reference.nodes())
+        fault(source, "has " + std::to_string(run.scene->nodes()) + " nodes (" + run.plan.label + "), the reference " +
+                          std::to_string(reference.nodes()) + ": their motions cannot be compared node by node.");
       if (run.plan.kind == study::RunKind::Sensitivity) continue;
       const bool method = run.plan.kind == study::RunKind::Method;
-      const auto [it, fresh] = seen.emplace((method ? "" : "reference\n") + study::canonicalText(computed(run.scene)), i);
+      const auto [it, fresh] = seen.emplace((method ? "" : "reference\n") + study::canonicalText(computed(*run.scene)), i);
       const auto& first = plan_.runs[it->second].plan;
       run.twin = it->second;
       if (!fresh && (!method || first.source == source))
@@ -129,7 +153,7 @@ class Planner {
     }
   }
 
-  const Scene& scene_;
+  const StudyScene& scene_;
   StudyPlan plan_;
   std::vector<std::string> faults_;
 };
@@ -137,23 +161,25 @@ class Planner {
 }  // namespace
 
 bool StudyPlan::hasStatistics() const {
-  return settings.statistics && end - windowEnd > 1.5 * transientNumber(runs.front().scene, "Sampling Interval");
+  return settings.statistics && end - windowEnd > 1.5 * transientNumber(*runs.front().scene, "Sampling Interval");
 }
 
 std::size_t StudyPlan::referenceRuns() const {
   return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) { return run.plan.kind != study::RunKind::Method; }));
 }
 
-StudyPlan planStudy(const Scene& scene) { return Planner(scene).plan(); }
+StudyPlan planStudy(const StudyScene& scene) { return Planner(scene).plan(); }
 
-std::string contentOf(const Scene& scene) {
-  std::string text = study::canonicalText(computed(scene));
-  const auto file = [&](const Teuchos::ParameterList& list, const char* name) {
-    if (list.isParameter(name)) text += "\n" + io::readText(scene.deck.resolve(list.get<std::string>(name)));
-  };
-  file(scene.list().sublist("Drillstring"), "Library");
-  const auto& well = scene.list().sublist("Well");
-  if (well.isSublist("Survey")) file(well.sublist("Survey"), "File");
+std::string describe(const StudyPlan& plan) {
+  const auto runs = plan.runs.size() - plan.referenceRuns();
+  return std::to_string(runs) + " runs of " + std::to_string(plan.settings.methods.size()) + " methods, each " +
+         std::to_string(plan.settings.repeats) + " times, and " + std::to_string(plan.referenceRuns()) + " of the reference; to " +
+         formatNumber(plan.end) + " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)";
+}
+
+std::string contentOf(const StudyScene& scene) {
+  std::string text = study::canonicalText(computed(scene)) + scene.files();
+  for (const auto& file : vectorFiles(scene)) text += "\n" + io::readText(file);
   return text;
 }
 

@@ -3,10 +3,11 @@
 /// A study before it runs: every run with the deck it makes, read and checked.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "app/Scene.hpp"
+#include "app/StudyScene.hpp"
 #include "study/StudyParameters.hpp"
 #include "study/Expansion.hpp"
 
@@ -15,7 +16,7 @@ namespace tooljoint::app {
 /// One run and the scene its overrides make of the deck.
 struct StudyRun {
   study::PlannedRun plan;
-  Scene scene;
+  std::unique_ptr<StudyScene> scene;
   std::size_t twin = 0;  ///< the first method's run with the same deck, usually itself: lines of the plots may cross
 };
 
@@ -33,10 +34,13 @@ struct StudyPlan {
 };
 
 /// Reads the deck once for every run. DeckError that points into the Study list: overrides that do not fit the deck, runs that cannot be
-/// compared (other nodes), a window beyond the end, a method with two runs that are the same.
-StudyPlan planStudy(const Scene& scene);
+/// compared (other nodes), a window beyond the end, a method with two runs that are the same. ModelError: a run whose parts make no model.
+StudyPlan planStudy(const StudyScene& scene);
+
+/// "12 runs of 4 methods, ...": for a person.
+std::string describe(const StudyPlan& plan);
 
 /// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On rank 0 only (reads those files).
-std::string contentOf(const Scene& scene);
+std::string contentOf(const StudyScene& scene);
 
 }  // namespace tooljoint::app

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <set>
 
+#include "app/Stages.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
-#include "estimate/AdaptiveReduction.hpp"
+#include "coupling/CoupledModes.hpp"
 
 namespace tooljoint::app {
 
@@ -33,15 +35,28 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
 };
 
-/// Recovers u, v, w of all nodes and the bit speed, lets the estimator see the motion if there is one, and measures how long that takes.
+/// Rows of the recovery for the measured components of the measured nodes.
+std::vector<Eigen::Index> measuredRows(const Measures& measures, const model::SecondOrderModel& model) {
+  std::map<std::int64_t, std::size_t> place;
+  for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i) place[model.recoveryNodes[i]] = i;
+  std::vector<Eigen::Index> rows;
+  for (auto node : measures.nodes) {
+    const auto it = place.find(node);
+    if (it == place.end()) throw ModelError("Node " + std::to_string(node) + " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
+    for (int c : measures.components) rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
+  }
+  return rows;
+}
+
+/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if there is one, and measures how long that takes.
 class HistoryRecorder : public transient::SampleSink {
  public:
-  HistoryRecorder(const Scene& scene, const model::SecondOrderModel& model, bool record, estimate::MotionEstimator* estimator)
-      : scene_(scene), model_(model), record_(record), estimator_(estimator) {
-    history_.nodes = static_cast<std::size_t>(scene.string.nodeCount());
-    Vector unit = Vector::Zero(model.recovery.rows());
-    unit(unit.size() - 1) = 1.0;  // theta_z of the last node
-    bit_ = model.recovery.transpose() * unit;
+  HistoryRecorder(const Measures& measures, const model::SecondOrderModel& model, bool record, estimate::MotionEstimator* estimator)
+      : measures_(measures), model_(model), rows_(measuredRows(measures, model)), record_(record), estimator_(estimator) {
+    history_.nodes = measures.nodes.size();
+    history_.components = measures.components.size();
+    history_.vibrating = measures.vibrating;
+    if (measures.speedRow >= 0) bit_ = Vector(model.recovery.row(measures.speedRow).transpose());
   }
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
@@ -51,9 +66,8 @@ class HistoryRecorder : public transient::SampleSink {
       displacement_ = model_.recoveryOffset;
       displacement_.noalias() += model_.recovery * q;
       history_.time.push_back(t);
-      history_.bitSpeed.push_back(scene_.rotary.speed(t) + bit_.dot(qDot));
-      for (Eigen::Index n = 0; n < displacement_.size(); n += 6)
-        for (Eigen::Index c = 0; c < 3; ++c) history_.displacement.push_back(displacement_(n + c));
+      if (bit_.size() > 0) history_.bitSpeed.push_back(measures_.turning(t) + bit_.dot(qDot));
+      for (auto row : rows_) history_.displacement.push_back(displacement_(row));
     }
     cpu_ += watch.cpu();
     wall_ += watch.wall();
@@ -64,8 +78,9 @@ class HistoryRecorder : public transient::SampleSink {
   study::RecordedHistory& history() { return history_; }
 
  private:
-  const Scene& scene_;
+  const Measures& measures_;
   const model::SecondOrderModel& model_;
+  std::vector<Eigen::Index> rows_;
   bool record_;
   estimate::MotionEstimator* estimator_;
   Vector bit_, displacement_;
@@ -73,57 +88,68 @@ class HistoryRecorder : public transient::SampleSink {
   double cpu_ = 0.0, wall_ = 0.0;
 };
 
-/// Lateral dofs moved by at most `size`, each by another amount.
-void perturb(model::SecondOrderModel& model, double size) {
-  for (std::size_t i = 0; i < model.dofs.size(); ++i)
-    if (model.dofs[i].component < 2) model.initialDisplacement(static_cast<Eigen::Index>(i)) += size * std::cos(1.7 * static_cast<double>(i));
+std::vector<int> vibrating(const Measures& measures) {
+  return {measures.components.begin(), measures.components.begin() + static_cast<std::ptrdiff_t>(measures.vibrating)};
 }
 
-void countContact(const Scene& scene, const model::SecondOrderModel& model, Execution& execution) {
-  std::vector<char> watched(static_cast<std::size_t>(scene.string.nodeCount()), 0);
+/// Dofs of the vibration moved by at most `size`, each by another amount.
+model::SecondOrderModel perturbed(model::SecondOrderModel model, const Measures& measures, double size) {
+  const auto components = vibrating(measures);
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (model.dofs[i].kind == model::DofLabel::Kind::Physical && std::find(components.begin(), components.end(), model.dofs[i].component) != components.end())
+      model.initialDisplacement(static_cast<Eigen::Index>(i)) += size * std::cos(1.7 * static_cast<double>(i));
+  return model;
+}
+
+void countContact(const Measures& measures, const model::SecondOrderModel& model, Execution& execution) {
+  std::set<std::int64_t> watched;
   for (const auto& set : model.points)
-    if (set.name == kContactSet)
-      for (auto entity : set.entities) watched[static_cast<std::size_t>(entity - 1)] = 1;
+    if (set.name == kContactSet) watched.insert(set.entities.begin(), set.entities.end());
   const auto view = execution.history.view();
-  for (int p = 0; p < scene.contactPoints.size(); ++p) {
-    const auto node = static_cast<std::size_t>(scene.contactPoints.node[static_cast<std::size_t>(p)] - 1);
-    double deepest = -scene.contactPoints.clearance[static_cast<std::size_t>(p)];
-    for (std::size_t i = 0; i < view.samples; ++i)
-      deepest = std::max(deepest, std::hypot(view.at(i, node, 0), view.at(i, node, 1)) - scene.contactPoints.clearance[static_cast<std::size_t>(p)]);
+  for (std::size_t node = 0; node < measures.nodes.size(); ++node) {
+    const double clearance = measures.clearance[node];
+    if (!std::isfinite(clearance)) continue;
+    double deepest = -clearance;
+    for (std::size_t i = 0; i < view.samples; ++i) deepest = std::max(deepest, view.radius(i, node) - clearance);
     execution.maxPenetration = std::max(execution.maxPenetration, deepest);
-    if (deepest > 0.0 && watched[node] == 0) ++execution.missedNodes;
+    if (deepest > 0.0 && watched.count(measures.nodes[node]) == 0) ++execution.missedNodes;
   }
 }
 
+estimate::MotionOptions estimated(const Measures& measures) {
+  estimate::MotionOptions options;
+  options.components = vibrating(measures);
+  return options;
+}
+
 /// Reduced model of the scene, with what it cost.
-estimate::Outcome reduce(const Scene& scene, const StaticStage& stage, coupling::PlannedCoupling& planned, Execution& execution) {
+void reduce(const StudyScene& scene, PreparedModel& prepared) {
   const Stopwatch watch;
-  planned = plannedParts(scene, stage);
-  const auto& parts = planned.parts;
+  prepared.planned = scene.parts();
+  const auto& parts = prepared.planned.parts;
   const auto& list = scene.list().sublist("Reduction");
   const auto probe = [&](const coupling::Synthesis& synthesis) {
-    estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
+    estimate::MotionEstimator estimator(parts, synthesis, scene.rest(), estimated(scene.measures()));
     auto options = transient::readOptions(scene.list().sublist("Transient"));
     options.progress = false;
     transient::integrate(synthesis.coupled.model, options, estimator);
     return estimator.result();
   };
-  auto outcome = estimate::synthesise(parts, list, probe, planned.options);
-  execution.basis = list.get<std::string>("Basis");
-  for (const auto& part : outcome.synthesis.parts) execution.modes += part.modes;
-  execution.setupCpu = parallel::sum(watch.cpu());
-  execution.setupWall = parallel::maximum(watch.wall());
-  return outcome;
+  prepared.outcome = estimate::synthesise(parts, list, probe, prepared.planned.options);
+  prepared.basis = list.get<std::string>("Basis");
+  for (const auto& part : prepared.outcome.synthesis.parts) prepared.modes += part.modes;
+  prepared.setupCpu = parallel::sum(watch.cpu());
+  prepared.setupWall = parallel::maximum(watch.wall());
 }
 
-void integrate(const Scene& scene, model::SecondOrderModel& model, const ExecutionOptions& options, Execution& execution,
-               estimate::MotionEstimator* estimator = nullptr) {
-  if (options.perturbation > 0.0) perturb(model, options.perturbation);
+Execution integrate(const StudyScene& scene, const Measures& measures, const model::SecondOrderModel& model, const ExecutionOptions& options,
+                    estimate::MotionEstimator* estimator) {
   auto transientOptions = transient::readOptions(scene.list().sublist("Transient"));
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
   hooks.title = options.title;
-  HistoryRecorder recorder(scene, model, options.record, estimator);
+  HistoryRecorder recorder(measures, model, options.record, estimator);
+  Execution execution;
   double cpu = 0.0, wall = 0.0;
   bool late = false;
   parallel::agree([&] {
@@ -145,34 +171,60 @@ void integrate(const Scene& scene, model::SecondOrderModel& model, const Executi
   execution.cpu = parallel::sum(cpu);
   execution.wall = parallel::maximum(wall);
   execution.history = std::move(recorder.history());
-  if (options.record) countContact(scene, model, execution);
+  if (options.record) countContact(measures, model, execution);
+  return execution;
 }
 
 }  // namespace
 
-std::shared_ptr<const StaticStage> StudyRunner::statics(const Scene& scene) {
-  auto list = scene.list();
-  for (const char* name : {"Substructures", "Coupling", "Reduction", "Transient", "Output"}) list.remove(name, false);
-  auto& stage = settled_[study::canonicalText(list)];
-  if (!stage) stage = std::make_shared<const StaticStage>(settle(scene));
-  return stage;
+PreparedModel StudyRunner::prepare(StudyScene& scene, int frequencies) {
+  PreparedModel prepared;
+  scene.settle();
+  prepared.reduced = scene.reduces();
+  if (!prepared.reduced) {
+    prepared.full = scene.full();
+    return prepared;
+  }
+  reduce(scene, prepared);
+  try {
+    if (frequencies > 0) prepared.modeErrors = compare(scene, prepared, frequencies);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::ModelNotBuilt && error.code() != ExitCode::NotConverged) throw;
+    prepared.notCompared = std::string("The frequencies could not be compared. ") + error.what();  // the model may move all the same
+  }
+  return prepared;
 }
 
-Execution StudyRunner::execute(const Scene& scene, const ExecutionOptions& options) {
-  Execution execution;
-  const auto stage = statics(scene);
-  if (scene.reduces()) {
-    coupling::PlannedCoupling planned;
-    auto outcome = reduce(scene, *stage, planned, execution);
-    std::optional<estimate::MotionEstimator> estimator;
-    if (options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion)
-      estimator.emplace(planned.parts, outcome.synthesis, stage->state.displacement);
-    integrate(scene, outcome.synthesis.coupled.model, options, execution, estimator ? &*estimator : nullptr);
-    if (estimator) execution.estimatedDyn = estimator->result().error;
-  } else {
-    auto model = fullModel(scene, *stage);
-    integrate(scene, model, options, execution);
+study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedModel& prepared, int frequencies) {
+  auto lists = scene.list();
+  for (const char* name : {"Reduction", "Transient", "Output"}) lists.remove(name, false);
+  const auto key = study::canonicalText(lists);
+  if (fullModes_.count(key) == 0) {
+    FullModes fresh{scene.full(), {}};
+    fresh.modes = coupling::lowestModes(fresh.whole.model, std::min(frequencies, fresh.whole.model.size()));
+    fullModes_.emplace(key, std::move(fresh));
   }
+  const auto& known = fullModes_.at(key);
+  study::ModeErrors errors;
+  for (const auto& m : estimate::compareModes(known.whole.model, known.modes, prepared.planned.parts, prepared.outcome.synthesis, known.whole.maps)) {
+    errors.full.push_back(m.fullHz());
+    errors.coupled.push_back(m.coupledHz());
+    errors.mac.push_back(m.mac);
+    errors.error.push_back(m.error);
+    if (m.estimated) errors.estimate.push_back(m.estimate);
+    errors.definite.push_back(m.definite ? 1.0 : 0.0);
+  }
+  return errors;
+}
+
+Execution StudyRunner::move(const StudyScene& scene, const PreparedModel& prepared, const ExecutionOptions& options) const {
+  const auto measures = scene.measures();
+  if (options.perturbation > 0.0) return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation), options, nullptr);
+  const bool estimates = prepared.reduced && options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion;
+  if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
+  estimate::MotionEstimator estimator(prepared.planned.parts, prepared.outcome.synthesis, scene.rest(), estimated(measures));
+  auto execution = integrate(scene, measures, prepared.model(), options, &estimator);
+  execution.estimatedDyn = estimator.result().error;
   return execution;
 }
 

@@ -4,17 +4,32 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
+#include "app/StudyScene.hpp"
+#include "estimate/AdaptiveReduction.hpp"
+#include "estimate/ModeComparison.hpp"
 #include "study/RowStore.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::app {
+
+/// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads, summed over the ranks, and wall seconds.
+struct PreparedModel {
+  coupling::Coupling full;           ///< of a full run
+  coupling::PlannedCoupling planned;  ///< of a reduced one
+  estimate::Outcome outcome;
+  bool reduced = false;
+  std::string basis;
+  long modes = 0;
+  double setupCpu = 0.0, setupWall = 0.0;  ///< reduction and coupling
+  study::ModeErrors modeErrors;            ///< what comparing costs is in no time
+  std::string notCompared;                 ///< why there are no `modeErrors` although they were asked for
+
+  const model::SecondOrderModel& model() const { return reduced ? outcome.synthesis.coupled.model : full.model; }
+};
 
 struct ExecutionOptions {
   std::string title;               ///< of the progress bar; empty: none
@@ -23,15 +38,11 @@ struct ExecutionOptions {
   std::optional<double> timeLimit; ///< CPU time after which the run is given up [s]
 };
 
-/// What one run gave. Times are CPU seconds of all threads, summed over the ranks, and wall seconds; the transient's are without the recovery of
-/// the recorded motion, which is the same work for every method.
+/// What one motion gave. Times as above, without the recovery of the recorded motion, which is the same work for every method.
 struct Execution {
   transient::TransientReport report;
   study::RecordedHistory history;
   double cpu = 0.0, wall = 0.0;
-  double setupCpu = 0.0, setupWall = 0.0;
-  std::string basis;
-  long modes = 0;
   long missedNodes = 0;
   double maxPenetration = 0.0;
   std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the transient; its time is not in `cpu` and `wall`
@@ -42,17 +53,23 @@ struct TimeLimitError : ConvergenceError {
   using ConvergenceError::ConvergenceError;
 };
 
-/// Static states are computed once for all scenes that share them. All calls are collective.
+/// All calls are collective.
 class StudyRunner {
  public:
-  /// Path and static state of the scene; those of an earlier scene when Substructures, Reduction and Transient alone differ.
-  std::shared_ptr<const StaticStage> statics(const Scene& scene);
+  /// Settles the scene, and reduces it if its deck says so. With `frequencies` above 0 the coupled modes of a reduced model are compared with
+  /// as many of the full one, which are computed once for all runs of the same full model. Throws what the stages throw.
+  PreparedModel prepare(StudyScene& scene, int frequencies);
 
-  /// Throws what the stages throw, InterruptedError, and ConvergenceError when the time limit is reached.
-  Execution execute(const Scene& scene, const ExecutionOptions& options);
+  /// Moves it. Throws what transient::integrate throws, InterruptedError, and TimeLimitError.
+  Execution move(const StudyScene& scene, const PreparedModel& prepared, const ExecutionOptions& options) const;
 
  private:
-  std::map<std::string, std::shared_ptr<const StaticStage>> settled_;
+  struct FullModes {
+    coupling::Coupling whole;
+    linalg::EigenPairs modes;
+  };
+  study::ModeErrors compare(const StudyScene& scene, const PreparedModel& prepared, int frequencies);
+  std::map<std::string, FullModes> fullModes_;
 };
 
 }  // namespace tooljoint::app

@@ -200,10 +200,15 @@ Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatr
 
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps) {
+  return compareModes(full, coupling::lowestModes(full, std::min(count, full.size())), parts, synthesis, maps);
+}
+
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const linalg::EigenPairs& exact,
+                                         const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+                                         const std::vector<Sparse>& maps) {
   const Sparse mass = reduction::symmetricPart(full.mass);
-  const auto exact = coupling::lowestModes(full, std::min(count, full.size()));
   const auto& coupled = synthesis.coupled.model;
-  const int looked = std::min(count + moreModes, coupled.size());
+  const int looked = std::min(exact.count() + moreModes, coupled.size());
   const auto pairs = coupling::lowestModes(coupled, looked);
   const bool estimated = isRitz(synthesis);
   const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0}) : std::vector<FrequencyEstimate>();

@@ -46,6 +46,11 @@ Matrix modalAssurance(const Sparse& M, const Eigen::MatrixXcd& a, const Eigen::M
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps = {});
 
+/// The same with all modes of `exact`, those of the full model by coupling::lowestModes, which many reduced models can share.
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const linalg::EigenPairs& exact,
+                                         const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+                                         const std::vector<Sparse>& maps = {});
+
 /// The `count` damped modes of smallest |s|, gyroscopic and circulatory matrices of time t included. Their errors are estimated with left and right
 /// modes, z and y, of the coupled model: s - s_full = -sum_p l_I' F_p r_I / z' (2 s m + c) y with the residuals r = Q(s) Phi y and
 /// l = Q(s)' Phi z, Q = s^2 M + s C + K.

@@ -119,6 +119,8 @@ const std::vector<std::string>& documentedKeys() {
       "study[].basis",
       "study[].modes",
       "study[].reduced_dofs",
+      "study[].frequency_error",
+      "study[].least_mac",
       "study[].integrator",
       "study[].step_or_tolerance",
       "study[].cpu_s",

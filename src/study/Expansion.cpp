@@ -10,9 +10,8 @@ namespace {
 
 const char* const referenceSource = "Study/Reference/Set";
 
-void takeReductionOut(PlannedRun& run) {
-  run.overrides.push_back({"!Substructures", run.source});
-  run.overrides.push_back({"!Reduction", run.source});
+void takeOut(const ReductionLists& lists, PlannedRun& run) {
+  for (const auto& list : lists) run.overrides.push_back({"!" + list, run.source});
 }
 
 /// "Step 0.001", "Least squares": numbers need the name of what they are.
@@ -56,26 +55,26 @@ std::string kindName(RunKind kind) {
   return "method";
 }
 
-std::vector<PlannedRun> expand(const StudySettings& settings) {
+std::vector<PlannedRun> expand(const StudySettings& settings, const ReductionLists& reduction) {
   std::vector<PlannedRun> runs;
   for (const auto& method : settings.methods) {
     PlannedRun base;
     base.source = "Study/Methods/" + method.name;
     base.method = base.line = base.label = method.label;
     base.reduced = method.reduced;
-    if (!method.reduced) takeReductionOut(base);
+    if (!method.reduced) takeOut(reduction, base);
     for (const auto& text : method.set) base.overrides.push_back({text, base.source + "/Set"});
     addProduct(method, base, runs);
   }
   return runs;
 }
 
-std::vector<PlannedRun> references(const StudySettings& settings) {
+std::vector<PlannedRun> references(const StudySettings& settings, const ReductionLists& reduction) {
   PlannedRun reference;
   reference.kind = RunKind::Reference;
   reference.source = "Study/Reference";
   reference.method = reference.line = reference.label = "reference";
-  takeReductionOut(reference);
+  takeOut(reduction, reference);
   for (const auto& text : settings.reference) reference.overrides.push_back({text, referenceSource});
   std::vector<PlannedRun> runs{reference};
 

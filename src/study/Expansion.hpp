@@ -32,10 +32,13 @@ struct PlannedRun {
   std::vector<std::pair<std::string, std::string>> sweep;  ///< parameter and value
 };
 
+/// Lists that a full model does without.
+using ReductionLists = std::vector<std::string>;
+
 /// The runs of all methods, in the order of the deck, the last dimension of a sweep varying first.
-std::vector<PlannedRun> expand(const StudySettings& settings);
+std::vector<PlannedRun> expand(const StudySettings& settings, const ReductionLists& reduction = {"Substructures", "Reduction"});
 
 /// The reference run, its check, and the perturbed one unless the perturbation is 0.
-std::vector<PlannedRun> references(const StudySettings& settings);
+std::vector<PlannedRun> references(const StudySettings& settings, const ReductionLists& reduction = {"Substructures", "Reduction"});
 
 }  // namespace tooljoint::study

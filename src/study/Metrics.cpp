@@ -12,7 +12,6 @@ namespace tooljoint::study {
 namespace {
 
 constexpr double timeTolerance = 1e-9;  // s
-constexpr std::size_t translations = 3;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(ExitCode::Internal, sentence); }
 
@@ -39,7 +38,7 @@ struct Pair {
 
   Pair(const HistoryView& a, const HistoryView& b, const Window& window)
       : history(a), reference(b), mine(span(a, window)), theirs(span(b, window)) {
-    if (a.nodes != b.nodes || a.components != b.components || a.components < translations) {
+    if (a.nodes != b.nodes || a.components != b.components || a.judged != b.judged || a.vibrating != b.vibrating || a.components < std::max(a.judged, a.vibrating)) {
       refuse("Two histories of " + std::to_string(a.nodes) + " and " + std::to_string(b.nodes) + " nodes cannot be compared.");
     }
     if (mine.size() == 0 || mine.size() != theirs.size()) {
@@ -66,7 +65,7 @@ struct Sums {
 };
 
 /// Adds the mean of the judged components to a profile; nothing when none can be judged.
-void addMean(ErrorProfile& profile, double at, const std::array<Sums, translations>& sums) {
+void addMean(ErrorProfile& profile, double at, const std::vector<Sums>& sums) {
   double total = 0.0;
   int judged = 0;
   for (const Sums& s : sums) {
@@ -88,6 +87,12 @@ void add(Sums& s, double value, double exact) {
 
 }  // namespace
 
+double HistoryView::radius(std::size_t sample, std::size_t node) const {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < vibrating; ++c) sum += at(sample, node, c) * at(sample, node, c);
+  return std::sqrt(sum);
+}
+
 double ErrorProfile::max() const { return value.empty() ? 0.0 : *std::max_element(value.begin(), value.end()); }
 
 double ErrorProfile::mean() const {
@@ -98,9 +103,9 @@ ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& refere
   const Pair pair(history, reference, window);
   ErrorProfile profile;
   for (std::size_t i = 0; i < pair.mine.size(); ++i) {
-    std::array<Sums, translations> sums{};
+    std::vector<Sums> sums(history.judged);
     for (std::size_t n = 0; n < history.nodes; ++n)
-      for (std::size_t c = 0; c < translations; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
+      for (std::size_t c = 0; c < history.judged; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
     addMean(profile, pair.time(i), sums);
   }
   return profile;
@@ -110,9 +115,9 @@ ErrorProfile errorOverNodes(const HistoryView& history, const HistoryView& refer
   const Pair pair(history, reference, window);
   ErrorProfile profile;
   for (std::size_t n = 0; n < history.nodes; ++n) {
-    std::array<Sums, translations> sums{};
+    std::vector<Sums> sums(history.judged);
     for (std::size_t i = 0; i < pair.mine.size(); ++i)
-      for (std::size_t c = 0; c < translations; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
+      for (std::size_t c = 0; c < history.judged; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
     addMean(profile, static_cast<double>(n), sums);
   }
   return profile;
@@ -129,7 +134,7 @@ double vibrationError(const HistoryView& history, const HistoryView& reference, 
   double vibration = 0.0;
   for (std::size_t i = 0; i < pair.mine.size(); ++i) {
     for (std::size_t n = 0; n < reference.nodes; ++n) {
-      for (std::size_t c = 0; c < 2; ++c) {
+      for (std::size_t c = 0; c < history.vibrating; ++c) {
         const double exact = pair.exact(i, n, c);
         const double difference = pair.value(i, n, c) - exact;
         const double motion = exact - staticReference[n * reference.components + c];
@@ -140,7 +145,7 @@ double vibrationError(const HistoryView& history, const HistoryView& reference, 
   }
   if (!std::isfinite(error) || !std::isfinite(vibration)) refuse("A history to be compared holds numbers that are not finite.");
   if (!(std::sqrt(vibration) > negligibleNorm))
-    refuse("The reference history does not move laterally, so no vibration error can be given.");
+    refuse("The reference history does not vibrate, so no vibration error can be given.");
   return std::sqrt(error / vibration);
 }
 

@@ -11,18 +11,22 @@
 
 namespace tooljoint::study {
 
-/// Displacements over time, samples x nodes x components, row-major, seen but not owned. The first three components are
-/// the translations, the first two the lateral ones.
+/// Displacements over time, samples x nodes x components, row-major, seen but not owned. The components in front are those that
+/// errors look at: of a string the three translations, the lateral ones first.
 struct HistoryView {
   const double* time = nullptr;          ///< samples [s]
   const double* displacement = nullptr;  ///< samples x nodes x components [m, rad]
   std::size_t samples = 0;
   std::size_t nodes = 0;
   std::size_t components = 6;
+  std::size_t judged = 3;     ///< components that eps_t and eps_n look at
+  std::size_t vibrating = 2;  ///< components whose motion is the vibration
 
   double at(std::size_t sample, std::size_t node, std::size_t component) const {
     return displacement[(sample * nodes + node) * components + component];
   }
+  /// Length of the vibrating components of a node.
+  double radius(std::size_t sample, std::size_t node) const;
 };
 
 /// Times looked at, both ends included (to 1e-9 s).
@@ -39,10 +43,10 @@ struct ErrorProfile {
   double mean() const;
 };
 
-/// A component (u, v or w) whose reference norm is below this is not judged [m].
+/// A component whose reference norm is below this is not judged [m].
 constexpr double negligibleNorm = 1e-12;
 
-/// eps_t(t_i) = mean over the components c = u, v, w of sqrt(sum_n (c - c_ref)^2) / sqrt(sum_n c_ref^2), (45).
+/// eps_t(t_i) = mean over the judged components c of sqrt(sum_n (c - c_ref)^2) / sqrt(sum_n c_ref^2), (45).
 /// All functions throw Error(Internal) when the histories have other nodes or other times inside the window, or the
 /// window holds no sample.
 ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& reference, const Window& window = {});
@@ -50,8 +54,8 @@ ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& refere
 /// eps_n(s_n) = mean over the components of sqrt(sum_i (c - c_ref)^2) / sqrt(sum_i c_ref^2), (46).
 ErrorProfile errorOverNodes(const HistoryView& history, const HistoryView& reference, const Window& window = {});
 
-/// dyn = sqrt(sum |(u,v) - (u,v)_ref|^2) / sqrt(sum |(u,v)_ref - (u,v)_static|^2) over all nodes and samples of the window, with
-/// the static displacements of the reference, nodes x components. Error(Internal) when the reference does not move laterally.
+/// dyn = sqrt(sum |x - x_ref|^2) / sqrt(sum |x_ref - x_static|^2) over all nodes and samples of the window, x the vibrating components (u and v
+/// of a string), with the static displacements of the reference, nodes x components. Error(Internal) when the reference does not move in them.
 double vibrationError(const HistoryView& history, const HistoryView& reference, const std::vector<double>& staticReference,
                       const Window& window = {});
 

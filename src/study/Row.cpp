@@ -2,6 +2,7 @@
 #include "study/Row.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/Error.hpp"
@@ -48,6 +49,19 @@ void fromJson(const Json& json, RowCurves& c) {
   take(json, "spectrum", s.spectrum);
 }
 
+Json toJson(const ModeErrors& m) {
+  return {{"full", m.full}, {"coupled", m.coupled}, {"mac", m.mac}, {"error", m.error}, {"estimate", m.estimate}, {"definite", m.definite}};
+}
+
+void fromJson(const Json& json, ModeErrors& m) {
+  take(json, "full", m.full);
+  take(json, "coupled", m.coupled);
+  take(json, "mac", m.mac);
+  take(json, "error", m.error);
+  take(json, "estimate", m.estimate);
+  take(json, "definite", m.definite);
+}
+
 double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end()); }
 
 /// The numbers of a row with their keys, once for writing and once for reading.
@@ -80,6 +94,14 @@ void eachNumber(Row& row, const Visit& visit) {
 
 }  // namespace
 
+double ModeErrors::worst() const {
+  double largest = 0.0;
+  for (double e : error) largest = std::max(largest, std::abs(e));
+  return largest;
+}
+
+double ModeErrors::leastMac() const { return mac.empty() ? 1.0 : least(mac); }
+
 double StudyRow::bestCpu() const { return least(cpu); }
 double StudyRow::bestWall() const { return least(wall); }
 double StudyRow::spread() const {
@@ -96,6 +118,7 @@ std::string StudyRow::toJson() const {
   json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn} : Json(nullptr);
   json["statistics"] = statistics ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean, statistics->lateralRms, statistics->spectrum}
                                   : Json(nullptr);
+  json["mode_errors"] = study::toJson(modeErrors);
   json["curves"] = study::toJson(curves);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -111,6 +134,7 @@ void StudyRow::fromJson(const std::string& text) {
     statistics.reset();
     if (const auto& e = json.at("errors"); !e.is_null()) errors = PointwiseErrors{e.at(0), e.at(1), e.at(2), e.at(3)};
     if (const auto& s = json.at("statistics"); !s.is_null()) statistics = StatisticsDifference{s.at(0), s.at(1), s.at(2), s.at(3), s.at(4)};
+    study::fromJson(json.at("mode_errors"), modeErrors);
     study::fromJson(json.at("curves"), curves);
   } catch (const Json::exception& error) {
     throw FileError(std::string("A stored row of the study cannot be read: ") + error.what() + ". Run the study with --fresh.");

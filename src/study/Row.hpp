@@ -20,6 +20,18 @@ struct PointwiseErrors {
   double dyn = 0.0;
 };
 
+/// The lowest modes of the full model, one entry each, and the coupled modes of the same shape.
+struct ModeErrors {
+  std::vector<double> full, coupled;  ///< [Hz], negative when divergent
+  std::vector<double> mac;
+  std::vector<double> error;          ///< coupled / full - 1
+  std::vector<double> estimate;       ///< of `error`, without the full model; empty where a basis has none
+  std::vector<double> definite;       ///< 0 where a part lacks a mode below that frequency
+  bool known() const { return !full.empty(); }
+  double worst() const;     ///< largest |error|
+  double leastMac() const;  ///< 1 when nothing is known
+};
+
 /// Short curves for plots.
 struct RowCurves {
   std::vector<double> errorTime, errorOverTime;  ///< [s], eps_t
@@ -32,10 +44,11 @@ struct RowCurves {
 struct StudyRow {
   PlannedRun plan;
   std::string status = "pending";  ///< "done", "failed", "pending"
-  std::string reason;              ///< of a failure
+  std::string reason;              ///< of a failure; of a run that is done, why its frequencies could not be compared
   std::string basis;               ///< "" for the full model
   long modes = 0;                  ///< kept modal coordinates of all parts
-  long dofs = 0;                   ///< of the model that was integrated
+  long dofs = 0;                   ///< of the model that was integrated; 0 until there is one. A motion that fails leaves this and `modeErrors`
+  ModeErrors modeErrors;           ///< of a reduced model, where the study asks for frequencies
   std::string integrator;
   std::optional<double> stepOrTolerance;
   double simulated = 0.0;         ///< [s]
@@ -54,6 +67,7 @@ struct StudyRow {
   RowCurves curves;
 
   bool done() const { return status == "done"; }
+  bool hasModel() const { return dofs > 0; }
   double bestCpu() const;             ///< shortest of the repeats, 0 without any
   double bestWall() const;
   double spread() const;              ///< (longest - shortest) / shortest of the CPU times

@@ -120,8 +120,10 @@ std::optional<RecordedHistory> RowStore::restoreHistory(const std::string& key) 
     RecordedHistory history;
     history.time = reader.numbers("/time");
     history.displacement = reader.numbers("/displacement");
-    history.bitSpeed = reader.numbers("/bit_speed");
+    if (reader.has("/bit_speed")) history.bitSpeed = reader.numbers("/bit_speed");
     history.nodes = reader.shape("/displacement").at(1);
+    history.components = reader.shape("/displacement").at(2);
+    history.vibrating = static_cast<std::size_t>(reader.numbers("/vibrating").at(0));
     return history;
   } catch (const FileError&) {
     return std::nullopt;
@@ -133,8 +135,9 @@ void RowStore::keepHistory(const std::string& key, const RecordedHistory& histor
   const std::size_t samples = history.time.size();
   io::ResultsFile file(historyFile(key), {});
   file.write("/time", history.time, {samples}, "s", "Time of the samples");
-  file.write("/displacement", history.displacement, {samples, history.nodes, 3}, "m", "Displacements u, v, w of the nodes of the reference run");
-  file.write("/bit_speed", history.bitSpeed, {samples}, "rad/s", "Rotary speed of the last node");
+  file.write("/displacement", history.displacement, {samples, history.nodes, history.components}, "m", "Displacements of the nodes of the reference run");
+  file.write("/vibrating", std::vector<double>{static_cast<double>(history.vibrating)}, {1}, "1", "Components in front that are the vibration");
+  if (!history.bitSpeed.empty()) file.write("/bit_speed", history.bitSpeed, {samples}, "rad/s", "Rotary speed of the last node");
   file.finish();
 }
 

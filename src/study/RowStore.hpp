@@ -25,9 +25,11 @@ std::string machineName();
 struct RecordedHistory {
   std::size_t nodes = 0;
   std::vector<double> time;          ///< [s]
-  std::vector<double> displacement;  ///< samples x nodes x 3: u, v, w [m]
-  std::vector<double> bitSpeed;      ///< [rad/s]
-  HistoryView view() const { return {time.data(), displacement.data(), time.size(), nodes, 3}; }
+  std::vector<double> displacement;  ///< samples x nodes x components [m]
+  std::vector<double> bitSpeed;      ///< [rad/s]; empty without a bit
+  std::size_t components = 3;        ///< all of them are judged
+  std::size_t vibrating = 2;         ///< how many of them, from the first on, are the vibration
+  HistoryView view() const { return {time.data(), displacement.data(), time.size(), nodes, components, components, vibrating}; }
 };
 
 /// Files FOLDER/cache/row_KEY.json and reference_KEY.h5. Rank 0 does all the work; other ranks find nothing and keep nothing. Files that

@@ -14,7 +14,7 @@ constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
 const std::vector<io::Csv::Column>& columns() {
   static const std::vector<io::Csv::Column> all{
-      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"integrator", ""},
+      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"frequency_error", ""}, {"least_mac", ""}, {"integrator", ""},
       {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
       {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
       {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
@@ -37,7 +37,9 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   std::vector<std::string> out{kindName(p.kind), p.method, p.line, p.label, p.reduced ? "reduced" : "full", row.basis};
   const bool known = row.done();
   const auto number = [&](auto value) { out.push_back(known ? formatNumber(static_cast<double>(value)) : std::string()); };
-  number(row.modes), number(row.dofs);
+  for (long count : {row.modes, row.dofs}) out.push_back(row.hasModel() ? std::to_string(count) : std::string());
+  const auto& modes = row.modeErrors;
+  for (double value : {modes.worst(), modes.leastMac()}) out.push_back(modes.known() ? formatNumber(value) : std::string());
   out.insert(out.end(), {row.integrator, sweepText(p), known ? text(row.stepOrTolerance) : "", row.status, row.reason});
   const auto* e = known && row.errors ? &*row.errors : nullptr;
   for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean, &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
@@ -60,6 +62,12 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   return out;
 }
 
+std::string scientific(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.2e", value);
+  return buffer;
+}
+
 std::string ratioText(const std::optional<double>& ratio) {
   char buffer[32] = "-";
   if (ratio) std::snprintf(buffer, sizeof buffer, "%.3g", *ratio);
@@ -77,8 +85,10 @@ std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& 
 std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
   std::size_t width = 20;
   for (const auto& row : rows) width = std::max(width, row.plan.label.size());
+  const bool frequencies = std::any_of(rows.begin(), rows.end(), [](const StudyRow& row) { return row.modeErrors.known(); });
   char line[512];
-  std::snprintf(line, sizeof line, "%-*s %6s %9s %9s %9s %10s %7s %9s %9s  %s", static_cast<int>(width), "run", "dofs", "dyn", "eps_t max", "eps_n max",
+  std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %9s %10s %7s %9s %9s  %s", static_cast<int>(width), "run", "dofs",
+                frequencies ? "frequency " : "", "dyn", "eps_t max", "eps_n max",
                 "CPU s / s", "spread", "baseline", "best full", "counts");
   std::string out = line;
   double own = 0.0;  // error of the reference
@@ -99,12 +109,15 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
       std::snprintf(error[1], sizeof error[1], "%.2e", row.errors->epsTMax);
       std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
     }
-    std::snprintf(line, sizeof line, "%-*s %6ld %9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps", static_cast<int>(width), row.plan.label.c_str(), row.dofs,
-                  error[0], error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(), ratioText(ratios[i].baseline).c_str(),
+    char worst[16] = "";
+    if (frequencies) std::snprintf(worst, sizeof worst, "%9s ", row.modeErrors.known() ? scientific(row.modeErrors.worst()).c_str() : "-");
+    std::snprintf(line, sizeof line, "%-*s %6ld %s%9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps", static_cast<int>(width), row.plan.label.c_str(), row.dofs,
+                  worst, error[0], error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(), ratioText(ratios[i].baseline).c_str(),
                   ratioText(ratios[i].bestFull).c_str(), row.steps);
     out += std::string("\n") + line;
     for (const auto& [count, name] : {std::pair{row.rejected, "rejected"}, {row.halved, "halved"}, {row.unconverged, "unconverged"}, {row.missedNodes, "missed nodes"}})
       if (count > 0) out += ", " + std::to_string(count) + " " + name;
+    if (!row.reason.empty()) out += ". " + row.reason;
   }
   if (beyond) out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";
   return out;

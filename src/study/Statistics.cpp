@@ -111,7 +111,7 @@ double quantile(std::vector<double> values, double fraction) {
 
 MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed, const std::vector<double>& clearance,
                               const Window& window) {
-  if (bitSpeed.size() != history.samples || clearance.size() != history.nodes)
+  if ((!bitSpeed.empty() && bitSpeed.size() != history.samples) || clearance.size() != history.nodes)
     throw Error(ExitCode::Internal, "Bit speeds or clearances do not belong to the history whose statistics are asked for.");
   std::vector<std::size_t> samples;
   for (std::size_t i = 0; i < history.samples; ++i)
@@ -122,17 +122,19 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
   s.samples = samples.size();
   const auto count = static_cast<double>(samples.size());
   std::vector<double> speeds;
-  for (auto i : samples) speeds.push_back(bitSpeed[i]);
-  for (double level : quantileLevels) s.bitSpeed.push_back(quantile(speeds, level));
+  for (auto i : samples)
+    if (!bitSpeed.empty()) speeds.push_back(bitSpeed[i]);
+  for (double level : quantileLevels)
+    if (!speeds.empty()) s.bitSpeed.push_back(quantile(speeds, level));
 
   Welch welch(samples.size(), history.time[samples[1]] - history.time[samples[0]]);
   std::vector<double> signal(samples.size());
   for (std::size_t n = 0; n < history.nodes; ++n) {
     double touching = 0.0;
-    for (auto i : samples) touching += std::hypot(history.at(i, n, 0), history.at(i, n, 1)) > clearance[n] ? 1.0 : 0.0;
+    for (auto i : samples) touching += history.radius(i, n) > clearance[n] ? 1.0 : 0.0;
     s.contactDuty.push_back(touching / count);
     double variance = 0.0;
-    for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t c = 0; c < history.vibrating; ++c) {
       double mean = 0.0;
       for (std::size_t k = 0; k < samples.size(); ++k) mean += (signal[k] = history.at(samples[k], n, c)) / count;
       for (double x : signal) variance += (x - mean) * (x - mean) / count;
@@ -145,10 +147,10 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
 }
 
 StatisticsDifference difference(const MotionStatistics& motion, const MotionStatistics& reference) {
-  if (motion.contactDuty.size() != reference.contactDuty.size())
+  if (motion.contactDuty.size() != reference.contactDuty.size() || motion.bitSpeed.size() != reference.bitSpeed.size())
     throw Error(ExitCode::Internal, "Statistics of different numbers of nodes cannot be compared.");
   StatisticsDifference d;
-  for (std::size_t i = 0; i < quantileLevels.size(); ++i) d.bitSpeed = std::max(d.bitSpeed, std::abs(motion.bitSpeed[i] - reference.bitSpeed[i]));
+  for (std::size_t i = 0; i < reference.bitSpeed.size(); ++i) d.bitSpeed = std::max(d.bitSpeed, std::abs(motion.bitSpeed[i] - reference.bitSpeed[i]));
   double error = 0.0;
   double size = 0.0;
   const std::size_t nodes = reference.contactDuty.size();

@@ -15,14 +15,14 @@ constexpr std::array<double, 5> quantileLevels{0.05, 0.25, 0.5, 0.75, 0.95};
 
 struct MotionStatistics {
   std::size_t samples = 0;
-  std::vector<double> bitSpeed;     ///< quantiles at quantileLevels [rad/s]
-  std::vector<double> contactDuty;  ///< per node: fraction of the samples at which |(u,v)| exceeds the clearance
-  std::vector<double> lateralRms;   ///< per node: sqrt(mean |(u,v) - mean (u,v)|^2) [m]
+  std::vector<double> bitSpeed;     ///< quantiles at quantileLevels [rad/s]; empty without a bit
+  std::vector<double> contactDuty;  ///< per node: fraction of the samples at which |x| exceeds the clearance, x the vibrating components
+  std::vector<double> lateralRms;   ///< per node: sqrt(mean |x - mean x|^2) [m]
   std::vector<double> frequency;    ///< of the spectrum [Hz]; empty for fewer than 32 samples
-  std::vector<double> spectrum;     ///< one-sided density of u plus that of v, mean of the nodes [m2/Hz]
+  std::vector<double> spectrum;     ///< one-sided density, sum of the vibrating components, mean of the nodes [m2/Hz]
 };
 
-/// Statistics of the samples inside the window. `bitSpeed` has one value per sample of the history, `clearance` one per node (infinite where
+/// Statistics of the samples inside the window. `bitSpeed` has one value per sample of the history, or none, `clearance` one per node (infinite where
 /// nothing can be touched). Spectra after P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73: halves of neighbouring segments
 /// overlap, Hann windows, segment means removed. Error(Internal) for other sizes or a window without samples.
 MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed, const std::vector<double>& clearance,

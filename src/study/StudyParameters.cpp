@@ -77,6 +77,7 @@ class Reader {
     s.repeats = list.get<int>("Repeats");
     s.statistics = list.get<bool>("Statistics");
     s.pictures = list.get<bool>("Pictures");
+    s.frequencies = list.get<int>("Frequencies");
     if (list.isParameter("Baseline")) s.baseline = list.get<std::string>("Baseline");
     s.perturbation = list.get<double>("Perturbation");
     s.timeLimit = number(list, "Time Limit");
@@ -185,6 +186,9 @@ ListSpec parameters() {
       .real("Perturbation", "m", 1e-10, Range::nonNegative(),
             "Size of the change of the initial displacements whose growth is the sensitivity of the reference; 0 for none.")
       .real("Time Limit", "s", deck::Optional{}, Range::positive(), "CPU time after which a run is given up and counts as failed; the reference has none.")
+      .integer("Frequencies", 0, Range{0, 1000, false, false},
+               "How many of the lowest frequencies of the full model are looked for in each reduced one, by shape (largest MAC); their errors stand beside those of "
+               "the motion. What that costs is in no column. 0 for none.")
       .boolean("Pictures", true, "Draw the plots when the study is done.");
   ListSpec reference("Reference", "The reference run, on the full model. By default RK4 at half its stability limit.");
   reference.textArray("Set", Texts{"!Transient/Step", "Transient/Integrator=RK4", "Transient/RK4/Safety=0.5"}, {},

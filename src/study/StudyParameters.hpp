@@ -42,6 +42,7 @@ struct StudySettings {
   int repeats = 3;
   bool statistics = true;
   bool pictures = true;
+  int frequencies = 0;              ///< how many coupled ones are compared with the full model's
   std::string baseline;             ///< label of a run; empty: none
   double perturbation = 1e-10;      ///< [m]; 0: no sensitivity
   std::optional<double> timeLimit;  ///< CPU seconds of one run

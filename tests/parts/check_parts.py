@@ -198,9 +198,9 @@ def goes_on():
 
 
 def refused():
-    """A study of parts is refused with a sentence."""
+    """A study of parts without a Study list is refused with a sentence; tests/study/check_frame_study.py has one that runs."""
     done = tooljoint("study", str(ROOT / "xml" / "frame.xml"))
-    expect("a study of parts is refused", done.returncode == 2 and "is a deck of parts" in done.stderr)
+    expect("a study of parts needs a Study list", done.returncode == 2 and "has no Study list" in done.stderr)
 
 
 if __name__ == "__main__":
