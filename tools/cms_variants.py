@@ -21,7 +21,8 @@ import subprocess
 import sys
 import time
 
-import plot_study
+sys.dont_write_bytecode = True  # no traces beside the script
+import plot_study  # noqa: E402
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20

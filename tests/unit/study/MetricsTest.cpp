@@ -54,6 +54,28 @@ TEST(Metrics, VibrationErrorDoesNotDivideByTheStaticOffset) {
   EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still, {1.0, 1.0}), 0.5, 1e-15);
 }
 
+TEST(Metrics, AMotionOfOneComponentIsJudgedByThatOne) {
+  const std::vector<double> time{0.0, 1.0}, reference{1.0, 2.0}, changed{1.0, 2.5};
+  const auto view = [&](const std::vector<double>& d) { return study::HistoryView{time.data(), d.data(), 2, 1, 1, 1, 1}; };
+  EXPECT_NEAR(study::errorOverTime(view(changed), view(reference)).max(), 0.25, 1e-15);
+  EXPECT_NEAR(study::errorOverNodes(view(changed), view(reference)).max(), 0.5 / std::sqrt(5.0), 1e-15);
+  EXPECT_NEAR(study::vibrationError(view(changed), view(reference), {1.0}), 0.5, 1e-15);
+  const study::HistoryView three{time.data(), reference.data(), 2, 1, 1};  // says it has three components to judge
+  EXPECT_THROW(study::errorOverTime(three, three), Error);
+}
+
+TEST(Metrics, TheVibrationIsWhatTheHistorySays) {
+  const TwoNodes h;
+  const std::vector<double> still{3.0, 1.0, 2.0, 0.0, 1.0, 2.0};
+  auto changed = h.reference;
+  changed[8] += 0.5;  // w of node 1
+  EXPECT_EQ(study::vibrationError(h.view(changed), h.view(h.reference), still), 0.0);
+  const auto all = [&](const std::vector<double>& d) { return study::HistoryView{h.time.data(), d.data(), 2, 2, 3, 3, 3}; };
+  EXPECT_NEAR(study::vibrationError(all(changed), all(h.reference), still), 0.5, 1e-15);
+  EXPECT_NEAR(all(h.reference).radius(1, 0), std::sqrt(21.0), 1e-15);
+  EXPECT_THROW(study::vibrationError(all(changed), h.view(h.reference), still), Error);
+}
+
 TEST(Metrics, DifferentHistoriesAreRefused) {
   const TwoNodes h;
   const study::HistoryView shorter{h.time.data(), h.reference.data(), 1, 2, 3};

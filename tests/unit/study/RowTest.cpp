@@ -45,6 +45,7 @@ TEST(StudyRow, ComesBackFromItsText) {
   r.energyResidual = 1e-17;
   r.statistics = study::StatisticsDifference{1.0, 2.0, 3.0, 4.0, 5.0};
   r.curves.errorOverTime = {0.1, 1e-300};
+  r.modeErrors = {{1.0, 2.0}, {1.1, 1.9}, {0.99, 0.5}, {0.1, -0.2}, {}, {1.0, 0.0}};
   r.curves.statistics.contactDuty = {0.0, 1.0 / 3.0};
   study::StudyRow back;
   back.fromJson(r.toJson());
@@ -56,6 +57,10 @@ TEST(StudyRow, ComesBackFromItsText) {
   EXPECT_EQ(back.errors->dyn, r.errors->dyn);
   EXPECT_EQ(back.statistics->spectrum, 5.0);
   EXPECT_EQ(back.curves.errorOverTime, r.curves.errorOverTime);
+  EXPECT_EQ(back.modeErrors.coupled, r.modeErrors.coupled);
+  EXPECT_TRUE(back.modeErrors.estimate.empty());
+  EXPECT_EQ(back.modeErrors.worst(), 0.2);
+  EXPECT_EQ(back.modeErrors.leastMac(), 0.5);
   EXPECT_EQ(back.curves.statistics.contactDuty, r.curves.statistics.contactDuty);
   EXPECT_EQ(back.toJson(), [&] {
     auto same = r;
@@ -100,6 +105,17 @@ TEST(StudyTable, EveryRowHasEveryColumnAndAFailureItsReason) {
   EXPECT_NE(lines[2].find("\"it blew up, at once\""), std::string::npos);
   EXPECT_EQ(lines[2].find("0.05"), std::string::npos) << "no number of a failed run may be shown";
   EXPECT_NE(study::printedTable(rows, ratios).find("failed: it blew up"), std::string::npos);
+}
+
+TEST(StudyTable, AMotionThatFailsLeavesWhatWasKnownOfItsModel) {
+  std::vector<study::StudyRow> rows{row("a", true, 0.1, 1.0)};
+  rows[0].status = "failed";
+  rows[0].dofs = 321;
+  rows[0].modes = 17;
+  rows[0].modeErrors = {{1.0}, {1.25}, {0.75}, {0.25}, {0.25}, {1.0}};
+  const auto lines = split(study::table(rows, study::ratios(rows, "")), '\n');
+  EXPECT_NE(lines[0].find("reduced_dofs,frequency_error,least_mac"), std::string::npos);
+  EXPECT_NE(lines[1].find(",17,321,0.25,0.75,"), std::string::npos) << lines[1];
 }
 
 TEST(CanonicalText, DependsOnValuesAndNotOnTheirOrder) {

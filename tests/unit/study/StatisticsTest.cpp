@@ -51,6 +51,15 @@ TEST(Statistics, QuantilesOfTheBitSpeedInsideTheWindow) {
   EXPECT_NEAR(s.bitSpeed[4], 95.0, 1e-12);
 }
 
+TEST(Statistics, WithoutABitThereIsNothingToSayOfItsSpeed) {
+  const Sine sine(1.0);
+  const auto s = study::statisticsOf(sine.view(), {}, {never, never}, {});
+  EXPECT_TRUE(s.bitSpeed.empty());
+  EXPECT_EQ(s.lateralRms, sine.statistics().lateralRms);
+  EXPECT_EQ(study::difference(s, s).bitSpeed, 0.0);
+  EXPECT_THROW(study::difference(s, sine.statistics()), Error);
+}
+
 TEST(Statistics, RmsOfASineIsItsAmplitudeOverRootTwo) {
   const auto s = Sine(3.0).statistics();
   EXPECT_NEAR(s.lateralRms[0], 3.0 / std::sqrt(2.0), 1e-12);

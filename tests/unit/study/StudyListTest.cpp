@@ -111,6 +111,14 @@ TEST(Expansion, AFullModelLosesItsReduction) {
   EXPECT_EQ(runs[0].line, "explicit");
 }
 
+TEST(Expansion, AFullModelLosesTheListsItIsSaidToHave) {
+  const auto runs = study::expand(settingsOf(full), {"Reduction"});
+  ASSERT_FALSE(runs.empty());
+  EXPECT_EQ(runs[0].overrides[0].text, "!Reduction");
+  for (const auto& item : runs[0].overrides) EXPECT_NE(item.text, "!Substructures");
+  EXPECT_EQ(study::references(settingsOf(full), {"Reduction"})[0].overrides[0].text, "!Reduction");
+}
+
 TEST(Expansion, TheCheckIsTheReferenceWithFurtherOverrides) {
   const auto s = settingsOf(full);
   const auto runs = study::references(s);
