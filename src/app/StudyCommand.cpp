@@ -35,7 +35,13 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 class Study {
  public:
   Study(const RunOptions& options, const StudyScene& scene)
-      : options_(options), scene_(scene), plan_(planStudy(scene)), result_{plan_, false, {}, ""}, timed_(plan_.runs.size(), 0), comparison_(plan_), progress_(plan_) {
+      : options_(options),
+        scene_(scene),
+        plan_(planStudy(scene)),
+        result_{plan_, false, {}, ""},
+        timed_(plan_.runs.size(), 0),
+        comparison_(plan_),
+        progress_(plan_) {
     for (const auto& run : plan_.runs) {
       StudyRow row;
       row.plan = run.plan;

@@ -88,9 +88,9 @@ io::SummaryRow summaryRow(const StudyRow& row, const study::Ratios& ratios) {
   if (row.estimatedDyn) out.set("estimated_dyn", *row.estimatedDyn);
   if (ratios.baseline) out.set("speedup_baseline", *ratios.baseline);
   if (ratios.bestFull) out.set("speedup_best_full", *ratios.bestFull);
+  if (row.statistics && !row.curves.statistics.bitSpeed.empty()) out.set("bit_speed_difference_rpm", kRpm * row.statistics->bitSpeed);
   if (row.statistics)
-    out.set("bit_speed_difference_rpm", kRpm * row.statistics->bitSpeed)
-        .set("contact_duty_difference_max", row.statistics->dutyMax)
+    out.set("contact_duty_difference_max", row.statistics->dutyMax)
         .set("contact_duty_difference_mean", row.statistics->dutyMean)
         .set("lateral_rms_difference", row.statistics->lateralRms)
         .set("spectrum_difference_db", row.statistics->spectrum);

@@ -28,9 +28,10 @@ Teuchos::ParameterList computed(const StudyScene& scene) {
 
 /// Files of the basis "User Vectors", whatever part the "%" in their name stands for.
 std::vector<std::string> vectorFiles(const StudyScene& scene) {
-  const auto& list = scene.list();
-  if (!scene.reduces() || !list.sublist("Reduction").isSublist("User Vectors") || !list.sublist("Reduction").sublist("User Vectors").isParameter("File")) return {};
-  const std::filesystem::path pattern(deck::fileName(list.sublist("Reduction").sublist("User Vectors"), "File"));
+  if (!scene.reduces() || !scene.list().sublist("Reduction").isSublist("User Vectors")) return {};
+  const auto& list = scene.list().sublist("Reduction").sublist("User Vectors");
+  if (!list.isParameter("File")) return {};
+  const std::filesystem::path pattern(deck::fileName(list, "File"));
   const auto name = pattern.filename().string();
   const auto mark = name.find('%');
   const auto fits = [&](const std::string& file) {

@@ -42,7 +42,8 @@ std::vector<Eigen::Index> measuredRows(const Measures& measures, const model::Se
   std::vector<Eigen::Index> rows;
   for (auto node : measures.nodes) {
     const auto it = place.find(node);
-    if (it == place.end()) throw ModelError("Node " + std::to_string(node) + " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
+    if (it == place.end())
+      throw ModelError("Node " + std::to_string(node) + " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
     for (int c : measures.components) rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
   }
   return rows;
@@ -96,7 +97,8 @@ std::vector<int> vibrating(const Measures& measures) {
 model::SecondOrderModel perturbed(model::SecondOrderModel model, const Measures& measures, double size) {
   const auto components = vibrating(measures);
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
-    if (model.dofs[i].kind == model::DofLabel::Kind::Physical && std::find(components.begin(), components.end(), model.dofs[i].component) != components.end())
+    if (model.dofs[i].kind == model::DofLabel::Kind::Physical &&
+        std::find(components.begin(), components.end(), model.dofs[i].component) != components.end())
       model.initialDisplacement(static_cast<Eigen::Index>(i)) += size * std::cos(1.7 * static_cast<double>(i));
   return model;
 }

@@ -38,7 +38,8 @@ struct Pair {
 
   Pair(const HistoryView& a, const HistoryView& b, const Window& window)
       : history(a), reference(b), mine(span(a, window)), theirs(span(b, window)) {
-    if (a.nodes != b.nodes || a.components != b.components || a.judged != b.judged || a.vibrating != b.vibrating || a.components < std::max(a.judged, a.vibrating)) {
+    const bool alike = a.nodes == b.nodes && a.components == b.components && a.judged == b.judged && a.vibrating == b.vibrating;
+    if (!alike || a.components < std::max(a.judged, a.vibrating)) {
       refuse("Two histories of " + std::to_string(a.nodes) + " and " + std::to_string(b.nodes) + " nodes cannot be compared.");
     }
     if (mine.size() == 0 || mine.size() != theirs.size()) {

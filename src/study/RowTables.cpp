@@ -14,8 +14,8 @@ constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
 const std::vector<io::Csv::Column>& columns() {
   static const std::vector<io::Csv::Column> all{
-      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""}, {"frequency_error", ""}, {"least_mac", ""}, {"integrator", ""},
-      {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
+      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""},
+      {"frequency_error", ""}, {"least_mac", ""}, {"integrator", ""}, {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
       {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
       {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
       {"newton_iterations", ""}, {"factorisations", ""}, {"right_hand_sides", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
@@ -56,7 +56,7 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   const auto& speeds = row.curves.statistics.bitSpeed;
   for (std::size_t level : {0u, 2u, 4u}) out.push_back(known && speeds.size() > level ? formatNumber(rpm * speeds[level]) : "");
   const auto* s = known && row.statistics ? &*row.statistics : nullptr;
-  out.push_back(s != nullptr ? formatNumber(rpm * s->bitSpeed) : "");
+  out.push_back(s != nullptr && !speeds.empty() ? formatNumber(rpm * s->bitSpeed) : "");
   for (auto member : {&StatisticsDifference::dutyMax, &StatisticsDifference::dutyMean, &StatisticsDifference::lateralRms, &StatisticsDifference::spectrum})
     out.push_back(s != nullptr ? formatNumber(s->*member) : std::string());
   return out;

@@ -8,9 +8,6 @@ A member lies along x of its own frame. Euler beam elements of length h, bending
 
 axial and torsional bars with consistent mass. Damping is 0.5 1/s M + 2e-5 s K.
 
-And vectors/NAME.mtx for every part of the frame, as somebody's own vectors for the basis "User Vectors" (../cms_variants_frame.xml): half waves along the
-member, sin(k pi x / l), k = 1, 2, ..., each in v (with its slope theta_z), w (theta_y), theta_x and u.
-
     make_parts.py [FOLDER]      FOLDER: where the members go, by default beside this script
 """
 import json
@@ -70,31 +67,8 @@ def member(folder, length, elements, sets, tip_mass=0.0):
     (folder / "part.json").write_text(json.dumps(part) + "\n", encoding="utf-8")
 
 
-def half_waves(file, length, elements, held=(), waves=5):
-    """Writes the vectors of a part, a row for each dof that is not of a held node, in the order of the part."""
-    rows = []
-    for node in range(elements + 1):
-        if node + 1 in held:
-            continue
-        x = node / elements
-        for c in COMPONENTS:
-            row = []
-            for k in range(1, waves + 1):
-                wave, slope = np.sin(k * np.pi * x), k * np.pi / length * np.cos(k * np.pi * x)
-                row += [{"v": wave, "theta_z": slope}.get(c, 0.0), {"w": wave, "theta_y": -slope}.get(c, 0.0), wave * (c == "theta_x"), wave * (c == "u")]
-            rows.append(row)
-    numbers = [f"{row[j]:.9g}" if abs(row[j]) > 1e-12 else "0" for j in range(4 * waves) for row in rows]
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.write_text(f"%%MatrixMarket matrix array real general\n{len(rows)} {4 * waves}\n" + "\n".join(numbers) + "\n", encoding="utf-8")
-
-
 if __name__ == "__main__":
     here = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent
     member(here / "column", 3.0, 6, {"foot": [1], "middle": [4], "head": [7]})
     member(here / "beam", 4.0, 8, {"left": [1], "right": [9]})
     member(here / "arm", 1.5, 4, {"root": [1]}, tip_mass=40.0)
-    for name in ("left column", "right column"):
-        half_waves(here / f"vectors/{name}.mtx", 3.0, 6, held=(1,))
-    for name in ("top beam", "middle beam"):
-        half_waves(here / f"vectors/{name}.mtx", 4.0, 8)
-    half_waves(here / "vectors/arm.mtx", 1.5, 4)
