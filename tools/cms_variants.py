@@ -293,7 +293,7 @@ def main():
     parser.add_argument("--only", default=",".join(SECTIONS), help="sections to write")
     parser.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", help="a change of both studies, \"!PATH\" takes something out")
     parser.add_argument("--fresh", action="store_true", help="forget the runs in that folder")
-    parser.add_argument("--limit", type=float, default=900.0, help="seconds after which a run is given up")
+    parser.add_argument("--limit", type=float, default=90.0, help="seconds after which a run of the tolerances is given up")
     parser.add_argument("--short", action="store_true", help="a quick check instead")
     options = parser.parse_args()
     bench = Bench(options)
