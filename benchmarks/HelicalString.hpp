@@ -108,8 +108,9 @@ inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
     const beam::Matrix12 G = beam::gyroscopic(section, l);
     scatter(gyroscopic, e, nodal(G.transpose() - G));
     scatter(drag, e, nodal(2.0 * beam::lateralMass(l)));
+    // axial force of one reference string after the other, however long the whole
     scatter(k, e,
-            nodal(beam::stiffness(section, l) + (2e4 - 300.0 * e) * beam::geometricAxial(l) - 2e3 * beam::geometricTorque(l)));
+            nodal(beam::stiffness(section, l) + (2e4 - 300.0 * (e % 162)) * beam::geometricAxial(l) - 2e3 * beam::geometricTorque(l)));
     const beam::Vector12 load =
         R.transpose() *
         beam::distributedLoad(triad.transpose() * Vector3(0, 0, 9.81 * (section.massPerLength() - fluid * area)), l);

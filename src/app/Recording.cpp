@@ -30,6 +30,7 @@ io::XdmfScene picture(const Scene& scene, const StaticStage& stage) {
 MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model, io::ResultsFile& file)
     : scene_(scene),
       model_(model),
+      recovery_(model.recovery),
       file_(file),
       table_({{"time", "s"}, {"rotary_speed", "rad/s"}, {"bit_speed", "rad/s"}, {"bit_w", "m"}, {"bit_theta_z", "rad"}}) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
@@ -54,7 +55,7 @@ MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, con
     if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
     if (!forces) continue;
-    Contact contact{&set, -1, set.offset, set.offset, {}};
+    Contact contact{&set, -1, linalg::GroupedRows(set.rows), set.offset, set.offset, {}};
     const auto channels = set.law->channels();
     for (std::size_t c = 0; c < channels.size(); ++c)
       if (channels[c].name == "normal_force") contact.normalForce = static_cast<int>(c);
@@ -68,10 +69,10 @@ MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, con
 }
 
 void MotionRecorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
-  displacement_ = model_.recoveryOffset;
-  displacement_.noalias() += model_.recovery * q;
-  velocity_ = model_.recovery * qDot;
-  if (accelerationSeries_) acceleration_ = model_.recovery * qDDot;
+  recovery_.multiply(q, displacement_);
+  displacement_ += model_.recoveryOffset;
+  recovery_.multiply(qDot, velocity_);
+  if (accelerationSeries_) recovery_.multiply(qDDot, acceleration_);
   recordContact(t, q, qDot);
   store(t);
   if (t >= nextFlush_) {
@@ -135,9 +136,9 @@ void MotionRecorder::stagePictures(io::OutputFolder& folder) const {
 void MotionRecorder::recordContact(double t, const Vector& q, const Vector& qDot) {
   for (auto& contact : contacts_) {
     if (contact.normalForce < 0) continue;
-    contact.d = contact.set->offset;
-    contact.d.noalias() += contact.set->rows * q;
-    contact.v.noalias() = contact.set->rows * qDot;
+    contact.rows.multiply(q, contact.d);
+    contact.d += contact.set->offset;
+    contact.rows.multiply(qDot, contact.v);
     contact.set->law->record(t, contact.d.data(), contact.v.data(), contact.channels.data());
     const int size = contact.set->law->size();
     for (int p = 0; p < size; ++p)

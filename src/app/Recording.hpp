@@ -13,6 +13,7 @@
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Xdmf.hpp"
+#include "linalg/GroupedRows.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::app {
@@ -57,6 +58,7 @@ class MotionRecorder : public transient::SampleSink {
   struct Contact {
     const model::PointSet* set;
     int normalForce;  ///< channel, -1 when the law has none
+    linalg::GroupedRows rows;
     Vector d, v, channels;
   };
   void store(double t);
@@ -65,6 +67,7 @@ class MotionRecorder : public transient::SampleSink {
 
   const Scene& scene_;
   const model::SecondOrderModel& model_;
+  linalg::GroupedRows recovery_;
   MotionFigures figures_;
   std::vector<Contact> contacts_;
   std::vector<char> watched_;  ///< per node: its contact is evaluated

@@ -172,8 +172,8 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
     auto& batch = compiled.points()[points.batch];
     points.motion.setZero(points.rows->rows());
     points.rate.setZero(points.rows->rows());
-    batch.gather(sNew.data(), points.motion.data());
-    batch.gather(sDot.data(), points.rate.data());
+    batch.gather(batch.active(), sNew.data(), points.motion.data());
+    batch.gather(batch.active(), sDot.data(), points.rate.data());
     if (!residuals[points.part].complete()) {
       points.motion -= *points.rows * wNew[points.part];
       if (rated) points.rate -= *points.rows * (wNew[points.part] - w[points.part]) / h;
@@ -186,7 +186,7 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
           const int entry = (point * width + i) * width + j;
           f[point * width + i] -= batch.dfdd()[entry] * points.motion[point * width + j] + batch.dfdv()[entry] * points.rate[point * width + j];
         }
-    batch.scatter(f.data(), force.data());
+    batch.scatter(batch.active(), f.data(), force.data());
   }
   return force;
 }

@@ -75,10 +75,11 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
                 static_cast<int>(couplings_.size()),
                 0,
                 static_cast<int>(updates_.size()),
+                0,
                 0};
     widest = std::max(widest, pivot.width);
     for (int i : later[z(k)]) {
-      couplings_.push_back({i, pattern.start(i), pattern.width(i), place(i, k), place(k, i)});
+      couplings_.push_back({i, pattern.start(i), pattern.width(i), place(i, k), place(k, i), 0, 0});
       panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
       solveWork_ += 2.0 * pivot.width * pattern.width(i);
     }
@@ -90,6 +91,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     pivot.updateEnd = static_cast<int>(updates_.size());
     pivots_.push_back(pivot);
   }
+  pack();
   values_.assign(storage, 0.0);
   scale_.assign(z(pattern.size()), 0.0);
   swaps_.assign(z(pattern.size()), 0);
@@ -98,6 +100,26 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   const std::size_t inverted = z(std::min(widest, kernel::largestInverse));
   panel_.assign(std::max(panel, inverted * inverted), 0.0);
 }
+
+/// The way down reads L pivot by pivot, the way up D^-1 and W from the last pivot to the first.
+void BlockFactor::pack() {
+  std::size_t down = 0, up = 0;
+  const auto take = [](std::size_t& next, int rows, int columns) {
+    const std::size_t here = next;
+    next += (z(rows) * z(columns) + 3) / 4 * 4;
+    return here;
+  };
+  for (const Pivot& p : pivots_)
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) couplings_[z(c)].down = take(down, couplings_[z(c)].width, p.width);
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
+    p->up = take(up, p->width, p->width);
+    for (int c = p->couplingBegin; c < p->couplingEnd; ++c) couplings_[z(c)].up = take(up, p->width, couplings_[z(c)].width);
+  }
+  down_.assign(down, 0.0);
+  up_.assign(up, 0.0);
+}
+
+bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
 
 TOOLJOINT_CLONES int BlockFactor::factor() {
   double* values = values_.data();
@@ -114,51 +136,107 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
     double* D = values + p.diagonal;
     const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)], panel_.data());
     if (bad >= 0) return p.start + bad;
-    // W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
-      double* upper = values + couplings_[z(c)].upper;
-      const int columns = couplings_[z(c)].width;
-      if (p.width <= kernel::largestInverse) {
-        std::copy(upper, upper + p.width * columns, panel_.data());
-        kernel::multiplySmall(p.width, p.width, columns, D, panel_.data(), upper);
-      } else {
-        kernel::solveLarge(p.width, columns, D, &swaps_[z(p.start)], upper);
-      }
-    }
-    for (int u = p.updateBegin; u < p.updateEnd; ++u) {
-      const Update& update = updates_[z(u)];
-      const Coupling& i = couplings_[z(update.i)];
-      const Coupling& j = couplings_[z(update.j)];
-      kernel::multiplySubtract(i.width, p.width, j.width, values + i.lower, values + j.upper, values + update.target);
-    }
+    eliminate(p);
   }
   return -1;
 }
 
-TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
-  const double* values = values_.data();
-  const Coupling* couplings = couplings_.data();
-  // z_k = D_k^-1 b_k;  b_i -= A_ik z_k
-  for (const Pivot& p : pivots_) {
-    double* target = x + p.start;
-    if (p.width == 6) {
-      kernel::Six s;
-      s.add(values + p.diagonal, target);
-      s.to(target);
-    } else if (p.width <= kernel::largestInverse) {
-      double* copy = work_.data();
-      for (int i = 0; i < p.width; ++i) copy[i] = target[i], target[i] = 0;
-      kernel::multiplyAdd(p.width, p.width, values + p.diagonal, copy, target);
+/// W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj;  L_ik = A_ik D_k^-1
+TOOLJOINT_CLONES void BlockFactor::eliminate(const Pivot& p) {
+  double* values = values_.data();
+  const double* D = values + p.diagonal;
+  std::copy(D, D + p.width * p.width, up_.data() + p.up);
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const Coupling& at = couplings_[z(c)];
+    const double* upper = values + at.upper;
+    double* W = up_.data() + at.up;
+    if (p.inverted()) {
+      kernel::multiplySmall(p.width, p.width, at.width, D, upper, W);
     } else {
-      kernel::solveLarge(p.width, 1, values + p.diagonal, &swaps_[z(p.start)], target);
+      std::copy(upper, upper + p.width * at.width, W);
+      kernel::solveLarge(p.width, at.width, D, &swaps_[z(p.start)], W);
     }
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-      kernel::multiplySubtract(couplings[c].width, p.width, values + couplings[c].lower, target, x + couplings[c].start);
   }
-  // x_k = z_k - sum_j W_kj x_j
-  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p)
-    for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
-      kernel::multiplySubtract(p->width, couplings[c].width, values + couplings[c].upper, x + couplings[c].start, x + p->start);
+  for (int u = p.updateBegin; u < p.updateEnd; ++u) {
+    const Update& update = updates_[z(u)];
+    const Coupling& i = couplings_[z(update.i)];
+    const Coupling& j = couplings_[z(update.j)];
+    kernel::multiplySubtract(i.width, p.width, j.width, values + i.lower, up_.data() + j.up, values + update.target);
+  }
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const Coupling& at = couplings_[z(c)];
+    const double* lower = values + at.lower;
+    double* L = down_.data() + at.down;
+    if (p.inverted())
+      kernel::multiplySmall(at.width, p.width, p.width, lower, D, L);
+    else
+      std::copy(lower, lower + at.width * p.width, L);
+  }
+}
+
+/// b_i -= L_ik b_k
+TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
+  double* target = x + p.start;
+  if (!p.inverted()) kernel::solveLarge(p.width, 1, up_.data() + p.up, &swaps_[z(p.start)], target);
+  const Coupling* couplings = couplings_.data();
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+    kernel::multiplySubtract(couplings[c].width, p.width, down_.data() + couplings[c].down, target, x + couplings[c].start);
+}
+
+/// x_k = D_k^-1 b_k - sum_j W_kj x_j
+TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
+  const Coupling* couplings = couplings_.data();
+  double* target = x + p.start;
+  if (p.width == 6) {
+    kernel::Six even, odd;
+    kernel::addPairs(6, up_.data() + p.up, target, even, odd);
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+      kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start, even, odd);
+    even.a += odd.a, even.b += odd.b;
+    even.to(target);
+    return;
+  }
+  if (p.inverted()) {
+    double* copy = work_.data();
+    for (int i = 0; i < p.width; ++i) copy[i] = target[i], target[i] = 0;
+    kernel::multiplyAdd(p.width, p.width, up_.data() + p.up, copy, target);
+  }
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+    kernel::multiplySubtract(p.width, couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start, target);
+}
+
+TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
+  for (const Pivot& p : pivots_) sweepDown(p, x);
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) sweepUp(*p, x);
+}
+
+TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<char>& live, const double* weight, double small) const {
+  const auto isSmall = [&](const Pivot& p, bool weighted) {
+    double size = 0;
+    for (int i = p.start; i < p.start + p.width; ++i) size = std::max(size, std::abs(x[i]) * (weighted ? weight[i] : 1.0));
+    return size <= small;
+  };
+  const auto drop = [&](const Pivot& p) {
+    std::fill(x + p.start, x + p.start + p.width, 0.0);
+    live[z(p.block)] = 0;
+  };
+  const Coupling* couplings = couplings_.data();
+  for (const Pivot& p : pivots_) {
+    if (!live[z(p.block)]) continue;
+    if (isSmall(p, true)) {
+      drop(p);
+      continue;
+    }
+    sweepDown(p, x);
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) live[z(couplings[c].block)] = 1;
+  }
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
+    char& mine = live[z(p->block)];
+    for (int c = p->couplingBegin; c < p->couplingEnd; ++c) mine = static_cast<char>(mine | live[z(couplings[c].block)]);
+    if (!mine) continue;
+    sweepUp(*p, x);
+    if (isSmall(*p, false)) drop(*p);
+  }
 }
 
 void BlockFactor::reserveInverse() {
@@ -183,17 +261,16 @@ void BlockFactor::invert(const std::vector<char>& wanted) {
 }
 
 TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
-  const double* values = values_.data();
   double* Z = inverse_.data();
   const int w = p.width;
   // D_k^-1
   double* diagonal = Z + p.diagonal;
   if (w <= kernel::largestInverse) {
-    std::copy(values + p.diagonal, values + p.diagonal + w * w, diagonal);
+    std::copy(up_.data() + p.up, up_.data() + p.up + w * w, diagonal);
   } else {
     std::fill(diagonal, diagonal + w * w, 0.0);
     for (int i = 0; i < w; ++i) diagonal[i * (w + 1)] = 1.0;
-    kernel::solveLarge(w, w, values + p.diagonal, &swaps_[z(p.start)], diagonal);
+    kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[z(p.start)], diagonal);
   }
   const int count = p.couplingEnd - p.couplingBegin;
   const Update* updates = updates_.data() + p.updateBegin;  // count x count, row by row
@@ -205,19 +282,23 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
   // Z_ak = -sum_b Z_ab (A_bk D_k^-1),  Z_kb = -sum_a W_ka Z_ab
   for (int b = 0; b < count; ++b) {
     const Coupling& from = couplings_[z(p.couplingBegin + b)];
-    std::fill(panel_.begin(), panel_.begin() + from.width * w, 0.0);
-    kernel::multiplySubtract(from.width, w, w, values + from.lower, diagonal, panel_.data());
+    const double* L = down_.data() + from.down;
+    if (!p.inverted()) {  // diagonal is still D_k^-1
+      std::fill(panel_.begin(), panel_.begin() + from.width * w, 0.0);
+      kernel::multiplyAddTo(from.width, w, w, L, diagonal, panel_.data());
+      L = panel_.data();
+    }
     for (int a = 0; a < count; ++a) {
       const Coupling& to = couplings_[z(p.couplingBegin + a)];
       const double* Zab = Z + updates[a * count + b].target;
-      kernel::multiplyAddTo(to.width, from.width, w, Zab, panel_.data(), Z + to.lower);
-      kernel::multiplySubtract(w, to.width, from.width, values + to.upper, Zab, Z + from.upper);
+      kernel::multiplySubtract(to.width, from.width, w, Zab, L, Z + to.lower);
+      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab, Z + from.upper);
     }
   }
   // Z_kk = D_k^-1 - sum_b W_kb Z_bk
   for (int b = 0; b < count; ++b) {
     const Coupling& at = couplings_[z(p.couplingBegin + b)];
-    kernel::multiplySubtract(w, at.width, w, values + at.upper, Z + at.lower, diagonal);
+    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up, Z + at.lower, diagonal);
   }
 }
 

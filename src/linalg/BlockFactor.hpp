@@ -30,6 +30,11 @@ class BlockFactor {
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
 
+  /// The same for an x that is zero outside the blocks that `live` marks. What falls below `small` in units of `weight` (forces
+  /// on the way down, displacements on the way up) is dropped, so that the cost is that of the blocks a local force reaches;
+  /// `live` then marks those where x is not zero. In a stiff chain that is a few neighbours.
+  void solveNear(double* x, std::vector<char>& live, const double* weight, double small) const;
+
   /// Blocks of A^-1 on the pattern, for what `wanted` asks of the diagonal blocks (and everything that takes): the recursion of
   /// Takahashi, Fagan and Chen (1973), which never leaves the fill. After factor(); costs about as much.
   ///
@@ -51,7 +56,9 @@ class BlockFactor {
     int start;  ///< first position of the later block i
     int width;
     std::size_t lower;  ///< A_ik
-    std::size_t upper;  ///< A_ki, becomes W_ki = D_k^-1 A_ki
+    std::size_t upper;  ///< A_ki
+    std::size_t down;   ///< in down_: L_ik = A_ik D_k^-1 (A_ik beside blocks too large to invert)
+    std::size_t up;     ///< in up_: W_ki = D_k^-1 A_ki
   };
   struct Update {
     std::size_t target;  ///< A_ij -= A_ik W_kj
@@ -65,8 +72,14 @@ class BlockFactor {
     std::size_t diagonal;
     int couplingBegin, couplingEnd;
     int updateBegin, updateEnd;
+    std::size_t up;  ///< in up_: D_k^-1, or its factors
+    bool inverted() const;
   };
 
+  void pack();
+  void eliminate(const Pivot& pivot);
+  void sweepDown(const Pivot& pivot, double* x) const;
+  void sweepUp(const Pivot& pivot, double* x) const;
   void invertPivot(const Pivot& pivot);
   void order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const;
 
@@ -74,6 +87,7 @@ class BlockFactor {
   std::vector<Coupling> couplings_;
   std::vector<Update> updates_;
   BlockValues values_;
+  BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it
   BlockValues inverse_;        ///< allocated by the first invert()
   std::vector<char> inverted_;  ///< per pivot: taken along by invert()
   std::vector<double> scale_;

@@ -24,6 +24,13 @@ constexpr int largestDirect = 8;
 #define TOOLJOINT_CLONES
 #endif
 
+/// For what such functions call: inlined, it is compiled for their machine.
+#if defined(__GNUC__)
+#define TOOLJOINT_INLINED inline __attribute__((always_inline))
+#else
+#define TOOLJOINT_INLINED inline
+#endif
+
 using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
 using Quad = double __attribute__((vector_size(32), aligned(8), may_alias));
 
@@ -34,6 +41,10 @@ struct Six {
   explicit Six(const double* x) : a(*reinterpret_cast<const Quad*>(x)), b(*reinterpret_cast<const Pair*>(x + 4)) {}
   Six() : a{0, 0, 0, 0}, b{0, 0} {}
   void to(double* x) const { *reinterpret_cast<Quad*>(x) = a, *reinterpret_cast<Pair*>(x + 4) = b; }
+  /// y += factor this.
+  void addTo(double* y, double factor) const {
+    *reinterpret_cast<Quad*>(y) += factor * a, *reinterpret_cast<Pair*>(y + 4) += factor * b;
+  }
   /// this += A x, A 6 x 6.
   void add(const double* A, const double* x) {
     for (int j = 0; j < 6; ++j) {
@@ -55,6 +66,17 @@ struct Six {
   }
 };
 
+/// even + odd += sign A x, A of six rows: two sums in the time of one.
+template <int sign = 1>
+TOOLJOINT_INLINED void addPairs(int columns, const double* A, const double* x, Six& even, Six& odd) {
+  int j = 0;
+  for (; j + 2 <= columns; j += 2) {
+    even.addColumn(A + 6 * j, sign * x[j]);
+    odd.addColumn(A + 6 * j + 6, sign * x[j + 1]);
+  }
+  if (j < columns) even.addColumn(A + 6 * j, sign * x[j]);
+}
+
 using ConstBlock = Eigen::Map<const Eigen::MatrixXd>;
 using MutableBlock = Eigen::Map<Eigen::MatrixXd>;
 using ConstSegment = Eigen::Map<const Eigen::VectorXd>;
@@ -62,7 +84,7 @@ using MutableSegment = Eigen::Map<Eigen::VectorXd>;
 
 /// y += sign A x by four columns at a time.
 template <int sign>
-inline void addColumns(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
+TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
   int j = 0;
   for (; j + 4 <= columns; j += 4) {
     const double a = sign * x[j], b = sign * x[j + 1], c = sign * x[j + 2], d = sign * x[j + 3];
@@ -80,20 +102,15 @@ inline void addColumns(int rows, int columns, const double* __restrict A, const 
 
 /// The same for six rows.
 template <int sign>
-inline void addSixRows(int columns, const double* A, const double* x, double* y) {
+TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x, double* y) {
   Six even(y), odd;
-  int j = 0;
-  for (; j + 2 <= columns; j += 2) {
-    even.addColumn(A + 6 * j, sign * x[j]);
-    odd.addColumn(A + 6 * j + 6, sign * x[j + 1]);
-  }
-  if (j < columns) even.addColumn(A + 6 * j, sign * x[j]);
+  addPairs<sign>(columns, A, x, even, odd);
   even.a += odd.a, even.b += odd.b;
   even.to(y);
 }
 
 /// y += A x; y and x do not overlap.
-inline void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
+TOOLJOINT_INLINED void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
   if (rows == 6)
     addSixRows<1>(columns, A, x, y);
   else
@@ -101,7 +118,7 @@ inline void multiplyAdd(int rows, int columns, const double* A, const double* x,
 }
 
 /// y -= A x; y and x do not overlap.
-inline void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
+TOOLJOINT_INLINED void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
   if (rows == 6)
     addSixRows<-1>(columns, A, x, y);
   else
@@ -109,7 +126,7 @@ inline void multiplySubtract(int rows, int columns, const double* A, const doubl
 }
 
 /// C -= A B with A rows x inner, B inner x columns.
-inline void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+TOOLJOINT_INLINED void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {
   if (rows == 6 && inner == 6) {
     for (int j = 0; j < columns; ++j) {
       Six s(C + 6 * j);
@@ -131,7 +148,7 @@ inline void multiplySubtract(int rows, int inner, int columns, const double* A, 
 }
 
 /// C += A B with A rows x inner, B inner x columns.
-inline void multiplyAddTo(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+TOOLJOINT_INLINED void multiplyAddTo(int rows, int inner, int columns, const double* A, const double* B, double* C) {
   if (rows <= 64 && inner <= 64) {
     for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
   } else {
@@ -140,7 +157,7 @@ inline void multiplyAddTo(int rows, int inner, int columns, const double* A, con
 }
 
 /// C = A B, both small enough for an explicit inverse.
-inline void multiplySmall(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+TOOLJOINT_INLINED void multiplySmall(int rows, int inner, int columns, const double* A, const double* B, double* C) {
   std::memset(C, 0, sizeof(double) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
 }

@@ -138,9 +138,21 @@ void BlockPattern::add(const Sparse& matrix, double factor, BlockValues& values)
         values[address(partition_.position[z(i)], partition_.position[z(static_cast<int>(it.col()))])] += factor * it.value();
 }
 
-BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
+  std::vector<BlockRange> runs;
   for (int b = 0; b < pattern.blocks(); ++b) {
+    if (runs.empty() || pattern.start(b + 1) - pattern.start(runs.back().begin) > positions) runs.push_back({b, b});
+    runs.back().end = b + 1;
+  }
+  return runs;
+}
+
+BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+  int widest = 0;
+  for (int b = 0; b < pattern.blocks(); ++b) {
+    firstRow_.push_back(static_cast<int>(rows_.size()));
     const int rows = pattern.width(b);
+    widest = std::max(widest, rows);
     Row row{pattern.start(b), rows, static_cast<int>(entries_.size()), 0, rows == 6};
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
       const int columns = pattern.width(pattern.column(e));
@@ -161,26 +173,35 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
     row.end = static_cast<int>(entries_.size());
     if (row.end > row.begin) rows_.push_back(row);
   }
+  firstRow_.push_back(static_cast<int>(rows_.size()));
+  sum_.assign(z(widest), 0.0);
 }
 
-TOOLJOINT_CLONES void BlockProduct::addTo(const double* values, const double* x, double* y) const {
+TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
   const Entry* entries = entries_.data();
-  for (const Row& row : rows_) {
+  const Row* last = rows_.data() + end;
+  for (const Row* at = rows_.data() + begin; at != last; ++at) {
+    const Row row = *at;
     double* target = y + row.start;
     if (row.allSix) {
-      kernel::Six sum(target);
-      for (int e = row.begin; e < row.end; ++e) sum.add(values + entries[e].offset, x + entries[e].column);
-      sum.to(target);
+      kernel::Six even, odd;
+      for (int e = row.begin; e < row.end; ++e) kernel::addPairs(6, values + entries[e].offset, x + entries[e].column, even, odd);
+      even.a += odd.a, even.b += odd.b;
+      even.addTo(target, factor);
       continue;
     }
+    double* sum = factor == 1.0 ? target : sum_.data();
+    if (sum != target) std::fill(sum, sum + row.width, 0.0);
     for (int e = row.begin; e < row.end; ++e) {
       const double* block = values + entries[e].offset;
       const double* source = x + entries[e].column;
       if (entries[e].form == Form::Diagonal)
-        for (int i = 0; i < row.width; ++i) target[i] += block[i * (row.width + 1)] * source[i];
+        for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
       else
-        kernel::multiplyAdd(row.width, entries[e].width, block, source, target);
+        kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
     }
+    if (sum != target)
+      for (int i = 0; i < row.width; ++i) target[i] += factor * sum[i];
   }
 }
 

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "common/Types.hpp"
+#include "linalg/LargePages.hpp"
 
 namespace tooljoint::linalg {
 
-/// Storage aligned for vector loads.
-using BlockValues = std::vector<double, Eigen::aligned_allocator<double>>;
+using BlockValues = std::vector<double, LargePages<double>>;
 
 /// Which dofs form a block. Positions are dofs renumbered so that blocks are contiguous.
 struct BlockPartition {
@@ -70,6 +70,14 @@ class BlockPattern {
   std::size_t storage_ = 0;
 };
 
+/// Blocks begin ... end - 1.
+struct BlockRange {
+  int begin, end;
+};
+
+/// Blocks in runs of about so many positions, a length at which several vectors stay in the first-level cache.
+std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
+
 /// y += A x for matrices on one pattern; which blocks are zero or diagonal is found once, from samples that have every
 /// nonzero the products will see.
 class BlockProduct {
@@ -77,10 +85,17 @@ class BlockProduct {
   BlockProduct() = default;
   BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   bool empty() const { return rows_.empty(); }
-  /// y += A x, vectors in positions.
-  void addTo(const double* values, const double* x, double* y) const;
+  /// y += factor A x, vectors in positions.
+  void addTo(const double* values, const double* x, double* y, double factor = 1.0) const {
+    addRows(0, static_cast<int>(rows_.size()), values, x, y, factor);
+  }
+  /// The same for the rows of these blocks alone.
+  void addTo(const double* values, const double* x, double* y, double factor, BlockRange range) const {
+    addRows(firstRow_[static_cast<std::size_t>(range.begin)], firstRow_[static_cast<std::size_t>(range.end)], values, x, y, factor);
+  }
 
  private:
+  void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;
   enum class Form { Dense, Diagonal };
   struct Entry {
     std::size_t offset;
@@ -96,7 +111,9 @@ class BlockProduct {
     bool allSix;  ///< six rows, every block dense with six columns
   };
   std::vector<Row> rows_;
+  std::vector<int> firstRow_;  ///< block -> first of rows_ from there on
   std::vector<Entry> entries_;
+  mutable std::vector<double> sum_;
 };
 
 }  // namespace tooljoint::linalg

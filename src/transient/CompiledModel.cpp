@@ -12,6 +12,9 @@ namespace {
 
 std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
+/// Ten vectors of this length are 20 kB.
+constexpr int positionsPerRun = 256;
+
 /// Which dofs the tangents of each point couple: its first dof with all others, and one dof per entity with one of every other
 /// entity, which is all the partition into blocks needs to know.
 Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) {
@@ -128,8 +131,6 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   product_ = linalg::BlockProduct(pattern, samples);
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
-  size_ = pattern.size();
-  scaled_.setZero(size_);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -165,31 +166,20 @@ void MatrixSum::form() const {
   formed_ = true;
 }
 
-void MatrixSum::addTo(const double* x, double* y) const {
+void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const {
   if (terms_.empty()) return;
   if (constant_ || formed_) {
-    product_.addTo(current(), x, y);
+    product_.addTo(current(), x, y, 1.0, rows);
     return;
   }
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (last_[i] == 0.0) continue;
-    const double c = last_[i];
-    const double* source = x;
-    if (c != 1.0) {
-      for (int k = 0; k < size_; ++k) scaled_[k] = c * x[k];
-      source = scaled_.data();
-    }
-    terms_[i].product.addTo(terms_[i].values.data(), source, y);
-  }
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (last_[i] != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, last_[i], rows);
 }
 
-void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const {
-  const int n = size_;
+void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const double difference = factor * (last_[i] - then[z(terms_[i].law)]);
-    if (difference == 0.0) continue;
-    for (int k = 0; k < n; ++k) scaled[k] = difference * x[k];
-    terms_[i].product.addTo(terms_[i].values.data(), scaled, y);
+    if (difference != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, difference);
   }
 }
 
@@ -211,6 +201,8 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   for (const auto& coupling : couplings) matrices.push_back(&coupling);
   pattern_ = linalg::BlockPattern(linalg::partitionDofs(matrices, group, kind), matrices);
 
+  runs_ = linalg::blockRuns(pattern_, positionsPerRun);
+
   mass_.assign(pattern_.storage(), 0.0);
   pattern_.add(model.mass, 1.0, mass_);
   massProduct_ = linalg::BlockProduct(pattern_, {&mass_});
@@ -231,7 +223,6 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   }
   lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
   load_ = Vector::Zero(n);
-  scaled_ = Vector::Zero(n);
   lawValues_.assign(model.laws.size(), 0.0);
   for (const auto& set : model.points) points_.emplace_back(set, pattern_);
 }
@@ -271,8 +262,8 @@ void CompiledModel::setTime(double t) {
 }
 
 void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {
-  damping_.addChangeSince(then, c, x, scaled_.data(), y);
-  stiffness_.addChangeSince(then, 1.0, x, scaled_.data(), y);
+  damping_.addChangeSince(then, c, x, y);
+  stiffness_.addChangeSince(then, 1.0, x, y);
 }
 
 void CompiledModel::combine(double m, double c, double k, double* values) const {

@@ -35,9 +35,9 @@ class MatrixSum {
   /// while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
-  void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* scaled, double* y) const;
-  /// y += A(t) x.
-  void addTo(const double* x, double* y) const;
+  void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const;
+  /// y += A(t) x, rows of these blocks.
+  void addTo(const double* x, double* y, linalg::BlockRange rows) const;
   /// values += factor * A(t).
   void combine(double factor, double* values, std::size_t storage) const;
   double entry(std::size_t address) const { return terms_.empty() ? 0.0 : current()[address]; }
@@ -58,8 +58,6 @@ class MatrixSum {
   mutable linalg::BlockValues sum_;
   mutable bool formed_ = false;  ///< sum_ belongs to last_
   linalg::BlockProduct product_;
-  mutable Vector scaled_;
-  int size_ = 0;
   bool constant_ = false;  ///< one term with the law 1: no sum is kept
 };
 
@@ -88,9 +86,15 @@ class CompiledModel {
   const double* load() const { return load_.data(); }
 
   /// y += M x, y += C(t) x, y += K(t) x.
-  void addMass(const double* x, double* y) const { massProduct_.addTo(mass_.data(), x, y); }
-  void addDamping(const double* x, double* y) const { damping_.addTo(x, y); }
-  void addStiffness(const double* x, double* y) const { stiffness_.addTo(x, y); }
+  void addMass(const double* x, double* y) const { addMass(x, y, all()); }
+  void addDamping(const double* x, double* y) const { addDamping(x, y, all()); }
+  void addStiffness(const double* x, double* y) const { addStiffness(x, y, all()); }
+  /// The same for the rows of some blocks.
+  void addMass(const double* x, double* y, linalg::BlockRange rows) const { massProduct_.addTo(mass_.data(), x, y, 1.0, rows); }
+  void addDamping(const double* x, double* y, linalg::BlockRange rows) const { damping_.addTo(x, y, rows); }
+  void addStiffness(const double* x, double* y, linalg::BlockRange rows) const { stiffness_.addTo(x, y, rows); }
+  /// All blocks in runs whose vectors stay in the fastest cache: what is done run by run reads long vectors once.
+  const std::vector<linalg::BlockRange>& runs() const { return runs_; }
   bool hasDamping() const { return !damping_.empty(); }
 
   /// Values of the laws at time().
@@ -111,8 +115,11 @@ class CompiledModel {
   void addPointForces(double t, const double* q, const double* v, double* y);
 
  private:
+  linalg::BlockRange all() const { return {0, pattern_.blocks()}; }
+
   const model::SecondOrderModel& model_;
   linalg::BlockPattern pattern_;
+  std::vector<linalg::BlockRange> runs_;
   linalg::BlockValues mass_;
   linalg::BlockProduct massProduct_;
   MatrixSum damping_;
@@ -126,7 +133,6 @@ class CompiledModel {
   std::vector<double> lastLoadLaws_;
   Vector load_;
   std::vector<double> lawValues_;
-  Vector scaled_;
   std::vector<PointBatch> points_;
   double time_ = 0;
   bool timeSet_ = false;

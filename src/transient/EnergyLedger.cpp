@@ -21,7 +21,7 @@ double EnergyAccount::residual() const {
 
 void EnergyLedger::allocate(CompiledModel& model) {
   const int n = model.size();
-  for (Vector* x : {&q_, &step_, &product_, &internal_, &nextInternal_, &load_}) x->setZero(n);
+  for (Vector* x : {&q_, &step_, &product_, &internal_, &load_}) x->setZero(n);
   dissipative_.clear();
   account_.dampingNames.clear();
   for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
@@ -30,12 +30,14 @@ void EnergyLedger::allocate(CompiledModel& model) {
     account_.dampingNames.push_back(model.damping().terms()[i].name);
   }
   account_.damping.resize(dissipative_.size(), 0.0);
+  dissipated_.assign(dissipative_.size(), 0.0);
 }
 
-EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, bool all) {
+EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, Looked at) {
   Powers sum;
   for (auto& batch : model.points()) {
-    const auto power = batch.power(t, q.data(), v.data(), all);
+    const auto& points = at == Looked::Everywhere ? batch.everyPoint() : at == Looked::WhereActed ? batch.acted() : batch.active();
+    const auto power = batch.power(t, q.data(), v.data(), points);
     sum.stored += power.stored;
     sum.damping += power.damping;
     sum.friction += power.friction;
@@ -55,8 +57,9 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   q_ = state.q;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
-  stored_ = pointPowers(model, state.t, state.q, state.v, true).stored;
-  const EnergyAccount now = account(model, state);
+  stored_ = pointPowers(model, state.t, state.q, state.v, Looked::Everywhere).stored;
+  EnergyAccount now = account(model, state);
+  now.contact = stored_;
   account_.initial = now.kinetic + now.strain + now.contact;
   account_.supplied = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.contact);
 }
@@ -71,8 +74,6 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   model.setTime(to.t);
   const double h = to.t - time_;
   const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
-  step_ = to.q - q_;
-  q_ = to.q;
   time_ = to.t;
   double exchanged = 0;
   const auto entry = [&exchanged](double& account, double work) {
@@ -80,33 +81,48 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     exchanged += std::abs(work);
   };
   // loads: (F_n + F_{n+1}) / 2 . dq
-  const Eigen::Map<const Vector> load(model.load(), model.size());
-  entry(account_.loads, 0.5 * (load_.dot(step_) + load.dot(step_)));
-  load_ = load;
-  // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory
-  nextInternal_.setZero();
-  model.addStiffness(to.q.data(), nextInternal_.data());
-  const double strain = 0.5 * to.q.dot(nextInternal_);
-  const double work = 0.5 * (internal_.dot(step_) + nextInternal_.dot(step_));
+  const double* load = model.load();
+  double loads = 0;
+  for (int i = 0; i < step_.size(); ++i) {
+    step_[i] = to.q[i] - q_[i];
+    q_[i] = to.q[i];
+    loads += 0.5 * (load_[i] + load[i]) * step_[i];
+    load_[i] = load[i];
+  }
+  entry(account_.loads, loads);
+  // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory.
+  // C_i: dq' c_i C_i dq / h
+  const auto& terms = model.damping().terms();
+  double work = 0, strain = 0;
+  std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
+  for (const auto& run : model.runs()) {
+    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
+    const auto step = step_.segment(begin, length);
+    auto product = product_.segment(begin, length);
+    product.setZero();
+    model.addStiffness(to.q.data(), product_.data(), run);
+    strain += 0.5 * to.q.segment(begin, length).dot(product);
+    work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
+    internal_.segment(begin, length) = product;
+    for (std::size_t i = 0; i < dissipative_.size(); ++i) {
+      const auto& term = terms[dissipative_[i]];
+      if (model.damping().factor(dissipative_[i]) == 0.0) continue;
+      product.setZero();
+      term.product.addTo(term.values.data(), step_.data(), product_.data(), 1.0, run);
+      dissipated_[i] += step.dot(product);
+    }
+  }
   entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
-  internal_.swap(nextInternal_);
-  // C_i: dq' c_i C_i dq / h
-  const auto& terms = model.damping().terms();
-  for (std::size_t i = 0; i < dissipative_.size(); ++i) {
-    const double law = model.damping().factor(dissipative_[i]);
-    if (law == 0.0) continue;
-    product_.setZero();
-    terms[dissipative_[i]].product.addTo(terms[dissipative_[i]].values.data(), step_.data(), product_.data());
-    entry(account_.damping[i], law * step_.dot(product_) / h);
-  }
+  for (std::size_t i = 0; i < dissipative_.size(); ++i)
+    entry(account_.damping[i], model.damping().factor(dissipative_[i]) * dissipated_[i] / h);
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at the end of a step that meets
   // a wall is not what it went in with)
   if (!model.points().empty()) {
     product_ = to.q - 0.5 * step_;
     step_ /= h;
-    const Powers mean = pointPowers(model, to.t - 0.5 * h, product_, step_);
+    const Powers mean = pointPowers(model, to.t - 0.5 * h, product_, step_, Looked::WhereActed);
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
@@ -129,7 +145,7 @@ bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = kinetic(model, state);
   account_.strain = strain_;
-  account_.contact = pointPowers(model, state.t, state.q, state.v, true).stored;
+  account_.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
   return account_.runaway();
 }
 
@@ -138,7 +154,7 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   EnergyAccount result = account_;
   result.kinetic = kinetic(model, state);
   result.strain = strain_;
-  result.contact = pointPowers(model, state.t, state.q, state.v, true).stored;
+  result.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
   return result;
 }
 

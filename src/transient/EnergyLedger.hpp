@@ -57,10 +57,13 @@ class EnergyLedger {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
   void allocate(CompiledModel& model);
-  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, bool all = false);
+  /// Points whose laws are asked: all, those active since the last entry, those active now (others store nothing).
+  enum class Looked { Everywhere, WhereActed, WhereActive };
+  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, Looked at);
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
+  std::vector<double> dissipated_;        ///< dq' C_i dq of each
   void enter(CompiledModel& model, const State& to);
   double kinetic(CompiledModel& model, const State& state);
 
@@ -68,7 +71,7 @@ class EnergyLedger {
   int skipped_ = 0;  ///< steps since the last one booked
   double time_ = 0;  ///< the last one booked
   Vector q_;
-  Vector step_, product_, internal_, nextInternal_, load_;
+  Vector step_, product_, internal_, load_;
   double stored_ = 0;  ///< by point laws at the last booking
   double strain_ = 0;
 };

@@ -289,9 +289,12 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
 /// From constant algorithmic acceleration.
 void GeneralizedAlpha::predict(const State& from, State& to, double h) {
   for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
-  to.q = from.q + h * from.v + 0.5 * h * h * A_;
-  to.v = from.v + h * A_;
-  to.a = (A_ - alphaF_ * smooth_) / (1 - alphaF_);
+  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_);
+  for (int i = 0; i < A_.size(); ++i) {
+    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i];
+    to.v[i] = from.v[i] + h * A_[i];
+    to.a[i] = c * (A_[i] - alphaF_ * smooth_[i]);
+  }
 }
 
 bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool anyway) {

@@ -15,8 +15,8 @@ constexpr double slowestRelaxation = 0.25;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 14;
 
-/// A product with what the laws have changed, in relaxations.
-constexpr double driftPrice = 0.5;
+/// A product with what the laws have changed, and a relaxation near few points, in relaxations.
+constexpr double driftPrice = 0.5, nearPrice = 0.4;
 
 /// max_i w_i sum_j |A_ij|
 double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
@@ -68,28 +68,30 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   rowSize_ = 4e-16 * rowSize_.cwiseProduct(weight_);
 }
 
-/// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of.
+/// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of; run by run, while it is in the cache.
 void ImplicitStep::linearResidual(const State& to) {
-  CompiledModel& model = *model_;
-  linear_.setZero();
-  scratch_.setZero();
-  model.addMass(to.a.data(), linear_.data());
-  model.addStiffness(to.q.data(), scratch_.data());
-  const int n = model.size();
+  const CompiledModel& model = *model_;
   const double* load = model.load();
   const double* w = weight_.data();
   const double* q = to.q.data();
   const double* rounding = rowSize_.data();
   double* sum = linear_.data();
-  const double* stiff = scratch_.data();
+  double* stiff = scratch_.data();
   double size = 0, floor = 0;
-  for (int i = 0; i < n; ++i) {
-    const double forces = std::max({std::abs(sum[i]), std::abs(stiff[i]), std::abs(load[i])});
-    size = std::max(size, w[i] * forces);
-    floor = std::max(floor, rounding[i] * std::abs(q[i]));
-    sum[i] += stiff[i] - load[i];
+  for (const auto& run : model.runs()) {
+    const int begin = model.pattern().start(run.begin), end = model.pattern().start(run.end);
+    std::fill(sum + begin, sum + end, 0.0);
+    std::fill(stiff + begin, stiff + end, 0.0);
+    model.addMass(to.a.data(), sum, run);
+    model.addStiffness(q, stiff, run);
+    for (int i = begin; i < end; ++i) {
+      const double forces = std::max({std::abs(sum[i]), std::abs(stiff[i]), std::abs(load[i])});
+      size = std::max(size, w[i] * forces);
+      floor = std::max(floor, rounding[i] * std::abs(q[i]));
+      sum[i] += stiff[i] - load[i];
+    }
+    model.addDamping(to.v.data(), sum, run);
   }
-  model.addDamping(to.v.data(), linear_.data());
   linearReference_ = reference_ = size;
   floor_ = floor;
 }
@@ -134,65 +136,76 @@ bool ImplicitStep::relax(State& to) {
     refactor(to);
     if (!factored_) return false;
   }
-  guess_ = last_;
+  guess_.swap(last_);
   if (!compliant_) relaxation_.setCompliance(factor_);
   compliant_ = true;
   for (;;) {
     relaxation_.start(to.q, to.v, linear_);
     if (!settle(to)) {
+      guess_.swap(last_);
       wanted_ = true;
       return false;
     }
     q0_ = to.q + delta_;
     bool missed = false;
     for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
-    last_ = delta_;
     guess_ = delta_;
     if (!missed) break;
   }
+  last_.swap(guess_);
   to.q.swap(q0_);
-  to.v += scheme_.velocity * delta_;
-  to.a += scheme_.acceleration * delta_;
+  const double c = scheme_.velocity, a = scheme_.acceleration;
+  for (int i = 0; i < delta_.size(); ++i) to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
   return true;
 }
 
-/// The iteration itself: delta_ from guess_.
+/// The iteration itself: delta_ from guess_ (which it changes).
 bool ImplicitStep::settle(State& to) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
-  drift_.setZero();
   const double negligible = 0.1 * tolerance();
   delta_ = guess_;
-  if (norm * guess_.cwiseAbs().maxCoeff() > negligible)
-    addDrift(guess_, drift_);
-  else
-    guess_.setZero();  // what drift_ stands for
+  extra_ = false;  // drift_ and correction_ count as zero
+  if (norm > 0) {
+    drift_.setZero();
+    correction_.setZero();
+    extra_ = true;
+    if (norm * guess_.cwiseAbs().maxCoeff() > negligible)
+      addDrift(guess_, drift_);
+    else
+      guess_.setZero();  // what drift_ stands for
+  }
   relaxation_.guess(to.t, c, delta_);
-  bool phase = correctsPhase();
+  bool phase = correctsPhase(), near = false;
   const double settled = std::sqrt(options_.tolerance);
-  correction_.setZero();
-  double last = 0;
+  double last = 0, work = 1;
   for (int iteration = 1; iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
-    scratch_ = drift_ - correction_;
-    relaxation_.solve(factor_, scratch_, delta_);
+    if (near) {
+      relaxation_.solveNear(factor_, tolerance(), delta_);
+    } else {
+      if (extra_) scratch_ = drift_ - correction_;
+      relaxation_.solve(factor_, extra_ ? &scratch_ : nullptr, delta_);
+    }
     ++counters_->newtonIterations;
-    double force = linearReference_;
+    double force = near ? reference_ : linearReference_;
     error_ = relaxation_.evaluate(to.t, c, delta_, tolerance(), force);
     reference_ = force;
+    bool changed = phase;
     bool good = converged() && !phase;
     if (phase) {
       correctPhase(to);
       phase = error_ > settled * reference_;  // taken from an iterate that is near
     }
-    if (norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
+    if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
       drift_.setZero();
       addDrift(delta_, drift_);
       guess_ = delta_;
       debt_ += driftPrice;
+      changed = true;
       good = false;
     }
     if (good) {
-      account(iteration);
+      account(work);
       return true;
     }
     if (!std::isfinite(error_)) return false;
@@ -200,15 +213,16 @@ bool ImplicitStep::settle(State& to) {
       if (iteration > 4 && error_ > slowestRelaxation * last) return false;
       last = error_;
     }
-    relaxation_.correct(to.t, c);
+    near = relaxation_.correct(to.t, c, tolerance(), changed);
+    work += near ? nearPrice : 1.0;
   }
   return false;
 }
 
 /// A step took this many relaxations: ask for a new factorisation once that would have paid.
-void ImplicitStep::account(int iterations) {
-  if (usual_ == 0) usual_ = iterations;
-  debt_ += std::max(0, iterations - usual_);
+void ImplicitStep::account(double relaxations) {
+  if (usual_ == 0) usual_ = relaxations;
+  debt_ += std::max(0.0, relaxations - usual_);
   if (debt_ > factorPrice) wanted_ = true;
 }
 
@@ -251,13 +265,20 @@ bool ImplicitStep::correctsPhase() const {
 /// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once, from the delta without it:
 /// what that misses is of the order of the square of k (I - F) F.
 void ImplicitStep::correctPhase(const State& to) {
+  const auto& pattern = model_->pattern();
   acceleration_ = to.a + scheme_.acceleration * delta_;
-  filtered_.setZero();
-  model_->addMass(acceleration_.data(), filtered_.data());
+  for (const auto& run : model_->runs()) {
+    std::fill(&filtered_[pattern.start(run.begin)], filtered_.data() + pattern.start(run.end), 0.0);
+    model_->addMass(acceleration_.data(), filtered_.data(), run);
+  }
   filter_.solve(filtered_.data());
   acceleration_ = scheme_.phase * (acceleration_ - scheme_.filter * scheme_.acceleration * filtered_);
-  correction_.setZero();
-  model_->addMass(acceleration_.data(), correction_.data());
+  if (!extra_) drift_.setZero();
+  extra_ = true;
+  for (const auto& run : model_->runs()) {
+    std::fill(&correction_[pattern.start(run.begin)], correction_.data() + pattern.start(run.end), 0.0);
+    model_->addMass(acceleration_.data(), correction_.data(), run);
+  }
 }
 
 double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
@@ -267,8 +288,7 @@ int ImplicitStep::worstPosition() const { return transient::worstPosition(residu
 void ImplicitStep::save(std::vector<double>& memory) const {
   for (const StepScheme* each : {&scheme_, &factorScheme_})
     memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
-  memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_,
-                               static_cast<double>(usual_)});
+  memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
   memory.insert(memory.end(), weight_.begin(), weight_.end());
   memory.insert(memory.end(), last_.begin(), last_.end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
@@ -285,7 +305,7 @@ void ImplicitStep::restore(const double*& memory) {
   const bool current = *memory++ != 0.0;
   wanted_ = *memory++ != 0.0;
   debt_ = *memory++;
-  usual_ = static_cast<int>(*memory++);
+  usual_ = *memory++;
   const double now = model_->time();
   if (scheme.h > 0) scale(scheme, now);
   scheme_ = scheme;

@@ -60,7 +60,7 @@ class ImplicitStep {
   void linearResidual(const State& to);
   bool relax(State& to);
   bool settle(State& to);
-  void account(int iterations);
+  void account(double relaxations);
   bool iterate(State& to);
   double measure(const State& to);
   bool isSlow(double rate) const;
@@ -96,9 +96,10 @@ class ImplicitStep {
   PointRelaxation relaxation_;
   bool relaxes_ = false;    ///< points have few enough coordinates for it
   bool compliant_ = false;  ///< its compliance belongs to the factor
-  int usual_ = 0;           ///< iterations of the first step with this factor
-  double debt_ = 0;         ///< iterations beyond that since
+  double usual_ = 0;        ///< relaxations of the first step with this factor
+  double debt_ = 0;         ///< relaxations beyond that since
   Vector guess_, drift_;
+  bool extra_ = false;  ///< drift_ or correction_ is not zero
   Vector last_;  ///< delta of the last step
 
   linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R

@@ -31,6 +31,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
     rowBegin_.push_back(static_cast<int>(column_.size()));
     single_ = single_ && rowBegin_[z(r + 1)] - rowBegin_[z(r)] <= 1;
   }
+  findBlocks(pattern);
   if (single_) {
     index_.assign(z(rows), -1);
     for (int r = 0; r < rows; ++r)
@@ -80,6 +81,17 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   lastGap_.assign(z(points_), 0.0);
   check_.assign(z(points_), 0.0);
   one_.assign(1, 0);
+}
+
+void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
+  blockBegin_.push_back(0);
+  for (int p = 0; p < points_; ++p) {
+    const auto begin = static_cast<std::ptrdiff_t>(block_.size());
+    for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i) block_.push_back(pattern.blockOf(column_[z(i)]));
+    std::sort(block_.begin() + begin, block_.end());
+    block_.erase(std::unique(block_.begin() + begin, block_.end()), block_.end());
+    blockBegin_.push_back(static_cast<int>(block_.size()));
+  }
 }
 
 double PointBatch::rowTimes(int row, const double* x) const {
@@ -162,15 +174,16 @@ void PointBatch::listActive() {
     if (isActive_[z(p)]) active_.push_back(p), hasActed_[z(p)] = 1;
 }
 
-model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v, bool all) {
-  if (!all) {
-    acted_.clear();
-    for (int p = 0; p < points_; ++p)
-      if (hasActed_[z(p)]) acted_.push_back(p);
-  }
-  const auto& points = all ? all_ : acted_;
+model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v, const std::vector<int>& points) {
   gatherThese(points, q, v);
   return law_->power(t, points, d_.data(), v_.data());
+}
+
+const std::vector<int>& PointBatch::acted() {
+  acted_.clear();
+  for (int p = 0; p < points_; ++p)
+    if (hasActed_[z(p)]) acted_.push_back(p);
+  return acted_;
 }
 
 void PointBatch::bookPowers() { hasActed_ = isActive_; }
@@ -189,18 +202,19 @@ bool PointBatch::addMissed(const double* q, double t) {
 void PointBatch::evaluate(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherActive(q, v);
-  evaluateHere(t, false);
+  evaluateHere(t, active_, false);
 }
 
 void PointBatch::evaluateWithTangent(double t, const double* q, const double* v) {
   if (active_.empty()) return;
   gatherActive(q, v);
-  evaluateHere(t, true);
+  evaluateHere(t, active_, true);
 }
 
 void PointBatch::setScale(int point, double scale) {
-  scale_[z(point)] = scale;
-  scaled_ = std::any_of(scale_.begin(), scale_.end(), [](double each) { return each != 1.0; });
+  double& mine = scale_[z(point)];
+  scaled_ += (scale != 1.0 ? 1 : 0) - (mine != 1.0 ? 1 : 0);
+  mine = scale;
 }
 
 void PointBatch::scalePoint(int p, bool tangent) {
@@ -217,8 +231,8 @@ void PointBatch::addScaledForce(double* y) const {
       for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[z(r)], y);
 }
 
-void PointBatch::applyScale(bool tangent) {
-  for (int p : active_) scalePoint(p, tangent);
+void PointBatch::applyScale(const std::vector<int>& points, bool tangent) {
+  for (int p : points) scalePoint(p, tangent);
 }
 
 void PointBatch::addForce(double factor, double* y) const {
@@ -233,14 +247,14 @@ void PointBatch::addForce(double factor, double* y) const {
     }
 }
 
-void PointBatch::gather(const double* x, double* rows) const {
-  for (int p : active_)
+void PointBatch::gather(const std::vector<int>& points, const double* x, double* rows) const {
+  for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r)
       rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
 }
 
-void PointBatch::scatter(const double* rows, double* y) const {
-  for (int p : active_)
+void PointBatch::scatter(const std::vector<int>& points, const double* rows, double* y) const {
+  for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r) {
       if (single_) {
         if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
@@ -250,13 +264,13 @@ void PointBatch::scatter(const double* rows, double* y) const {
     }
 }
 
-void PointBatch::evaluateHere(double t, bool tangent) {
+void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tangent) {
   if (tangent)
-    law_->evaluateWithTangent(t, active_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+    law_->evaluateWithTangent(t, points, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
   else
-    law_->evaluate(t, active_, d_.data(), v_.data(), f_.data());
-  if (scaled_) applyScale(tangent);
-  evaluations_ += static_cast<long>(active_.size());
+    law_->evaluate(t, points, d_.data(), v_.data(), f_.data());
+  if (scaled_ > 0) applyScale(points, tangent);
+  evaluations_ += static_cast<long>(points.size());
 }
 
 void PointBatch::project(int point, const double* values, double* block) const {
@@ -285,8 +299,18 @@ void PointBatch::project(int point, const double* values, double* block) const {
     }
 }
 
-void PointBatch::markBlocks(const linalg::BlockPattern& pattern, std::vector<char>& blocks) const {
-  for (int position : column_) blocks[z(pattern.blockOf(position))] = 1;
+void PointBatch::markBlocks(std::vector<char>& blocks) const {
+  for (int b : block_) blocks[z(b)] = 1;
+}
+
+void PointBatch::markBlocks(int point, std::vector<char>& blocks) const {
+  for (int i = blockBegin_[z(point)]; i < blockBegin_[z(point + 1)]; ++i) blocks[z(block_[z(i)])] = 1;
+}
+
+bool PointBatch::isIn(int point, const std::vector<char>& blocks) const {
+  for (int i = blockBegin_[z(point)]; i < blockBegin_[z(point + 1)]; ++i)
+    if (blocks[z(block_[z(i)])]) return true;
+  return false;
 }
 
 void PointBatch::freezeTangent(double cd, double cv) {

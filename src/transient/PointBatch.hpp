@@ -51,20 +51,20 @@ class PointBatch {
   void addScaledForce(double* y) const;
   /// Apply a scale set after the last evaluation with tangents to what it left.
   void rescale(int point) { scalePoint(point, true); }
-  bool isScaled() const { return scaled_; }
+  bool isScaled() const { return scaled_ > 0; }
 
-  // The same in rows (point * width() + coordinate), for iterations that never form q and v; active points only.
+  // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the points given.
   /// rows = R x.
-  void gather(const double* x, double* rows) const;
+  void gather(const std::vector<int>& points, const double* x, double* rows) const;
   /// y += R' rows.
-  void scatter(const double* rows, double* y) const;
+  void scatter(const std::vector<int>& points, const double* rows, double* y) const;
   /// d() and v() at (q, v).
   void gatherActive(const double* q, const double* v);
   /// Where the next evaluateHere() evaluates, offsets included.
   double* position() { return d_.data(); }
   double* velocity() { return v_.data(); }
   /// Forces, with tangents if asked, at position() and velocity().
-  void evaluateHere(double t, bool tangent);
+  void evaluateHere(double t, const std::vector<int>& points, bool tangent);
   /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
   const double* dfdd() const { return dfdd_.data(); }
   const double* dfdv() const { return dfdv_.data(); }
@@ -73,7 +73,11 @@ class PointBatch {
   /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
   void project(int point, const double* values, double* block) const;
   /// Blocks of the pattern the rows of any point touch.
-  void markBlocks(const linalg::BlockPattern& pattern, std::vector<char>& blocks) const;
+  void markBlocks(std::vector<char>& blocks) const;
+  /// Those of one point.
+  void markBlocks(int point, std::vector<char>& blocks) const;
+  /// Whether one of them is marked.
+  bool isIn(int point, const std::vector<char>& blocks) const;
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
   void freezeTangent(double cd, double cv);
@@ -98,8 +102,11 @@ class PointBatch {
   /// The law at one point for width() coordinates d, v; tangents row-major, both null if not wanted.
   void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv);
 
-  /// Powers at (q, v), summed over the points that were active since the last bookPowers(), or over all points.
-  model::PointLaw::Power power(double t, const double* q, const double* v, bool all = false);
+  /// Powers at (q, v), summed over these points.
+  model::PointLaw::Power power(double t, const double* q, const double* v, const std::vector<int>& points);
+  /// All points, and those that were active since the last bookPowers().
+  const std::vector<int>& everyPoint() const { return all_; }
+  const std::vector<int>& acted();
   /// What is booked up to now is not looked at again.
   void bookPowers();
   /// Position, velocity of all points for recording (all of them are gathered).
@@ -115,10 +122,11 @@ class PointBatch {
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
+  void findBlocks(const linalg::BlockPattern& pattern);
   void listActive();
   void measure(const double* q, std::vector<double>& gap);
   void subtract(const std::vector<double>& frozen, double* values) const;
-  void applyScale(bool tangent);
+  void applyScale(const std::vector<int>& points, bool tangent);
   void scalePoint(int point, bool tangent);
   double rowTimes(int row, const double* x) const;
 
@@ -133,6 +141,8 @@ class PointBatch {
   std::vector<int> column_;
   std::vector<double> value_;
   std::vector<double> offset_;
+
+  std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
 
   // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x block, column-major).
   struct Touch {
@@ -154,7 +164,7 @@ class PointBatch {
   std::vector<char> isFrozen_;  ///< in the frozen tangent
   std::vector<double> d_, v_, f_, dfdd_, dfdv_;
   std::vector<double> scale_;
-  bool scaled_ = false;  ///< any scale is not 1
+  int scaled_ = 0;  ///< scales that are not 1
   std::vector<double> gap_, lastGap_, check_;
   double gapTime_ = 0, lastGapTime_ = 0;
   double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_

@@ -13,6 +13,10 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// A point whose error shrinks by less in an iteration is solved by itself.
 constexpr double slowestRate = 0.5;
+/// Points wrong by less than this part of what is allowed stay as they are when few are left, and what is dropped then.
+constexpr double rightEnough = 0.25, negligible = 1e-4;
+/// Few: as many points as there are this many positions.
+constexpr int positionsPerPoint = 100;
 
 /// B = A^-1 for A 3 x 3, row-major, by cofactors; false when A is singular to rounding.
 bool invertThree(const double* A, double* B) {
@@ -47,20 +51,24 @@ void PointRelaxation::bind(CompiledModel& model) {
   for (const auto& batch : model.points()) {
     Set set;
     const std::size_t rows = z(batch.points()) * z(batch.width());
-    for (auto* array : {&set.d, &set.v, &set.y, &set.p, &set.defect, &set.weight, &set.target}) array->assign(rows, 0.0);
+    for (auto* array : {&set.d, &set.v, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
     set.known.assign(z(batch.points()), 0);
     set.stiffness.assign(z(batch.points()), 0.0);
     set.error.assign(z(batch.points()), 0.0);
     set.exact.assign(z(batch.points()), 0);
+    set.moved.assign(z(batch.points()), 1);
+    set.points.reserve(z(batch.points()));
     sets_.push_back(std::move(set));
-    batch.markBlocks(model.pattern(), blocks_);
+    batch.markBlocks(blocks_);
   }
-  residual_.setZero(model.size());
+  near_.setZero(model.size());
+  live_.assign(z(model.pattern().blocks()), 0);
 }
 
 void PointRelaxation::setWeights(const Vector& weight) {
+  weight_ = weight;
   for (std::size_t b = 0; b < sets_.size(); ++b)
     for (std::size_t r = 0; r < sets_[b].weight.size(); ++r)
       sets_[b].weight[r] = model_->points()[b].rowWeight(static_cast<int>(r), weight.data());
@@ -139,22 +147,23 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
       sets_[b].known[z(p)] = 1;
     }
   }
-  residual_ = residual;
+  residual_ = &residual;
   for (auto& set : sets_) {
     std::fill(set.exact.begin(), set.exact.end(), 0);
+    std::fill(set.moved.begin(), set.moved.end(), 1);
     std::fill(set.error.begin(), set.error.end(), std::numeric_limits<double>::infinity());
   }
 }
 
 void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
-  batch.gather(delta.data(), set.y.data());
+  batch.gather(set.points, delta.data(), set.y.data());
   const int w = batch.width();
   const double* y = set.y.data();
   double* d = batch.position();
   double* v = batch.velocity();
-  for (int p : batch.active())
+  for (int p : set.points)
     for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = set.v[z(r)] + c * y[r];
-  batch.evaluateHere(t, tangent);
+  batch.evaluateHere(t, set.points, tangent);
 }
 
 double PointRelaxation::evaluate(double t, double c, const Vector& delta, double small, double& force) {
@@ -163,29 +172,41 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (batch.active().empty()) continue;
-    place(set, batch, t, c, delta, false);
-    const int w = batch.width();
-    const double* f = batch.force();
-    const double* P = batch.frozen();
-    const double* y = set.y.data();
-    const double* weight = set.weight.data();
-    for (int p : batch.active()) {
-      double wrong = 0;
-      for (int r = p * w; r < (p + 1) * w; ++r) {
-        // f - P y - p
-        double known = set.p[z(r)];
-        for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
-        const double defect = set.defect[z(r)] = f[r] - known;
-        const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
-        if (!(size <= wrong)) wrong = size;  // keeps a NaN
-        force = std::max(force, weight[r] * std::abs(f[r]));
-      }
-      if (wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
-      set.error[z(p)] = wrong;
-      if (!(wrong <= worst)) worst = wrong;
+    if (isNear_) {
+      set.points.clear();
+      for (int p : batch.active())
+        if (batch.isIn(p, live_)) set.points.push_back(p);
+    } else {
+      set.points = batch.active();
     }
+    place(set, batch, t, c, delta, false);
+    measure(set, batch, small, force);
+    for (int p : batch.active())
+      if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
   }
   return worst;
+}
+
+/// defect = f - P y - p of the points evaluated, and their errors.
+void PointRelaxation::measure(Set& set, PointBatch& batch, double small, double& force) {
+  const int w = batch.width();
+  const double* f = batch.force();
+  const double* P = batch.frozen();
+  const double* y = set.y.data();
+  const double* weight = set.weight.data();
+  for (int p : set.points) {
+    double wrong = 0;
+    for (int r = p * w; r < (p + 1) * w; ++r) {
+      double known = set.p[z(r)];
+      for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
+      const double defect = set.defect[z(r)] = f[r] - known;
+      const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
+      if (!(size <= wrong)) wrong = size;  // keeps a NaN
+      force = std::max(force, weight[r] * std::abs(f[r]));
+    }
+    if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
+    set.error[z(p)] = wrong;
+  }
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& delta) {
@@ -195,6 +216,7 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (batch.active().empty()) continue;
+    set.points = batch.active();
     place(set, batch, t, c, delta, true);
     findImpacts(set, batch);
     const int w = batch.width();
@@ -224,10 +246,33 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
   }
 }
 
-void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const {
-  delta = -residual_ - extra;
-  for (std::size_t b = 0; b < sets_.size(); ++b) model_->points()[b].scatter(sets_[b].p.data(), delta.data());
+void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector* extra, Vector& delta) {
+  if (extra != nullptr)
+    delta = -*residual_ - *extra;
+  else
+    delta = -*residual_;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const PointBatch& batch = model_->points()[b];
+    batch.scatter(batch.active(), sets_[b].p.data(), delta.data());
+  }
   factor.solve(delta.data());
+  isNear_ = false;
+}
+
+/// delta += S^-1 R' (change of p)
+void PointRelaxation::solveNear(const linalg::BlockFactor& factor, double small, Vector& delta) {
+  std::fill(live_.begin(), live_.end(), 0);
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const PointBatch& batch = model_->points()[b];
+    batch.scatter(sets_[b].points, sets_[b].change.data(), near_.data());
+    for (int p : sets_[b].points) batch.markBlocks(p, live_);
+  }
+  factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
+  const auto& pattern = model_->pattern();
+  for (int b = 0; b < pattern.blocks(); ++b)
+    if (live_[z(b)])
+      for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) delta[i] += near_[i], near_[i] = 0;
+  isNear_ = true;
 }
 
 /// y = free + G p is what the point does for a force p while the others keep theirs.
@@ -250,26 +295,36 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
   for (int i = 0; i < w; ++i) set.p[z(first + i)] = phi_[i], set.target[z(first + i)] = y_[i];
 }
 
-void PointRelaxation::correct(double t, double c) {
+bool PointRelaxation::correct(double t, double c, double small, bool all) {
+  // NaN counts as wrong
+  const auto isWrong = [&](const Set& set, int p) { return !(set.error[z(p)] <= rightEnough * small); };
+  long wrong = 0;
+  for (std::size_t b = 0; b < sets_.size(); ++b)
+    for (int p : model_->points()[b].active()) wrong += isWrong(sets_[b], p) ? 1 : 0;
+  const bool few = !all && positionsPerPoint * wrong < model_->size();
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     const int w = batch.width();
+    set.points.clear();
     for (int p : batch.active()) {
+      set.moved[z(p)] = !few || isWrong(set, p);
+      if (!set.moved[z(p)]) continue;
+      set.points.push_back(p);
+      for (int r = p * w; r < (p + 1) * w; ++r) set.change[z(r)] = -set.p[z(r)];
       if (set.exact[z(p)]) {
         solvePoint(set, batch, p, t, c);
-        continue;
+      } else {
+        // p += B defect
+        const double* B = &set.answer[z(p * w * w)];
+        const double* defect = &set.defect[z(p * w)];
+        for (int i = 0; i < w; ++i)
+          for (int k = 0; k < w; ++k) set.p[z(p * w + i)] += B[i * w + k] * defect[k];
       }
-      // p += B defect
-      const double* B = &set.answer[z(p * w * w)];
-      const double* defect = &set.defect[z(p * w)];
-      for (int i = 0; i < w; ++i) {
-        double sum = 0;
-        for (int k = 0; k < w; ++k) sum += B[i * w + k] * defect[k];
-        set.p[z(p * w + i)] += sum;
-      }
+      for (int r = p * w; r < (p + 1) * w; ++r) set.change[z(r)] += set.p[z(r)];
     }
   }
+  return few;
 }
 
 }  // namespace tooljoint::transient

@@ -10,8 +10,9 @@
 ///
 ///     p_i += (I - (J_i - P_i) G_ii)^-1 (f_i - P_i y_i - p_i),     J_i = df_i/dy_i
 ///
-/// with J taken once where the step is expected to end is Newton point by point: one solve and one evaluation of the laws per iteration, no product, no factorisation. It converges
-/// by what the points feel of each other's change of tangent. A point whose force jumps (contact that switches within the step,
+/// with J taken once where the step is expected to end is Newton point by point: one solve and one evaluation of the laws per
+/// iteration, no product, no factorisation. It converges by what the points feel of each other's change of tangent. Where only
+/// few points are left to correct, only what they reach is solved and evaluated: a force moves a few neighbours in a step. A point whose force jumps (contact that switches within the step,
 /// friction that reverses) is solved as what it is, see NodalProblem; its error is then measured in y.
 #pragma once
 
@@ -44,17 +45,21 @@ class PointRelaxation {
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
-  /// Remember where the step starts: predicted q, v, the residual R0 of all linear terms there and a guess of delta.
+  /// Remember where the step starts: predicted q, v and the residual R0 of all linear terms there, which must outlive the step.
   void start(const Vector& q, const Vector& v, const Vector& residual);
   /// Evaluate the laws at delta, with tangents, and set p so that it is consistent with them.
   void guess(double t, double c, const Vector& delta);
-  /// delta for the present p; `extra` is added to the residual.
-  void solve(const linalg::BlockFactor& factor, const Vector& extra, Vector& delta) const;
+  /// delta for the present p; `extra`, if any, is added to the residual.
+  void solve(const linalg::BlockFactor& factor, const Vector* extra, Vector& delta);
+  /// The same after a correct() that says so: delta changes by what the forces of the points corrected have changed, but for
+  /// residuals below `small`.
+  void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
   /// Evaluate the laws at delta (v changes by c per unit of delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
-  /// largest of itself and |w f|; an error below `small` needs no care.
+  /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
-  /// One Newton step at every point, and the whole way at those where Newton does not help.
-  void correct(double t, double c);
+  /// One Newton step at every point, and the whole way at those where Newton does not help. True when it was only taken at the
+  /// few points wrong by more than a part of `small` (never if `all` are asked for), and solveNear() can follow.
+  bool correct(double t, double c, double small, bool all);
 
  private:
   struct Set {
@@ -70,18 +75,25 @@ class PointRelaxation {
     std::vector<double> error;  ///< per point, of the last iteration
     std::vector<char> exact;    ///< per point: solved by itself in this step
     std::vector<double> target; ///< y of the points solved by themselves
+    std::vector<double> change; ///< of p in the last correct()
+    std::vector<char> moved;    ///< per point: corrected last time
+    std::vector<int> points;    ///< corrected, then those evaluated
   };
   void findImpacts(Set& set, PointBatch& batch);
   void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
-
+  void measure(Set& set, PointBatch& batch, double small, double& force);
 
   CompiledModel* model_ = nullptr;
   std::vector<Set> sets_;
   std::vector<char> blocks_;
   double h_ = 0, impact_ = 1;
   const double* inverse_ = nullptr;
-  Vector residual_;
+  const Vector* residual_ = nullptr;
+  Vector weight_;
+  Vector near_;             ///< change of delta in solveNear(), zero between calls
+  std::vector<char> live_;  ///< blocks where it is not zero
+  bool isNear_ = false;     ///< the last solve was solveNear()
   NodalProblem problem_;
   NodalProblem::Local y_, phi_;
 };

@@ -174,6 +174,47 @@ TEST(BlockFactor, invertsWhatIsWanted) {
   }
 }
 
+// A force on one block of a stiff chain: the whole answer without a bound, what is above the bound with one, and only there.
+TEST(BlockFactor, solvesNearAForce) {
+  for (const int width : {6, 3, 70}) {
+    Sample sample(std::vector<int>(60, width), chain(60), 3);
+    for (int i = 0; i < sample.dense.rows(); ++i)
+      for (int j = 0; j < sample.dense.cols(); ++j)
+        if (sample.dense(i, j) != 0.0) sample.dense(i, j) = (i == j ? 1.0 : 0.0) + 0.04 / width * std::sin(i + 3.0 * j);
+    sample.sparse = sample.dense.sparseView();
+    const auto pattern = patternOf(sample);
+    BlockValues values(pattern.storage(), 0.0);
+    pattern.add(sample.sparse, 1.0, values);
+    BlockFactor factor(pattern);
+    std::copy(values.begin(), values.end(), factor.values());
+    ASSERT_EQ(factor.factor(), -1);
+    const int n = pattern.size(), block = 20;
+    const Vector weight = Vector::Ones(n);
+    Vector force = Vector::Zero(n);
+    force[pattern.start(block) + 1] = 1.0;
+    Vector whole = force;
+    factor.solve(whole.data());
+    for (const double small : {0.0, 1e-9}) {
+      std::vector<char> live(static_cast<std::size_t>(pattern.blocks()), 0);
+      live[block] = 1;
+      Vector near = force;
+      factor.solveNear(near.data(), live, weight.data(), small);
+      EXPECT_LE((near - whole).cwiseAbs().maxCoeff(), 4 * small + 1e-15) << width;
+      int reached = 0;
+      for (int b = 0; b < pattern.blocks(); ++b) {
+        reached += live[static_cast<std::size_t>(b)];
+        if (!live[static_cast<std::size_t>(b)]) {
+          EXPECT_EQ(near.segment(pattern.start(b), pattern.width(b)).cwiseAbs().maxCoeff(), 0.0);
+        }
+      }
+      EXPECT_TRUE(live[block]);
+      if (small > 0) {
+        EXPECT_LT(reached, 20) << width;
+      }
+    }
+  }
+}
+
 TEST(BlockFactor, namesTheSingularPosition) {
   Sample sample({6, 6, 6}, chain(3), 2);
   const int dof = 7;

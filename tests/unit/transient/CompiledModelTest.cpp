@@ -68,17 +68,44 @@ TEST(CompiledModel, productsAndLoadsAreThoseOfTheModelAtEveryTime) {
   model.toPositions(x, xp);
   for (double t : {0.0, 0.5, 2.0, 0.5}) {
     model.setTime(t);
-    const auto expectProduct = [&](auto add, const Matrix& a) {
-      y.setZero();
-      (model.*add)(xp.data(), y.data());
-      model.toDofs(y, back);
-      EXPECT_LT((back - a * x).cwiseAbs().maxCoeff(), 1e-13) << "t = " << t;
+    using Product = void (CompiledModel::*)(const double*, double*, linalg::BlockRange) const;
+    const auto expectProduct = [&](Product add, const Matrix& a) {
+      // whole, and block by block in any order
+      for (const bool whole : {true, false}) {
+        y.setZero();
+        const int blocks = model.pattern().blocks();
+        if (whole) (model.*add)(xp.data(), y.data(), {0, blocks});
+        for (int b = blocks - 1; !whole && b >= 0; --b) (model.*add)(xp.data(), y.data(), {b, b + 1});
+        model.toDofs(y, back);
+        EXPECT_LT((back - a * x).cwiseAbs().maxCoeff(), 1e-13) << "t = " << t;
+      }
     };
     expectProduct(&CompiledModel::addMass, Matrix(source.mass));
     expectProduct(&CompiledModel::addDamping, Matrix(source.dampingAt(t)));
     expectProduct(&CompiledModel::addStiffness, Matrix(source.stiffnessAt(t)));
     model.toDofs(Eigen::Map<const Vector>(model.load(), n), back);
     EXPECT_LT((back - source.loadAt(t)).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(CompiledModel, runsCoverEveryBlockOnce) {
+  const auto source = rich();
+  const CompiledModel model(source);
+  int next = 0;
+  for (const auto& run : model.runs()) {
+    EXPECT_EQ(run.begin, next);
+    EXPECT_GT(run.end, run.begin);
+    next = run.end;
+  }
+  EXPECT_EQ(next, model.pattern().blocks());
+  for (const int positions : {1, 7, 1000}) {
+    int covered = 0;
+    for (const auto& run : linalg::blockRuns(model.pattern(), positions)) {
+      const int length = model.pattern().start(run.end) - model.pattern().start(run.begin);
+      EXPECT_TRUE(length <= positions || run.end == run.begin + 1);
+      covered += length;
+    }
+    EXPECT_EQ(covered, source.size());
   }
 }
 
