@@ -48,7 +48,7 @@ void reduceIdenticalPipes(benchmark::State& state) {
 }
 BENCHMARK(reduceIdenticalPipes)
     ->ArgNames({"pipes", "modes", "elements"})
-    ->ArgsProduct({{1, 100}, {12}, {10, 20, 30}})
+    ->ArgsProduct({{1, 100}, {6, 12, 24}, {5, 10, 20, 30}})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

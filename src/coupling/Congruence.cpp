@@ -48,7 +48,7 @@ void substitute(model::SecondOrderModel& model, const Substitution& substitution
       const Vector force = -(term.matrix * offset);
       if (!force.isZero(0.0)) model.loads.push_back({"constraint values: " + term.name, transposed * force, term.law});
     }
-  forEachMatrix(model, [&](Sparse& A) {
+  forEachMatrix(model, [&](model::SharedSparse& A) {
     const Sparse right = A * L;
     A = withoutZeros(transposed * right);
   });
@@ -100,10 +100,10 @@ std::vector<int> narrowNumbering(const model::SecondOrderModel& model) {
 
 void renumber(model::SecondOrderModel& model, const std::vector<int>& position) {
   const auto n = static_cast<Eigen::Index>(position.size());
-  forEachMatrix(model, [&](Sparse& A) {
+  forEachMatrix(model, [&](model::SharedSparse& A) {
     Triplets entries;
     for (int i = 0; i < A.outerSize(); ++i)
-      for (Sparse::InnerIterator it(A, i); it; ++it)
+      for (model::SharedSparse::InnerIterator it(A, i); it; ++it)
         if (it.value() != 0.0) entries.emplace_back(position[at(i)], position[at(static_cast<int>(it.col()))], it.value());
     A = Sparse(n, n);
     A.setFromTriplets(entries.begin(), entries.end());

@@ -260,13 +260,13 @@ class Builder {
     if (r.isZero(0.0) || std::find(bare.begin(), bare.end(), 1) == bare.end()) return;
     Triplets entries;
     for (int i = 0; i < n; ++i) {
-      for (Sparse::InnerIterator it(m.mass, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
       if (mass[i] == 0.0 && !bare[at(i)]) entries.emplace_back(i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
     }
     for (const auto& term : m.stiffness) {
       if (term.name != joiningForces) continue;
       for (int i = 0; i < n; ++i)
-        for (Sparse::InnerIterator it(term.matrix, i); it; ++it)
+        for (model::SharedSparse::InnerIterator it(term.matrix, i); it; ++it)
           if (bare[at(i)] != 0 || bare[at(static_cast<int>(it.col()))] != 0) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
     }
     Sparse saddle(n, n);

@@ -36,7 +36,7 @@ void appendBoundary(const reduction::Boundary& boundary, Piece& piece) {
       (boundary.forces > 0 && boundary.forces != all - n))
     throw ModelError("Part \"" + piece.name + "\": the rows of its interface do not match its " + std::to_string(all - n) + " interface dofs and " +
                      std::to_string(n) + " coordinates.");
-  forEachMatrix(*m, [&](Sparse& A) { A = extended(A, all, all); });
+  forEachMatrix(*m, [&](model::SharedSparse& A) { A = extended(A, all, all); });
   for (auto& load : m->loads) load.vector.conservativeResizeLike(Vector::Zero(all));
   for (auto& set : m->points) set.rows = extended(set.rows, set.rows.rows(), all);
   m->recovery = extended(m->recovery, m->recovery.rows(), all);
@@ -114,7 +114,7 @@ void alignComponents(std::vector<Piece>& pieces) {
       const int row = i / width * width + to[at(i % width)];
       offset[row] = m->recoveryOffset[i];
       order.emplace_back(row, i, 1.0);
-      for (Sparse::InnerIterator it(m->recovery, i); it; ++it) rows.emplace_back(row, static_cast<int>(it.col()), it.value());
+      for (model::SharedSparse::InnerIterator it(m->recovery, i); it; ++it) rows.emplace_back(row, static_cast<int>(it.col()), it.value());
     }
     m->recovery.setFromTriplets(rows.begin(), rows.end());
     m->recoveryOffset = offset;

@@ -55,7 +55,7 @@ struct MotionEstimator::Impl {
     for (std::size_t p = 0; p < parts.size(); ++p) {
       residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p], synthesis_.coupled.offsets[p]);
       const Sparse& turn = synthesis_.coupled.recoveryTurns[p];
-      recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery) : parts[p].model.recovery);
+      recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery) : Sparse(parts[p].model.recovery));
       for (const auto& points : parts[p].model.points) pointSets.push_back({p, &points.rows, set++, {}, {}});
     }
     energies.assign(parts.size(), 0.0);

@@ -16,14 +16,15 @@
 #include "model/DofLabel.hpp"
 #include "model/PointLaw.hpp"
 #include "model/ScalarLaw.hpp"
+#include "model/SharedSparse.hpp"
 
 namespace tooljoint::model {
 
 /// A constant matrix times a scalar law of time.
 struct MatrixTerm {
-  std::string name;  ///< what it models: "gyroscopic", "mud drag", ...
-  Sparse matrix;     ///< dofs x dofs
-  int law = 0;       ///< index into SecondOrderModel::laws
+  std::string name;     ///< what it models: "gyroscopic", "mud drag", ...
+  SharedSparse matrix;  ///< dofs x dofs
+  int law = 0;          ///< index into SecondOrderModel::laws
 };
 
 /// A constant load vector times a scalar law of time.
@@ -42,12 +43,13 @@ struct PointSet {
   Vector offset;                       ///< size*width
 };
 
-/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels.
+/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels. Copies share its matrices until they
+/// are changed.
 struct SecondOrderModel {
   std::vector<DofLabel> dofs;
   ComponentNames componentNames;
   std::vector<ScalarLaw> laws{ScalarLaw::one()};
-  Sparse mass;                        ///< M; symmetric positive (semi-)definite
+  SharedSparse mass;                  ///< M; symmetric positive (semi-)definite
   std::vector<MatrixTerm> damping;    ///< C_i, may be unsymmetric (gyroscopics)
   std::vector<MatrixTerm> stiffness;  ///< K_i, may be unsymmetric (torque)
   std::vector<LoadTerm> loads;
@@ -56,7 +58,7 @@ struct SecondOrderModel {
   Vector initialVelocity;      ///< q'(0)
 
   /// Recovery of physical output dofs: D = recoveryOffset + recovery q (rows: node-major, all components, held ones too).
-  Sparse recovery;
+  SharedSparse recovery;
   Vector recoveryOffset;
   std::vector<std::int64_t> recoveryNodes;  ///< node numbers of the output rows, componentNames.size() rows each
 

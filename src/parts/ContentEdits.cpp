@@ -33,7 +33,7 @@ void widen(PartContent& content, const model::ComponentNames& names) {
   for (int i = 0; i < m.recovery.rows(); ++i) {
     const int row = i / before * after + to[static_cast<std::size_t>(i % before)];
     offset[row] = m.recoveryOffset[i];
-    for (Sparse::InnerIterator it(m.recovery, i); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    for (model::SharedSparse::InnerIterator it(m.recovery, i); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
   }
   Sparse recovery(rows, m.size());
   recovery.setFromTriplets(entries.begin(), entries.end());

@@ -24,6 +24,14 @@ struct BasisRow {
   double frequency() const;
 };
 
+using BasisRows = std::shared_ptr<const std::vector<BasisRow>>;
+
+/// The rows of a report that has none.
+inline const BasisRows& noRows() {
+  static const BasisRows none = std::make_shared<const std::vector<BasisRow>>();
+  return none;
+}
+
 /// Checks of one basis. Numbers that were not computed are negative where they are otherwise non-negative.
 struct BasisReport {
   std::string part;
@@ -35,7 +43,7 @@ struct BasisReport {
   int interior = 0;        ///< dofs
   int modes = 0;           ///< kept modal coordinates
   int negativeModes = 0;   ///< kept modes with omega^2 < 0
-  std::shared_ptr<const std::vector<BasisRow>> rows = std::make_shared<const std::vector<BasisRow>>();  ///< one for all identical parts
+  BasisRows rows = noRows();  ///< one for all identical parts
 
   double orthogonality = 0;        ///< max |Phi_D' M Phi_D - I|
   double massDefect = 0;           ///< max |m_DD - I| as projected

@@ -2,9 +2,7 @@
 #include "reduction/Distribution.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <map>
 #include <numeric>
 #include <type_traits>
 
@@ -76,6 +74,13 @@ void travel(Archive& archive, Sparse& matrix) {
   archive.raw(matrix.outerIndexPtr(), sizeof(int) * static_cast<std::size_t>(sizes[0] + 1));
   archive.raw(matrix.innerIndexPtr(), sizeof(int) * static_cast<std::size_t>(sizes[2]));
   archive.raw(matrix.valuePtr(), sizeof(double) * static_cast<std::size_t>(sizes[2]));
+}
+
+template <class Archive>
+void travel(Archive& archive, model::SharedSparse& shared) {
+  Sparse matrix = shared;
+  travel(archive, matrix);
+  if constexpr (!Archive::writing) shared = std::move(matrix);
 }
 
 template <class Archive, class T>
@@ -162,114 +167,6 @@ void travel(Archive& archive, BasisReport& report) {
   travel(archive, report.remarks);
 }
 
-/// Relative difference of two parts up to which they are the same part: lengths that are differences of depths of some kilometres
-/// carry 1e-13, their cube as stiffness somewhat more.
-constexpr double sameEntry = 1e-11;
-
-/// Raises size_i to the largest entry of row i.
-void raiseToRows(const Sparse& a, Vector& size) {
-  if (a.rows() != size.size()) return;
-  for (int i = 0; i < a.outerSize(); ++i)
-    for (Sparse::InnerIterator it(a, i); it; ++it) size[i] = std::max(size[i], std::abs(it.value()));
-}
-
-/// One row of two matrices whose patterns differ there.
-bool equalRow(const Sparse& a, const Sparse& b, int i, const Vector& s) {
-  Sparse::InnerIterator x(a, i), y(b, i);
-  while (x || y) {
-    const Eigen::Index column = std::min(x ? x.col() : a.cols(), y ? y.col() : a.cols());
-    double difference = 0;
-    if (x && x.col() == column) difference += x.value(), ++x;
-    if (y && y.col() == column) difference -= y.value(), ++y;
-    if (!(std::abs(difference) <= s[i] * s[column])) return false;
-  }
-  return true;
-}
-
-/// |a_ij - b_ij| <= s_i s_j with s_i^2 = sameEntry r_i, r the size of the rows: as strict for moments as for forces.
-bool equal(const Sparse& a, const Sparse& b, const Vector& s) {
-  if (a.rows() != s.size() || b.rows() != a.rows() || a.cols() != a.rows() || b.cols() != b.rows()) return false;
-  if (!a.isCompressed() || !b.isCompressed()) {
-    for (int i = 0; i < a.rows(); ++i)
-      if (!equalRow(a, b, i, s)) return false;
-    return true;
-  }
-  const int* ai = a.outerIndexPtr();
-  const int* bi = b.outerIndexPtr();
-  for (int i = 0; i < a.rows(); ++i) {
-    const int width = ai[i + 1] - ai[i];
-    const int* column = a.innerIndexPtr() + ai[i];
-    if (bi[i + 1] - bi[i] != width || !std::equal(column, column + width, b.innerIndexPtr() + bi[i])) {
-      if (!equalRow(a, b, i, s)) return false;
-      continue;
-    }
-    const double* x = a.valuePtr() + ai[i];
-    const double* y = b.valuePtr() + bi[i];
-    bool near = true;
-    for (int k = 0; k < width; ++k) near = near & (std::abs(x[k] - y[k]) <= s[i] * s[column[k]]);
-    if (!near) return false;
-  }
-  return true;
-}
-
-/// A part others are compared with, and the sizes s of the rows of its matrices. Terms of one law are measured together: a geometric
-/// stiffness that is rounding beside the elastic one is rounding.
-class Pattern {
- public:
-  explicit Pattern(const model::Substructure& part) : part_(part) {
-    const auto& m = part.model;
-    sizes_.assign(1, Vector::Zero(m.size()));
-    raiseToRows(m.mass, sizes_[0]);
-    for (const auto* terms : {&m.stiffness, &m.damping})
-      for (const auto& term : *terms) {
-        sizes_.push_back(Vector::Zero(m.size()));
-        for (const auto& other : *terms)
-          if (other.law == term.law) raiseToRows(other.matrix, sizes_.back());
-      }
-    for (auto& size : sizes_) size = (sameEntry * size).cwiseSqrt();
-  }
-
-  bool matches(const model::Substructure& other) const {
-    const auto& a = part_.model;
-    const auto& b = other.model;
-    if (a.size() != b.size() || part_.interface != other.interface || part_.retained != other.retained) return false;
-    if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b) || !equal(a.mass, b.mass, sizes_[0])) return false;
-    auto size = sizes_.begin();
-    for (std::size_t i = 0; i < a.stiffness.size(); ++i)
-      if (!equal(a.stiffness[i].matrix, b.stiffness[i].matrix, *++size)) return false;
-    for (std::size_t i = 0; i < a.damping.size(); ++i)
-      if (!equal(a.damping[i].matrix, b.damping[i].matrix, *++size)) return false;
-    return true;
-  }
-
- private:
-  bool sameTerms(const std::vector<model::MatrixTerm>& left, const std::vector<model::MatrixTerm>& right,
-                 const model::SecondOrderModel& b) const {
-    if (left.size() != right.size()) return false;
-    const auto& laws = part_.model.laws;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const int law = left[i].law;
-      if (law != right[i].law || left[i].name != right[i].name || law < 0 || law >= static_cast<int>(std::min(laws.size(), b.laws.size())) ||
-          laws[static_cast<std::size_t>(law)].name != b.laws[static_cast<std::size_t>(law)].name)
-        return false;
-    }
-    return true;
-  }
-
-  const model::Substructure& part_;
-  std::vector<Vector> sizes_;  ///< of the mass, the stiffness terms and the damping terms
-};
-
-/// Sum of the sizes of the entries of all stiffness terms (of the mass, without any): what differs here by more than rounding is not
-/// looked at any closer.
-double signature(const model::SecondOrderModel& model) {
-  const auto sum = [](const Sparse& a) { return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum() : 0.0; };
-  if (model.stiffness.empty()) return sum(model.mass);
-  double total = 0;
-  for (const auto& term : model.stiffness) total += sum(term.matrix);
-  return total;
-}
-
 }  // namespace
 
 std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
@@ -285,29 +182,6 @@ std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
     *least += 1.0 + weight(part);
   }
   return owner;
-}
-
-std::vector<int> findTwins(const std::vector<model::Substructure>& parts, const std::vector<ModeRequest>& requests) {
-  // By increasing signature: a part is compared with the first ones of its own size only, however many different ones there are.
-  std::vector<int> twin(parts.size());
-  struct First {
-    std::size_t index;
-    Pattern pattern;
-  };
-  std::multimap<double, First> firsts;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    twin[i] = static_cast<int>(i);
-    const double mine = signature(parts[i].model);
-    if (!std::isfinite(mine)) continue;
-    const double room = 1e-8 * mine;
-    for (auto it = firsts.lower_bound(mine - room); it != firsts.end() && it->first <= mine + room; ++it) {
-      if (!(requests[i] == requests[it->second.index]) || !it->second.pattern.matches(parts[i])) continue;
-      twin[i] = static_cast<int>(it->second.index);
-      break;
-    }
-    if (twin[i] == static_cast<int>(i)) firsts.emplace(mine, First{i, Pattern(parts[i])});
-  }
-  return twin;
 }
 
 std::string pack(const ReducedCore& core) {

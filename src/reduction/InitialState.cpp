@@ -27,14 +27,14 @@ Vector fitState(const BasisResult& basis, const Vector& x) {
 StartState startState(const model::Substructure& part, const BasisResult& basis, bool keepStatic) {
   const auto& m = part.model;
   StartState start;
-  const Vector reference = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
   start.velocity = fitState(basis, m.initialVelocity);
-  start.offset = reference;
-  if (basis.forces() == 0) {
+  start.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
+  const Vector& reference = start.offset;
+  if (m.initialDisplacement == reference)
+    start.displacement = Vector::Zero(basis.vectors.cols());
+  else
     start.displacement = fitState(basis, m.initialDisplacement - reference);
-    return start;
-  }
-  start.displacement = fitState(basis, m.initialDisplacement - reference);
+  if (basis.forces() == 0) return start;
   start.forces = Vector::Zero(basis.forces());
   if (reference.isZero(0.0)) return start;
   const Vector force = m.stiffnessAt(0.0) * reference - m.loadAt(0.0) - m.pointForce(0.0, reference, Vector::Zero(m.size()));

@@ -212,8 +212,9 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
   const auto kept = static_cast<Eigen::Index>(basis.partition.kept.size());
   ProjectedMatrices out;
   const bool masslessFlexibility = basis.inertial.size() > 0;
-  out.mass = symmetricPart(project(part.model.mass, masslessFlexibility ? basis.inertial : Phi));
-  if (basis.orthonormal || masslessFlexibility) tidyMass(out.mass, kept, out);
+  Sparse mass = symmetricPart(project(part.model.mass, masslessFlexibility ? basis.inertial : Phi));
+  if (basis.orthonormal || masslessFlexibility) tidyMass(mass, kept, out);
+  out.mass = mass;
 
   const Sparse K = constantStiffness(part.model);
   out.constantStiffness = Sparse(Phi.cols(), Phi.cols());

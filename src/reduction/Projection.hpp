@@ -12,7 +12,7 @@ namespace tooljoint::reduction {
 
 /// Reduced matrices of a part. Laws index the laws of the part.
 struct ProjectedMatrices {
-  Sparse mass;
+  model::SharedSparse mass;
   std::vector<model::MatrixTerm> damping;    ///< one per damping term of the part
   std::vector<model::MatrixTerm> stiffness;  ///< the constant terms summed, then one per term that varies in time
   Sparse constantStiffness;                  ///< the reduced stiffness that is constant in time, also when it is zero

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -16,6 +17,7 @@
 #include "reduction/InitialState.hpp"
 #include "reduction/InterfaceCriteria.hpp"
 #include "reduction/Projection.hpp"
+#include "reduction/Twins.hpp"
 
 namespace tooljoint::reduction {
 
@@ -61,37 +63,49 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
 
 /// What identical parts share beside their core.
 struct Shared {
-  explicit Shared(const model::Substructure& like, const Sparse& Phi)
+  Shared(const model::Substructure& like, const Sparse& Phi)
       : part(like), stiffness(stiffnessTerms(like.model)), transposed(Phi.transpose()) {
     if (static_cast<double>(Phi.nonZeros()) > 0.1 * static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols())) dense = transposed;
   }
   /// Phi' x
-  Vector project(const Vector& x) const { return dense.size() > 0 ? Vector(dense * x) : Vector(transposed * x); }
+  Vector project(const Vector& x) const {
+    Vector q(transposed.rows());
+    if (dense.size() > 0)
+      q.noalias() = dense * x;
+    else
+      q.noalias() = transposed * x;
+    return q;
+  }
   const model::Substructure& part;
   std::vector<model::MatrixTerm> stiffness;  ///< stiffnessTerms
-  Sparse recovery;                            ///< of the part times Phi
+  model::SharedSparse recovery;              ///< of the part times Phi
+  Vector force;                              ///< dofs of the part: room for a product
 
  private:
   Sparse transposed;  ///< Phi'
   Matrix dense;       ///< the same where it has few zeros
 };
 
-void reduceLoads(const model::Substructure& part, const Shared& shared, const Vector& offset, model::SecondOrderModel& reduced) {
+void reduceLoads(const model::Substructure& part, Shared& shared, const Vector& offset, model::SecondOrderModel& reduced) {
+  const bool atRest = offset.isZero(0.0);
+  reduced.loads.reserve(part.model.loads.size() + (atRest ? 0 : shared.stiffness.size() + 1));
   for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, shared.project(load.vector), load.law});
-  if (offset.isZero(0.0)) return;
+  if (atRest) return;
   // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
+  Vector& force = shared.force;
   for (const auto& term : shared.stiffness) {
-    const Vector residual = -(term.matrix * offset);
-    if (!residual.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.project(residual), term.law});
+    force.noalias() = -(term.matrix * offset);
+    if (!force.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.project(force), term.law});
   }
 }
 
-/// Equal entry by entry.
-bool same(const Sparse& a, const Sparse& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() && a.isCompressed() && b.isCompressed() &&
+/// Equal bit by bit.
+bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
+  if (a.sharesWith(b)) return true;
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+         (a.nonZeros() == 0 || std::memcmp(a.valuePtr(), b.valuePtr(), sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
 }
 
 void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, Shared& shared,
@@ -105,8 +119,12 @@ void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vect
   reduced.recoveryNodes = part.model.recoveryNodes;
   if (part.model.recoveryNodes.empty()) return;
   if (shared.recovery.size() == 0) shared.recovery = shared.part.model.recovery * Phi;
-  reduced.recovery = same(part.model.recovery, shared.part.model.recovery) ? shared.recovery : Sparse(part.model.recovery * Phi);
-  reduced.recoveryOffset = part.model.recoveryOffset + part.model.recovery * offset;
+  if (same(part.model.recovery, shared.part.model.recovery))
+    reduced.recovery = shared.recovery;
+  else
+    reduced.recovery = part.model.recovery * Phi;
+  reduced.recoveryOffset = part.model.recoveryOffset;
+  reduced.recoveryOffset.noalias() += part.model.recovery * offset;
 }
 
 /// Of a basis whose last coordinates are the forces on the interface dofs.
@@ -149,12 +167,12 @@ ReducedSubstructure finish(const model::Substructure& part, const std::shared_pt
   m.stiffness = core.matrices.stiffness;
 
   const bool keepStatic = options.initialState == InitialState::KeepStatic;
-  const StartState start = startState(part, core.basis, keepStatic);
-  out.offset = start.offset;
+  StartState start = startState(part, core.basis, keepStatic);
+  out.offset = std::move(start.offset);
   reduceLoads(part, shared, out.offset, m);
   reducePoints(part, Phi, out.offset, shared, m);
-  m.initialDisplacement = start.displacement;
-  m.initialVelocity = start.velocity;
+  m.initialDisplacement = std::move(start.displacement);
+  m.initialVelocity = std::move(start.velocity);
   if (core.basis.forces() > 0) {
     out.boundary = forcesAsCoordinates(part, core.basis, out.offset);
     out.boundary->staticForces = start.forces;
@@ -166,9 +184,9 @@ ReducedSubstructure finish(const model::Substructure& part, const std::shared_pt
   if (core.report.part != part.name) out.report.sharedWith = core.report.part;
   const double size = part.model.initialDisplacement.norm();
   if (size > 0) {
-    Vector missed = part.model.initialDisplacement - out.offset;
-    if (!m.initialDisplacement.isZero(0.0)) missed -= Phi * m.initialDisplacement;
-    out.report.initialStateDefect = missed.norm() / size;
+    const auto moved = part.model.initialDisplacement - out.offset;
+    const bool atRest = m.initialDisplacement.isZero(0.0);
+    out.report.initialStateDefect = (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
   }
   if (&part == &shared.part) m.validate();
   return out;
@@ -252,7 +270,6 @@ class Team {
         options_(options),
         cache_(cache),
         requests_(initialRequests(parts, options)),
-        bases_(parts.size()),
         cores_(parts.size()) {
     if (cache_.classes.empty()) {
       cache_.classes = findTwins(parts_, std::vector<ModeRequest>(parts_.size()));
@@ -287,13 +304,14 @@ class Team {
     });
     exchange();
     remember();
-    std::vector<ReducedSubstructure> reduced(parts_.size());
+    std::vector<ReducedSubstructure> reduced;
     std::map<std::size_t, Shared> shared;
     parallel::agree([&] {
+      reduced.reserve(parts_.size());
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
         auto& common = shared.try_emplace(t, parts_[t], cores_[t]->basis.vectors).first->second;
-        reduced[p] = finish(parts_[p], cores_[t], options_, static_cast<int>(p), common);
+        reduced.push_back(finish(parts_[p], cores_[t], options_, static_cast<int>(p), common));
       }
     });
     return reduced;
@@ -424,7 +442,7 @@ class Team {
   std::vector<ModeRequest> requests_;
   std::vector<int> twin_;   ///< first identical part
   std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin or an earlier round
-  std::vector<BasisResult> bases_;
+  std::map<std::size_t, BasisResult> bases_;  ///< of the parts this rank owns
   std::vector<std::shared_ptr<const ReducedCore>> cores_;
 };
 

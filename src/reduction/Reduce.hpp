@@ -54,7 +54,7 @@ std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::Paramet
 ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index);
 
 /// Reduces all parts. Every rank passes the same parts and gets the same result; each part is reduced by one rank and sent to the
-/// others. Parts that are identical (matrices and partition, to 1e-13 relative) are reduced once. Collective over MPI_COMM_WORLD.
+/// others. Parts that are identical (findTwins) are reduced once. Collective over MPI_COMM_WORLD.
 /// An error on one rank is thrown on all. Throws ModelError, ConvergenceError.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
                                            const ReductionOptions& options);

@@ -195,9 +195,9 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   const auto [group, kind] = groupDofs(model);
   std::vector<Sparse> couplings;
   for (const auto& set : model.points) couplings.push_back(pointCoupling(set, group));
-  std::vector<const Sparse*> matrices{&model.mass};
-  for (const auto& term : model.damping) matrices.push_back(&term.matrix);
-  for (const auto& term : model.stiffness) matrices.push_back(&term.matrix);
+  std::vector<const Sparse*> matrices{&model.mass.sparse()};
+  for (const auto& term : model.damping) matrices.push_back(&term.matrix.sparse());
+  for (const auto& term : model.stiffness) matrices.push_back(&term.matrix.sparse());
   for (const auto& coupling : couplings) matrices.push_back(&coupling);
   pattern_ = linalg::BlockPattern(linalg::partitionDofs(matrices, group, kind), matrices);
 

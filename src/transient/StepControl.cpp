@@ -31,7 +31,7 @@ void MassNorm::bind(const CompiledModel& model) {
   double moved = 0;
   for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
     if (coupling::kindOf(source.componentNames[static_cast<std::size_t>(row % components)]) != coupling::ComponentKind::Translation) continue;
-    for (Sparse::InnerIterator it(source.recovery, row); it; ++it) moved += it.value() * it.value();
+    for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it) moved += it.value() * it.value();
   }
   if (components > 0 && source.recovery.rows() > 0) moved /= static_cast<double>(source.recovery.rows() / components);
   const double mass = source.mass.diagonal().sum();

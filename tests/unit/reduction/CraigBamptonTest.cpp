@@ -164,7 +164,7 @@ TEST(CraigBampton, LinkThatTouchesNothingFloats) {
   // Two bars in one part; only the first has a kept dof.
   auto part = samples::bar("two bars", 1, 7, 3.0, 2.0);
   auto& m = part.model;
-  for (Sparse* A : {&m.mass, &m.stiffness[0].matrix}) {  // element 4 (nodes 4 and 5) taken out
+  for (auto* A : {&m.mass, &m.stiffness[0].matrix}) {  // element 4 (nodes 4 and 5) taken out
     const double diagonal = A == &m.mass ? 2.0 / 3 : 3.0;
     A->coeffRef(3, 4) = A->coeffRef(4, 3) = 0.0;
     A->coeffRef(3, 3) -= diagonal;
@@ -246,7 +246,7 @@ TEST(CraigBampton, PairOfAShaftIsNotCut) {
   m.mass = samples::square(18, [&] {
     Triplets entries;
     for (int i = 0; i < m.mass.outerSize(); ++i)
-      for (Sparse::InnerIterator it(m.mass, i); it; ++it)
+      for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it)
         for (int plane : {0, 1}) entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
     return entries;
   }());

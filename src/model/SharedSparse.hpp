@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A sparse matrix whose copies share its storage until one of them is changed.
+#pragma once
+
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::model {
+
+/// A value like `Sparse`, always compressed, that costs a pointer to copy: a hundred reduced parts that are identical hold one mass
+/// matrix. It reads as any sparse expression of Eigen and as `const Sparse&`; who changes it gets storage of its own.
+class SharedSparse : public Eigen::Map<const Sparse> {
+  using View = Eigen::Map<const Sparse>;
+
+ public:
+  SharedSparse() : SharedSparse(empty()) {}
+  SharedSparse(Sparse matrix) : SharedSparse(compressed(std::move(matrix))) {}
+  template <class Derived>
+  SharedSparse(const Eigen::EigenBase<Derived>& expression) : SharedSparse(Sparse(expression.derived())) {}
+  SharedSparse(const SharedSparse& other) : View(static_cast<const View&>(other)), matrix_(other.matrix_) {}
+  SharedSparse& operator=(const SharedSparse& other) {
+    look(other.matrix_);
+    return *this;
+  }
+  ~SharedSparse() = default;
+
+  operator const Sparse&() const { return *matrix_; }
+  const Sparse& sparse() const { return *matrix_; }
+  /// True when both are the same storage.
+  bool sharesWith(const SharedSparse& other) const { return matrix_ == other.matrix_; }
+
+  /// As of Sparse. (Rows are walked with `SharedSparse::InnerIterator`.)
+  Eigen::Diagonal<const Sparse> diagonal() const { return sparse().diagonal(); }
+  void resize(Eigen::Index rows, Eigen::Index columns) { *this = Sparse(rows, columns); }
+  template <class Iterator>
+  void setFromTriplets(Iterator begin, Iterator end) {
+    Sparse matrix(rows(), cols());
+    matrix.setFromTriplets(begin, end);
+    *this = std::move(matrix);
+  }
+  void setIdentity() {
+    Sparse matrix(rows(), cols());
+    matrix.setIdentity();
+    *this = std::move(matrix);
+  }
+  SharedSparse& operator*=(double factor) { return *this = *this * factor; }
+  /// Entry (i, j) for writing, until this matrix is copied; made if there is none.
+  double& coeffRef(Eigen::Index i, Eigen::Index j) {
+    if (matrix_.use_count() > 1) look(std::make_shared<Sparse>(*matrix_));
+    double* entry = &matrix_->coeffRef(i, j);
+    if (matrix_->isCompressed()) return *entry;
+    matrix_->makeCompressed();
+    look(matrix_);
+    return matrix_->coeffRef(i, j);
+  }
+
+ private:
+  using Storage = std::shared_ptr<Sparse>;
+
+  explicit SharedSparse(Storage matrix)
+      : View(matrix->rows(), matrix->cols(), matrix->nonZeros(), matrix->outerIndexPtr(), matrix->innerIndexPtr(), matrix->valuePtr()),
+        matrix_(std::move(matrix)) {}
+
+  static const Storage& empty() {
+    static const Storage none = std::make_shared<Sparse>();
+    return none;
+  }
+  static Storage compressed(Sparse matrix) {
+    matrix.makeCompressed();
+    return std::make_shared<Sparse>(std::move(matrix));
+  }
+  /// A Map is made to look elsewhere by building it anew (Eigen's own advice).
+  void look(Storage matrix) {
+    matrix_ = std::move(matrix);
+    new (static_cast<View*>(this))
+        View(matrix_->rows(), matrix_->cols(), matrix_->nonZeros(), matrix_->outerIndexPtr(), matrix_->innerIndexPtr(), matrix_->valuePtr());
+  }
+
+  Storage matrix_;
+};
+
+}  // namespace tooljoint::model
