@@ -12,6 +12,9 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 /// Relaxations before Newton takes over, and what four of them must make of the error.
 constexpr int maxRelaxations = 24;
 constexpr double slowestRelaxation = 0.25;
+/// Once points take turns: what two sweeps must make of it.
+constexpr int perSweeps = 2 * PointRelaxation::colours;
+constexpr double slowestSweeps = 0.8;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 14;
 
@@ -179,7 +182,8 @@ bool ImplicitStep::settle(State& to) {
   bool phase = correctsPhase(), near = false;
   const double settled = std::sqrt(options_.tolerance);
   double last = 0, work = 1;
-  for (int iteration = 1; iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
+  int turn = -1;  // of the colours, once points take turns
+  for (int iteration = 1; turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     if (near) {
       relaxation_.solveNear(factor_, tolerance(), delta_);
     } else {
@@ -209,11 +213,15 @@ bool ImplicitStep::settle(State& to) {
       return true;
     }
     if (!std::isfinite(error_)) return false;
-    if (iteration % 4 == 0) {
-      if (iteration > 4 && error_ > slowestRelaxation * last) return false;
+    if (turn < 0 && iteration % 4 == 0) {
+      if (iteration > 4 && error_ > slowestRelaxation * last) turn = 0;
+      last = error_;
+    } else if (turn > 0 && turn % perSweeps == 0) {
+      if (turn >= PointRelaxation::colours * options_.maxIterations || error_ > slowestSweeps * last) return false;
       last = error_;
     }
-    near = relaxation_.correct(to.t, c, tolerance(), changed);
+    near = turn < 0 ? relaxation_.correct(to.t, c, tolerance(), changed)
+                    : relaxation_.correctColour(to.t, c, tolerance(), turn++ % PointRelaxation::colours) && !changed;
     work += near ? nearPrice : 1.0;
   }
   return false;
@@ -226,11 +234,12 @@ void ImplicitStep::account(double relaxations) {
   if (debt_ > factorPrice) wanted_ = true;
 }
 
-/// S = ca M + cv (C - df/dv) + K - df/dd at the current iterate.
+/// S = ca M + cv (C - df/dv) + K - df/dd at the current iterate, but for forces that push on.
 void ImplicitStep::refactor(const State& to) {
   for (auto& batch : model_->points()) {
     batch.evaluateWithTangent(to.t, to.q.data(), to.v.data());
     batch.freezeTangent(1.0, scheme_.velocity);
+    batch.takeOutPush();
   }
   factorScheme_ = scheme_;
   factorTime_ = to.t;

@@ -24,8 +24,32 @@ NodalProblem::Local NodalProblem::defect(PointBatch& batch, double t, double c, 
   return y - free - G * phi;
 }
 
+/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it goes where forces balance in a stable way, past what stops
+/// Newton (friction that falls with speed has up to three balances, and folds between them).
+void NodalProblem::flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const {
+  const Eigen::Index w = free.size();
+  const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
+  LocalMatrix slope(w, w);
+  Local now = defect(batch, t, c, y, phi, &slope);
+  double tau = 0.1;
+  for (int iteration = 0; iteration < 200 && size(now) > enough; ++iteration) {
+    const LocalMatrix J = (1 + 1 / tau) * LocalMatrix::Identity(w, w) - G * slope;
+    const Local trial = y - J.partialPivLu().solve(now);
+    if (!trial.allFinite()) return;
+    LocalMatrix nextSlope(w, w);
+    const Local next = defect(batch, t, c, trial, phi, &nextSlope);
+    const double ratio = size(now) / std::max(size(next), 1e-300);
+    if (!(ratio > 0.5)) {  // also catches NaN
+      tau *= 0.25;
+      continue;
+    }
+    y = trial, now = next, slope = nextSlope;
+    tau = std::min(1e12, tau * std::min(4.0, std::max(0.5, 2 * ratio)));
+  }
+}
+
 /// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is found, the sign change of
-/// step . defect is bracketed.
+/// step . defect is bracketed; where that does not end either, pseudo-time.
 bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
   Local scale(w);
@@ -68,6 +92,12 @@ bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local&
       y += high * step;
     }
     if (bestSize <= 1e-9 * (size(free) + size(best))) break;
+  }
+  for (int start = 0; start < 2 && bestSize > 1e-9 * (size(free) + size(best)); ++start) {
+    y = start == 0 ? guess : free;
+    flow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
+    const double reached = size(defect(batch, t, c, y, phi, nullptr));
+    if (reached < bestSize) best = y, bestSize = reached;
   }
   y = best;
   defect(batch, t, c, y, phi, nullptr);

@@ -81,6 +81,9 @@ class PointBatch {
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
   void freezeTangent(double cd, double cv);
+  /// Take out of P what pushes on as its point moves (friction that falls with speed), at points where it pushes on in one
+  /// coordinate at least: an effective matrix with it may be indefinite.
+  void takeOutPush();
   /// Matrix -= R' P R on the pattern.
   void subtractTangent(double* values) const;
   /// The same with the part of P that is df/dd alone.

@@ -295,36 +295,57 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
   for (int i = 0; i < w; ++i) set.p[z(first + i)] = phi_[i], set.target[z(first + i)] = y_[i];
 }
 
+/// Not a number counts as wrong.
+bool PointRelaxation::isWrong(const Set& set, int point, double small) const { return !(set.error[z(point)] <= rightEnough * small); }
+
+bool PointRelaxation::isFew(long points) const { return positionsPerPoint * points < model_->size(); }
+
+/// p += B defect, or to where the point is alone in equilibrium.
+void PointRelaxation::move(Set& set, PointBatch& batch, int point, double t, double c) {
+  const int w = batch.width(), first = point * w;
+  set.points.push_back(point);
+  for (int r = first; r < first + w; ++r) set.change[z(r)] = -set.p[z(r)];
+  if (set.exact[z(point)]) {
+    solvePoint(set, batch, point, t, c);
+  } else {
+    const double* B = &set.answer[z(first * w)];
+    const double* defect = &set.defect[z(first)];
+    for (int i = 0; i < w; ++i)
+      for (int k = 0; k < w; ++k) set.p[z(first + i)] += B[i * w + k] * defect[k];
+  }
+  for (int r = first; r < first + w; ++r) set.change[z(r)] += set.p[z(r)];
+}
+
 bool PointRelaxation::correct(double t, double c, double small, bool all) {
-  // NaN counts as wrong
-  const auto isWrong = [&](const Set& set, int p) { return !(set.error[z(p)] <= rightEnough * small); };
   long wrong = 0;
   for (std::size_t b = 0; b < sets_.size(); ++b)
-    for (int p : model_->points()[b].active()) wrong += isWrong(sets_[b], p) ? 1 : 0;
-  const bool few = !all && positionsPerPoint * wrong < model_->size();
+    for (int p : model_->points()[b].active()) wrong += isWrong(sets_[b], p, small) ? 1 : 0;
+  const bool few = !all && isFew(wrong);
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
-    PointBatch& batch = model_->points()[b];
-    const int w = batch.width();
     set.points.clear();
-    for (int p : batch.active()) {
-      set.moved[z(p)] = !few || isWrong(set, p);
-      if (!set.moved[z(p)]) continue;
-      set.points.push_back(p);
-      for (int r = p * w; r < (p + 1) * w; ++r) set.change[z(r)] = -set.p[z(r)];
-      if (set.exact[z(p)]) {
-        solvePoint(set, batch, p, t, c);
-      } else {
-        // p += B defect
-        const double* B = &set.answer[z(p * w * w)];
-        const double* defect = &set.defect[z(p * w)];
-        for (int i = 0; i < w; ++i)
-          for (int k = 0; k < w; ++k) set.p[z(p * w + i)] += B[i * w + k] * defect[k];
-      }
-      for (int r = p * w; r < (p + 1) * w; ++r) set.change[z(r)] += set.p[z(r)];
+    for (int p : model_->points()[b].active()) {
+      set.moved[z(p)] = !few || isWrong(set, p, small);
+      if (set.moved[z(p)]) move(set, model_->points()[b], p, t, c);
     }
   }
   return few;
+}
+
+bool PointRelaxation::correctColour(double t, double c, double small, int colour) {
+  long moved = 0, place = 0;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    Set& set = sets_[b];
+    set.points.clear();
+    for (int p : model_->points()[b].active()) {
+      set.moved[z(p)] = place++ % colours == colour && isWrong(set, p, small);
+      if (!set.moved[z(p)]) continue;
+      set.exact[z(p)] = 1;
+      move(set, model_->points()[b], p, t, c);
+      ++moved;
+    }
+  }
+  return isFew(moved);
 }
 
 }  // namespace tooljoint::transient

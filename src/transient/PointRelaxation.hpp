@@ -60,6 +60,11 @@ class PointRelaxation {
   /// One Newton step at every point, and the whole way at those where Newton does not help. True when it was only taken at the
   /// few points wrong by more than a part of `small` (never if `all` are asked for), and solveNear() can follow.
   bool correct(double t, double c, double small, bool all);
+  /// Every `colours`-th point, from the one of this colour, if it is wrong: solved by itself while its neighbours stand still. In
+  /// turns for all colours this is block Gauss-Seidel over the points, which converges where neighbours that stick and slip
+  /// throw each other off when all move at once. Returns as correct().
+  bool correctColour(double t, double c, double small, int colour);
+  static constexpr int colours = 4;
 
  private:
   struct Set {
@@ -83,6 +88,9 @@ class PointRelaxation {
   void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
   void measure(Set& set, PointBatch& batch, double small, double& force);
+  void move(Set& set, PointBatch& batch, int point, double t, double c);
+  bool isWrong(const Set& set, int point, double small) const;
+  bool isFew(long points) const;
 
   CompiledModel* model_ = nullptr;
   std::vector<Set> sets_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
 
 #include "common/Error.hpp"
@@ -40,6 +41,20 @@ class Stages {
     if (attempt(name, tolerance, false, x)) return true;
     x = start;
     return rescue && attempt(name + ", line search", tolerance, true, x);
+  }
+
+  /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies between: at equal ratios or, from
+  /// 0, at equal distances. \param stage  switches and name for a value
+  void march(double from, double to, double tolerance, const std::function<std::string(double, StaticSwitches&)>& stage,
+             StaticSwitches switches, Vector& x, int cuts = 5) {
+    const std::string name = stage(to, switches);
+    const Vector start = x;
+    if (cuts == 0) return run(name, switches, tolerance, true, x);
+    if (tryRun(name, switches, tolerance, cuts == 5, x)) return;
+    x = start;
+    const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
+    march(from, between, kStageTolerance, stage, switches, x, cuts - 1);
+    march(between, to, tolerance, stage, switches, x, cuts - 1);
   }
 
   StaticReport report() const {
@@ -107,13 +122,25 @@ bool sharpen(const StaticOptions& options, double sharpest, Stages& stages, Stat
   return true;
 }
 
-/// Walls from yielding to stiff, without tails.
-void harden(Stages& stages, StaticSwitches switches, Vector& x) {
-  switches.lambda = 1e6;
+/// Walls from yielding to stiff, without tails; then contacts from sharp to their own.
+void harden(double sharpest, Stages& stages, StaticSwitches switches, Vector& x) {
+  constexpr double sharp = 1e6;
+  switches.lambda = sharp;
+  const auto hard = [](double scale, StaticSwitches& with) {
+    with.stiffnessScale = scale;
+    return shortNumber(scale) + " of the wall stiffness";
+  };
+  double last = 1e-4;
   for (const double scale : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
-    switches.stiffnessScale = scale;
-    stages.run(shortNumber(scale) + " of the wall stiffness", switches, kStageTolerance, true, x);
+    stages.march(last, scale, kStageTolerance, hard, switches, x);
+    last = scale;
   }
+  switches.stiffnessScale = 1.0;
+  if (sharpest <= sharp) return;
+  stages.march(sharp, sharpest, kStageTolerance, [](double lambda, StaticSwitches& with) {
+    with.lambda = lambda;
+    return "lambda " + shortNumber(lambda) + " 1/m";
+  }, switches, x);
 }
 
 /// Held on the axis; lambda up to each point's own without friction, then friction in steps. The cap on lateral motion is what makes
@@ -135,16 +162,18 @@ void continuation(const StaticInput& input, const StaticOptions& options, Static
   const Vector start = x;
   if (!sharpen(options, sharpest, stages, switches, x)) {
     x = start;
-    harden(stages, switches, x);
+    harden(sharpest, stages, switches, x);
   }
   switches.lambda = 0.0;
   stages.run("without friction", switches, friction ? kStageTolerance : 0.0, true, x);
   if (!friction) return;
-  for (int step = 1; step <= options.frictionSteps; ++step) {
-    switches.frictionScale = static_cast<double>(step) / options.frictionSteps;
-    stages.run(shortNumber(switches.frictionScale) + " of the friction", switches,
-               step < options.frictionSteps ? kStageTolerance : 0.0, true, x);
-  }
+  const double steps = options.frictionSteps;
+  for (int step = 1; step <= options.frictionSteps; ++step)
+    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0,
+                 [](double scale, StaticSwitches& with) {
+                   with.frictionScale = scale;
+                   return shortNumber(scale) + " of the friction";
+                 }, switches, x);
 }
 
 /// D = K_pa^-1 F_s, full steps: without K_gpo (appendix A), then with it.

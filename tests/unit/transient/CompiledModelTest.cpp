@@ -3,6 +3,7 @@
 /// The compiled model says what the model says: laws, products, loads, point forces and their tangents.
 #include "transient/CompiledModel.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -223,6 +224,43 @@ TEST(PointBatch, forcesAreThoseOfTheModel) {
     EXPECT_GT(expected.cwiseAbs().maxCoeff(), 100.0);
     EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
   }
+}
+
+// Without what pushes on, no motion of a point gains energy from its tangent; what does not push stays as it is.
+TEST(PointBatch, takesOutWhatPushesOn) {
+  auto source = rich();
+  addBore(source, false);
+  CompiledModel model(source);
+  const int n = 18;
+  int taken = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Vector qp, vp;
+    model.toPositions(sampleVector(n, 0.1 * trial), qp);
+    model.toPositions(sampleVector(n, 1.0 + 0.3 * trial), vp);
+    for (auto& batch : model.points()) {
+      batch.look(0.4, 0.0, qp.data());
+      batch.addMissed(Vector::Constant(n, 100.0).eval().data());
+      batch.evaluateWithTangent(0.4, qp.data(), vp.data());
+      batch.freezeTangent(1.0, 300.0);
+      const int w = batch.width();
+      const std::vector<double> before(batch.frozen(), batch.frozen() + batch.points() * w * w);
+      batch.takeOutPush();
+      for (int p : batch.active()) {
+        const Matrix P = Eigen::Map<const Matrix>(batch.frozen() + p * w * w, w, w);
+        const Matrix old = Eigen::Map<const Matrix>(before.data() + p * w * w, w, w);
+        const double size = old.cwiseAbs().maxCoeff();
+        if (old.diagonal().maxCoeff() > 0) {
+          ++taken;
+          const Matrix symmetric = 0.5 * (P + P.transpose());
+          EXPECT_LE(Eigen::SelfAdjointEigenSolver<Matrix>(symmetric).eigenvalues().maxCoeff(), 1e-12 * size);
+          EXPECT_LT(((P - P.transpose()) - (old - old.transpose())).cwiseAbs().maxCoeff(), 1e-12 * size);
+        } else {
+          EXPECT_EQ(P, old);
+        }
+      }
+    }
+  }
+  EXPECT_GT(taken, 3);
 }
 
 TEST(PointBatch, tangentsMatchDifferences) {
