@@ -85,9 +85,11 @@ class Sundials final : public Integrator {
            "integrator \"Generalized-alpha\"";
   }
   void checkParameters(double step) const override {
-    requireLibrary();
     const double first = options_.firstStep > 0 ? options_.firstStep : step;
-    if (!(options_.maxStep > 0) || first <= options_.maxStep) return;
+    if (!(options_.maxStep > 0) || first <= options_.maxStep) {
+      requireLibrary();
+      return;
+    }
     std::ostringstream text;
     text << "The first step (" << first << " s, " << (options_.firstStep > 0 ? "Transient/" + name_ + "/Initial Step" : "Transient/Step")
          << ") is longer than Transient/" << name_ << "/Maximum Step (" << options_.maxStep << " s).";

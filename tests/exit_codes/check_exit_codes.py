@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ends how: check_exit_codes.py PROGRAM MPIEXEC DECK
+"""What ends how: check_exit_codes.py PROGRAM MPIEXEC DECK [without-sundials]
 
 Runs the program into every kind of end and compares exit code and message, on one rank and on two; shows that a failed run spoils no
 finished result, and that an interrupted run goes on to the same numbers.
@@ -14,6 +14,7 @@ import sys
 import time
 
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
+WITHOUT_SUNDIALS = "without-sundials" in sys.argv[4:]
 FAULTS = []
 
 
@@ -56,6 +57,19 @@ def exit_codes():
     ends("folder that cannot be made", 5, "a_file", "run", DECK, "--output", "a_file/results")
 
 
+def optional_integrators():
+    """A build without SUNDIALS knows its integrators, and says what is missing and how to get it."""
+    for name in ("SUNDIALS ARKODE", "SUNDIALS CVODE"):
+        asked = ["--set", f"Transient/Integrator={name}"]
+        if WITHOUT_SUNDIALS:
+            said = f'this program was built without SUNDIALS, which "{name}" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON'
+            ends(f"{name} in a build without it, check", 2, said, "check", DECK, *asked, ranks=(1,))
+            ends(f"{name} in a build without it, run", 2, said, "run", DECK, "--output", "optional", *asked)
+        else:
+            done = tooljoint("check", DECK, *asked)
+            expect(f"{name} is there", done.returncode == 0, done.stderr[-400:])
+
+
 def failed_run_spoils_nothing():
     tooljoint("run", DECK, "--output", "kept")
     before = {path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir() if not path.name.endswith(".part")}
@@ -84,6 +98,7 @@ def main():
     for left in ("floating", "unconverged", "lost", "kept", "whole", "broken"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
     exit_codes()
+    optional_integrators()
     failed_run_spoils_nothing()
     interrupted_run_goes_on()
     print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
