@@ -79,6 +79,27 @@ void requireHeld(const Scene& scene, const string_::StringModel& equations) {
   }
 }
 
+/// Free in every node of a string: what that lets it do, and what would hold it.
+struct FreeMotion {
+  int component;
+  const char* does;
+};
+constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns about its axis"}};
+
+/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it curves, walls and bending resist sliding, but by
+/// far too little for the weight. Said when that string has no static equilibrium: exit code of a model that floats, not of a solver that failed.
+void explainFailure(const Scene& scene, const ConvergenceError& error) {
+  for (const auto& motion : freeMotions) {
+    bool heldSomewhere = false;
+    for (int node = 0; node < scene.string.nodeCount(); ++node)
+      heldSomewhere = heldSomewhere || scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
+    if (heldSomewhere) continue;
+    const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion.component)];
+    throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion.does +
+                     ", which walls and bending cannot hold. Hold " + dof + " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
+  }
+}
+
 }  // namespace
 
 StaticStage settle(const Scene& scene) {
@@ -88,7 +109,12 @@ StaticStage settle(const Scene& scene) {
   stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, stage.equations);
   const auto input = staticInput(scene, stage.path, stage.equations);
-  stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
+  try {
+    stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
+  } catch (const ConvergenceError& error) {
+    explainFailure(scene, error);
+    throw;
+  }
   string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement, scene.damping);
   if (scene.contactPoints.size() > 0) {
     const auto rotary = scene.rotary;
