@@ -17,7 +17,16 @@ std::string manual(const std::string& topic, const std::string& format) {
 }
 
 std::string deckTemplate(const std::string& kind) {
-  if (kind == "scene") return deck::templateXml(sceneSpec(), "my_scene");
+  // A string of pipes that hangs in a vertical hole: what nobody can guess from types and ranges.
+  const deck::Examples hanging{{"Well/Trajectory", "Vertical"},
+                               {"Well/Bore Radius", "0.108"},
+                               {"Well/Vertical/Length", "100"},
+                               {"Drillstring/Components/pipe/Length", "9.6"},
+                               {"Drillstring/Components/pipe/Outer Radius", "0.0635"},
+                               {"Drillstring/Components/pipe/Inner Radius", "0.0543"},
+                               {"Drillstring/Assembly", "{10*pipe}"},
+                               {"Loads/Gravity", "9.81"}};
+  if (kind == "scene") return deck::templateXml(sceneSpec(), "my_scene", hanging);
   if (kind == "components") return deck::templateXml(string_::libraryParameters(), "my_components");
   throw UsageError("There is no template \"" + kind + "\"; known are \"scene\" and \"components\".");
 }

@@ -47,13 +47,30 @@ std::string remark(const std::string& text) {
 
 class Writer {
  public:
+  explicit Writer(const Examples& examples) : examples_(examples) {}
+
   std::string write(const ListSpec& root, const std::string& name) {
     text_ = remark(root.doc()) + "\n";
-    writeList(root, name, 0, true);
+    writeList(root, name, "", 0, true);
     return text_;
   }
 
  private:
+  /// The example of a parameter, or null.
+  const std::string* example(const std::string& path) const {
+    const auto found = examples_.find(path);
+    return found == examples_.end() ? nullptr : &found->second;
+  }
+  /// First path of an example in the list `path`, which ends in "/"; "" without one.
+  std::string exampleIn(const std::string& path) const {
+    const auto found = examples_.lower_bound(path);
+    return found != examples_.end() && found->first.compare(0, path.size(), path) == 0 ? found->first : "";
+  }
+  std::string valueOf(const ParameterSpec& parameter, const std::string& path) const {
+    const auto* given = example(path + parameter.name);
+    return given != nullptr ? *given : exampleValue(parameter);
+  }
+
   void line(int depth, const std::string& content) {
     text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n";
   }
@@ -69,46 +86,55 @@ class Writer {
   }
 
   /// Does the example of a choice in `list` name the variant `sublist`, which cannot do without values?
-  static bool chosen(const ListSpec& list, const ListSpec& sublist) {
+  bool chosen(const ListSpec& list, const ListSpec& sublist, const std::string& path) const {
     const auto& parameters = list.parameters();
     return asksForSomething(sublist) && std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) {
-             return p.kind == Kind::Choice && !std::holds_alternative<Optional>(p.value) && exampleValue(p) == sublist.name();
+             return p.kind == Kind::Choice && !std::holds_alternative<Optional>(p.value) && valueOf(p, path) == sublist.name();
            });
   }
 
-  void writeList(const ListSpec& list, const std::string& name, int depth, bool active) {
+  /// `path`: of the list, with "/" at its end; "" of the root.
+  void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth, bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
-    for (const ParameterSpec& parameter : list.parameters()) writeParameter(parameter, depth + 1, active);
+    for (const ParameterSpec& parameter : list.parameters()) writeParameter(parameter, path, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
       line(depth + 1, remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") + sublist.doc()));
-      writeList(sublist, sublist.name(), depth + 1, active && (sublist.required() || chosen(list, sublist)));
+      const std::string below = path + sublist.name() + "/";
+      writeList(sublist, sublist.name(), below, depth + 1, active && (sublist.required() || chosen(list, sublist, path) || !exampleIn(below).empty()));
     }
     if (list.pattern() != nullptr) {
       line(depth + 1, remark("any number of lists with names of your own: " + list.pattern()->doc()));
-      writeList(*list.pattern(), "my " + list.pattern()->name(), depth + 1, false);
+      const std::string given = exampleIn(path);
+      const bool stands = active && !path.empty() && !given.empty();
+      const std::string own = stands ? given.substr(path.size(), given.find('/', path.size()) - path.size()) : "my " + list.pattern()->name();
+      writeList(*list.pattern(), own, path + own + "/", depth + 1, stands);
     }
     element(depth, "</ParameterList>", active);
   }
 
-  void writeParameter(const ParameterSpec& parameter, int depth, bool active) {
+  void writeParameter(const ParameterSpec& parameter, const std::string& path, int depth, bool active) {
     const bool required = std::holds_alternative<Required>(parameter.value);
+    const bool stands = required || example(path + parameter.name) != nullptr;
     std::string note = describe(parameter);
     if (required) note += "; required";
     if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
     line(depth, remark(note));
-    const std::string value = escaped(exampleValue(parameter));
+    const std::string value = escaped(valueOf(parameter, path));
     element(
         depth,
         "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" + typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
-        active && required);
+        active && stands);
   }
 
+  const Examples& examples_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string templateXml(const ListSpec& root, const std::string& name) { return Writer().write(root, name); }
+std::string templateXml(const ListSpec& root, const std::string& name, const Examples& examples) {
+  return Writer(examples).write(root, name);
+}
 
 std::string uncommented(const std::string& templateText) {
   std::string result;

@@ -51,13 +51,23 @@ def exit_codes():
     ends("misspelt parameter", 2, "Did you mean", "run", DECK, "--set", "Contact/Stiffnes=1")
     ends("study without a Study list", 2, "has no Study list", "study", DECK)
     ends("floating string", 3, "The string floats", "run", DECK, "--output", "floating", *free)
-    ends("string that slides in a curved well", 3, "The string floats: w is free at all of its", "run", CURVED, "--output", "sliding", "--set", "Supports/Top=u v theta_z",
+    ends("string that slides in a curved well", 3, "The string floats: w is free at all of its", "run", CURVED, "--output", "sliding", "template", "--set", "Supports/Top=u v theta_z",
          "--without", "Transient", "--without", "Reduction", "--without", "Substructures", "--without", "Study", ranks=(1,))
     ends("static state not reached", 4, "The static equilibrium did not converge", "run", DECK, "--output", "unconverged", "--set", "Static/Max Iterations=1")
     ends("motion not solved", 4, "Step", "run", DECK, "--output", "lost", "--set", "Transient/Step=0.1", "--set", "Transient/Sampling Interval=0.1",
          "--set", "Transient/Generalized-alpha/Max Iterations=2", "--set", "Transient/Generalized-alpha/Max Halvings=0")
     pathlib.Path("a_file").write_text("not a folder", encoding="utf-8")
     ends("folder that cannot be made", 5, "a_file", "run", DECK, "--output", "a_file/results")
+
+
+def template_is_a_deck():
+    """What `tooljoint template scene` prints is accepted and runs as it is."""
+    printed = tooljoint("template", "scene")
+    pathlib.Path("template.xml").write_text(printed.stdout, encoding="utf-8")
+    checked = tooljoint("check", "template.xml")
+    expect("the template is a valid deck", printed.returncode == 0 and checked.returncode == 0, checked.stderr[-400:])
+    done = tooljoint("run", "template.xml", "--output", "template")
+    expect("and runs", done.returncode == 0 and summary("template")["status"] == "finished", done.stderr[-400:])
 
 
 def optional_integrators():
@@ -102,6 +112,7 @@ def main():
         shutil.rmtree(left, ignore_errors=True)
     exit_codes()
     optional_integrators()
+    template_is_a_deck()
     failed_run_spoils_nothing()
     interrupted_run_goes_on()
     print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))

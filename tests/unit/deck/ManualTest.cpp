@@ -186,6 +186,26 @@ TEST(Template, HoldsTheListOfAChosenVariantThatNeedsValues) {
   EXPECT_FALSE(list.isSublist("E"));
 }
 
+/// What examples name stands with their values, in lists of names of one's own too.
+TEST(Template, TakesExamples) {
+  const ListSpec piece = ListSpec("Piece", "P.").real("Length", "m", Optional{}, Range::positive(), "L.").real("Width", "m", Optional{}, Range::positive(), "W.");
+  const ListSpec scene = ListSpec("s", "S.")
+                             .choice("Shape", Required{}, {"A", "B"}, "S.")
+                             .list(ListSpec("A", "A.").real("x", "m", Required{}, Range::any(), "X."))
+                             .list(ListSpec("B", "B.").real("x", "m", Required{}, Range::any(), "X."))
+                             .list(ListSpec("Pieces", "P.").namedLists(piece))
+                             .list(ListSpec("Loads", "L.").real("Gravity", "m/s2", 0.0, Range::any(), "G."));
+  const std::string text = templateXml(scene, "t", {{"Shape", "B"}, {"B/x", "2"}, {"Pieces/bar/Length", "3"}});
+  const auto list = Deck::parse(text, "t.xml", scene).list();
+  EXPECT_EQ(list.get<std::string>("Shape"), "B");
+  EXPECT_FALSE(list.isSublist("A"));
+  EXPECT_EQ(list.sublist("B").get<double>("x"), 2.0);
+  EXPECT_EQ(list.sublist("Pieces").sublist("bar").get<double>("Length"), 3.0);
+  EXPECT_FALSE(list.sublist("Pieces").sublist("bar").isParameter("Width"));
+  EXPECT_NE(text.find("<!-- <Parameter name=\"Width\" type=\"double\" value=\"1\"/> -->"), std::string::npos) << text;
+  EXPECT_FALSE(list.isSublist("Loads"));
+}
+
 TEST(Template, EscapesWhatXmlWouldMisread) {
   const ListSpec odd =
       ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
