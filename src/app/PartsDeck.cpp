@@ -114,6 +114,14 @@ void locating(const deck::Deck& deck, const Work& work) {
   }
 }
 
+/// What the basis will read.
+void requireInput(const PartsDeck& deck) {
+  const auto& list = deck.list().sublist("Reduction");
+  std::vector<reduction::PartOutline> parts;
+  for (const auto& part : deck.scene.parts) parts.push_back({part.name, part.model.size(), !part.interior().empty()});
+  reduction::makeBasis(list.get<std::string>("Basis"), list)->checkInput(parts);
+}
+
 }  // namespace
 
 PartsDeck readPartsLists(const RunOptions& options) {
@@ -135,7 +143,10 @@ PartsDeck readPartsLists(const RunOptions& options) {
 }
 
 void PartsDeck::build() {
-  locating(deck, [&] { scene = parts::buildScene(settings, plan, [&](const std::string& name) { return deck.resolve(name); }); });
+  locating(deck, [&] {
+    scene = parts::buildScene(settings, plan, [&](const std::string& name) { return deck.resolve(name); });
+    if (reduces()) requireInput(*this);
+  });
 }
 
 void PartsDeck::start() {

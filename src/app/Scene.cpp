@@ -169,6 +169,24 @@ std::vector<coupling::PartOutline> outlines(const Scene& scene) {
   return parts;
 }
 
+/// The same for a basis: a node that two parts have is inner to none.
+std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
+  const auto ranges = string_::cutParts(scene.string, scene.partition);
+  std::vector<reduction::PartOutline> parts;
+  for (std::size_t p = 0; p < ranges.size(); ++p) {
+    reduction::PartOutline part{ranges[p].name, 0, false};
+    for (int node = ranges[p].firstElement; node <= ranges[p].lastElement + 1; ++node) {
+      const auto first = scene.held.begin() + string_::kNodeDofs * node;
+      const auto free = static_cast<int>(std::count(first, first + string_::kNodeDofs, 0));
+      const bool shared = (p > 0 && node == ranges[p].firstElement) || (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
+      part.dofs += free;
+      part.inner = part.inner || (free > 0 && !shared);
+    }
+    parts.push_back(part);
+  }
+  return parts;
+}
+
 }  // namespace
 
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
@@ -218,7 +236,8 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
     faults.attempt([&] {
       string_::requireKnownNodes(scene.string, partition);
       const auto parts = string_::cutParts(scene.string, partition);
-      reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+      const auto options = reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+      reduction::makeBasis(options.basis, list.sublist("Reduction"))->checkInput(reductionOutlines(scene));
       estimate::readEstimateOptions(list.sublist("Reduction"));
     });
   }

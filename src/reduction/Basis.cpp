@@ -13,6 +13,8 @@ Followers Basis::follow(const model::SecondOrderModel&, const std::vector<Sparse
   return {};
 }
 
+void Basis::checkInput(const std::vector<PartOutline>&) const {}
+
 void truncate(BasisResult& basis, int modes, const std::string& why) {
   const int before = basis.modes();
   if (modes >= before) return;

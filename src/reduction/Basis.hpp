@@ -54,6 +54,13 @@ struct Followers {
   Matrix rows;            ///< dofs x others
 };
 
+/// What is known of a part before anything is computed.
+struct PartOutline {
+  std::string name;
+  int dofs = 0;       ///< of the part
+  bool inner = true;  ///< it has dofs no other part has
+};
+
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on several ranks.
 class Basis {
  public:
@@ -72,6 +79,9 @@ class Basis {
   /// in coupled dofs. The default has none.
   virtual Followers follow(const model::SecondOrderModel& coupled, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
                            const std::vector<BasisResult>& bases) const;
+
+  /// Looks at what it will read, files above all, before anything is computed. Throws DeckError. The default reads nothing.
+  virtual void checkInput(const std::vector<PartOutline>& parts) const;
 
   /// True when build() looks at the name of the part: then identical parts are not reduced once for all.
   virtual bool namesParts() const { return false; }

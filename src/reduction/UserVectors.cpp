@@ -41,7 +41,7 @@ class UserVectors : public Basis {
     const Sparse K = block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior), M = block(part.model.mass, p.interior, p.interior);
     const std::string file = fileOf(part.name);
     // A part without interior dofs has nothing to give vectors for.
-    const Matrix given = p.interior.empty() ? Matrix(p.size, 0) : read(file, part);
+    const Matrix given = p.interior.empty() ? Matrix(p.size, 0) : read(file, part.name, p.size);
     const auto wanted = request.kind == ModeRequest::Kind::Count ? std::min<Eigen::Index>(request.count, given.cols()) : given.cols();
     OrthonormalSet set(M, options_.independence, "Part \"" + part.name + "\", vectors of " + file + ": ");
     const std::vector<int> dropped = collect(given.leftCols(wanted), p, constraint, file, part, set);
@@ -68,13 +68,17 @@ class UserVectors : public Basis {
                std::vector<BasisResult>&) const override {
     std::vector<std::string> names;
     for (const auto& part : parts) names.push_back(part.name);
-    for (const auto& name : options_.parts) {
-      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      const std::string guess = closest(name, names);
-      throw DeckError("\"User Vectors\" are given for \"" + name + "\", but no substructure has that name" +
-                      (guess.empty() ? "; there are " + quotedList(names) + "." : "; did you mean \"" + guess + "\"?"));
-    }
+    checkNames(names);
     return false;
+  }
+
+  /// The names, and every file that will be needed: that it is there, can be read and has a row for every dof.
+  void checkInput(const std::vector<PartOutline>& parts) const override {
+    std::vector<std::string> names;
+    for (const auto& part : parts) names.push_back(part.name);
+    checkNames(names);
+    for (const auto& part : parts)
+      if (part.inner && named(part.name)) read(fileOf(part.name), part.name, part.dofs);
   }
 
  private:
@@ -96,16 +100,25 @@ class UserVectors : public Basis {
     return join(text, ", ");
   }
 
-  static Matrix read(const std::string& file, const model::Substructure& part) {
+  void checkNames(const std::vector<std::string>& names) const {
+    for (const auto& name : options_.parts) {
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      const std::string guess = closest(name, names);
+      throw DeckError("\"User Vectors\" are given for \"" + name + "\", but no substructure has that name" +
+                      (guess.empty() ? "; there are " + quotedList(names) + "." : "; did you mean \"" + guess + "\"?"));
+    }
+  }
+
+  static Matrix read(const std::string& file, const std::string& part, int dofs) {
     Matrix vectors;
     try {
       vectors = io::readMatrixMarketDense(file);
     } catch (const DeckError& error) {
-      throw DeckError("Vectors of part \"" + part.name + "\": " + error.what());
+      throw DeckError("Vectors of part \"" + part + "\": " + error.what());
     }
-    if (vectors.rows() != part.model.size())
-      throw DeckError(file + ": its vectors have " + std::to_string(vectors.rows()) + " rows, but part \"" + part.name + "\" has " +
-                      std::to_string(part.model.size()) + " dofs, interface and retained ones included. Give one row for each dof, in the order of the part.");
+    if (vectors.rows() != dofs)
+      throw DeckError(file + ": its vectors have " + std::to_string(vectors.rows()) + " rows, but part \"" + part + "\" has " +
+                      std::to_string(dofs) + " dofs, interface and retained ones included. Give one row for each dof, in the order of the part.");
     return vectors;
   }
 
