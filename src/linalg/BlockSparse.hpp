@@ -75,7 +75,7 @@ struct BlockRange {
   int begin, end;
 };
 
-/// Blocks in runs of about so many positions, a length at which several vectors stay in the first-level cache.
+/// Blocks in runs of about so many positions, a length at which several vectors stay in a near cache.
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
 /// y += A x for matrices on one pattern; which blocks are zero or diagonal is found once, from samples that have every

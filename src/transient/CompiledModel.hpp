@@ -93,7 +93,7 @@ class CompiledModel {
   void addMass(const double* x, double* y, linalg::BlockRange rows) const { massProduct_.addTo(mass_.data(), x, y, 1.0, rows); }
   void addDamping(const double* x, double* y, linalg::BlockRange rows) const { damping_.addTo(x, y, rows); }
   void addStiffness(const double* x, double* y, linalg::BlockRange rows) const { stiffness_.addTo(x, y, rows); }
-  /// All blocks in runs whose vectors stay in the fastest cache: what is done run by run reads long vectors once.
+  /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long vectors once.
   const std::vector<linalg::BlockRange>& runs() const { return runs_; }
   bool hasDamping() const { return !damping_.empty(); }
 
