@@ -231,7 +231,7 @@ class Growth {
     for (auto& link : links_) {
       if (link.complete()) continue;
       link.restart(count);
-      any = true;
+      any = any || link.sizes().size() > 0;  // dofs without mass have no direction of their own
     }
     return any;
   }
