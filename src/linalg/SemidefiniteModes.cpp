@@ -119,4 +119,10 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const 
   return modes;
 }
 
+bool hasMasslessDofs(const Sparse& M) { return (M.diagonal().array() == 0.0).any(); }
+
+EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
+  return hasMasslessDofs(M) ? semidefiniteModes(K, M, count, options) : lowestModes(K, M, count, options);
+}
+
 }  // namespace tooljoint::linalg

@@ -17,4 +17,10 @@ namespace tooljoint::linalg {
 /// together. ConvergenceError: residuals above options.tolerance.
 EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options = {});
 
+/// Some dof has no mass: its diagonal entry is 0.
+bool hasMasslessDofs(const Sparse& M);
+
+/// lowestModes, or semidefiniteModes where some dof has no mass: at most `count`, all finite ones when there are fewer.
+EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options = {});
+
 }  // namespace tooljoint::linalg

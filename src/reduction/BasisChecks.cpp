@@ -193,7 +193,7 @@ void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * shapes, pairs.eigenvalues());
   }
   const linalg::EigenPairs lowest =
-      linalg::lowestModes(K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()), linalg::EigenOptions());
+      linalg::lowestFiniteModes(K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()), linalg::EigenOptions());
   report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
 }
 

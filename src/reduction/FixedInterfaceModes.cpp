@@ -6,7 +6,7 @@
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/SemidefiniteModes.hpp"
 
 namespace tooljoint::reduction {
 
@@ -16,15 +16,22 @@ namespace {
 struct Link {
   Sparse K;
   Sparse M;
-  int size = 0;
+  int size = 0;  ///< modes it has: dofs, or fewer where some have no mass
   linalg::DofNamer name;
   int computed = 0;
 };
 
-/// Modes asked of one link. Two more than wanted show whether the cut would part a pair.
-linalg::EigenPairs solve(const Link& link, const ModeRequest& request, int count) {
+/// Modes asked of one link. Two more than wanted show whether the cut would part a pair. Dofs without mass follow statically: the finite modes and
+/// the constraint modes hold every motion of the others.
+linalg::EigenPairs solve(Link& link, const ModeRequest& request, int count) {
   linalg::EigenOptions options = request.eigen ? *request.eigen : linalg::EigenOptions();
   options.name = link.name;
+  if (linalg::hasMasslessDofs(link.M)) {
+    const int asked = request.kind == ModeRequest::Kind::Below ? link.size : std::min(count, link.size);
+    auto pairs = linalg::semidefiniteModes(link.K, link.M, asked, options);
+    if (pairs.count() < asked) link.size = pairs.count();
+    return pairs;
+  }
   if (request.kind == ModeRequest::Kind::Below)
     return linalg::lowestModesBelow(link.K, link.M, request.omegaMax * (1.0 + 2.0 * request.pairTolerance), options);
   return linalg::lowestModes(link.K, link.M, std::min(count, link.size), options);

@@ -17,6 +17,7 @@
 #include "common/Text.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/EigenSolver.hpp"
+#include "linalg/SemidefiniteModes.hpp"
 #include "reduction/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
@@ -74,7 +75,8 @@ class DrivenLink {
   }
 
   int size() const { return set_->size(); }
-  bool complete() const { return set_->size() == static_cast<int>(inner_.size()); }
+  /// Nothing is left: the space is all of the interior, or all that has mass.
+  bool complete() const { return exhausted_ || set_->size() == static_cast<int>(inner_.size()); }
   double residual() const { return residual_; }
   const Matrix& space() const { return set_->basis(); }
   const Sparse& mass() const { return M_; }
@@ -92,11 +94,14 @@ class DrivenLink {
   /// Takes one direction of the next block; the space is not continued after that.
   void take(Eigen::Index direction) { set_->add(directions_.col(direction)); }
 
-  /// The interface drives nothing more: directions without meaning, so that the space can still become all of the interior.
+  /// The interface drives nothing more: directions without meaning, so that the space can still become all of the interior. Dofs without mass
+  /// follow the others statically.
   void restart(int count) {
     const auto seed = static_cast<std::uint64_t>(97 + set_->size());
     Matrix z = linalg::scatteredNumbers(M_.rows(), std::min<Eigen::Index>(count, M_.rows() - set_->size()), seed);
+    if (linalg::hasMasslessDofs(M_)) z = solve(M_ * z);
     findDirections(z);
+    exhausted_ = directions_.cols() == 0;
     block_.resize(states_->basis().rows(), 0);
   }
 
@@ -195,6 +200,7 @@ class DrivenLink {
   Matrix directions_;                       ///< what the next block adds
   Vector sizes_;
   double residual_ = 0;
+  bool exhausted_ = false;
 };
 
 /// Grows the spaces of all links together, block by block.
@@ -231,7 +237,7 @@ class Growth {
     for (auto& link : links_) {
       if (link.complete()) continue;
       link.restart(count);
-      any = any || link.sizes().size() > 0;  // dofs without mass have no direction of their own
+      any = true;
     }
     return any;
   }

@@ -9,6 +9,7 @@
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/EigenSolver.hpp"
+#include "linalg/SemidefiniteModes.hpp"
 
 namespace tooljoint::reduction {
 
@@ -93,7 +94,7 @@ Matrix floatingModes(const Sparse& symmetricK, const Sparse& M, const linalg::Do
   const Sparse absolute = symmetricK.cwiseAbs();
   const int size = static_cast<int>(M.rows());
   for (int count = std::min(floatingCandidates, size);; count = std::min(2 * count, size)) {
-    const auto pairs = linalg::lowestModes(symmetricK, M, count, options);
+    const auto pairs = linalg::lowestFiniteModes(symmetricK, M, count, options);
     Matrix found(M.rows(), 0);
     for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
       const Vector shape = pairs.vectors.col(k).cwiseAbs();
