@@ -92,6 +92,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     pivots_.push_back(pivot);
   }
   pack();
+  far_ = storage > kernel::nearCache;
   values_.assign(storage, 0.0);
   scale_.assign(z(pattern.size()), 0.0);
   swaps_.assign(z(pattern.size()), 0);
@@ -179,8 +180,11 @@ TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
   double* target = x + p.start;
   if (!p.inverted()) kernel::solveLarge(p.width, 1, up_.data() + p.up, &swaps_[z(p.start)], target);
   const Coupling* couplings = couplings_.data();
-  for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-    kernel::multiplySubtract(couplings[c].width, p.width, down_.data() + couplings[c].down, target, x + couplings[c].start);
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const double* L = down_.data() + couplings[c].down;
+    if (far_) kernel::fetchAhead(L, couplings[c].width * p.width);
+    kernel::multiplySubtract(couplings[c].width, p.width, L, target, x + couplings[c].start);
+  }
 }
 
 /// x_k = D_k^-1 b_k - sum_j W_kj x_j
@@ -189,9 +193,12 @@ TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
   double* target = x + p.start;
   if (p.width == 6) {
     kernel::Six even, odd;
+    if (far_) kernel::fetchAhead(up_.data() + p.up, 36);
     kernel::addPairs(6, up_.data() + p.up, target, even, odd);
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+      if (far_) kernel::fetchAhead(up_.data() + couplings[c].up, 6 * couplings[c].width);
       kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start, even, odd);
+    }
     even.a += odd.a, even.b += odd.b;
     even.to(target);
     return;

@@ -96,6 +96,7 @@ class BlockFactor {
   std::vector<double> panel_;
   std::vector<int> swaps_;
   std::size_t patternStorage_ = 0;
+  bool far_ = false;  ///< sweeps read more than a near cache holds
   double solveWork_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include "linalg/BlockSparse.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -109,13 +110,17 @@ BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Spa
   const auto graph = blockGraph(matrices, blockOfDof, blocks());
   rowBegin_.push_back(0);
   for (int b = 0; b < blocks(); ++b) {
-    for (int c : graph[z(b)]) {
-      column_.push_back(c);
-      offset_.push_back(storage_);
-      storage_ += (z(width(b)) * z(width(c)) + 3) / 4 * 4;
-    }
+    column_.insert(column_.end(), graph[z(b)].begin(), graph[z(b)].end());
     rowBegin_.push_back(static_cast<int>(column_.size()));
   }
+  offset_.resize(column_.size());
+  for (const bool below : {false, true})  // what a symmetric product reads stands together
+    for (int b = 0; b < blocks(); ++b)
+      for (int e = rowBegin(b); e < rowBegin(b + 1); ++e) {
+        if ((column(e) < b) != below) continue;
+        offset_[z(e)] = storage_;
+        storage_ += (z(width(b)) * z(width(column(e))) + 3) / 4 * 4;
+      }
 }
 
 int BlockPattern::find(int row, int column) const {
@@ -148,12 +153,15 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
 }
 
 BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+  far_ = pattern.storage() > kernel::nearCache;
+  findSymmetry(pattern, samples);
   int widest = 0;
   for (int b = 0; b < pattern.blocks(); ++b) {
     firstRow_.push_back(static_cast<int>(rows_.size()));
     const int rows = pattern.width(b);
     widest = std::max(widest, rows);
-    Row row{pattern.start(b), rows, static_cast<int>(entries_.size()), 0, rows == 6};
+    Row row{pattern.start(b), rows, static_cast<int>(entries_.size()), 0, 0, rows == 6};
+    row.diagonal = row.begin;
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
       const int columns = pattern.width(pattern.column(e));
       bool any = false;
@@ -166,15 +174,44 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
               offDiagonal = offDiagonal || i != j;
             }
       if (!any) continue;
-      const Form form = offDiagonal ? Form::Dense : Form::Diagonal;
-      row.allSix = row.allSix && columns == 6 && form == Form::Dense;
-      entries_.push_back({pattern.offset(e), pattern.start(pattern.column(e)), columns, form});
+      Entry entry{pattern.offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
+      row.allSix = row.allSix && columns == 6 && offDiagonal;
+      if (pattern.column(e) < b) {
+        if (far_ && symmetric_ && offDiagonal) {
+          entry.form = Form::Transposed;
+          entry.offset = pattern.offset(pattern.find(pattern.column(e), b));
+        }
+        ++row.diagonal;
+      }
+      entries_.push_back(entry);
     }
     row.end = static_cast<int>(entries_.size());
     if (row.end > row.begin) rows_.push_back(row);
   }
   firstRow_.push_back(static_cast<int>(rows_.size()));
   sum_.assign(z(widest), 0.0);
+}
+
+void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+  constexpr double rounding = 1e-12;
+  symmetric_ = true;
+  Vector root(pattern.size());  // sqrt |A_ii|
+  for (const BlockValues* sample : samples) {
+    const double* A = sample->data();
+    for (int p = 0; p < pattern.size(); ++p) root[p] = std::sqrt(std::abs(A[pattern.address(p, p)]));
+    for (int b = 0; b < pattern.blocks(); ++b)
+      for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1) && pattern.column(e) <= b; ++e) {
+        const int c = pattern.column(e), rows = pattern.width(b), columns = pattern.width(c);
+        const double* here = A + pattern.offset(e);
+        const double* there = A + pattern.offset(pattern.find(c, b));
+        for (int j = 0; j < columns; ++j)
+          for (int i = 0; i < rows; ++i) {
+            const double difference = std::abs(here[j * rows + i] - there[i * columns + j]);
+            if (difference > rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j]) symmetric_ = false;
+          }
+        if (!symmetric_) return;
+      }
+  }
 }
 
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
@@ -185,7 +222,15 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
     double* target = y + row.start;
     if (row.allSix) {
       kernel::Six even, odd;
-      for (int e = row.begin; e < row.end; ++e) kernel::addPairs(6, values + entries[e].offset, x + entries[e].column, even, odd);
+      for (int e = row.begin; e < row.end; ++e) {
+        const double* block = values + entries[e].offset;
+        if (entries[e].form == Form::Transposed) {
+          kernel::addSixTransposed(block, x + entries[e].column, odd);
+          continue;
+        }
+        if (far_) kernel::fetchAhead(block, 36);
+        kernel::addPairs(6, block, x + entries[e].column, even, odd);
+      }
       even.a += odd.a, even.b += odd.b;
       even.addTo(target, factor);
       continue;
@@ -197,12 +242,75 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
       const double* source = x + entries[e].column;
       if (entries[e].form == Form::Diagonal)
         for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
+      else if (entries[e].form == Form::Transposed)
+        kernel::multiplyTransposedAdd(entries[e].width, row.width, block, source, sum);
       else
         kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
     }
     if (sum != target)
       for (int i = 0; i < row.width; ++i) target[i] += factor * sum[i];
   }
+}
+
+/// x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j)
+TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* values, const double* x) const {
+  const Entry* entries = entries_.data();
+  kernel::Six even, odd;
+  int e = row.diagonal;
+  if (e < row.end && entries[e].column == row.start) {
+    const double* block = values + entries[e++].offset;
+    if (far_) kernel::fetchAhead(block, 36);
+    kernel::addPairs(6, block, x + row.start, even, odd);
+    even.a += odd.a, even.b += odd.b;
+    even.a *= 0.5, even.b *= 0.5;
+    odd = kernel::Six();
+  }
+  for (; e < row.end; ++e) {
+    const double* block = values + entries[e].offset;
+    if (far_) kernel::fetchAhead(block, 36);
+    kernel::addPairs(6, block, x + entries[e].column, even, odd);
+  }
+  const kernel::Six own(x + row.start);
+  const kernel::Quad a = own.a * (even.a + odd.a);
+  const kernel::Pair b = own.b * (even.b + odd.b);
+  return 2.0 * (((a[0] + a[1]) + (a[2] + a[3])) + (b[0] + b[1]));
+}
+
+/// sum_i x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or sum_ij x_i'A_ij x_j
+TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double* values, const double* x) const {
+  const Entry* entries = entries_.data();
+  const Row* last = rows_.data() + end;
+  double* sum = sum_.data();
+  const auto add = [&](const Row& row, int from, int to) {
+    for (int e = from; e < to; ++e) {
+      const double* block = values + entries[e].offset;
+      const double* source = x + entries[e].column;
+      if (far_) kernel::fetchAhead(block, row.width * entries[e].width);
+      if (entries[e].form == Form::Diagonal)
+        for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
+      else
+        kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
+    }
+  };
+  double whole = 0;
+  for (const Row* at = rows_.data() + begin; at != last; ++at) {
+    const Row row = *at;
+    if (row.allSix && symmetric_) {
+      whole += sixForm(row, values, x);
+      continue;
+    }
+    std::fill(sum, sum + row.width, 0.0);
+    if (symmetric_) {
+      const bool own = row.diagonal < row.end && entries[row.diagonal].column == row.start;
+      add(row, own ? row.diagonal + 1 : row.diagonal, row.end);
+      for (int i = 0; i < row.width; ++i) sum[i] *= 2.0;
+      if (own) add(row, row.diagonal, row.diagonal + 1);
+    } else {
+      add(row, row.begin, row.end);
+    }
+    for (int i = 0; i < row.width; ++i) whole += x[row.start + i] * sum[i];
+  }
+  return whole;
 }
 
 }  // namespace tooljoint::linalg

@@ -78,13 +78,16 @@ struct BlockRange {
 /// Blocks in runs of about so many positions, a length at which several vectors stay in a near cache.
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
-/// y += A x for matrices on one pattern; which blocks are zero or diagonal is found once, from samples that have every
-/// nonzero the products will see.
+/// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is symmetric, is found once, from
+/// samples that have every nonzero the products will see. Matrices that do not fit a near cache are asked for ahead, and of a
+/// symmetric one blocks below the diagonal are not read: they are those above it, seen a row ago.
 class BlockProduct {
  public:
   BlockProduct() = default;
   BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   bool empty() const { return rows_.empty(); }
+  /// |A_ij - A_ji| <= 1e-12 sqrt(A_ii A_jj) in all samples: what assembly in rotated frames leaves.
+  bool isSymmetric() const { return symmetric_; }
   /// y += factor A x, vectors in positions.
   void addTo(const double* values, const double* x, double* y, double factor = 1.0) const {
     addRows(0, static_cast<int>(rows_.size()), values, x, y, factor);
@@ -93,10 +96,19 @@ class BlockProduct {
   void addTo(const double* values, const double* x, double* y, double factor, BlockRange range) const {
     addRows(firstRow_[static_cast<std::size_t>(range.begin)], firstRow_[static_cast<std::size_t>(range.end)], values, x, y, factor);
   }
+  /// x' A x, and the part of it that the rows of some blocks add: of a symmetric A half the blocks are read.
+  double form(const double* values, const double* x) const { return formRows(0, static_cast<int>(rows_.size()), values, x); }
+  double form(const double* values, const double* x, BlockRange range) const {
+    return formRows(firstRow_[static_cast<std::size_t>(range.begin)], firstRow_[static_cast<std::size_t>(range.end)], values, x);
+  }
 
  private:
+  struct Row;
+  double formRows(int begin, int end, const double* values, const double* x) const;
+  double sixForm(const Row& row, const double* values, const double* x) const;
+  void findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;
-  enum class Form { Dense, Diagonal };
+  enum class Form { Dense, Diagonal, Transposed };
   struct Entry {
     std::size_t offset;
     int column;
@@ -108,11 +120,14 @@ class BlockProduct {
     int width;
     int begin;
     int end;
-    bool allSix;  ///< six rows, every block dense with six columns
+    int diagonal;  ///< first entry on or above the diagonal
+    bool allSix;   ///< six rows, every block full with six columns
   };
   std::vector<Row> rows_;
   std::vector<int> firstRow_;  ///< block -> first of rows_ from there on
   std::vector<Entry> entries_;
+  bool symmetric_ = false;
+  bool far_ = false;  ///< matrices are longer than a near cache
   mutable std::vector<double> sum_;
 };
 

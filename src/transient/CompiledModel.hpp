@@ -44,6 +44,10 @@ class MatrixSum {
   const std::vector<Term>& terms() const { return terms_; }
   /// Value of the law of a term at the time of the last update().
   double factor(std::size_t term) const { return last_[term]; }
+  /// Constant and symmetric: forces of a potential x'Ax / 2.
+  bool isConservative() const { return constant_ && product_.isSymmetric(); }
+  /// The part of x'Ax that the rows of some blocks add, of a conservative A.
+  double form(const double* x, linalg::BlockRange rows) const { return product_.form(current(), x, rows); }
   /// Values of A(t) on the pattern; undefined when empty().
   const double* current() const {
     if (constant_) return terms_.front().values.data();
@@ -89,6 +93,8 @@ class CompiledModel {
   void addMass(const double* x, double* y) const { addMass(x, y, all()); }
   void addDamping(const double* x, double* y) const { addDamping(x, y, all()); }
   void addStiffness(const double* x, double* y) const { addStiffness(x, y, all()); }
+  /// x' M x.
+  double massForm(const double* x) const { return massProduct_.form(mass_.data(), x); }
   /// The same for the rows of some blocks.
   void addMass(const double* x, double* y, linalg::BlockRange rows) const { massProduct_.addTo(mass_.data(), x, y, 1.0, rows); }
   void addDamping(const double* x, double* y, linalg::BlockRange rows) const { damping_.addTo(x, y, rows); }

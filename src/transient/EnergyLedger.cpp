@@ -92,26 +92,29 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   entry(account_.loads, loads);
   // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory.
   // C_i: dq' c_i C_i dq / h
+  const bool conservative = model.stiffness().isConservative();
   const auto& terms = model.damping().terms();
   double work = 0, strain = 0;
   std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
   for (const auto& run : model.runs()) {
     const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
-    const auto step = step_.segment(begin, length);
-    auto product = product_.segment(begin, length);
-    product.setZero();
-    model.addStiffness(to.q.data(), product_.data(), run);
-    strain += 0.5 * to.q.segment(begin, length).dot(product);
-    work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
-    internal_.segment(begin, length) = product;
+    if (conservative) {
+      strain += 0.5 * model.stiffness().form(to.q.data(), run);
+    } else {
+      const auto step = step_.segment(begin, length);
+      auto product = product_.segment(begin, length);
+      product.setZero();
+      model.addStiffness(to.q.data(), product_.data(), run);
+      strain += 0.5 * to.q.segment(begin, length).dot(product);
+      work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
+      internal_.segment(begin, length) = product;
+    }
     for (std::size_t i = 0; i < dissipative_.size(); ++i) {
       const auto& term = terms[dissipative_[i]];
-      if (model.damping().factor(dissipative_[i]) == 0.0) continue;
-      product.setZero();
-      term.product.addTo(term.values.data(), step_.data(), product_.data(), 1.0, run);
-      dissipated_[i] += step.dot(product);
+      if (model.damping().factor(dissipative_[i]) != 0.0) dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
     }
   }
+  if (conservative) work = strain - strain_;
   entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
@@ -135,15 +138,9 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
       std::abs(account_.loads - given) + std::abs(account_.drive - driven) + std::abs(account_.circulatory - turned);
 }
 
-double EnergyLedger::kinetic(CompiledModel& model, const State& state) {
-  product_.setZero();
-  model.addMass(state.v.data(), product_.data());
-  return 0.5 * state.v.dot(product_);
-}
-
 bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
-  account_.kinetic = kinetic(model, state);
+  account_.kinetic = 0.5 * model.massForm(state.v.data());
   account_.strain = strain_;
   account_.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
   return account_.runaway();
@@ -152,7 +149,7 @@ bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
 EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   if (skipped_ > 0) enter(model, state);
   EnergyAccount result = account_;
-  result.kinetic = kinetic(model, state);
+  result.kinetic = 0.5 * model.massForm(state.v.data());
   result.strain = strain_;
   result.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
   return result;

@@ -65,7 +65,6 @@ class EnergyLedger {
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
   std::vector<double> dissipated_;        ///< dq' C_i dq of each
   void enter(CompiledModel& model, const State& to);
-  double kinetic(CompiledModel& model, const State& state);
 
   int stride_ = 1;
   int skipped_ = 0;  ///< steps since the last one booked

@@ -309,7 +309,6 @@ bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool anyw
 
 /// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
 void GeneralizedAlpha::complete(State& to, double h) {
-  nextSmooth_ = to.a;
   hit_ = false;
   for (const auto& batch : model_->points()) hit_ = hit_ || batch.isScaled();
   if (hit_) {
@@ -319,10 +318,14 @@ void GeneralizedAlpha::complete(State& to, double h) {
     for (int i = 0; i < impact_.size(); ++i)
       if (massless_[static_cast<std::size_t>(i)]) impact_[i] = 0.0;
     mass_.solve(impact_.data());
-    nextSmooth_ -= impact_;
-    to.a = nextSmooth_ + impact_ / scheme(h).impact;
+    to.a -= impact_;
   }
-  nextA_ = ((1 - alphaF_) * nextSmooth_ + alphaF_ * smooth_ - alphaM_ * A_) / (1 - alphaM_);
+  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_), last = alphaM_ / (1 - alphaM_);
+  for (int i = 0; i < A_.size(); ++i) {
+    nextSmooth_[i] = to.a[i];
+    nextA_[i] = now * nextSmooth_[i] + before * smooth_[i] - last * A_[i];
+  }
+  if (hit_) to.a += impact_ / scheme(h).impact;
 }
 
 void GeneralizedAlpha::keep() {

@@ -15,11 +15,13 @@ constexpr double slowestRelaxation = 0.25;
 /// Once points take turns: what two sweeps must make of it.
 constexpr int perSweeps = 2 * PointRelaxation::colours;
 constexpr double slowestSweeps = 0.8;
+/// Pairs of sweeps in a row that may make less of it: the first ones spread what stuck at a few points.
+constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 14;
 
-/// A product with what the laws have changed, and a relaxation near few points, in relaxations.
-constexpr double driftPrice = 0.5, nearPrice = 0.4;
+/// A product with what the laws have changed, and what a relaxation near few points costs beside the blocks it reaches, in relaxations.
+constexpr double driftPrice = 0.5, nearPrice = 0.1;
 
 /// max_i w_i sum_j |A_ij|
 double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
@@ -41,6 +43,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
                     &savedChange_, &guess_, &last_, &drift_, &rowSize_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
+  predicted_.resize(n);
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);
@@ -112,7 +115,8 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to);
-  return (relaxes_ && relax(to)) || iterate(to);
+  error_ = INFINITY;
+  return (relaxes_ && relax(to)) || finish(to);
 }
 
 /// y += (S(now) - S(then)) delta for what the laws have changed since S was factored.
@@ -133,7 +137,8 @@ double ImplicitStep::driftNorm() const {
   return norm;
 }
 
-/// Relaxation of the point forces. False, with `to` and linear_ at the predicted state, when it does not get there.
+/// Relaxation of the point forces. False, with `to` and linear_ at the predicted state and delta_ where it stopped, when it does
+/// not get there.
 bool ImplicitStep::relax(State& to) {
   if (!factored_ || factorScheme_.h != scheme_.h || wanted_) {
     refactor(to);
@@ -152,22 +157,37 @@ bool ImplicitStep::relax(State& to) {
     q0_ = to.q + delta_;
     bool missed = false;
     for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
-    guess_ = delta_;
     if (!missed) break;
+    guess_ = delta_;
   }
-  last_.swap(guess_);
   to.q.swap(q0_);
   const double c = scheme_.velocity, a = scheme_.acceleration;
   for (int i = 0; i < delta_.size(); ++i) to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
+  last_.swap(delta_);
   return true;
 }
 
-/// The iteration itself: delta_ from guess_ (which it changes).
+/// Newton from where relaxation stopped, which is often wrong at a few points only, and from the predicted state.
+bool ImplicitStep::finish(State& to) {
+  if (!(error_ <= reference_)) return iterate(to);  // nowhere, or nothing to start from
+  predicted_ = to;
+  const double c = scheme_.velocity, a = scheme_.acceleration;
+  for (int i = 0; i < delta_.size(); ++i) to.q[i] += delta_[i], to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
+  linearResidual(to);
+  if (extra_) linear_ -= correction_;
+  if (iterate(to)) return true;
+  to = predicted_;
+  linearResidual(to);
+  wanted_ = true;
+  return iterate(to);
+}
+
+/// The iteration itself: delta_ from guess_ (which it may change).
 bool ImplicitStep::settle(State& to) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
   const double negligible = 0.1 * tolerance();
-  delta_ = guess_;
+  relaxation_.guess(to.t, c, guess_);
   extra_ = false;  // drift_ and correction_ count as zero
   if (norm > 0) {
     drift_.setZero();
@@ -178,14 +198,15 @@ bool ImplicitStep::settle(State& to) {
     else
       guess_.setZero();  // what drift_ stands for
   }
-  relaxation_.guess(to.t, c, delta_);
   bool phase = correctsPhase(), near = false;
   const double settled = std::sqrt(options_.tolerance);
   double last = 0, work = 1;
   int turn = -1;  // of the colours, once points take turns
+  int idle = 0;   // pairs of sweeps in a row without progress
   for (int iteration = 1; turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     if (near) {
       relaxation_.solveNear(factor_, tolerance(), delta_);
+      work += nearPrice + relaxation_.nearShare();
     } else {
       if (extra_) scratch_ = drift_ - correction_;
       relaxation_.solve(factor_, extra_ ? &scratch_ : nullptr, delta_);
@@ -217,12 +238,13 @@ bool ImplicitStep::settle(State& to) {
       if (iteration > 4 && error_ > slowestRelaxation * last) turn = 0;
       last = error_;
     } else if (turn > 0 && turn % perSweeps == 0) {
-      if (turn >= PointRelaxation::colours * options_.maxIterations || error_ > slowestSweeps * last) return false;
+      idle = error_ > slowestSweeps * last ? idle + 1 : 0;
+      if (turn >= PointRelaxation::colours * options_.maxIterations || idle > mostIdle) return false;
       last = error_;
     }
     near = turn < 0 ? relaxation_.correct(to.t, c, tolerance(), changed)
                     : relaxation_.correctColour(to.t, c, tolerance(), turn++ % PointRelaxation::colours) && !changed;
-    work += near ? nearPrice : 1.0;
+    if (!near) work += 1.0;
   }
   return false;
 }

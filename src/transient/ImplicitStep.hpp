@@ -60,6 +60,7 @@ class ImplicitStep {
   void linearResidual(const State& to);
   bool relax(State& to);
   bool settle(State& to);
+  bool finish(State& to);
   void account(double relaxations);
   bool iterate(State& to);
   double measure(const State& to);
@@ -99,6 +100,7 @@ class ImplicitStep {
   double usual_ = 0;        ///< relaxations of the first step with this factor
   double debt_ = 0;         ///< relaxations beyond that since
   Vector guess_, drift_;
+  State predicted_;  ///< to go back to
   bool extra_ = false;  ///< drift_ or correction_ is not zero
   Vector last_;  ///< delta of the last step
 

@@ -269,9 +269,13 @@ void PointRelaxation::solveNear(const linalg::BlockFactor& factor, double small,
   }
   factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
   const auto& pattern = model_->pattern();
-  for (int b = 0; b < pattern.blocks(); ++b)
-    if (live_[z(b)])
-      for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) delta[i] += near_[i], near_[i] = 0;
+  int reached = 0;
+  for (int b = 0; b < pattern.blocks(); ++b) {
+    if (!live_[z(b)]) continue;
+    ++reached;
+    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) delta[i] += near_[i], near_[i] = 0;
+  }
+  nearShare_ = static_cast<double>(reached) / pattern.blocks();
   isNear_ = true;
 }
 

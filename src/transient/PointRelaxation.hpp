@@ -54,6 +54,8 @@ class PointRelaxation {
   /// The same after a correct() that says so: delta changes by what the forces of the points corrected have changed, but for
   /// residuals below `small`.
   void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
+  /// Share of all blocks that the last solveNear() reached.
+  double nearShare() const { return nearShare_; }
   /// Evaluate the laws at delta (v changes by c per unit of delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
   /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
@@ -102,6 +104,7 @@ class PointRelaxation {
   Vector near_;             ///< change of delta in solveNear(), zero between calls
   std::vector<char> live_;  ///< blocks where it is not zero
   bool isNear_ = false;     ///< the last solve was solveNear()
+  double nearShare_ = 0;    ///< of all blocks, that it reached
   NodalProblem problem_;
   NodalProblem::Local y_, phi_;
 };

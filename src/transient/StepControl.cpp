@@ -25,7 +25,6 @@ constexpr int longestJump = 2;
 
 void MassNorm::bind(const CompiledModel& model) {
   model_ = &model;
-  product_.setZero(model.size());
   const auto& source = model.source();
   const auto components = static_cast<Eigen::Index>(source.componentNames.size());
   double moved = 0;
@@ -38,10 +37,8 @@ void MassNorm::bind(const CompiledModel& model) {
   mass_ = moved > 0 ? mass / moved : mass;
 }
 
-double MassNorm::operator()(const Vector& e) {
-  product_.setZero();
-  model_->addMass(e.data(), product_.data());
-  return std::sqrt(std::max(0.0, e.dot(product_) / mass_));
+double MassNorm::operator()(const Vector& e) const {
+  return std::sqrt(std::max(0.0, model_->massForm(e.data()) / mass_));
 }
 
 void StepControl::set(double tolerance, int deepest) {

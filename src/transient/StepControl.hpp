@@ -20,12 +20,11 @@ namespace tooljoint::transient {
 class MassNorm {
  public:
   void bind(const CompiledModel& model);
-  double operator()(const Vector& e);
+  double operator()(const Vector& e) const;
 
  private:
   const CompiledModel* model_ = nullptr;
   double mass_ = 1;
-  Vector product_;
 };
 
 class StepControl {

@@ -104,6 +104,64 @@ void expectSolves(const Sample& sample) {
   const Vector expected = inPositions(pattern, b);
   const Vector size = inPositions(pattern, sample.dense.cwiseAbs() * x.cwiseAbs());
   EXPECT_LT((y - expected).cwiseAbs().cwiseQuotient(size).maxCoeff(), 1e-14);
+  EXPECT_FALSE(product.isSymmetric());
+  EXPECT_NEAR(product.form(values.data(), in.data()), x.dot(b), 1e-14 * x.cwiseAbs().dot(sample.dense.cwiseAbs() * x.cwiseAbs()));
+}
+
+/// A x and x'A x of a symmetric chain of blocks, whole and in runs, against Eigen's sparse product.
+void expectSymmetricProduct(const std::vector<int>& widths) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Triplets triplets;
+  std::vector<int> group;
+  int before = 0;  // first dof of the block before
+  for (std::size_t b = 0; b < widths.size(); ++b) {
+    const int first = static_cast<int>(group.size());
+    group.resize(group.size() + static_cast<std::size_t>(widths[b]), static_cast<int>(b));
+    for (int i = first; i < static_cast<int>(group.size()); ++i)
+      for (int j = before; j <= i; ++j) {
+        const double value = uniform(random) + (i == j ? 4.0 : 0.0);
+        triplets.emplace_back(i, j, value);
+        if (i != j) triplets.emplace_back(j, i, value);
+      }
+    before = first;
+  }
+  const auto n = static_cast<Eigen::Index>(group.size());
+  Sparse matrix(n, n);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  const BlockPattern pattern(partitionDofs({&matrix}, group, group), {&matrix});
+  BlockValues values(pattern.storage(), 0.0);
+  pattern.add(matrix, 1.0, values);
+  const BlockProduct product(pattern, {&values});
+  ASSERT_TRUE(product.isSymmetric());
+  const Vector x = Vector::LinSpaced(n, -1.0, 2.0);
+  const Vector in = inPositions(pattern, x);
+  const Vector size = inPositions(pattern, matrix.cwiseAbs() * x.cwiseAbs());
+  Vector y = Vector::Zero(n), parts = y;
+  product.addTo(values.data(), in.data(), y.data());
+  EXPECT_LT((y - inPositions(pattern, matrix * x)).cwiseAbs().cwiseQuotient(size).maxCoeff(), 1e-14);
+  double form = 0;
+  for (const BlockRange& run : blockRuns(pattern, 20)) {
+    product.addTo(values.data(), in.data(), parts.data(), 1.0, run);
+    form += product.form(values.data(), in.data(), run);
+  }
+  EXPECT_EQ(parts, y);
+  const double sum = in.cwiseAbs().dot(size);
+  EXPECT_NEAR(form, x.dot(matrix * x), 1e-14 * sum);
+  EXPECT_NEAR(product.form(values.data(), in.data()), form, 1e-14 * sum);
+  // a little that is not symmetric is seen
+  values[pattern.address(pattern.start(1), pattern.start(0))] *= 1 + 1e-9;
+  EXPECT_FALSE(BlockProduct(pattern, {&values}).isSymmetric());
+}
+
+TEST(BlockProduct, ofSymmetricMatrices) {
+  expectSymmetricProduct({6, 6, 6, 6, 6});
+  expectSymmetricProduct({2, 6, 9, 6, 3, 14});
+}
+/// Long enough that blocks below the diagonal are not read.
+TEST(BlockProduct, ofLongSymmetricMatrices) {
+  expectSymmetricProduct(std::vector<int>(5000, 6));
+  expectSymmetricProduct(std::vector<int>(200, 43));
 }
 
 TEST(BlockFactor, chainOfSixWithHeldEnds) { expectSolves(Sample({2, 6, 6, 6, 6, 6, 6, 4}, chain(8), 1)); }
