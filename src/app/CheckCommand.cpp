@@ -116,10 +116,9 @@ void predictCost(const Scene& scene) {
   log::info(describeStatic(stage));
   const auto planned = plannedParts(scene, stage);
   auto options = transient::readOptions(scene.list().sublist("Transient"));
-  const auto probe = [&](const coupling::Synthesis& synthesis) {
+  const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(planned.parts, synthesis, stage.state.displacement);
-    transient::integrate(synthesis.coupled.model, options, estimator);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
   };
   const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe, planned.options);
   log::info(describeCost(fullStepCost(scene, stage), transient::stepCost(outcome.synthesis.coupled.model, options)));

@@ -33,10 +33,9 @@ void requireReduction(const deck::Deck& deck) {
 /// A motion tolerance needs the motion of the scene; an export has none to show, so the estimate is made on the side.
 template <class Deck, class Estimator>
 estimate::MotionProbe probe(const Deck& deck, const Estimator& make) {
-  return [&deck, make](const coupling::Synthesis& synthesis) {
+  return [&deck, make](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     const auto estimator = make(synthesis);
-    transient::integrate(synthesis.coupled.model, deck.list().sublist("Transient"), *estimator);
-    return estimator->result();
+    return estimate::watchMotion(*estimator, synthesis.coupled.model, transient::readOptions(deck.list().sublist("Transient")), limit);
   };
 }
 

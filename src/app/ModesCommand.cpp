@@ -38,10 +38,9 @@ void modes(const RunOptions& options) {
     return;
   }
   const auto& parts = planned.parts;
-  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
+  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
-    transient::integrate(synthesis.coupled.model, scene.list().sublist("Transient"), estimator);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene.list().sublist("Transient")), limit);
   }, planned.options);
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());
   log::info(reduction::summaryTable(outcome.synthesis.parts));

@@ -83,10 +83,9 @@ void partsModes(const RunOptions& options) {
   const auto& parts = deck.scene.parts;
   const auto outcome = estimate::synthesise(
       parts, deck.list().sublist("Reduction"),
-      [&](const coupling::Synthesis& synthesis) {
+      [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
         estimate::MotionEstimator estimator(parts, synthesis, restOf(whole), motionOptions(whole.model));
-        transient::integrate(synthesis.coupled.model, deck.list().sublist("Transient"), estimator);
-        return estimator.result();
+        return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(deck.list().sublist("Transient")), limit);
       },
       deck.scene.coupling);
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());

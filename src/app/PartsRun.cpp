@@ -105,7 +105,7 @@ class PartsRun {
     const auto start = Clock::now();
     const auto& list = deck_.list().sublist("Reduction");
     outcome_ = estimate::synthesise(
-        deck_.scene.parts, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); }, deck_.scene.coupling);
+        deck_.scene.parts, list, [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); }, deck_.scene.coupling);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -125,12 +125,9 @@ class PartsRun {
                 (std::filesystem::path(folder_->folder()) / "parts").string());
   }
 
-  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis) {
+  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(deck_.scene.parts, synthesis, restOf(whole_), motionOptions(whole_.model));
-    transient::RunHooks hooks;
-    hooks.title = "choice of modes";
-    transient::integrate(synthesis.coupled.model, transientList(), estimator, hooks);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(transientList()), limit);
   }
 
   void integrate(const model::SecondOrderModel& model) {

@@ -77,7 +77,7 @@ class Run {
     auto planned = plannedParts(scene_, stage_);
     parts_ = std::move(planned.parts);
     const auto& list = scene_.list().sublist("Reduction");
-    outcome_ = estimate::synthesise(parts_, list, [this](const coupling::Synthesis& synthesis) { return probe(synthesis); }, planned.options);
+    outcome_ = estimate::synthesise(parts_, list, [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); }, planned.options);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -114,12 +114,9 @@ class Run {
   }
 
   /// The motion of a candidate of the reduction, for its error only.
-  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis) {
+  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts_, synthesis, stage_.state.displacement);
-    transient::RunHooks hooks;
-    hooks.title = "choice of modes";
-    transient::integrate(synthesis.coupled.model, scene_.list().sublist("Transient"), estimator, hooks);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")), limit);
   }
 
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model, const transient::RunHooks& hooks) {

@@ -130,12 +130,11 @@ void reduce(const StudyScene& scene, PreparedModel& prepared) {
   prepared.planned = scene.parts();
   const auto& parts = prepared.planned.parts;
   const auto& list = scene.list().sublist("Reduction");
-  const auto probe = [&](const coupling::Synthesis& synthesis) {
+  const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts, synthesis, scene.rest(), estimated(scene.measures()));
     auto options = transient::readOptions(scene.list().sublist("Transient"));
     options.progress = false;
-    transient::integrate(synthesis.coupled.model, options, estimator);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
   };
   prepared.outcome = estimate::synthesise(parts, list, probe, prepared.planned.options);
   prepared.basis = list.get<std::string>("Basis");

@@ -19,6 +19,15 @@ namespace {
 constexpr int firstModes = 2;
 /// Estimates of motions are less sharp than those of frequencies: twice the safety.
 constexpr double motionSafety = 2.0;
+/// A motion is given up when its error is so many times what is allowed.
+constexpr double hopeless = 2.0;
+/// An error up to which a model tells how large the motion is.
+constexpr double known = 0.5;
+/// A part that would get this fraction of its modes is kept whole.
+constexpr double nearlyAll = 0.75;
+/// Likewise one whose matrices, full with modes, would have so many times the entries of its own stiffness: the longer steps an
+/// explicit integrator may take without the highest modes do not make up for more.
+constexpr double tooFull = 10.0;
 /// Rounds after which something is wrong: each adds two modes at least and half of what there is to some part.
 constexpr int mostRounds = 60;
 
@@ -41,6 +50,13 @@ std::vector<std::size_t> mark(const Vector& shares, double rest) {
   return order;
 }
 
+/// Entries of all stiffness terms, those at one place counted once.
+double entries(const model::Substructure& part) {
+  Sparse sum(part.model.size(), part.model.size());
+  for (const auto& term : part.model.stiffness) sum = Sparse(sum + term.matrix.cwiseAbs());
+  return static_cast<double>(sum.nonZeros());
+}
+
 /// The rounds of a tolerance.
 class Rounds {
  public:
@@ -56,6 +72,7 @@ class Rounds {
       outcome_.synthesis = coupling::synthesise(parts_, basis_, options_, cache_, coupling_);
       outcome_.rounds.emplace_back();
       outcome_.rounds.back().modes = modes();
+      outcome_.rounds.back().whole = static_cast<int>(std::count(options_.modes.counts.begin(), options_.modes.counts.end(), reduction::ModeRule::whole));
       std::vector<char> wanted(parts_.size(), 0);
       if (rule_.frequencyTolerance > 0) lookAtFrequencies(wanted);
       if (rule_.motionTolerance > 0 && std::count(wanted.begin(), wanted.end(), 1) == 0) lookAtMotion(wanted);
@@ -84,29 +101,49 @@ class Rounds {
   }
 
   void lookAtMotion(std::vector<char>& wanted) {
+    auto& round = outcome_.rounds.back();
+    if (round.whole == static_cast<int>(parts_.size())) {
+      round.motionError = 0;
+      return;
+    }
     const auto start = std::chrono::steady_clock::now();
-    const auto estimate = probe_(outcome_.synthesis);
-    outcome_.rounds.back().motionError = estimate.error;
+    const double allowed = rule_.motionTolerance / (motionSafety * rule_.safety);
+    MotionLimit limit;
+    if (motion_ > 0) limit = {hopeless * allowed, motion_};
+    const auto estimate = probe_(outcome_.synthesis, limit);
+    round.motionError = estimate.error;
+    round.reached = estimate.reached;
+    if (estimate.reached >= 1 && estimate.error <= known) motion_ = estimate.motion;
     outcome_.wall += since(start);
-    if (!(estimate.error * motionSafety * rule_.safety <= rule_.motionTolerance))
-      for (std::size_t p : mark(estimate.byPart, 0.1 * estimate.byPart.sum())) wanted[p] = 1;
+    if (estimate.error <= allowed) return;
+    const auto marked = mark(estimate.byPart, 0.1 * estimate.byPart.sum());
+    if (marked.empty()) std::fill(wanted.begin(), wanted.end(), 1);  // it comes from the initial state, or is not a number
+    for (std::size_t p : marked) wanted[p] = 1;
   }
 
-  /// Half as many modes again (as many again while the error is far off), two at least. False when every wanted part has all it
-  /// has.
+  /// Half as many modes again (as many again while the error is ten times too large, three times as many while it is a hundred
+  /// times), two at least; the whole part where that is nearly all. False when every wanted part has all it has.
   bool grow(const std::vector<char>& wanted) {
     const auto& round = outcome_.rounds.back();
-    const bool far = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300), round.motionError / std::max(rule_.motionTolerance, 1e-300)) > 10;
+    const double off = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300), round.motionError / std::max(rule_.motionTolerance, 1e-300));
     bool grown = false;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const auto& reduced = outcome_.synthesis.parts[p];
       const int interior = reduced.report.interior;
       if (!wanted[p] || reduced.modes >= interior) continue;
-      const int more = std::max(2, far ? reduced.modes : (reduced.modes + 1) / 2);
-      options_.modes.counts[p] = std::min(interior, reduced.modes + more);
+      const int more = std::max(2, off > 100 ? 3 * reduced.modes : off > 10 ? reduced.modes : (reduced.modes + 1) / 2);
+      const int next = std::min(interior, reduced.modes + more);
+      options_.modes.counts[p] = rule_.motionTolerance > 0 && dearerThanWhole(p, next) ? reduction::ModeRule::whole : next;
       grown = true;
     }
     return grown;
+  }
+
+  /// A part with so many modes is integrated at a greater expense than the part itself.
+  bool dearerThanWhole(std::size_t p, int count) const {
+    const auto& report = outcome_.synthesis.parts[p].report;
+    const double size = report.interface + report.retained + count;
+    return count >= nearlyAll * report.interior || size * size > tooFull * entries(parts_[p]);
   }
 
   [[noreturn]] void refuse() const {
@@ -128,6 +165,7 @@ class Rounds {
   const coupling::CouplingOptions& coupling_;
   reduction::ReductionCache cache_;
   Outcome outcome_;
+  double motion_ = 0;  ///< MotionEstimate::motion of the last model that went to the end with an error up to `known`; 0 before
 };
 
 }  // namespace
@@ -183,16 +221,17 @@ Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos:
 }
 
 std::string roundTable(const std::vector<Round>& rounds) {
-  std::string text = "Modes by tolerance:\n  round   modes   error of frequencies   error of motion\n";
+  std::string text = "Modes by tolerance:\n  round   modes   parts kept whole   error of frequencies   error of motion\n";
   const auto number = [](double value) {
     char field[32];
     std::snprintf(field, sizeof field, value < 0 ? "-" : "%.2e", value);
     return std::string(field);
   };
   for (std::size_t i = 0; i < rounds.size(); ++i) {
-    char line[128];
-    std::snprintf(line, sizeof line, "  %5zu  %6d  %21s  %16s\n", i + 1, rounds[i].modes, number(rounds[i].frequencyError).c_str(),
-                  number(rounds[i].motionError).c_str());
+    char line[160], note[64] = "";
+    if (rounds[i].reached < 1) std::snprintf(note, sizeof note, ", given up after %.2g of the window", rounds[i].reached);
+    std::snprintf(line, sizeof line, "  %5zu  %6d  %17d  %21s  %16s%s\n", i + 1, rounds[i].modes, rounds[i].whole, number(rounds[i].frequencyError).c_str(),
+                  number(rounds[i].motionError).c_str(), note);
     text += line;
   }
   return text;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/Error.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "estimate/PartResidual.hpp"
 #include "linalg/BlockFactor.hpp"
@@ -15,6 +16,9 @@
 namespace tooljoint::estimate {
 
 namespace {
+
+/// So many samples are seen before a motion is given up: which part the error comes from is not known at its start.
+constexpr long fewSamples = 10;
 
 /// LU of a matrix on the pattern of a compiled model; vectors in positions.
 class Factor {
@@ -274,6 +278,7 @@ MotionEstimate MotionEstimator::result() const {
   const Impl& m = *impl_;
   MotionEstimate estimate;
   estimate.samples = m.samples;
+  estimate.motion = m.motions;
   estimate.wall = m.wall;
   if (m.motions > 0) {
     estimate.error = std::sqrt(m.errors / m.motions);
@@ -281,6 +286,26 @@ MotionEstimate MotionEstimator::result() const {
   }
   estimate.byPart = Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
   if (estimate.byPart.size() > 0 && estimate.byPart.sum() > 0) estimate.byPart /= estimate.byPart.sum();
+  return estimate;
+}
+
+bool MotionEstimator::exceeds(const MotionLimit& limit) const {
+  return std::isfinite(limit.error) && impl_->samples >= fewSamples && impl_->errors > limit.error * limit.error * std::max(limit.motion, impl_->motions);
+}
+
+MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model, const transient::TransientOptions& options,
+                           const MotionLimit& limit, const std::string& title) {
+  transient::RunHooks hooks;
+  hooks.title = title;
+  hooks.stop = [&] { return interruptRequested() || estimator.exceeds(limit); };
+  const auto report = transient::integrate(model, options, estimator, hooks);
+  auto estimate = estimator.result();
+  if (!report.interrupted) return estimate;
+  if (interruptRequested()) throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s of a motion from which the modes are chosen.");
+  estimate.reached = (report.end - options.start) / (options.end - options.start);
+  // errors / reached over the motion expected in the end; estimate.error is that over the motion so far
+  const double soFar = estimate.motion > 0 ? std::min(1.0, estimate.motion / std::max(limit.motion, estimate.motion)) : 1.0;
+  estimate.error *= std::sqrt(soFar / estimate.reached);
   return estimate;
 }
 

@@ -3,7 +3,9 @@
 /// A-posteriori error of the motion of a coupled reduced model, from its own samples.
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "coupling/Synthesis.hpp"
@@ -22,7 +24,16 @@ struct MotionEstimate {
   double largest = 0;     ///< the same for the worst sample, against the mean of |x - x_static| over the samples
   Vector byPart;          ///< size of the motion that each part leaves out, squared, as a fraction of the sum over the parts
   long samples = 0;
+  double motion = 0;      ///< |x - x_static|^2, summed over all recovered nodes and samples
+  double reached = 1;     ///< fraction of the window that was looked at, below 1 where the motion was given up
   double wall = 0;        ///< what it cost [s]
+};
+
+/// An error that is too large whatever follows: sum |x - x_full|^2 so far exceeds error^2 sum |x - x_static|^2, with the latter the
+/// larger of what it is so far and of what it is expected to be in the end.
+struct MotionLimit {
+  double error = std::numeric_limits<double>::infinity();
+  double motion = 0;  ///< MotionEstimate::motion of a model that went to the end, 0: unknown
 };
 
 /// Watches a motion and integrates its error on the side. With D = Phi q the motion of all parts and the residual
@@ -51,10 +62,17 @@ class MotionEstimator : public transient::SampleSink {
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   MotionEstimate result() const;
+  bool exceeds(const MotionLimit& limit) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the limit. The error of a motion that
+/// was given up is what it would become if its square went on to grow at its mean rate: at least sqrt(1 / reached) times the limit.
+/// Throws InterruptedError when the user stops it, and what transient::integrate throws.
+MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model, const transient::TransientOptions& options,
+                           const MotionLimit& limit = {}, const std::string& title = "choice of modes");
 
 }  // namespace tooljoint::estimate

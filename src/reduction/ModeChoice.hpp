@@ -25,6 +25,7 @@ constexpr double clusterTolerance = 1e-6;
 struct ModeRule {
   enum class Kind { PerPart, Total, CutOff, All, InterfaceMass, InterfaceMoment, Tolerance };
   Kind kind = Kind::All;
+  static constexpr int whole = -1;  ///< in `counts`: the part is not reduced (wholePart)
   std::vector<int> counts;  ///< PerPart: one entry for every part, or a single one for all
   int total = 0;            ///< Total: the lowest `total` over all parts
   double cutOffHz = 0;      ///< CutOff: all modes at or below
@@ -37,7 +38,7 @@ struct ModeRule {
 
 /// What is asked of the basis of one part.
 struct ModeRequest {
-  enum class Kind { Count, Below, All };
+  enum class Kind { Count, Below, All, Whole };
   Kind kind = Kind::All;
   int count = 0;
   double omegaMax = 0;  ///< Below [rad/s]

@@ -18,6 +18,7 @@
 #include "reduction/InterfaceCriteria.hpp"
 #include "reduction/Projection.hpp"
 #include "reduction/Twins.hpp"
+#include "reduction/WholePart.hpp"
 
 namespace tooljoint::reduction {
 
@@ -204,8 +205,8 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
     request.eigen = options.eigen;
     switch (rule.kind) {
       case ModeRule::Kind::PerPart:
-        request.kind = ModeRequest::Kind::Count;
         request.count = rule.counts.size() == 1 ? rule.counts.front() : rule.counts.at(p);
+        request.kind = request.count == ModeRule::whole ? ModeRequest::Kind::Whole : ModeRequest::Kind::Count;
         break;
       case ModeRule::Kind::Total: {
         // The share of the part by size, with some room; asked again where it turns out too small.
@@ -299,7 +300,9 @@ class Team {
     if (kind == ModeRule::Kind::Total) shareTotalModes();
     if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment) chooseByInterface();
     parallel::agree([&] {
-      forOwned([&](std::size_t p) { addLoadVectors(parts_[p], options_.loadVectors, bases_[p]); });
+      forOwned([&](std::size_t p) {
+        if (!isWhole(bases_[p])) addLoadVectors(parts_[p], options_.loadVectors, bases_[p]);
+      });
       forOwned([&](std::size_t p) { cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_)); });
     });
     exchange();
@@ -372,7 +375,7 @@ class Team {
   void build(const std::vector<char>& wanted) {
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
-        if (wanted[p]) bases_[p] = basis_.build(parts_[p], requests_[p]);
+        if (wanted[p]) bases_[p] = requests_[p].kind == ModeRequest::Kind::Whole ? wholePart(parts_[p]) : basis_.build(parts_[p], requests_[p]);
       });
     });
   }

@@ -49,7 +49,7 @@ void declareCriteria(deck::ListSpec& list) {
             "frequencies: \"Estimated Frequencies\" or \"Estimated Below\".");
   list.real("Motion Tolerance", "", deck::Optional{}, tolerance,
             "As many modes as the estimated error dyn of the transient needs to stay below this, alone or with \"Frequency Tolerance\"; the "
-            "transient is run once for every round of the choice.");
+            "transient is run once for every round of the choice, up to where it fails. A part that would get nearly all of its modes is kept whole.");
   list.real("Tolerance Safety", "", 1.5, Range::atLeast(1.0),
             "What an estimate is multiplied by before it is compared with a tolerance; that of the motion, which is less sharp, by twice "
             "this.");

@@ -164,4 +164,79 @@ TEST(MotionEstimate, IsNothingWithAllModes) {
   EXPECT_EQ(estimator.result().error, 0.0);
 }
 
+TEST(WatchMotion, GivesUpWhatIsTooFarOff) {
+  const auto parts = hitFrame(false);
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {1};
+  const auto synthesis = coupling::synthesise(parts, *craigBampton(), options);
+  const auto& model = synthesis.coupled.model;
+  const auto watched = [&](const estimate::MotionLimit& limit) {
+    estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(model.recoveryOffset.size()));
+    return estimate::watchMotion(estimator, model, steps(), limit);
+  };
+  const auto whole = watched({});
+  EXPECT_EQ(whole.reached, 1.0);
+  EXPECT_GT(whole.motion, 0.0);
+  const auto allowed = watched({1.01 * whole.error, whole.motion});
+  EXPECT_EQ(allowed.reached, 1.0);
+  EXPECT_EQ(allowed.error, whole.error);
+  double before = 1.0;
+  for (double part : {0.8, 0.4, 0.1}) {
+    const auto stopped = watched({part * whole.error, whole.motion});
+    EXPECT_LT(stopped.reached, before) << "the tighter the limit, the earlier";
+    EXPECT_GT(stopped.samples, 9);
+    EXPECT_GE(stopped.error * std::sqrt(stopped.reached), 0.999 * part * whole.error) << "above the limit already";
+    EXPECT_LT(stopped.error, 10 * whole.error);
+    before = stopped.reached;
+  }
+}
+
+TEST(MotionTolerance, IsMetAndPartsThatNeedNearlyAllTheirModesStayWhole) {
+  const auto parts = hitFrame(false);
+  const auto full = coupling::couple(parts);
+  Motion reference(full);
+  transient::integrate(full, steps(), reference);
+  int trials = 0, stopped = 0;
+  const estimate::MotionProbe probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+    estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
+    const auto estimate = estimate::watchMotion(estimator, synthesis.coupled.model, steps(), limit);
+    ++trials;
+    if (estimate.reached < 1) ++stopped;
+    return estimate;
+  };
+  for (double wanted : {3e-2, 1e-3, 1e-7}) {
+    const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(0, wanted), {}, probe);
+    Motion motion(outcome.synthesis.coupled.model);
+    transient::integrate(outcome.synthesis.coupled.model, steps(), motion);
+    std::printf("%s", estimate::roundTable(outcome.rounds).c_str());
+    EXPECT_LE(difference(motion.columns, reference.columns), wanted);
+    EXPECT_LE(outcome.rounds.back().motionError, wanted / 3.0);
+    EXPECT_EQ(outcome.rounds.back().reached, 1.0) << "what is taken was looked at to its end";
+    if (wanted > 1e-2) {
+      EXPECT_LT(outcome.synthesis.coupled.model.size(), full.size());
+    }
+    if (wanted > 1e-5) continue;
+    EXPECT_EQ(outcome.rounds.back().whole, static_cast<int>(parts.size()));
+    EXPECT_EQ(outcome.rounds.back().motionError, 0.0);
+    EXPECT_EQ(outcome.synthesis.coupled.model.size(), full.size());
+  }
+  EXPECT_GT(stopped, 0);
+  EXPECT_LT(stopped, trials);
+}
+
+// An estimate that is no number, or that no part answers for, gives modes to every part.
+TEST(MotionTolerance, IsNotMetByWhatIsNoNumber) {
+  const auto parts = samples::loopFrame(6, false);
+  int trials = 0;
+  const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(0, 1e-2), {}, [&](const coupling::Synthesis&, const estimate::MotionLimit&) {
+    estimate::MotionEstimate none;
+    none.error = ++trials < 3 ? std::nan("") : 1e-9;
+    none.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
+    return none;
+  });
+  EXPECT_EQ(trials, 3);
+  EXPECT_GT(outcome.rounds.back().modes, outcome.rounds.front().modes);
+}
+
 }  // namespace

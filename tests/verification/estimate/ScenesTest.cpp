@@ -172,10 +172,9 @@ double chosen(const Case& c, const std::vector<Vector>& reference, double tolera
   const auto scene = c.with({choice});
   const auto& transient = scene.list().sublist("Transient");
   const auto parts = app::cut(scene, c.stage);
-  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis) {
+  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts, synthesis, rest);
-    transient::integrate(synthesis.coupled.model, transient, estimator);
-    return estimator.result();
+    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(transient), limit);
   });
   const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
   std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
