@@ -132,6 +132,27 @@ TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restric
   }
 }
 
+/// The same with the sums in registers, even and odd columns apart.
+template <int rows, int sign>
+TOOLJOINT_INLINED void addFewRows(int columns, const double* A, const double* x, double* y) {
+  constexpr int quads = rows / 4, rest = rows % 4;
+  Quad even[quads + 1], odd[quads + 1];
+  double last[2][3] = {};
+  for (int k = 0; k < quads; ++k) even[k] = *reinterpret_cast<const Quad*>(y + 4 * k), odd[k] = Quad{0, 0, 0, 0};
+  for (int i = 0; i < rest; ++i) last[0][i] = y[4 * quads + i];
+  const auto add = [&](Quad* sum, double* tail, int j) __attribute__((always_inline)) {
+    const double factor = sign * x[j];
+    const double* column = A + rows * j;
+    for (int k = 0; k < quads; ++k) sum[k] += *reinterpret_cast<const Quad*>(column + 4 * k) * factor;
+    for (int i = 0; i < rest; ++i) tail[i] += column[4 * quads + i] * factor;
+  };
+  int j = 0;
+  for (; j + 2 <= columns; j += 2) add(even, last[0], j), add(odd, last[1], j + 1);
+  if (j < columns) add(even, last[0], j);
+  for (int k = 0; k < quads; ++k) *reinterpret_cast<Quad*>(y + 4 * k) = even[k] + odd[k];
+  for (int i = 0; i < rest; ++i) y[4 * quads + i] = last[0][i] + last[1][i];
+}
+
 /// The same for six rows.
 template <int sign>
 TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x, double* y) {
@@ -141,13 +162,33 @@ TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x,
   even.to(y);
 }
 
-/// y += A x; y and x do not overlap.
-TOOLJOINT_INLINED void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) {
-  if (rows == 6)
-    addSixRows<1>(columns, A, x, y);
-  else
-    addColumns<1>(rows, columns, A, x, y);
+/// y += sign A x; y and x do not overlap. Nodes have six dofs or fewer, the modes of a run two for each pair of them.
+template <int sign>
+TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const double* x, double* y) {
+  switch (rows) {
+    case 2:
+      return addFewRows<2, sign>(columns, A, x, y);
+    case 4:
+      return addFewRows<4, sign>(columns, A, x, y);
+    case 6:
+      return addSixRows<sign>(columns, A, x, y);
+    case 8:
+      return addFewRows<8, sign>(columns, A, x, y);
+    case 10:
+      return addFewRows<10, sign>(columns, A, x, y);
+    case 12:
+      return addFewRows<12, sign>(columns, A, x, y);
+    case 14:
+      return addFewRows<14, sign>(columns, A, x, y);
+    case 16:
+      return addFewRows<16, sign>(columns, A, x, y);
+    default:
+      addColumns<sign>(rows, columns, A, x, y);
+  }
 }
+
+/// y += A x; y and x do not overlap.
+TOOLJOINT_INLINED void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) { addProduct<1>(rows, columns, A, x, y); }
 
 /// y += A' x, A rows x columns; y and x do not overlap.
 TOOLJOINT_INLINED void multiplyTransposedAdd(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
@@ -159,12 +200,7 @@ TOOLJOINT_INLINED void multiplyTransposedAdd(int rows, int columns, const double
 }
 
 /// y -= A x; y and x do not overlap.
-TOOLJOINT_INLINED void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) {
-  if (rows == 6)
-    addSixRows<-1>(columns, A, x, y);
-  else
-    addColumns<-1>(rows, columns, A, x, y);
-}
+TOOLJOINT_INLINED void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) { addProduct<-1>(rows, columns, A, x, y); }
 
 /// C -= A B with A rows x inner, B inner x columns.
 TOOLJOINT_INLINED void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {

@@ -214,6 +214,21 @@ void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<c
   }
 }
 
+/// sum += A_ij x_j over some entries of a row.
+TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const {
+  const Entry* entries = entries_.data();
+  for (int e = begin; e < end; ++e) {
+    const double* block = values + entries[e].offset;
+    const double* source = x + entries[e].column;
+    if (entries[e].form == Form::Diagonal)
+      for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
+    else if (entries[e].form == Form::Transposed)
+      kernel::multiplyTransposedAdd(entries[e].width, row.width, block, source, sum);
+    else
+      kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
+  }
+}
+
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
   const Entry* entries = entries_.data();
   const Row* last = rows_.data() + end;
@@ -237,16 +252,7 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
     }
     double* sum = factor == 1.0 ? target : sum_.data();
     if (sum != target) std::fill(sum, sum + row.width, 0.0);
-    for (int e = row.begin; e < row.end; ++e) {
-      const double* block = values + entries[e].offset;
-      const double* source = x + entries[e].column;
-      if (entries[e].form == Form::Diagonal)
-        for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
-      else if (entries[e].form == Form::Transposed)
-        kernel::multiplyTransposedAdd(entries[e].width, row.width, block, source, sum);
-      else
-        kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
-    }
+    addEntries(row, row.begin, row.end, values, x, sum);
     if (sum != target)
       for (int i = 0; i < row.width; ++i) target[i] += factor * sum[i];
   }
@@ -278,20 +284,8 @@ TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* val
 
 /// sum_i x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or sum_ij x_i'A_ij x_j
 TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double* values, const double* x) const {
-  const Entry* entries = entries_.data();
   const Row* last = rows_.data() + end;
   double* sum = sum_.data();
-  const auto add = [&](const Row& row, int from, int to) {
-    for (int e = from; e < to; ++e) {
-      const double* block = values + entries[e].offset;
-      const double* source = x + entries[e].column;
-      if (far_) kernel::fetchAhead(block, row.width * entries[e].width);
-      if (entries[e].form == Form::Diagonal)
-        for (int i = 0; i < row.width; ++i) sum[i] += block[i * (row.width + 1)] * source[i];
-      else
-        kernel::multiplyAdd(row.width, entries[e].width, block, source, sum);
-    }
-  };
   double whole = 0;
   for (const Row* at = rows_.data() + begin; at != last; ++at) {
     const Row row = *at;
@@ -301,12 +295,13 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
     }
     std::fill(sum, sum + row.width, 0.0);
     if (symmetric_) {
-      const bool own = row.diagonal < row.end && entries[row.diagonal].column == row.start;
-      add(row, own ? row.diagonal + 1 : row.diagonal, row.end);
+      const bool own = row.diagonal < row.end && entries_[z(row.diagonal)].column == row.start;
+      const int beyond = own ? row.diagonal + 1 : row.diagonal;
+      addEntries(row, beyond, row.end, values, x, sum);
       for (int i = 0; i < row.width; ++i) sum[i] *= 2.0;
-      if (own) add(row, row.diagonal, row.diagonal + 1);
+      addEntries(row, row.diagonal, beyond, values, x, sum);
     } else {
-      add(row, row.begin, row.end);
+      addEntries(row, row.begin, row.end, values, x, sum);
     }
     for (int i = 0; i < row.width; ++i) whole += x[row.start + i] * sum[i];
   }

@@ -105,6 +105,7 @@ class BlockProduct {
  private:
   struct Row;
   double formRows(int begin, int end, const double* values, const double* x) const;
+  void addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const;
   double sixForm(const Row& row, const double* values, const double* x) const;
   void findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;

@@ -49,7 +49,7 @@ EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, c
 void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   account_ = {};
   stride_ = stride;
-  skipped_ = 0;
+  skipped_ = unwatched_ = 0;
   allocate(model);
   model.setTime(state.t);
   model.addStiffness(state.q.data(), internal_.data());
@@ -65,6 +65,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
 }
 
 void EnergyLedger::book(CompiledModel& model, const State& to) {
+  ++unwatched_;
   if (++skipped_ < stride_) return;
   enter(model, to);
 }
@@ -139,6 +140,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
 }
 
 bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
+  unwatched_ = 0;
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = 0.5 * model.massForm(state.v.data());
   account_.strain = strain_;
@@ -156,7 +158,7 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(skipped_), time_, strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
+  memory.insert(memory.end(), {static_cast<double>(skipped_), static_cast<double>(unwatched_), time_, strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
                                account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
   for (const Vector* x : {&q_, &internal_, &load_}) memory.insert(memory.end(), x->begin(), x->end());
@@ -167,6 +169,7 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   stride_ = stride;
   allocate(model);
   skipped_ = static_cast<int>(*memory++);
+  unwatched_ = static_cast<int>(*memory++);
   for (double* x : {&time_, &strain_, &stored_, &account_.initial,
                     &account_.loads, &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory,
                     &account_.exchanged, &account_.supplied})

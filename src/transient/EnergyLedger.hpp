@@ -46,6 +46,8 @@ class EnergyLedger {
   void book(CompiledModel& model, const State& to);
   /// The account at `state`, the last one booked or later: what is left is booked first.
   EnergyAccount account(CompiledModel& model, const State& state);
+  /// Whether enough steps have been booked since the last runaway() for another look, which costs as much as a booking.
+  bool isDue() const { return unwatched_ >= watchStride; }
   /// EnergyAccount::runaway() at `state`. Allocates nothing.
   bool runaway(CompiledModel& model, const State& state);
 
@@ -67,6 +69,8 @@ class EnergyLedger {
   void enter(CompiledModel& model, const State& to);
 
   int stride_ = 1;
+  static constexpr int watchStride = 8;
+  int unwatched_ = 0;  ///< steps since the last runaway()
   int skipped_ = 0;  ///< steps since the last one booked
   double time_ = 0;  ///< the last one booked
   Vector q_;

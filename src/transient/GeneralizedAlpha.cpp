@@ -89,7 +89,8 @@ class GeneralizedAlpha final : public Integrator {
     if (own.get<bool>("Phase Correction")) setPhaseCorrection();
   }
 
-  int ledgerStride() const override { return 2; }
+  /// Two steps of one length are booked together.
+  int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {
     return std::string("Choose a smaller ") + (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
            ", or a smaller Transient/Generalized-alpha/Spectral Radius";

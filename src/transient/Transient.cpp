@@ -200,7 +200,7 @@ class Run {
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
-      if (options_.ledger && sampler_.count() > before) watchEnergy();
+      if (options_.ledger && sampler_.count() > before && ledger_.isDue()) watchEnergy();
       std::swap(state_, next_);
       if (state_.t >= nextCheckpoint && state_.t < options_.end) {
         hooks_.keep(checkpoint());
@@ -209,7 +209,7 @@ class Run {
       if (bar && bar->due(state_.t)) bar->update(state_.t, suffix());
     }
     if (bar) bar->finish();
-    if (runawaySamples_ > 0) runaway();
+    if (options_.ledger && ledger_.runaway(model_, state_)) runaway();
     integrator_->finish();
     return false;
   }
