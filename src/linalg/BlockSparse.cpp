@@ -177,7 +177,7 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
       Entry entry{pattern.offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
       row.allSix = row.allSix && columns == 6 && offDiagonal;
       if (pattern.column(e) < b) {
-        if (far_ && symmetric_ && offDiagonal) {
+        if (far_ && mirrored_ && offDiagonal) {
           entry.form = Form::Transposed;
           entry.offset = pattern.offset(pattern.find(pattern.column(e), b));
         }
@@ -194,7 +194,7 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
 
 void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
   constexpr double rounding = 1e-12;
-  symmetric_ = true;
+  symmetric_ = mirrored_ = true;
   Vector root(pattern.size());  // sqrt |A_ii|
   for (const BlockValues* sample : samples) {
     const double* A = sample->data();
@@ -207,11 +207,11 @@ void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<c
         for (int j = 0; j < columns; ++j)
           for (int i = 0; i < rows; ++i) {
             const double difference = std::abs(here[j * rows + i] - there[i * columns + j]);
-            if (difference > rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j]) symmetric_ = false;
+            if (difference > rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j]) (c < b ? mirrored_ : symmetric_) = false;
           }
-        if (!symmetric_) return;
       }
   }
+  symmetric_ = symmetric_ && mirrored_;
 }
 
 /// sum += A_ij x_j over some entries of a row.
@@ -289,12 +289,12 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
   double whole = 0;
   for (const Row* at = rows_.data() + begin; at != last; ++at) {
     const Row row = *at;
-    if (row.allSix && symmetric_) {
+    if (row.allSix && mirrored_) {
       whole += sixForm(row, values, x);
       continue;
     }
     std::fill(sum, sum + row.width, 0.0);
-    if (symmetric_) {
+    if (mirrored_) {
       const bool own = row.diagonal < row.end && entries_[z(row.diagonal)].column == row.start;
       const int beyond = own ? row.diagonal + 1 : row.diagonal;
       addEntries(row, beyond, row.end, values, x, sum);

@@ -79,8 +79,9 @@ struct BlockRange {
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
 /// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is symmetric, is found once, from
-/// samples that have every nonzero the products will see. Matrices that do not fit a near cache are asked for ahead, and of a
-/// symmetric one blocks below the diagonal are not read: they are those above it, seen a row ago.
+/// samples that have every nonzero the products will see. Matrices that do not fit a near cache are asked for ahead, and where
+/// blocks below the diagonal mirror those above they are not read: they were seen a row ago. That is so for stiffness under
+/// varying torque too, whose skew part stands in the diagonal blocks of beams.
 class BlockProduct {
  public:
   BlockProduct() = default;
@@ -128,6 +129,7 @@ class BlockProduct {
   std::vector<int> firstRow_;  ///< block -> first of rows_ from there on
   std::vector<Entry> entries_;
   bool symmetric_ = false;
+  bool mirrored_ = false;  ///< A_ij = A_ji' for i != j; diagonal blocks need not be symmetric
   bool far_ = false;  ///< matrices are longer than a near cache
   mutable std::vector<double> sum_;
 };

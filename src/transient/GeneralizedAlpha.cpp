@@ -62,7 +62,7 @@ deck::ListSpec specification() {
                "Make up for the period error of the scheme: vibration is then followed to fourth order in the step, at about a "
                "third more work per step.")
       .boolean("Accept Coarse Steps", false,
-               "Take a motion as a result although fixed steps do not follow it (their local error is more than 2.8 % of what moves in them).")
+               "Take a motion as a result although fixed steps do not follow it (their local error is more than 2.5 % of what moves in them).")
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
 }

@@ -4,7 +4,7 @@
 ///
 ///     R^2 = sum |e|^2 / sum |q_{n+1} - q_n|^2
 ///
-/// Vibration of frequency w gives R of about (w h)^2 / 10: 0.028 is 12 steps a period. Whirling strings in contact have 0.001 where the motion
+/// Vibration of frequency w gives R of about (w h)^2 / 10: 0.025 is 12.6 steps a period. Whirling strings in contact have 0.001 where the motion
 /// is wrong by 0.3 %, 0.013 at 4 %, 0.03 at 30 %. Impacts are left out: their error is of first order at any step.
 #pragma once
 
@@ -18,7 +18,7 @@ class StepResolution {
   /// Every so many steps one is looked at.
   static constexpr long stride = 8;
   /// R above which the run is no result, and above which a person is warned.
-  static constexpr double lost = 0.028, coarse = 0.01;
+  static constexpr double lost = 0.025, coarse = 0.01;
 
   /// Lengths [m]: local error, change of the displacement, displacement.
   void add(double error, double change, double size) {
