@@ -124,8 +124,10 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at the end of a step that meets
   // a wall is not what it went in with)
   if (!model.points().empty()) {
-    product_ = to.q - 0.5 * step_;
-    step_ /= h;
+    for (int i = 0; i < step_.size(); ++i) {
+      product_[i] = to.q[i] - 0.5 * step_[i];
+      step_[i] /= h;
+    }
     const Powers mean = pointPowers(model, to.t - 0.5 * h, product_, step_, Looked::WhereActed);
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);

@@ -174,7 +174,7 @@ bool ImplicitStep::finish(State& to) {
   const double c = scheme_.velocity, a = scheme_.acceleration;
   for (int i = 0; i < delta_.size(); ++i) to.q[i] += delta_[i], to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
   linearResidual(to);
-  if (extra_) linear_ -= correction_;
+  if (corrected_) linear_ -= correction_;
   if (iterate(to)) return true;
   to = predicted_;
   linearResidual(to);
@@ -188,11 +188,9 @@ bool ImplicitStep::settle(State& to) {
   const double norm = drifted() ? driftNorm() : 0.0;
   const double negligible = 0.1 * tolerance();
   relaxation_.guess(to.t, c, guess_);
-  extra_ = false;  // drift_ and correction_ count as zero
+  corrected_ = false;
   if (norm > 0) {
     drift_.setZero();
-    correction_.setZero();
-    extra_ = true;
     if (norm * guess_.cwiseAbs().maxCoeff() > negligible)
       addDrift(guess_, drift_);
     else
@@ -208,8 +206,13 @@ bool ImplicitStep::settle(State& to) {
       relaxation_.solveNear(factor_, tolerance(), delta_);
       work += nearPrice + relaxation_.nearShare();
     } else {
-      if (extra_) scratch_ = drift_ - correction_;
-      relaxation_.solve(factor_, extra_ ? &scratch_ : nullptr, delta_);
+      const Vector* force = corrected_ ? &correction_ : nullptr;
+      if (norm > 0) {
+        scratch_ = -drift_;
+        if (corrected_) scratch_ += correction_;
+        force = &scratch_;
+      }
+      relaxation_.solve(factor_, force, delta_);
     }
     ++counters_->newtonIterations;
     double force = near ? reference_ : linearReference_;
@@ -304,8 +307,7 @@ void ImplicitStep::correctPhase(const State& to) {
   }
   filter_.solve(filtered_.data());
   acceleration_ = scheme_.phase * (acceleration_ - scheme_.filter * scheme_.acceleration * filtered_);
-  if (!extra_) drift_.setZero();
-  extra_ = true;
+  corrected_ = true;
   for (const auto& run : model_->runs()) {
     std::fill(&correction_[pattern.start(run.begin)], correction_.data() + pattern.start(run.end), 0.0);
     model_->addMass(acceleration_.data(), correction_.data(), run);

@@ -101,7 +101,7 @@ class ImplicitStep {
   double debt_ = 0;         ///< relaxations beyond that since
   Vector guess_, drift_;
   State predicted_;  ///< to go back to
-  bool extra_ = false;  ///< drift_ or correction_ is not zero
+  bool corrected_ = false;  ///< correction_ belongs to this step
   Vector last_;  ///< delta of the last step
 
   linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R

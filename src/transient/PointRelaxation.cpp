@@ -246,9 +246,9 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
   }
 }
 
-void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector* extra, Vector& delta) {
-  if (extra != nullptr)
-    delta = -*residual_ - *extra;
+void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta) {
+  if (force != nullptr)
+    delta = *force - *residual_;
   else
     delta = -*residual_;
   for (std::size_t b = 0; b < sets_.size(); ++b) {

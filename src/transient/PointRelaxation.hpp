@@ -49,8 +49,8 @@ class PointRelaxation {
   void start(const Vector& q, const Vector& v, const Vector& residual);
   /// Evaluate the laws at delta, with tangents, and set p so that it is consistent with them.
   void guess(double t, double c, const Vector& delta);
-  /// delta for the present p; `extra`, if any, is added to the residual.
-  void solve(const linalg::BlockFactor& factor, const Vector* extra, Vector& delta);
+  /// delta for the present p; `force`, if any, acts as well.
+  void solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta);
   /// The same after a correct() that says so: delta changes by what the forces of the points corrected have changed, but for
   /// residuals below `small`.
   void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
