@@ -162,7 +162,7 @@ TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x,
   even.to(y);
 }
 
-/// y += sign A x; y and x do not overlap. Nodes have six dofs or fewer, the modes of a run two for each pair of them.
+/// y += sign A x; y and x do not overlap. Nodes have six dofs, and modes of a straight run come in pairs, one for each plane of bending.
 template <int sign>
 TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const double* x, double* y) {
   switch (rows) {
