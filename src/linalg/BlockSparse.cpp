@@ -207,7 +207,8 @@ void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<c
         for (int j = 0; j < columns; ++j)
           for (int i = 0; i < rows; ++i) {
             const double difference = std::abs(here[j * rows + i] - there[i * columns + j]);
-            if (difference > rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j]) (c < b ? mirrored_ : symmetric_) = false;
+            const bool same = difference <= rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j];  // false for NaN
+            if (!same) (c < b ? mirrored_ : symmetric_) = false;
           }
       }
   }

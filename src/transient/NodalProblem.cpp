@@ -57,6 +57,7 @@ void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& sc
   constexpr double shortest = 1e-14, longest = 0.5;
   const Eigen::Index w = free.size();
   const double unit = std::max(free.cwiseProduct(scale).norm(), y.cwiseProduct(scale).norm());
+  if (!(unit > 0)) return;
   const Local size = scale / unit;
   const Path whole = Path::Unit(w + 1, w);
   LocalMatrix slope(w, w);
@@ -105,8 +106,8 @@ void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& sc
 }
 
 /// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is found, the sign change of
-/// step . defect is bracketed. y becomes the best of what was seen.
-void NodalProblem::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const {
+/// step . defect is bracketed. y becomes the best of what was seen; returns the size of its defect.
+double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   LocalMatrix slope(w, w);
@@ -143,6 +144,7 @@ void NodalProblem::iterate(PointBatch& batch, double t, double c, const Local& s
     y += high * step;
   }
   y = best;
+  return bestSize;
 }
 
 /// Newton from the guess and from without force, then pseudo-time from both, then the path: each only where the one before ends
@@ -156,26 +158,25 @@ bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local&
   Local best = y;
   double bestSize = INFINITY;
   const auto balanced = [&] { return bestSize <= 1e-9 * (size(free) + size(best)); };
-  const auto keep = [&] {
-    const double reached = size(defect(batch, t, c, y, phi, nullptr));
+  const auto keep = [&](double reached) {
     if (reached < bestSize) best = y, bestSize = reached;
   };
+  const auto measure = [&] { return size(defect(batch, t, c, y, phi, nullptr)); };
   for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
     if (balanced()) break;
     y = *start;
-    iterate(batch, t, c, scale, y, phi);
-    keep();
+    keep(iterate(batch, t, c, scale, y, phi));
   }
   for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
     if (balanced() || !std::isfinite(bestSize)) break;
     y = *start;
     flow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
-    keep();
+    keep(measure());
   }
   if (!balanced() && std::isfinite(bestSize)) {
     y = best;
     follow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
-    keep();
+    keep(measure());
   }
   y = best;
   defect(batch, t, c, y, phi, nullptr);

@@ -27,7 +27,7 @@ struct NodalProblem {
   bool solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const;
 
  private:
-  void iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const;
+  double iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const;
   void flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
   void follow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
   Local defect(PointBatch& batch, double t, double c, const Local& y, Local& phi, LocalMatrix* slope) const;
