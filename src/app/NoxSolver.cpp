@@ -18,7 +18,7 @@ model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list) {
     options.tolerance = request.tolerance;
     options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;
     options.maxIterations = request.maxIterations;
-    options.lineSearch = request.backtracking ? statics::NewtonOptions::Backtracking : statics::NewtonOptions::LimitedStep;
+    options.lineSearch = statics::lineSearch(request.search);
     const auto report = statics::solve(problem, x, options, nox.get(), belos.get());
     return model::SolveOutcome{report.converged, report.iterations, report.residual, report.update, report.message};
   };

@@ -22,6 +22,8 @@ class NonlinearProblem {
   virtual Vector residualScale() const = 0;
   /// Largest factor in (0, 1] by which the step dx may be taken from x (a cap on lateral motion, say). 1 by default.
   virtual double stepLimit(const Vector& /*x*/, const Vector& /*dx*/) const { return 1.0; }
+  /// Where the step s dx from x leads: x + s dx, or what agrees with it to first order and keeps clear of a curved stiff constraint.
+  virtual Vector moved(const Vector& x, const Vector& dx, double s) const { return x + s * dx; }
   /// Name of an unknown for messages ("theta_z of node 17").
   virtual std::string unknownName(int i) const = 0;
 };

@@ -11,6 +11,13 @@
 
 namespace tooljoint::model {
 
+/// What decides how much of a Newton step is taken, of at most what stepLimit() of the problem allows.
+enum class LineSearch {
+  None,      ///< nothing else
+  Residual,  ///< halved until the scaled residual decreases
+  Work       ///< as far as the forces do work along it: right where they have a potential, however sharp
+};
+
 /// What is asked of a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance and, if updateTolerance > 0,
 /// the full Newton step dx has become |dx| <= updateTolerance |x|.
 struct SolveRequest {
@@ -18,7 +25,7 @@ struct SolveRequest {
   double tolerance = 1e-9;       ///< on the largest scaled residual
   double updateTolerance = 0.0;  ///< relative, 0: off
   int maxIterations = 50;
-  bool backtracking = true;      ///< false: no line search; steps are as long as stepLimit() of the problem allows
+  LineSearch search = LineSearch::Residual;
 };
 
 struct SolveOutcome {

@@ -176,6 +176,14 @@ class Newton {
   Teuchos::RCP<NOX::Solver::Generic> solver_;
 };
 
+/// What rounding may leave of the scaled residual: a few roundings, of the unknowns and on the way, 2 epsilon max_i scale_i sum_j |J_ij x_j|.
+double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
+  Sparse jacobian;
+  problem.jacobian(x, jacobian);
+  const Vector sums = jacobian.cwiseAbs() * x.cwiseAbs();
+  return 2.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
+}
+
 std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record,
                     const std::string& worst) {
   const std::string state = "the scaled residual is " + scientific(report.residual) + " (largest at " + worst + ") where " +
@@ -192,7 +200,23 @@ std::string explain(const NewtonReport& report, const NewtonOptions& options, co
   return text;
 }
 
+/// A sentence for a tolerance that double precision may not allow, else nothing.
+std::string explainRounding(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x, const NewtonOptions& options) {
+  if (!x.allFinite()) return "";
+  const double rounding = roundingOf(problem, scale, x);
+  if (!(rounding > options.tolerance)) return "";
+  return " Rounding to double precision may leave " + scientific(rounding) + ": ask for no less.";
+}
+
 }  // namespace
+
+NewtonOptions::LineSearch lineSearch(model::LineSearch asked) {
+  switch (asked) {
+    case model::LineSearch::None: return NewtonOptions::LimitedStep;
+    case model::LineSearch::Work: return NewtonOptions::CriticalPoint;
+    default: return NewtonOptions::Backtracking;
+  }
+}
 
 NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options,
                    const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
@@ -235,7 +259,7 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
     report.message = "converged in " + std::to_string(report.iterations) + " iterations to a scaled residual of " +
                      scientific(report.residual) + ".";
   else
-    report.message = explain(report, options, newton.record(), problem.unknownName(worst));
+    report.message = explain(report, options, newton.record(), problem.unknownName(worst)) + explainRounding(problem, scale, x, options);
   return report;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/Types.hpp"
-#include "model/NonlinearProblem.hpp"
+#include "model/NonlinearSolve.hpp"
 
 namespace Teuchos {
 class ParameterList;
@@ -20,7 +20,8 @@ struct NewtonOptions {
   enum LineSearch {
     FullStep,     ///< x + dx always; the step limit of the problem is ignored
     LimitedStep,  ///< x + s dx with s the step limit of the problem, whatever the residual does
-    Backtracking  ///< x + s dx with s = step limit, s/2, s/4 ... until the scaled residual decreases (Armijo)
+    Backtracking,  ///< x + s dx with s = step limit, s/2, s/4 ... until the scaled residual decreases (Armijo)
+    CriticalPoint  ///< x + s dx with r(x + s dx)' dx = 0, roughly: the least potential along dx where r has one
   };
   double tolerance = 1e-8;        ///< largest scaled residual max_i |scale_i r_i| accepted ...
   double updateTolerance = 1e-8;  ///< ... together with the largest full Newton step, |dx| <= updateTolerance |x| + updateFloor
@@ -28,7 +29,8 @@ struct NewtonOptions {
   int maxIterations = 50;
   LineSearch lineSearch = Backtracking;
   double armijo = 1e-4;            ///< s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual
-  int maxHalvings = 16;            ///< of one step; then the best one tried is taken
+  double workLeft = 0.5;           ///< s is accepted when r(x + s dx)' dx <= workLeft |r(x)' dx| (CriticalPoint)
+  int maxHalvings = 16;            ///< of one step (or cuts of its bracket); then the best one tried is taken
   int maxFailedSearches = 4;       ///< searches in a row that may end without a decrease before the solver gives up
   int refactorEvery = 1;           ///< Newton steps that share one factored Jacobian as preconditioner (1: each its own)
   int refactorBeyond = 12;         ///< a lagged factor is renewed when the last linear solve needed more Belos iterations
@@ -36,6 +38,9 @@ struct NewtonOptions {
   int linearIterations = 200;      ///< of Belos per Newton step
   bool verbose = false;            ///< print what NOX has to say
 };
+
+/// The line search that a room asks for by model::SolveRequest.
+NewtonOptions::LineSearch lineSearch(model::LineSearch asked);
 
 /// What happened. `converged` is the only sign of success.
 struct NewtonReport {

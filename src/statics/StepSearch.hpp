@@ -32,40 +32,55 @@ inline Vector vectorOf(const NOX::Abstract::Vector& x) {
   return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
 }
 
-/// Full step, the step limit of the problem, or backtracking on the scaled residual from that limit.
+/// Full step, the step limit of the problem, backtracking on the scaled residual from that limit, or the critical point below it.
 class StepSearch : public NOX::LineSearch::Generic {
  public:
   StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options, SearchRecord& record)
-      : problem_(problem), options_(options), record_(record) {}
+      : problem_(problem), options_(options), record_(record), scale_(problem.residualScale()) {}
 
   bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
                const NOX::Solver::Generic& solver) override {
     const NOX::Abstract::Group& old = solver.getPreviousSolutionGroup();
     recordLinearResidual(group, direction);
-    if (options_.lineSearch != NewtonOptions::Backtracking) {
-      record_.step = step = options_.lineSearch == NewtonOptions::FullStep ? 1.0 : limit(vectorOf(old.getX()), vectorOf(direction));
-      group.computeX(old, direction, step);
-      return group.computeF() == NOX::Abstract::Group::Ok;
-    }
-    return backtrack(group, step, direction, old);
+    const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
+    const Line line{group, x, dx};
+    step = options_.lineSearch == NewtonOptions::FullStep ? 1.0 : limit(x, dx);
+    bool found = true;
+    if (options_.lineSearch == NewtonOptions::Backtracking)
+      found = backtrack(line, old.getNormF(), step);
+    else if (options_.lineSearch == NewtonOptions::CriticalPoint)
+      found = criticalPoint(line, vectorOf(old.getF()), step);
+    else
+      found = evaluate(line, step);
+    if (found) record_.step = step;
+    return found;
   }
 
  private:
+  /// Where steps of any length are tried.
+  struct Line {
+    NOX::Abstract::Group& group;
+    const Vector& x;
+    const Vector& dx;
+  };
+
   double limit(const Vector& x, const Vector& dx) const { return x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0; }
 
-  bool backtrack(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
-                 const NOX::Abstract::Group& old) {
-    const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
-    const double before = old.getNormF();
-    step = limit(x, dx);
+  /// F at the end of the step s, left in the group.
+  bool evaluate(const Line& line, double s) const {
+    const auto there = line.group.getX().clone(NOX::ShapeCopy);
+    fromEigenVector(problem_.moved(line.x, line.dx, s), dynamic_cast<NOX::Thyra::Vector&>(*there).getThyraRCPVector());
+    line.group.setX(*there);
+    return line.group.computeF() == NOX::Abstract::Group::Ok;
+  }
+
+  bool backtrack(const Line& line, double before, double& step) {
     double bestStep = 0.0, best = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= options_.maxHalvings; ++k) {
-      group.computeX(old, direction, step);
-      if (group.computeF() != NOX::Abstract::Group::Ok) return false;
-      const double after = group.getNormF();
+      if (!evaluate(line, step)) return false;
+      const double after = line.group.getNormF();
       // Armijo, or already as good as asked for (there rounding decides about a decrease)
-      if (std::isfinite(after) && (after <= (1.0 - options_.armijo * step) * before || largest(group) <= options_.tolerance)) {
-        record_.step = step;
+      if (std::isfinite(after) && (after <= (1.0 - options_.armijo * step) * before || solved(line.group))) {
         record_.failuresInARow = 0;
         return true;
       }
@@ -78,18 +93,34 @@ class StepSearch : public NOX::LineSearch::Generic {
     }
     // No decrease: take the best of what was tried and hope for a better direction from there, a few times.
     ++record_.failuresInARow;
-    if (bestStep == 0.0 || record_.failuresInARow >= options_.maxFailedSearches) {
-      step = 0.0;
-      group.computeX(old, direction, step);
-      group.computeF();
-      return false;
-    }
-    record_.step = step = bestStep;
-    group.computeX(old, direction, step);
-    return group.computeF() == NOX::Abstract::Group::Ok;
+    const bool hopeless = bestStep == 0.0 || record_.failuresInARow >= options_.maxFailedSearches;
+    step = hopeless ? 0.0 : bestStep;
+    return evaluate(line, step) && !hopeless;
   }
 
-  static double largest(const NOX::Abstract::Group& group) { return group.getF().norm(NOX::Abstract::Vector::MaxNorm); }
+  /// From the step limit, unless work is still done there, to the zero of g(s) = r(x + s dx)' dx by regula falsi that cuts at
+  /// least a tenth off its bracket (Brune, Knepley, Smith and Tu 2015). A direction that is none of descent is taken as it is.
+  bool criticalPoint(const Line& line, const Vector& start, double& step) {
+    const Vector unscaled = line.dx.cwiseQuotient(scale_);  // F = S r
+    const double before = start.dot(unscaled), enough = options_.workLeft * std::abs(before);
+    double low = 0.0, lowWork = before, high = step, highWork = 0.0;
+    for (int k = 0;; ++k) {
+      if (!evaluate(line, step)) return false;
+      const double there = vectorOf(line.group.getF()).dot(unscaled);
+      const double work = std::isfinite(there) ? there : -before;
+      if (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group)) return true;
+      if (k == options_.maxHalvings) break;
+      (work > 0.0 ? high : low) = step;
+      (work > 0.0 ? highWork : lowWork) = work;
+      const double cut = low - lowWork * (high - low) / (highWork - lowWork), edge = 0.1 * (high - low);
+      step = std::clamp(cut, low + edge, high - edge);
+      ++record_.halvings;
+    }
+    step = low > 0.0 ? low : step;  // the force jumps there: stay before it
+    return evaluate(line, step);
+  }
+
+  bool solved(const NOX::Abstract::Group& group) const { return group.getF().norm(NOX::Abstract::Vector::MaxNorm) <= options_.tolerance; }
 
   /// |J dx + F| / |F| with the Jacobian itself, whatever the linear solver says about its own success.
   void recordLinearResidual(const NOX::Abstract::Group& start, const NOX::Abstract::Vector& direction) {
@@ -103,6 +134,7 @@ class StepSearch : public NOX::LineSearch::Generic {
   const model::NonlinearProblem& problem_;
   const NewtonOptions& options_;
   SearchRecord& record_;
+  const Vector scale_;
 };
 
 class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {

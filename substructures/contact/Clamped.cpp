@@ -48,6 +48,8 @@ class ClampedKernel {
     return at.k * angle * G;
   }
 
+  double pull(std::size_t, double) const { return 0.0; }
+
   double energy(std::size_t i, double G) const {
     const Constants& at = constants_[i];
     return G <= 0.0 ? 0.0 : at.k / (at.bk * at.bk) * angleMoment(at.bk * G);

@@ -35,6 +35,8 @@ class HuntCrossleyKernel {
     return slope * G;
   }
 
+  double pull(std::size_t, double) const { return 0.0; }
+
   double energy(std::size_t i, double G) const { return G <= 0.0 ? 0.0 : k_[i] * G * G * power(G) / (n_ + 1.0); }
 
   double skin(std::size_t) const { return 0.0; }

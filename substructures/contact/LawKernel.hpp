@@ -8,11 +8,13 @@
 ///   NormalForce force(size_t i, double G, double rate) const         F_n and its derivatives
 ///   double elastic(size_t i, double G, double lambda, double& dG) const   F_n at rest and its derivative; lambda 0 = the
 ///                                                                    point's own regularisation
+///   double pull(size_t i, double lambda) const                       what an open point is pulled with at most
 ///   double energy(size_t i, double G) const                          int_0^G of the elastic part
 ///   double skin(size_t i) const                                      gap beyond which the force is negligible [m];
 ///                                                                    infinite when it never is
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -283,8 +285,7 @@ class StaticContactOf final : public StaticContact {
       const auto i = static_cast<std::size_t>(p);
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
       double dG = 0.0;
-      const double N = options.stiffnessScale * kernel_.elastic(i, at.penetration, options.lambda, dG);
-      dG *= options.stiffnessScale;
+      const double N = elastic(options, i, at.penetration, dG);
       const double mu = options.direction * options.frictionScale * points_.muStatic[i];
       const double radius = points_.contactRadius[i];
       f[3 * p] = N * (mu * at.nv - at.nu);
@@ -309,11 +310,24 @@ class StaticContactOf final : public StaticContact {
       const auto i = static_cast<std::size_t>(p);
       double dG = 0.0;
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
-      force[p] = options.stiffnessScale * kernel_.elastic(i, at.penetration, options.lambda, dG);
+      force[p] = elastic(options, i, at.penetration, dG);
     }
   }
 
+  double largestPull() const override {
+    double largest = 0.0;
+    for (int p = 0; p < size(); ++p) largest = std::max(largest, kernel_.pull(static_cast<std::size_t>(p), 0.0));
+    return largest;
+  }
+
  private:
+  /// F_n and its derivative, lifted by the part of the pull that is left out.
+  double elastic(const Options& options, std::size_t i, double G, double& dG) const {
+    const double force = kernel_.elastic(i, G, options.lambda, dG) + (1.0 - options.pull) * kernel_.pull(i, options.lambda);
+    dG *= options.stiffnessScale;
+    return options.stiffnessScale * force;
+  }
+
   Kernel kernel_;
 };
 

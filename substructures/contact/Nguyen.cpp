@@ -44,6 +44,9 @@ class NguyenKernel {
     return at.k * angle * G;
   }
 
+  // k/(pi^2 lambda), reached far from the wall
+  double pull(std::size_t i, double lambda) const { return constants_[i].k / (lambda > 0.0 ? pi * lambda : constants_[i].bk); }
+
   // with x = b G: (k/pi)/b^2 int_0^x y (pi/2 + atan y) dy
   double energy(std::size_t i, double G) const {
     const Constants& at = constants_[i];

@@ -14,6 +14,7 @@ class StaticContact {
     double lambda = 0.0;         ///< stiffness regularisation used for every point [1/m]; 0 = the points' own
     double frictionScale = 1.0;  ///< factor on mu_s: 0 without friction, 1 in full
     double stiffnessScale = 1.0;  ///< softens the wall on the way to the solution
+    double pull = 1.0;           ///< share of what the law pulls open points with: 0 = a wall that only pushes
     double direction = 1.0;      ///< sign of the rotary speed: +1, -1, or 0 without friction
   };
 
@@ -28,6 +29,9 @@ class StaticContact {
 
   /// Normal force F_n [N] per point, positive when the wall pushes.
   virtual void normalForce(const Options& options, const double* uv, double* force) const = 0;
+
+  /// What the law pulls an open point with at most [N]; 0 where it never does.
+  virtual double largestPull() const = 0;
 
  protected:
   ContactPoints points_;

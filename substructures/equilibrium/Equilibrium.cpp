@@ -22,39 +22,51 @@ std::string shortNumber(double value) {
   return text;
 }
 
+/// The line searches tried in turn from the same start. Without friction the string has an energy, and the work of a step judges it;
+/// friction has none, and full steps follow a small change of it best.
+using Searches = std::vector<model::LineSearch>;
+const Searches minimising{model::LineSearch::Work, model::LineSearch::None};
+const Searches following{model::LineSearch::None, model::LineSearch::Work};
+const Searches inTheOpen{model::LineSearch::None, model::LineSearch::Residual};
+const Searches fullSteps{model::LineSearch::None};
+
 /// Runs the stages of a recipe on one problem and keeps the account.
 class Stages {
  public:
   Stages(StaticProblem& problem, const StaticOptions& options, const model::NonlinearSolver& solve)
       : problem_(problem), options_(options), solve_(solve) {}
 
-  /// One stage from x; `rescue` allows a second attempt from the same start with a line search.
-  void run(const std::string& name, const StaticSwitches& switches, double tolerance, bool rescue, Vector& x) {
-    if (tryRun(name, switches, tolerance, rescue, x)) return;
+  /// One stage from x.
+  void run(const std::string& name, const StaticSwitches& switches, double tolerance, const Searches& searches, Vector& x) {
+    if (tryRun(name, switches, tolerance, searches, x)) return;
     throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
   }
 
-  /// The same; false when it does not converge.
-  bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance, bool rescue, Vector& x) {
+  /// The same; false, with x as it was, when it does not converge.
+  bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance, const Searches& searches, Vector& x) {
     problem_.set(switches);
-    const Vector start = x;
-    if (attempt(name, tolerance, false, x)) return true;
-    x = start;
-    return rescue && attempt(name + ", line search", tolerance, true, x);
+    for (const model::LineSearch search : searches) {
+      Vector end = x;
+      if (!attempt(name, tolerance, search, end)) continue;
+      x = end;
+      return true;
+    }
+    return false;
   }
 
+  /// What a stage at a value is called and changes.
+  using StageAt = std::function<std::string(double, StaticSwitches&)>;
+
   /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies between: at equal ratios or, from
-  /// 0, at equal distances. \param stage  switches and name for a value
-  void march(double from, double to, double tolerance, const std::function<std::string(double, StaticSwitches&)>& stage,
-             StaticSwitches switches, Vector& x, int cuts = 5) {
+  /// 0, at equal distances.
+  void march(double from, double to, double tolerance, const StageAt& stage, StaticSwitches switches, const Searches& searches,
+             Vector& x, int cuts = 5) {
     const std::string name = stage(to, switches);
-    const Vector start = x;
-    if (cuts == 0) return run(name, switches, tolerance, true, x);
-    if (tryRun(name, switches, tolerance, cuts == 5, x)) return;
-    x = start;
+    if (cuts == 0) return run(name, switches, tolerance, searches, x);
+    if (tryRun(name, switches, tolerance, searches, x)) return;
     const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
-    march(from, between, kStageTolerance, stage, switches, x, cuts - 1);
-    march(between, to, tolerance, stage, switches, x, cuts - 1);
+    march(from, between, kStageTolerance, stage, switches, searches, x, cuts - 1);
+    march(between, to, tolerance, stage, switches, searches, x, cuts - 1);
   }
 
   StaticReport report() const {
@@ -64,12 +76,12 @@ class Stages {
   }
 
  private:
-  bool attempt(const std::string& name, double tolerance, bool backtracking, Vector& x) {
+  bool attempt(const std::string& name, double tolerance, model::LineSearch search, Vector& x) {
     model::SolveRequest request;
     request.what = "the static equilibrium (" + name + ")";
     request.tolerance = std::max(options_.tolerance, tolerance);
     request.maxIterations = options_.maxIterations;
-    request.backtracking = backtracking;
+    request.search = search;
     const model::SolveOutcome outcome = solve_(problem_, x, request);
     report_.stages.push_back({name, outcome.iterations, outcome.residual});
     report_.iterations += outcome.iterations;
@@ -111,69 +123,74 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); }).solve(-negativeLoad);
 }
 
-/// Contacts from soft to sharp, while they are softer than the sharpest law of the scene. False when a stage does not converge:
-/// the tails of soft contacts pull with k/(pi^2 lambda), too much for light pipe.
-bool sharpen(const StaticOptions& options, double sharpest, Stages& stages, StaticSwitches switches, Vector& x) {
-  for (const double lambda : options.lambdas) {
-    if (lambda >= sharpest) break;
-    switches.lambda = lambda;
-    if (!stages.tryRun("lambda " + shortNumber(lambda) + " 1/m", switches, kStageTolerance, true, x)) return false;
-  }
-  return true;
-}
-
-/// Walls from yielding to stiff, without tails; then contacts from sharp to their own.
-void harden(double sharpest, Stages& stages, StaticSwitches switches, Vector& x) {
-  constexpr double sharp = 1e6;
-  switches.lambda = sharp;
-  const auto hard = [](double scale, StaticSwitches& with) {
-    with.stiffnessScale = scale;
-    return shortNumber(scale) + " of the wall stiffness";
-  };
-  double last = 1e-4;
-  for (const double scale : {1e-4, 1e-3, 1e-2, 0.1, 1.0}) {
-    stages.march(last, scale, kStageTolerance, hard, switches, x);
-    last = scale;
-  }
-  switches.stiffnessScale = 1.0;
-  if (sharpest <= sharp) return;
-  stages.march(sharp, sharpest, kStageTolerance, [](double lambda, StaticSwitches& with) {
-    with.lambda = lambda;
+/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law of the scene, then each point's own.
+/// Until then a wall is no stiffer than that the largest load presses a point in by 1/lambda, over which its law bends.
+void sharpen(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
+             const StaticSwitches& switches, double tolerance, Vector& x) {
+  const contact::ContactPoints& points = input.contact->points();
+  const double sharpest = *std::max_element(points.lambdaK.begin(), points.lambdaK.end());
+  const double stiffest = *std::max_element(points.stiffness.begin(), points.stiffness.end());
+  const auto sharpness = [&](double lambda, StaticSwitches& with) {
+    const bool own = lambda >= sharpest;
+    with.lambda = own ? 0.0 : lambda;
+    with.stiffnessScale = own ? 1.0 : std::min(1.0, problem.largestLoad() * lambda / stiffest);
     return "lambda " + shortNumber(lambda) + " 1/m";
-  }, switches, x);
+  };
+  std::vector<double> values;
+  for (const double lambda : options.lambdas)
+    if (lambda < sharpest) values.push_back(lambda);
+  values.push_back(sharpest);
+  double last = 0.1 * values.front();
+  for (const double lambda : values) {
+    stages.march(last, lambda, lambda < sharpest ? kStageTolerance : tolerance, sharpness, switches, minimising, x);
+    last = lambda;
+  }
 }
 
-/// Held on the axis; lambda up to each point's own without friction, then friction in steps. The cap on lateral motion is what makes
-/// it robust: at small lambda the tails of the contact law pull open nodes to the wall, and a line search on the residual
-/// alone creeps there, so it comes second.
+/// Friction in equal steps.
+void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& switches, Vector& x) {
+  const double steps = options.frictionSteps;
+  const auto friction = [](double scale, StaticSwitches& with) {
+    with.frictionScale = scale;
+    return shortNumber(scale) + " of the friction";
+  };
+  for (int step = 1; step <= options.frictionSteps; ++step)
+    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0, friction, switches, following, x);
+}
+
+/// Some laws pull open points to the wall, and friction turns what is pulled about the axis. Throws ConvergenceError saying so
+/// when the string does not come to rest under the whole of the pull.
+void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& switches, Vector& x) {
+  const auto pull = [](double share, StaticSwitches& with) {
+    with.pull = share;
+    return share < 1.0 ? shortNumber(share) + " of the pull on open points" : std::string("the laws as they are");
+  };
+  try {
+    stages.march(0.0, 1.0, 0.0, pull, switches, following, x);
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(std::string(error.what()) + " The string rests against walls that only push; the contact law also pulls every " +
+                           "open point to the wall with up to " + shortNumber(input.contact->largestPull()) + " N and, by friction, around the hole. Raise " +
+                           "/Contact/Stiffness Regularisation, or use /Contact/Law \"Clamped\", which does not pull.");
+  }
+}
+
+/// Held on the axis; then walls that only push, from soft to sharp, without friction; then friction in steps; then what the
+/// contact laws pull with. The cap on lateral motion keeps the first steps inside the hole.
 void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
                   StaticSwitches switches, Vector& x) {
-  x.setZero();
-  if (input.contact == nullptr) {
-    stages.run("no contact", switches, 0.0, true, x);
+  if (input.contact == nullptr || input.contact->size() == 0) {
+    stages.run("no contact", switches, 0.0, inTheOpen, x);
     return;
   }
-  const contact::ContactPoints& points = input.contact->points();
-  const bool friction = !points.frictionless() && input.direction != 0.0;
-  const double sharpest = points.size() > 0 ? *std::max_element(points.lambdaK.begin(), points.lambdaK.end()) : 0.0;
   x = heldOnAxis(problem, switches);
   switches.lateralStepLimit = options.lateralStepLimit;
-  switches.frictionScale = 0.0;
-  const Vector start = x;
-  if (!sharpen(options, sharpest, stages, switches, x)) {
-    x = start;
-    harden(sharpest, stages, switches, x);
-  }
-  switches.lambda = 0.0;
-  stages.run("without friction", switches, friction ? kStageTolerance : 0.0, true, x);
-  if (!friction) return;
-  const double steps = options.frictionSteps;
-  for (int step = 1; step <= options.frictionSteps; ++step)
-    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0,
-                 [](double scale, StaticSwitches& with) {
-                   with.frictionScale = scale;
-                   return shortNumber(scale) + " of the friction";
-                 }, switches, x);
+  switches.slideAlongWall = true;
+  switches.frictionScale = switches.pull = 0.0;
+  const bool friction = !input.contact->points().frictionless() && input.direction != 0.0;
+  sharpen(input, options, problem, stages, switches, friction ? kStageTolerance : 0.0, x);
+  if (friction) slide(options, stages, switches, x);
+  switches.frictionScale = 1.0;
+  if (input.contact->largestPull() > 0.0) letPull(input, stages, switches, x);
 }
 
 /// D = K_pa^-1 F_s, full steps: without K_gpo (appendix A), then with it.
@@ -189,10 +206,10 @@ void asTheSource(StaticProblem& problem, Stages& stages, StaticSwitches switches
   const linalg::DirectSolver solver(stiffness, [&problem](int i) { return problem.unknownName(i); });
   x = solver.solve(-negativeLoad);
   switches.geometricStiffness = false;
-  stages.run("without geometric stiffness", switches, geometric ? kStageTolerance : 0.0, false, x);
+  stages.run("without geometric stiffness", switches, geometric ? kStageTolerance : 0.0, fullSteps, x);
   if (!geometric) return;
   switches.geometricStiffness = true;
-  stages.run("with geometric stiffness", switches, 0.0, false, x);
+  stages.run("with geometric stiffness", switches, 0.0, fullSteps, x);
 }
 
 /// Contact forces, gaps and the count of touching nodes.

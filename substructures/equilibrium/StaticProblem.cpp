@@ -102,6 +102,7 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
   options.lambda = switches_.lambda;
   options.frictionScale = switches_.frictionScale;
   options.stiffnessScale = switches_.stiffnessScale;
+  options.pull = switches_.pull;
   options.direction = input_.direction;
   return options;
 }
@@ -180,6 +181,24 @@ double StaticProblem::stepLimit(const Vector& /*x*/, const Vector& dx) const {
   for (std::size_t i = 0; i < index_.size(); ++i)
     if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2) largest = std::max(largest, std::abs(dx(index_[i])));
   return largest > switches_.lateralStepLimit ? switches_.lateralStepLimit / largest : 1.0;
+}
+
+Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
+  Vector there = x + s * dx;
+  if (!touches() || !switches_.slideAlongWall) return there;
+  const contact::ContactPoints& points = input_.contact->points();
+  for (std::size_t p = 0; p < points.node.size(); ++p) {
+    const std::size_t dof = at(kDofs * (points.node[p] - 1));
+    const int u = index_[dof], v = index_[dof + 1];
+    if (u < 0 || v < 0) continue;
+    const double before = std::hypot(x(u), x(v)), after = std::hypot(there(u), there(v));
+    if (before == 0.0 || after <= points.clearance[p]) continue;
+    const double alongNormal = (x(u) * there(u) + x(v) * there(v)) / before;
+    if (alongNormal < 0.5 * after) continue;  // half around the hole: no wall to follow
+    there(u) *= alongNormal / after;
+    there(v) *= alongNormal / after;
+  }
+  return there;
 }
 
 bool StaticProblem::isLateral(int i) const {

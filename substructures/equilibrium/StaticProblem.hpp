@@ -44,7 +44,9 @@ struct StaticSwitches {
   double lambda = 0.0;           ///< regularisation of all contacts [1/m]; 0: each point's own
   double frictionScale = 1.0;    ///< factor on mu_s
   double stiffnessScale = 1.0;  ///< on the stiffness of the wall
+  double pull = 1.0;             ///< share of what contact laws pull open points with
   double lateralStepLimit = 0.0; ///< largest change of u or v in a step [m]; 0: none
+  bool slideAlongWall = false;   ///< steps take points that touch along the wall, not along its tangent
 };
 
 /// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
@@ -61,6 +63,9 @@ class StaticProblem : public model::NonlinearProblem {
   void jacobian(const Vector& x, Sparse& jacobian) const override;
   Vector residualScale() const override;
   double stepLimit(const Vector& x, const Vector& dx) const override;
+  /// With slideAlongWall a point that the step leaves outside its clearance keeps the distance from the axis that the step has
+  /// along the normal: moving on by t along a wall of radius r would press it in by t^2/2r, far more than a stiff wall yields.
+  Vector moved(const Vector& x, const Vector& dx, double s) const override;
   std::string unknownName(int i) const override;
   /// Whether an unknown is u or v.
   bool isLateral(int i) const;
@@ -74,6 +79,9 @@ class StaticProblem : public model::NonlinearProblem {
   double torque(int element, const Vector& full) const;
   /// F_apo K_gF + T_apo K_gT of an element in nodal frames.
   beam::Matrix12 geometricStiffness(int element, const Vector& full) const;
+
+  /// The largest entry of the loads, moments over a mean element length [N].
+  double largestLoad() const { return forceScale_; }
 
   /// Contact forces of the batch at D: 3 per point (F_u, F_v, T_z), and the normal force per point.
   void contactForces(const Vector& full, Vector& forces, Vector& normal) const;

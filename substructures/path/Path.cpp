@@ -124,11 +124,11 @@ PathState alongCentreLine(const PathInput& input, const PathOptions& options, co
   const CentreLineProblem problem(input, depths, well::bishopFrames(*input.trajectory, depths));
   Vector x = problem.start();
   model::SolveRequest asked = request(options, "the path along the centre line");
-  asked.backtracking = false;
+  asked.search = model::LineSearch::None;
   model::SolveOutcome outcome = attempt(solve, problem, x, asked);
   int iterations = outcome.iterations;
   if (!outcome.converged) {
-    asked.backtracking = true;
+    asked.search = model::LineSearch::Residual;
     x = problem.start();
     outcome = attempt(solve, problem, x, asked);
     iterations += outcome.iterations;

@@ -36,7 +36,7 @@ inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, 
       next = x + factor * dx;
       problem.residual(next, r);
       size = scale.cwiseProduct(r).norm();
-      if (!request.backtracking || size < (1.0 - 1e-4 * factor) * merit || halvings == 12) break;
+      if (request.search == model::LineSearch::None || size < (1.0 - 1e-4 * factor) * merit || halvings == 12) break;
     }
     x = next;
     ++outcome.iterations;

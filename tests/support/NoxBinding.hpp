@@ -13,10 +13,7 @@ inline model::SolveOutcome noxNewton(const model::NonlinearProblem& problem, Vec
   options.tolerance = request.tolerance;
   options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;
   options.maxIterations = request.maxIterations;
-  if (!request.backtracking) {  // the step limit of the problem holds, nothing else shortens a step
-    options.maxHalvings = 0;
-    options.maxFailedSearches = request.maxIterations + 1;
-  }
+  options.lineSearch = statics::lineSearch(request.search);
   const statics::NewtonReport report = statics::solve(problem, x, options);
   return {report.converged, report.iterations, report.residual, report.update, report.message};
 }

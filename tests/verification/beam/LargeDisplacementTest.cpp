@@ -34,7 +34,7 @@ bool loadUp(FrameProblem& problem, const Vector3& force, const Vector3& moment, 
     model::SolveRequest request;
     request.tolerance = tolerance;
     request.maxIterations = 60;
-    request.backtracking = false;
+    request.search = model::LineSearch::None;
     if (!testing_::directNewton(problem, x, request).converged) return false;
     problem.accept(x);
   }

@@ -71,7 +71,7 @@ TEST(Path, PlanarArcAwayFromItsEnds) {
   const CentreLineProblem problem(input, depths, frames);
   Vector x = problem.start();
   model::SolveRequest request;
-  request.backtracking = false;
+  request.search = model::LineSearch::None;
   ASSERT_TRUE(testing_::directNewton(problem, x, request).converged);
   const double rigidity = pipe().youngModulus() * pipe().inertiaX();
   const double kappa = 1.0 / radius;
@@ -102,7 +102,7 @@ TEST(Path, EndCouplesAlternateAndDecay) {
   const CentreLineProblem problem(input, depths, well::bishopFrames(*well, depths));
   Vector x = problem.start();
   model::SolveRequest request;
-  request.backtracking = false;
+  request.search = model::LineSearch::None;
   ASSERT_TRUE(testing_::directNewton(problem, x, request).converged);
   const auto responses = problem.responses(x, false);
   const double whole = pipe().youngModulus() * pipe().inertiaX() / 100.0;
