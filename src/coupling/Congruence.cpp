@@ -48,7 +48,7 @@ void substitute(model::SecondOrderModel& model, const Substitution& substitution
       const Vector force = -(term.matrix * offset);
       if (!force.isZero(0.0)) model.loads.push_back({"constraint values: " + term.name, transposed * force, term.law});
     }
-  forEachMatrix(model, [&](model::SharedSparse& A) {
+  changeEachMatrix(model, [&](model::SharedSparse& A) {
     const Sparse right = A * L;
     A = withoutZeros(transposed * right);
   });
@@ -100,7 +100,7 @@ std::vector<int> narrowNumbering(const model::SecondOrderModel& model) {
 
 void renumber(model::SecondOrderModel& model, const std::vector<int>& position) {
   const auto n = static_cast<Eigen::Index>(position.size());
-  forEachMatrix(model, [&](model::SharedSparse& A) {
+  changeEachMatrix(model, [&](model::SharedSparse& A) {
     Triplets entries;
     for (int i = 0; i < A.outerSize(); ++i)
       for (model::SharedSparse::InnerIterator it(A, i); it; ++it)

@@ -35,11 +35,19 @@ Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index
 std::vector<int> positionsOf(const Sparse& map);
 
 /// Every matrix of the model: mass, damping and stiffness terms.
-template <class Model, class Visit>
-void forEachMatrix(Model& model, const Visit& visit) {
+template <class Visit>
+void forEachMatrix(const model::SecondOrderModel& model, const Visit& visit) {
   visit(model.mass);
-  for (auto& term : model.damping) visit(term.matrix);
-  for (auto& term : model.stiffness) visit(term.matrix);
+  for (const auto& term : model.damping) visit(term.matrix);
+  for (const auto& term : model.stiffness) visit(term.matrix);
+}
+
+/// The same, for writing.
+template <class Change>
+void changeEachMatrix(model::SecondOrderModel& model, const Change& change) {
+  change(model.mass);
+  for (auto& term : model.damping.own()) change(term.matrix);
+  for (auto& term : model.stiffness.own()) change(term.matrix);
 }
 
 }  // namespace tooljoint::coupling

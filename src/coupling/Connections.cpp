@@ -137,7 +137,7 @@ class Numberer {
         label.entity = nodes_[p].at(label.entity);
         ++owners[label];
       }
-      for (auto& node : m.recoveryNodes) node = nodes_[p].at(node);
+      for (auto& node : m.recoveryNodes.own()) node = nodes_[p].at(node);
       for (auto& set : m.points)
         for (auto& node : set.entities)
           if (const auto it = nodes_[p].find(node); it != nodes_[p].end()) node = it->second;

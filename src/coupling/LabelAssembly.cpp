@@ -133,7 +133,7 @@ class Labeller {
   /// Law of a part as an index of the coupled model.
   int mergedLaw(int p, int law) { return out_.model.lawIndex(part(p).laws[at(law)]); }
 
-  std::vector<model::MatrixTerm> mergeTerms(std::vector<model::MatrixTerm> SecondOrderModel::*terms) {
+  std::vector<model::MatrixTerm> mergeTerms(model::SharedList<model::MatrixTerm> SecondOrderModel::*terms) {
     std::vector<model::MatrixTerm> merged;
     std::vector<Triplets> entries;
     for (int p = 0; p < parts(); ++p)

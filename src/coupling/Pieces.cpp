@@ -36,7 +36,7 @@ void appendBoundary(const reduction::Boundary& boundary, Piece& piece) {
       (boundary.forces > 0 && boundary.forces != all - n))
     throw ModelError("Part \"" + piece.name + "\": the rows of its interface do not match its " + std::to_string(all - n) + " interface dofs and " +
                      std::to_string(n) + " coordinates.");
-  forEachMatrix(*m, [&](model::SharedSparse& A) { A = extended(A, all, all); });
+  changeEachMatrix(*m, [&](model::SharedSparse& A) { A = extended(A, all, all); });
   for (auto& load : m->loads) load.vector.conservativeResizeLike(Vector::Zero(all));
   for (auto& set : m->points) set.rows = extended(set.rows, set.rows.rows(), all);
   m->recovery = extended(m->recovery, m->recovery.rows(), all);

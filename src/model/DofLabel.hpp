@@ -9,6 +9,8 @@
 #include <tuple>
 #include <vector>
 
+#include "model/SharedList.hpp"
+
 namespace tooljoint::model {
 
 /// Label of one degree of freedom. Interface dofs of two parts are joined when their labels are equal.
@@ -35,7 +37,7 @@ struct DofLabel {
 };
 
 /// Names of the physical components, e.g. {"u","v","w","theta_x","theta_y","theta_z"}.
-using ComponentNames = std::vector<std::string>;
+using ComponentNames = SharedList<std::string>;
 
 /// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z of node 17 in part 2": for messages.
 std::string describe(const DofLabel& label, const ComponentNames& names);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "model/SharedList.hpp"
+
 namespace tooljoint::model {
 
 /// Named scalar law of time. Two laws with one name are the same law: coupling merges them by name.
@@ -16,6 +18,11 @@ struct ScalarLaw {
   /// The law that is 1 at all times; every model has it at index 0.
   static ScalarLaw one() {
     return {"1", [](double) { return 1.0; }};
+  }
+  /// The list of a model whose terms are all constant: ScalarLaw::one() alone.
+  static const SharedList<ScalarLaw>& constant() {
+    static const SharedList<ScalarLaw> list{one()};
+    return list;
   }
 };
 

@@ -16,6 +16,7 @@
 #include "model/DofLabel.hpp"
 #include "model/PointLaw.hpp"
 #include "model/ScalarLaw.hpp"
+#include "model/SharedList.hpp"
 #include "model/SharedSparse.hpp"
 
 namespace tooljoint::model {
@@ -43,15 +44,15 @@ struct PointSet {
   Vector offset;                       ///< size*width
 };
 
-/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels. Copies share its matrices until they
-/// are changed.
+/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels. Copies share its matrices, their
+/// terms and its laws until they are changed.
 struct SecondOrderModel {
   std::vector<DofLabel> dofs;
   ComponentNames componentNames;
-  std::vector<ScalarLaw> laws{ScalarLaw::one()};
+  SharedList<ScalarLaw> laws = ScalarLaw::constant();
   SharedSparse mass;                  ///< M; symmetric positive (semi-)definite
-  std::vector<MatrixTerm> damping;    ///< C_i, may be unsymmetric (gyroscopics)
-  std::vector<MatrixTerm> stiffness;  ///< K_i, may be unsymmetric (torque)
+  SharedList<MatrixTerm> damping;    ///< C_i, may be unsymmetric (gyroscopics)
+  SharedList<MatrixTerm> stiffness;  ///< K_i, may be unsymmetric (torque)
   std::vector<LoadTerm> loads;
   std::vector<PointSet> points;
   Vector initialDisplacement;  ///< q(0)
@@ -60,7 +61,7 @@ struct SecondOrderModel {
   /// Recovery of physical output dofs: D = recoveryOffset + recovery q (rows: node-major, all components, held ones too).
   SharedSparse recovery;
   Vector recoveryOffset;
-  std::vector<std::int64_t> recoveryNodes;  ///< node numbers of the output rows, componentNames.size() rows each
+  SharedList<std::int64_t> recoveryNodes;  ///< node numbers of the output rows, componentNames.size() rows each
 
   int size() const { return static_cast<int>(mass.rows()); }
   /// Index of the law with this name, added if new.

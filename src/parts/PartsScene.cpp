@@ -110,7 +110,7 @@ class Builder {
   void giveLaws() {
     std::set<std::string> used;
     for (auto& content : scene_.contents)
-      for (auto& law : content.part.model.laws) {
+      for (auto& law : content.part.model.laws.own()) {
         if (law.name == "1") continue;
         used.insert(law.name);
         const auto it =

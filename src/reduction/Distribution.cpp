@@ -109,6 +109,11 @@ void travel(Archive& archive, std::vector<T>& values) {
   for (auto& value : values) travel(archive, value);
 }
 
+template <class Archive, class T>
+void travel(Archive& archive, model::SharedList<T>& list) {
+  travel(archive, list.own());
+}
+
 template <class Archive>
 void travel(Archive& archive, Partition& p) {
   travel(archive, p.size);

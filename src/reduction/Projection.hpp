@@ -13,8 +13,8 @@ namespace tooljoint::reduction {
 /// Reduced matrices of a part. Laws index the laws of the part.
 struct ProjectedMatrices {
   model::SharedSparse mass;
-  std::vector<model::MatrixTerm> damping;    ///< one per damping term of the part
-  std::vector<model::MatrixTerm> stiffness;  ///< the constant terms summed, then one per term that varies in time
+  model::SharedList<model::MatrixTerm> damping;    ///< one per damping term of the part
+  model::SharedList<model::MatrixTerm> stiffness;  ///< the constant terms summed, then one per term that varies in time
   Sparse constantStiffness;                  ///< the reduced stiffness that is constant in time, also when it is zero
   double massDefect = 0;                     ///< max |m_DD - I| before rounding was removed; 0 unless the basis is orthonormal
   double stiffnessDefect = 0;                ///< off-diagonal of sym(k_DD) relative to sqrt(k_ii k_jj), likewise

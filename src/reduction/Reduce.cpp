@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -14,9 +13,9 @@
 #include "common/Parallel.hpp"
 #include "reduction/BasisChecks.hpp"
 #include "reduction/Distribution.hpp"
-#include "reduction/InitialState.hpp"
 #include "reduction/InterfaceCriteria.hpp"
 #include "reduction/Projection.hpp"
+#include "reduction/ReducedModels.hpp"
 #include "reduction/Twins.hpp"
 #include "reduction/WholePart.hpp"
 
@@ -60,137 +59,6 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   if (options.checks) checkBasis(part, basis, core.matrices, report);
   count("parts reduced");
   return core;
-}
-
-/// What identical parts share beside their core.
-struct Shared {
-  Shared(const model::Substructure& like, const Sparse& Phi)
-      : part(like), stiffness(stiffnessTerms(like.model)), transposed(Phi.transpose()) {
-    if (static_cast<double>(Phi.nonZeros()) > 0.1 * static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols())) dense = transposed;
-  }
-  /// Phi' x
-  Vector project(const Vector& x) const {
-    Vector q(transposed.rows());
-    if (dense.size() > 0)
-      q.noalias() = dense * x;
-    else
-      q.noalias() = transposed * x;
-    return q;
-  }
-  const model::Substructure& part;
-  std::vector<model::MatrixTerm> stiffness;  ///< stiffnessTerms
-  model::SharedSparse recovery;              ///< of the part times Phi
-  Vector force;                              ///< dofs of the part: room for a product
-
- private:
-  Sparse transposed;  ///< Phi'
-  Matrix dense;       ///< the same where it has few zeros
-};
-
-void reduceLoads(const model::Substructure& part, Shared& shared, const Vector& offset, model::SecondOrderModel& reduced) {
-  const bool atRest = offset.isZero(0.0);
-  reduced.loads.reserve(part.model.loads.size() + (atRest ? 0 : shared.stiffness.size() + 1));
-  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, shared.project(load.vector), load.law});
-  if (atRest) return;
-  // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
-  Vector& force = shared.force;
-  for (const auto& term : shared.stiffness) {
-    force.noalias() = -(term.matrix * offset);
-    if (!force.isZero(0.0)) reduced.loads.push_back({"reference state: " + term.name, shared.project(force), term.law});
-  }
-}
-
-/// Equal bit by bit.
-bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
-  if (a.sharesWith(b)) return true;
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
-         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
-         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         (a.nonZeros() == 0 || std::memcmp(a.valuePtr(), b.valuePtr(), sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
-}
-
-void reducePoints(const model::Substructure& part, const Sparse& Phi, const Vector& offset, Shared& shared,
-                  model::SecondOrderModel& reduced) {
-  for (const auto& set : part.model.points) {
-    model::PointSet points = set;
-    points.rows = set.rows * Phi;
-    points.offset = set.offset + set.rows * offset;
-    reduced.points.push_back(points);
-  }
-  reduced.recoveryNodes = part.model.recoveryNodes;
-  if (part.model.recoveryNodes.empty()) return;
-  if (shared.recovery.size() == 0) shared.recovery = shared.part.model.recovery * Phi;
-  if (same(part.model.recovery, shared.part.model.recovery))
-    reduced.recovery = shared.recovery;
-  else
-    reduced.recovery = part.model.recovery * Phi;
-  reduced.recoveryOffset = part.model.recoveryOffset;
-  reduced.recoveryOffset.noalias() += part.model.recovery * offset;
-}
-
-/// Of a basis whose last coordinates are the forces on the interface dofs.
-Boundary forcesAsCoordinates(const model::Substructure& part, const BasisResult& basis, const Vector& offset) {
-  Boundary boundary;
-  std::vector<int> columns(static_cast<std::size_t>(basis.vectors.cols()));
-  std::iota(columns.begin(), columns.end(), 0);
-  boundary.rows = block(basis.vectors, basis.boundary, columns);
-  boundary.offset.resize(basis.forces());
-  for (std::size_t j = 0; j < basis.boundary.size(); ++j) {
-    boundary.dofs.push_back(part.model.dofs[static_cast<std::size_t>(basis.boundary[j])]);
-    boundary.offset[static_cast<Eigen::Index>(j)] = offset[basis.boundary[j]];
-  }
-  boundary.forces = basis.forces();
-  return boundary;
-}
-
-/// The reduced part from what its owner (or the owner of its twin) computed.
-ReducedSubstructure finish(const model::Substructure& part, const std::shared_ptr<const ReducedCore>& common, const ReductionOptions& options,
-                           int index, Shared& shared) {
-  const ReducedCore& core = *common;
-  ReducedSubstructure out;
-  out.name = part.name;
-  out.basis = std::shared_ptr<const BasisResult>(common, &core.basis);
-  out.report = core.report;
-  const Partition& p = core.basis.partition;
-  const Sparse& Phi = core.basis.vectors;
-  out.interface = static_cast<int>(p.interface.size());
-  out.retained = static_cast<int>(p.retained.size());
-  out.modes = core.basis.modes();
-
-  model::SecondOrderModel& m = out.model;
-  m.componentNames = part.model.componentNames;
-  m.laws = part.model.laws;
-  m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
-  for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
-  for (int k = 0; k < out.modes + core.basis.forces(); ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
-  m.mass = core.matrices.mass;
-  m.damping = core.matrices.damping;
-  m.stiffness = core.matrices.stiffness;
-
-  const bool keepStatic = options.initialState == InitialState::KeepStatic;
-  StartState start = startState(part, core.basis, keepStatic);
-  out.offset = std::move(start.offset);
-  reduceLoads(part, shared, out.offset, m);
-  reducePoints(part, Phi, out.offset, shared, m);
-  m.initialDisplacement = std::move(start.displacement);
-  m.initialVelocity = std::move(start.velocity);
-  if (core.basis.forces() > 0) {
-    out.boundary = forcesAsCoordinates(part, core.basis, out.offset);
-    out.boundary->staticForces = start.forces;
-    if (!start.forces.isZero(0.0))
-      m.loads.push_back({"reference state: forces between parts", Vector(out.boundary->rows.transpose() * start.forces), m.lawIndex(model::ScalarLaw::one())});
-  }
-
-  out.report.part = part.name;
-  if (core.report.part != part.name) out.report.sharedWith = core.report.part;
-  const double size = part.model.initialDisplacement.norm();
-  if (size > 0) {
-    const auto moved = part.model.initialDisplacement - out.offset;
-    const bool atRest = m.initialDisplacement.isZero(0.0);
-    out.report.initialStateDefect = (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
-  }
-  if (&part == &shared.part) m.validate();
-  return out;
 }
 
 std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>& parts, const ReductionOptions& options) {
@@ -254,7 +122,7 @@ std::vector<int> twins(const std::vector<int>& classes, const std::vector<ModeRe
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& m = parts[p].model;
-    const auto fits = [&](const Vector& x) { return x.size() == m.size() && x.allFinite(); };
+    const auto fits = [&](const Vector& x) { return x.size() == m.size() && std::isfinite(x.sum()); };
     bool good = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.points.empty() &&
                 (parts[p].reference.size() == 0 || fits(parts[p].reference)) && fits(m.initialDisplacement) && fits(m.initialVelocity);
     for (const auto& load : m.loads) good = good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
@@ -308,13 +176,13 @@ class Team {
     exchange();
     remember();
     std::vector<ReducedSubstructure> reduced;
-    std::map<std::size_t, Shared> shared;
+    std::map<std::size_t, ReducedModels> models;
     parallel::agree([&] {
       reduced.reserve(parts_.size());
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
-        auto& common = shared.try_emplace(t, parts_[t], cores_[t]->basis.vectors).first->second;
-        reduced.push_back(finish(parts_[p], cores_[t], options_, static_cast<int>(p), common));
+        auto& identical = models.try_emplace(t, parts_[t], cores_[t], options_).first->second;
+        identical.make(parts_[p], static_cast<int>(p), reduced.emplace_back());
       }
     });
     return reduced;
@@ -453,9 +321,9 @@ class Team {
 
 ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options,
                            int index) {
-  const auto core = std::make_shared<const ReducedCore>(makeCore(part, basis, options));
-  Shared shared(part, core->basis.vectors);
-  return finish(part, core, options, index, shared);
+  ReducedSubstructure reduced;
+  ReducedModels(part, std::make_shared<const ReducedCore>(makeCore(part, basis, options)), options).make(part, index, reduced);
+  return reduced;
 }
 
 std::vector<BasisRow> ReducedSubstructure::basisRows() const {

@@ -47,18 +47,19 @@ struct Ahead {
 
 /// |x_k - y_k| <= room_k for all k < n; false where one of them is not a number. Eight entries between two looks, which compilers do not do
 /// by themselves. x_k is entry `first` + k of its matrix.
-bool near(const double* x, const double* y, const double* room, Eigen::Index n, const Ahead& ahead, Eigen::Index first) {
-  using linalg::kernel::Pair;
-  const auto pair = [](const double* p) { return *reinterpret_cast<const Pair*>(p); };
+TOOLJOINT_CLONES bool near(const double* x, const double* y, const double* room, Eigen::Index n, const Ahead& ahead, Eigen::Index first) {
+  using linalg::kernel::Quad;
+  using Bits = long long __attribute__((vector_size(32)));
+  constexpr Bits notSign = {0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff};
   Eigen::Index k = 0;
   for (; k + 8 <= n; k += 8) {
     ahead.fetch(first + k);
-    auto good = pair(room + k) >= Pair{0, 0};
-    for (Eigen::Index j = k; j < k + 8; j += 2) {
-      const Pair difference = pair(x + j) - pair(y + j), r = pair(room + j);
-      good &= (difference <= r) & (-difference <= r);
+    Bits good = ~Bits{};
+    for (Eigen::Index j = k; j < k + 8; j += 4) {
+      const Quad difference = *reinterpret_cast<const Quad*>(x + j) - *reinterpret_cast<const Quad*>(y + j);
+      good &= reinterpret_cast<Quad>(reinterpret_cast<Bits>(difference) & notSign) <= *reinterpret_cast<const Quad*>(room + j);
     }
-    if ((good[0] & good[1]) == 0) return false;
+    if ((good[0] & good[1] & good[2] & good[3]) == 0) return false;
   }
   for (; k < n; ++k)
     if (!(std::abs(x[k] - y[k]) <= room[k])) return false;

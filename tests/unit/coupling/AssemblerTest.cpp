@@ -135,7 +135,7 @@ TEST(Assembler, MergesLawsAndTermsByName) {
   auto& m = other[3].model;
   m.laws = {model::ScalarLaw::one(), samples::spinRate(), samples::spin()};
   for (auto* terms : {&m.damping, &m.stiffness})
-    for (auto& term : *terms) term.law = term.law == 0 ? 0 : 3 - term.law;
+    for (auto& term : terms->own()) term.law = term.law == 0 ? 0 : 3 - term.law;
   EXPECT_EQ(couple(other).damping.size(), 2u);
   EXPECT_LT((Matrix(couple(other).dampingAt(0.3)) - Matrix(coupled.dampingAt(0.3))).norm(), 1e-15);
 }
@@ -250,7 +250,7 @@ TEST(AssemblerErrors, RecoveryThatDisagrees) {
             std::string::npos)
       << refusal(parts);
   parts = twoBars();
-  parts[1].model.recoveryNodes.pop_back();
+  parts[1].model.recoveryNodes.own().pop_back();
   EXPECT_EQ(refusal(parts), "Part \"bottom\": its recovery rows do not match its 3 output nodes with 1 components each.");
 }
 

@@ -164,7 +164,7 @@ TEST(CraigBampton, LinkThatTouchesNothingFloats) {
   // Two bars in one part; only the first has a kept dof.
   auto part = samples::bar("two bars", 1, 7, 3.0, 2.0);
   auto& m = part.model;
-  for (auto* A : {&m.mass, &m.stiffness[0].matrix}) {  // element 4 (nodes 4 and 5) taken out
+  for (auto* A : {&m.mass, &m.stiffness.own()[0].matrix}) {  // element 4 (nodes 4 and 5) taken out
     const double diagonal = A == &m.mass ? 2.0 / 3 : 3.0;
     A->coeffRef(3, 4) = A->coeffRef(4, 3) = 0.0;
     A->coeffRef(3, 3) -= diagonal;
@@ -250,7 +250,7 @@ TEST(CraigBampton, PairOfAShaftIsNotCut) {
         for (int plane : {0, 1}) entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
     return entries;
   }());
-  m.stiffness[0].matrix = doubled(m.stiffness[0].matrix);
+  m.stiffness.own()[0].matrix = doubled(m.stiffness.own()[0].matrix);
   m.dofs.clear();
   for (int node = 1; node <= 9; ++node)
     for (int plane : {0, 1}) m.dofs.push_back(model::DofLabel::physical(node, plane));

@@ -53,14 +53,14 @@ TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
   requests[3].kind = ModeRequest::Kind::Count;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another number of modes";
   requests[3] = requests[1];
-  parts[3].model.stiffness[0].matrix.coeffRef(4, 4) *= 1 + 1e-10;
+  parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-10;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4})) << "rounding of its length";
-  parts[3].model.stiffness[0].matrix.coeffRef(4, 4) *= 1 + 1e-8;
+  parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-8;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another stiffness";
   parts[2].model.stiffness.push_back({"geometric", 1e-14 * parts[2].model.stiffness[0].matrix, 0});
   parts[1].model.stiffness.push_back({"geometric", 3e-14 * parts[1].model.stiffness[0].matrix, 0});
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "a force that is rounding";
-  parts[1].model.stiffness[1].matrix *= 1e6;
+  parts[1].model.stiffness.own()[1].matrix *= 1e6;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 2, 3, 4})) << "another force";
 }
 

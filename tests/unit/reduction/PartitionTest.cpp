@@ -40,7 +40,7 @@ TEST(Partition, FindsTheLinksBetweenKeptDofs) {
 
 TEST(Partition, MassAloneAlsoLinks) {
   auto part = samples::bar("bar", 1, 3, 1.0, 1.0);
-  part.model.stiffness.front().matrix = Sparse(4, 4);  // no stiffness at all
+  part.model.stiffness.own().front().matrix = Sparse(4, 4);  // no stiffness at all
   samples::classify(part, {1});
   EXPECT_EQ(partition(part).links.size(), 1u);
   EXPECT_TRUE(partition(part).ends.front().empty());

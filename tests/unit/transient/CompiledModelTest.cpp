@@ -128,8 +128,8 @@ TEST(CompiledModel, combinesAnEffectiveMatrix) {
 
 TEST(CompiledModel, constantLawsCostNothing) {
   auto source = rich();
-  source.laws[1].value = source.laws[3].value = [](double t) { return t < 1 ? t : 1.0; };
-  source.laws[2].value = [](double t) { return t < 1 ? std::sqrt(t) : 1.0; };
+  source.laws.own()[1].value = source.laws.own()[3].value = [](double t) { return t < 1 ? t : 1.0; };
+  source.laws.own()[2].value = [](double t) { return t < 1 ? std::sqrt(t) : 1.0; };
   CompiledModel model(source);
   model.setTime(0.5);
   const long changing = model.matrixStamp();
@@ -164,7 +164,7 @@ TEST(CompiledModel, recognisesTermsThatDoNoWork) {
   source.damping.push_back({"gyroscopic", G.sparseView(), 0});
   EXPECT_TRUE(CompiledModel(source).damping().terms()[0].skew);
   G(0, 0) = 0.1;
-  source.damping[0].matrix = G.sparseView();
+  source.damping.own()[0].matrix = G.sparseView();
   EXPECT_FALSE(CompiledModel(source).damping().terms()[0].skew);
 }
 

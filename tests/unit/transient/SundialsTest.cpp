@@ -171,7 +171,7 @@ TEST_P(Sundials, noNumberInALoadEndsTheRunWithTimeAndDof) {
   EXPECT_NE(text.find("of node"), std::string::npos) << text;
   for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
   // from the first moment on
-  model.laws.back().value = [](double) { return std::nan(""); };
+  model.laws.own().back().value = [](double) { return std::nan(""); };
   EXPECT_NE(refusal([&] { run(model, GetParam(), 1.0); }).find("not finite"), std::string::npos);
 }
 

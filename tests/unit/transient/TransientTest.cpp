@@ -328,7 +328,7 @@ TEST(Checkpoints, belongToOneModelAndOneIntegrator) {
               integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again);
             }).find("written by the integrator \"RK4\""),
             std::string::npos);
-  model.stiffness[0].matrix.coeffRef(0, 0) *= 1 + 1e-9;
+  model.stiffness.own()[0].matrix.coeffRef(0, 0) *= 1 + 1e-9;
   EXPECT_NE(failure([&] { integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, again); }).find("another model"),
             std::string::npos);
 }
