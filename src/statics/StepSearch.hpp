@@ -107,8 +107,9 @@ class StepSearch : public NOX::LineSearch::Generic {
     for (int k = 0;; ++k) {
       if (!evaluate(line, step)) return false;
       const double there = vectorOf(line.group.getF()).dot(unscaled);
-      const double work = std::isfinite(there) ? there : -before;
-      if (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group)) return true;
+      const bool finite = std::isfinite(there);
+      const double work = finite ? there : -before;
+      if (finite && (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group))) return true;
       if (k == options_.maxHalvings) break;
       (work > 0.0 ? high : low) = step;
       (work > 0.0 ? highWork : lowWork) = work;

@@ -65,7 +65,7 @@ class Stages {
     if (cuts == 0) return run(name, switches, tolerance, searches, x);
     if (tryRun(name, switches, tolerance, searches, x)) return;
     const double between = from > 0.0 ? std::sqrt(from * to) : 0.5 * to;
-    march(from, between, kStageTolerance, stage, switches, searches, x, cuts - 1);
+    march(from, between, tolerance, stage, switches, searches, x, cuts - 1);
     march(between, to, tolerance, stage, switches, searches, x, cuts - 1);
   }
 

@@ -10,8 +10,8 @@ deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec spec("Static", "How the static equilibrium is found (Nguyen et al. 2020, section 3.2).");
   spec.choice("Recipe", std::string("Continuation"), {"Continuation", "Source"},
-              "\"Continuation\" starts on the axis, sharpens the contacts in stages, then brings in friction, with capped "
-              "steps and, where these fail, a line search; \"Source\" starts from the linear solution without contact and takes full steps.");
+              "\"Continuation\" starts on the axis between walls that only push, sharpens them in stages, then brings in friction, then "
+              "what the contact law pulls with; \"Source\" starts from the linear solution without contact and takes full steps.");
   spec.choice("Jacobian", std::string("Exact"), {"Exact", "Source"},
               "\"Source\" leaves out how the geometric stiffness changes with the displacement, equation (25).");
   spec.boolean("Geometric Stiffness", true, "Whether axial force and torque of the static state stiffen the string.");

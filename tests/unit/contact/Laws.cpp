@@ -285,6 +285,29 @@ TEST(StaticContact, OptionsOverrideLambdaFrictionAndDirection) {
   EXPECT_EQ(g[2], 0.0);
 }
 
+TEST(StaticContact, WithoutItsPullALawOnlyPushes) {
+  const ContactPoint p = steelOnRock(3e3);
+  const double largest = 1e7 / (M_PI * M_PI * 3e3);
+  const auto rest = law("Nguyen")->atRest(batch({p}));
+  EXPECT_NEAR(rest->largestPull(), largest, 1e-9 * largest);
+  EXPECT_EQ(law("Clamped")->atRest(batch({p}))->largestPull(), 0.0);
+  StaticContact::Options whole, half, none;
+  half.pull = 0.5;
+  none.pull = 0.0;
+  double last = 0.0;
+  for (const double penetration : {-0.02, -1e-3, -1e-4, 0.0, 1e-4, 1e-3}) {
+    const double uv[2] = {p.clearance + penetration, 0.0};
+    double N[3];
+    rest->normalForce(whole, uv, &N[0]);
+    rest->normalForce(half, uv, &N[1]);
+    rest->normalForce(none, uv, &N[2]);
+    EXPECT_GT(N[2], last) << penetration;  // it grows from next to nothing
+    EXPECT_NEAR(N[2] - N[0], largest, 1e-9 * largest) << penetration;
+    EXPECT_NEAR(2.0 * N[1], N[0] + N[2], 1e-9 * largest) << penetration;
+    last = N[2];
+  }
+}
+
 TEST(Registry, UnknownLawNamesTheKnownOnes) {
   try {
     makeLaw("Hertz");

@@ -75,6 +75,8 @@ TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
   options.lambda = 3e3;
   options.frictionScale = 0.75;
   options.direction = -1.0;
+  options.stiffnessScale = 0.5;
+  options.pull = 0.25;
   for (const double penetration : {-1e-3, 2e-5, 3e-4, 5e-3}) {
     const double r = point.clearance + penetration;
     const double uv[2] = {r * std::cos(2.0), r * std::sin(2.0)};

@@ -20,6 +20,9 @@ TEST(JacobianCheck, AcceptsRightJacobians) {
   EXPECT_TRUE(error.patternComplete);
   const ContactChain chain(12, 100.0, 2e3);
   EXPECT_LT(checkJacobian(chain, Vector::LinSpaced(12, -0.012, 0.013), 1e-6).relative, 1e-7);
+  testing::StringInHole string(6);
+  string.sharpness = 2e3;
+  EXPECT_LT(checkJacobian(string, Vector::LinSpaced(12, 0.011, 0.029), 1e-6).relative, 1e-7);
 }
 
 TEST(JacobianCheck, FindsOneWrongEntryAndNamesIt) {

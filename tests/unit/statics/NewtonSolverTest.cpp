@@ -15,6 +15,7 @@ namespace {
 using testing::ContactChain;
 using testing::DenseProblem;
 using testing::FrictionChain;
+using testing::StringInHole;
 using testing::rosenbrock;
 
 NewtonOptions with(NewtonOptions::LineSearch search) {
@@ -78,6 +79,59 @@ TEST(NewtonSolver, FrictionThatDefeatsFullStepsIsSolvedByBacktracking) {
   EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-8 * chain.load);
   // in the middle, friction alone holds the load: atan(x/width) = pi/2 load/friction
   EXPECT_NEAR(x[15], chain.width * std::tan(M_PI / 2 * chain.load / chain.friction), 1e-8);
+}
+
+/// A string in a hole of stiff, sharp walls, from 1 mm off the axis; 200 iterations allowed.
+NewtonReport settle(StringInHole& string, NewtonOptions::LineSearch search) {
+  Vector x(string.size());
+  for (int i = 0; i < string.n; ++i) x.segment<2>(2 * i) = 1e-3 * vector2(std::cos(4.0 * i / string.n), std::sin(4.0 * i / string.n));
+  NewtonOptions options = with(search);
+  options.maxIterations = 200;
+  const NewtonReport report = solve(string, x, options);
+  Vector r;
+  string.residual(x, r);
+  EXPECT_EQ(report.converged, r.cwiseAbs().maxCoeff() <= 1e-8 * string.load);
+  return report;
+}
+
+TEST(NewtonSolver, AStiffSharpWallDefeatsStepsAsTheyAreAndResidualsButNotTheWorkOfTheStep) {
+  StringInHole string(300);
+  string.slides = false;
+  EXPECT_FALSE(settle(string, NewtonOptions::LimitedStep).converged);
+  EXPECT_FALSE(settle(string, NewtonOptions::Backtracking).converged);
+  const NewtonReport report = settle(string, NewtonOptions::CriticalPoint);
+  EXPECT_TRUE(report.converged) << report.message;
+}
+
+TEST(NewtonSolver, StepsAlongACurvedWallDoNotPressIntoIt) {
+  StringInHole tangent(300), slides(300);
+  tangent.slides = false;
+  const NewtonReport full = settle(slides, NewtonOptions::LimitedStep);  // in vain on the tangent
+  EXPECT_TRUE(full.converged) << full.message;
+  EXPECT_LT(3 * settle(slides, NewtonOptions::CriticalPoint).iterations, 2 * settle(tangent, NewtonOptions::CriticalPoint).iterations);
+}
+
+TEST(NewtonSolver, AResidualThatIsNotFiniteStopsTheStepBeforeIt) {
+  DenseProblem logarithm(
+      1, [](const Vector& y) -> Vector { return Vector::Constant(1, std::log(y[0])); },
+      [](const Vector& y) -> Matrix { return Matrix::Constant(1, 1, 1.0 / y[0]); });
+  Vector y = Vector::Constant(1, 5.0);  // a full step leads to a negative number
+  const NewtonReport report = solve(logarithm, y, with(NewtonOptions::CriticalPoint));
+  EXPECT_TRUE(report.converged) << report.message;
+  EXPECT_NEAR(y[0], 1.0, 1e-12);
+}
+
+TEST(NewtonSolver, AToleranceBelowRoundingIsToldSo) {
+  DenseProblem stiff(
+      1, [](const Vector& x) -> Vector { return Vector::Constant(1, 1e12 * (x[0] * x[0] - 2.0)); },
+      [](const Vector& x) -> Matrix { return Matrix::Constant(1, 1, 2e12 * x[0]); });
+  Vector x = Vector::Ones(1);
+  const NewtonReport report = solve(stiff, x);
+  EXPECT_FALSE(report.converged);
+  EXPECT_NE(report.message.find("Rounding to double precision may leave 1.8e-03: ask for no less."), std::string::npos) << report.message;
+  NewtonOptions attainable;
+  attainable.tolerance = 1.8e-3;
+  EXPECT_TRUE(solve(stiff, x, attainable).converged);
 }
 
 TEST(NewtonSolver, RowsOfVeryDifferentSizeAreMeasuredByTheScaleOfTheProblem) {

@@ -82,6 +82,61 @@ struct ContactChain : model::NonlinearProblem {
   std::string unknownName(int i) const override { return "u of node " + std::to_string(i + 1); }
 };
 
+/// A string of masses from the axis to the axis of a smooth round hole, under loads that turn along it. Its stiff wall only pushes,
+/// with (k_c / pi)(atan2(1, -pi lambda g) g + 1/(pi lambda)) at a penetration g. Unknowns u1 v1 u2 v2 ...
+struct StringInHole : model::NonlinearProblem {
+  int n;
+  double spring = 1e4, load = 10.0, wall = 1e10, sharpness = 1e6, radius = 0.03;
+  bool slides = true;  ///< steps along the wall, not along its tangent
+
+  explicit StringInHole(int count) : n(count) {}
+  int size() const override { return 2 * n; }
+  double force(double g) const { return wall / M_PI * (std::atan2(1.0, -M_PI * sharpness * g) * g + 1.0 / (M_PI * sharpness)); }
+  double slope(double g) const {
+    const double x = M_PI * sharpness * g;
+    return wall / M_PI * (std::atan2(1.0, -x) + x / (1.0 + x * x));
+  }
+  void residual(const Vector& x, Vector& r) const override {
+    r.resize(size());
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Vector2d here = x.segment<2>(2 * i), zero = Eigen::Vector2d::Zero();
+      const Eigen::Vector2d left = i > 0 ? Eigen::Vector2d(x.segment<2>(2 * i - 2)) : zero;
+      const Eigen::Vector2d right = i + 1 < n ? Eigen::Vector2d(x.segment<2>(2 * i + 2)) : zero;
+      const double distance = std::hypot(here.norm(), 1e-9), angle = 4.0 * i / n;
+      r.segment<2>(2 * i) = spring * (2.0 * here - left - right) + force(distance - radius) / distance * here -
+                            load * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    }
+  }
+  void jacobian(const Vector& x, Sparse& J) const override {
+    Triplets t;
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Vector2d here = x.segment<2>(2 * i);
+      const double distance = std::hypot(here.norm(), 1e-9), across = force(distance - radius) / distance;
+      const Eigen::Matrix2d k = (2.0 * spring + across) * Eigen::Matrix2d::Identity() +
+                                (slope(distance - radius) - across) / (distance * distance) * here * here.transpose();
+      for (int a = 0; a < 4; ++a) t.emplace_back(2 * i + a / 2, 2 * i + a % 2, k(a / 2, a % 2));
+      for (int a = 0; a < 2 && i + 1 < n; ++a) {
+        t.emplace_back(2 * i + a, 2 * i + 2 + a, -spring);
+        t.emplace_back(2 * i + 2 + a, 2 * i + a, -spring);
+      }
+    }
+    J.resize(size(), size());
+    J.setFromTriplets(t.begin(), t.end());
+  }
+  Vector residualScale() const override { return Vector::Constant(size(), 1.0 / load); }
+  double stepLimit(const Vector&, const Vector& dx) const override { return std::min(1.0, 0.05 / dx.cwiseAbs().maxCoeff()); }
+  Vector moved(const Vector& x, const Vector& dx, double s) const override {
+    Vector there = x + s * dx;
+    for (int i = 0; slides && i < n; ++i) {
+      const Eigen::Vector2d before = x.segment<2>(2 * i), after = there.segment<2>(2 * i);
+      const double alongNormal = before.dot(after) / before.norm();
+      if (after.norm() > radius && alongNormal > 0.5 * after.norm()) there.segment<2>(2 * i) *= alongNormal / after.norm();
+    }
+    return there;
+  }
+  std::string unknownName(int i) const override { return (i % 2 == 0 ? "u of node " : "v of node ") + std::to_string(i / 2 + 1); }
+};
+
 /// Masses on soft springs held by dry friction 2/pi atan(x/width): far from the solution the slope is that of the springs
 /// alone and full Newton steps jump to and fro; near it the friction is stiff.
 struct FrictionChain : model::NonlinearProblem {
