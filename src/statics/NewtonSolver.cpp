@@ -176,12 +176,12 @@ class Newton {
   Teuchos::RCP<NOX::Solver::Generic> solver_;
 };
 
-/// What rounding may leave of the scaled residual: a few roundings, of the unknowns and on the way, 2 epsilon max_i scale_i sum_j |J_ij x_j|.
+/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way, 4 epsilon max_i scale_i sum_j |J_ij x_j|.
 double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
   Sparse jacobian;
   problem.jacobian(x, jacobian);
   const Vector sums = jacobian.cwiseAbs() * x.cwiseAbs();
-  return 2.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
+  return 4.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
 }
 
 std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record,
