@@ -170,6 +170,7 @@ bool ImplicitStep::relax(State& to) {
 /// Newton from where relaxation stopped, which is often wrong at a few points only, and from the predicted state.
 bool ImplicitStep::finish(State& to) {
   if (!(error_ <= reference_)) return iterate(to);  // nowhere, or nothing to start from
+  if (corrected_) correctPhase(to);
   predicted_ = to;
   const double c = scheme_.velocity, a = scheme_.acceleration;
   for (int i = 0; i < delta_.size(); ++i) to.q[i] += delta_[i], to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
@@ -218,11 +219,12 @@ bool ImplicitStep::settle(State& to) {
     double force = near ? reference_ : linearReference_;
     error_ = relaxation_.evaluate(to.t, c, delta_, tolerance(), force);
     reference_ = force;
-    bool changed = phase;
+    bool changed = false;
     bool good = converged() && !phase;
-    if (phase) {
+    if (phase && (!corrected_ || error_ <= settled * reference_)) {
+      phase = error_ > settled * reference_;  // to be taken again from an iterate that is near
       correctPhase(to);
-      phase = error_ > settled * reference_;  // taken from an iterate that is near
+      changed = true;
     }
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
       drift_.setZero();
@@ -296,8 +298,8 @@ bool ImplicitStep::correctsPhase() const {
   return true;
 }
 
-/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once, from the delta without it:
-/// what that misses is of the order of the square of k (I - F) F.
+/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken from the first delta, without it, and
+/// again from one that is near where the first was not: what that misses is of the order of the square of k (I - F) F.
 void ImplicitStep::correctPhase(const State& to) {
   const auto& pattern = model_->pattern();
   acceleration_ = to.a + scheme_.acceleration * delta_;

@@ -175,7 +175,7 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
     if (isNear_) {
       set.points.clear();
       for (int p : batch.active())
-        if (batch.isIn(p, live_)) set.points.push_back(p);
+        if (set.moved[z(p)] || batch.isIn(p, live_)) set.points.push_back(p);  // a small change may have ended where it began
     } else {
       set.points = batch.active();
     }
