@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tooljoint::transient {
 
@@ -147,6 +148,16 @@ double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local&
   return bestSize;
 }
 
+/// What rounding of d + y and v + c y may leave of the scaled defect: contact that is on within 1e-12 m is no better known than that.
+double NodalProblem::rounding(PointBatch& batch, double t, double c, const Local& scale, const Local& y) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  LocalMatrix slope(y.size(), y.size());
+  Local phi;
+  defect(batch, t, c, y, phi, &slope);
+  const Local unsure = epsilon * (d.cwiseAbs() + 2 * y.cwiseAbs() + v.cwiseAbs() / c);
+  return (G.cwiseAbs() * (slope.cwiseAbs() * unsure)).cwiseProduct(scale).norm();
+}
+
 /// Newton from the guess and from without force, then pseudo-time from both, then the path: each only where the one before ends
 /// elsewhere than in a balance.
 bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const {
@@ -157,7 +168,9 @@ bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local&
   const Local guess = y;
   Local best = y;
   double bestSize = INFINITY;
-  const auto balanced = [&] { return bestSize <= 1e-9 * (size(free) + size(best)); };
+  const auto balanced = [&] {
+    return bestSize <= 1e-9 * (size(free) + size(best)) || (std::isfinite(bestSize) && bestSize <= rounding(batch, t, c, scale, best));
+  };
   const auto keep = [&](double reached) {
     if (reached < bestSize) best = y, bestSize = reached;
   };

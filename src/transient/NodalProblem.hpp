@@ -30,6 +30,7 @@ struct NodalProblem {
   double iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const;
   void flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
   void follow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
+  double rounding(PointBatch& batch, double t, double c, const Local& scale, const Local& y) const;
   Local defect(PointBatch& batch, double t, double c, const Local& y, Local& phi, LocalMatrix* slope) const;
 };
 
