@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include "common/Error.hpp"
 #include "linalg/BlockKernels.hpp"
 
 namespace tooljoint::linalg {
@@ -68,18 +70,12 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   int widest = 0;
   std::size_t panel = 0;
   for (int k : sequence) {
-    Pivot pivot{k,
-                pattern.start(k),
-                pattern.width(k),
-                place(k, k),
-                static_cast<int>(couplings_.size()),
-                0,
-                static_cast<int>(updates_.size()),
-                0,
-                0};
+    Pivot pivot{k, pattern.start(k), pattern.width(k), static_cast<int>(couplings_.size()), 0, 0};
+    Elimination elimination{place(k, k), static_cast<int>(updates_.size()), 0};
     widest = std::max(widest, pivot.width);
     for (int i : later[z(k)]) {
-      couplings_.push_back({i, pattern.start(i), pattern.width(i), place(i, k), place(k, i), 0, 0});
+      couplings_.push_back({i, pattern.start(i), pattern.width(i), 0, 0});
+      places_.push_back({place(i, k), place(k, i)});
       panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
       solveWork_ += 2.0 * pivot.width * pattern.width(i);
     }
@@ -88,8 +84,9 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     for (int a = pivot.couplingBegin; a < pivot.couplingEnd; ++a)
       for (int b = pivot.couplingBegin; b < pivot.couplingEnd; ++b)
         updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)], later[z(k)][z(b - pivot.couplingBegin)]), a, b});
-    pivot.updateEnd = static_cast<int>(updates_.size());
+    elimination.updateEnd = static_cast<int>(updates_.size());
     pivots_.push_back(pivot);
+    eliminations_.push_back(elimination);
   }
   pack();
   far_ = storage > kernel::nearCache;
@@ -106,7 +103,8 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
 void BlockFactor::pack() {
   std::size_t down = 0, up = 0;
   const auto take = [](std::size_t& next, int rows, int columns) {
-    const std::size_t here = next;
+    if (next > std::numeric_limits<Offset>::max()) throw ModelError("The factors of the matrix would take more than 32 GB.");
+    const auto here = static_cast<Offset>(next);
     next += (z(rows) * z(columns) + 3) / 4 * 4;
     return here;
   };
@@ -125,31 +123,35 @@ bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInver
 TOOLJOINT_CLONES int BlockFactor::factor() {
   double* values = values_.data();
   std::fill(values + patternStorage_, values + values_.size(), 0.0);
-  for (const Pivot& p : pivots_) {  // size of each row before elimination
+  for (std::size_t k = 0; k < pivots_.size(); ++k) {  // size of each row before elimination
+    const Pivot& p = pivots_[k];
+    const double* D = values + eliminations_[k].diagonal;
     for (int i = 0; i < p.width; ++i) {
       double size = 0;
-      for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(values[p.diagonal + z(j * p.width + i)]));
+      for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
       if (!(size > 0)) return p.start + i;  // an empty row, or not a number
       scale_[z(p.start + i)] = size;
     }
   }
-  for (const Pivot& p : pivots_) {
-    double* D = values + p.diagonal;
+  for (std::size_t k = 0; k < pivots_.size(); ++k) {
+    const Pivot& p = pivots_[k];
+    double* D = values + eliminations_[k].diagonal;
     const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)], panel_.data());
     if (bad >= 0) return p.start + bad;
-    eliminate(p);
+    eliminate(k);
   }
   return -1;
 }
 
 /// W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj;  L_ik = A_ik D_k^-1
-TOOLJOINT_CLONES void BlockFactor::eliminate(const Pivot& p) {
+TOOLJOINT_CLONES void BlockFactor::eliminate(std::size_t k) {
+  const Pivot& p = pivots_[k];
   double* values = values_.data();
-  const double* D = values + p.diagonal;
+  const double* D = values + eliminations_[k].diagonal;
   std::copy(D, D + p.width * p.width, up_.data() + p.up);
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
     const Coupling& at = couplings_[z(c)];
-    const double* upper = values + at.upper;
+    const double* upper = values + places_[z(c)].upper;
     double* W = up_.data() + at.up;
     if (p.inverted()) {
       kernel::multiplySmall(p.width, p.width, at.width, D, upper, W);
@@ -158,15 +160,15 @@ TOOLJOINT_CLONES void BlockFactor::eliminate(const Pivot& p) {
       kernel::solveLarge(p.width, at.width, D, &swaps_[z(p.start)], W);
     }
   }
-  for (int u = p.updateBegin; u < p.updateEnd; ++u) {
+  for (int u = eliminations_[k].updateBegin; u < eliminations_[k].updateEnd; ++u) {
     const Update& update = updates_[z(u)];
     const Coupling& i = couplings_[z(update.i)];
     const Coupling& j = couplings_[z(update.j)];
-    kernel::multiplySubtract(i.width, p.width, j.width, values + i.lower, up_.data() + j.up, values + update.target);
+    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[z(update.i)].lower, up_.data() + j.up, values + update.target);
   }
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
     const Coupling& at = couplings_[z(c)];
-    const double* lower = values + at.lower;
+    const double* lower = values + places_[z(c)].lower;
     double* L = down_.data() + at.down;
     if (p.inverted())
       kernel::multiplySmall(at.width, p.width, p.width, lower, D, L);
@@ -263,15 +265,16 @@ void BlockFactor::invert(const std::vector<char>& wanted) {
   for (const Pivot& p : pivots_)
     if (needed[z(p.block)])
       for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[z(couplings_[z(c)].block)] = 1;
-  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p)
-    if (needed[z(p->block)]) invertPivot(*p);
+  for (std::size_t k = pivots_.size(); k-- > 0;)
+    if (needed[z(pivots_[k].block)]) invertPivot(k);
 }
 
-TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
+TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
+  const Pivot& p = pivots_[k];
   double* Z = inverse_.data();
   const int w = p.width;
   // D_k^-1
-  double* diagonal = Z + p.diagonal;
+  double* diagonal = Z + eliminations_[k].diagonal;
   if (w <= kernel::largestInverse) {
     std::copy(up_.data() + p.up, up_.data() + p.up + w * w, diagonal);
   } else {
@@ -280,11 +283,12 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
     kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[z(p.start)], diagonal);
   }
   const int count = p.couplingEnd - p.couplingBegin;
-  const Update* updates = updates_.data() + p.updateBegin;  // count x count, row by row
+  const Update* updates = updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
   for (int a = 0; a < count; ++a) {
-    const Coupling& at = couplings_[z(p.couplingBegin + a)];
-    std::fill(Z + at.lower, Z + at.lower + at.width * w, 0.0);
-    std::fill(Z + at.upper, Z + at.upper + at.width * w, 0.0);
+    const std::size_t c = z(p.couplingBegin + a);
+    const int size = couplings_[c].width * w;
+    std::fill(Z + places_[c].lower, Z + places_[c].lower + size, 0.0);
+    std::fill(Z + places_[c].upper, Z + places_[c].upper + size, 0.0);
   }
   // Z_ak = -sum_b Z_ab (A_bk D_k^-1),  Z_kb = -sum_a W_ka Z_ab
   for (int b = 0; b < count; ++b) {
@@ -298,14 +302,14 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(const Pivot& p) {
     for (int a = 0; a < count; ++a) {
       const Coupling& to = couplings_[z(p.couplingBegin + a)];
       const double* Zab = Z + updates[a * count + b].target;
-      kernel::multiplySubtract(to.width, from.width, w, Zab, L, Z + to.lower);
-      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab, Z + from.upper);
+      kernel::multiplySubtract(to.width, from.width, w, Zab, L, Z + places_[z(p.couplingBegin + a)].lower);
+      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab, Z + places_[z(p.couplingBegin + b)].upper);
     }
   }
   // Z_kk = D_k^-1 - sum_b W_kb Z_bk
   for (int b = 0; b < count; ++b) {
     const Coupling& at = couplings_[z(p.couplingBegin + b)];
-    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up, Z + at.lower, diagonal);
+    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up, Z + places_[z(p.couplingBegin + b)].lower, diagonal);
   }
 }
 

@@ -6,6 +6,7 @@
 /// and any other graph still factors correctly.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "linalg/BlockSparse.hpp"
@@ -51,40 +52,50 @@ class BlockFactor {
   std::size_t fill() const { return values_.size() - patternStorage_; }
 
  private:
+  // What solve() reads is kept apart from what only factor() and invert() do, and short: beside blocks of six it is a tenth of all.
+  using Offset = std::uint32_t;  ///< in down_ or up_, doubles
   struct Coupling {
     int block;
     int start;  ///< first position of the later block i
     int width;
+    Offset down;  ///< L_ik = A_ik D_k^-1 (A_ik beside blocks too large to invert)
+    Offset up;    ///< W_ki = D_k^-1 A_ki
+  };
+  struct Pivot {
+    int block;
+    int start;
+    int width;
+    int couplingBegin, couplingEnd;
+    Offset up;  ///< D_k^-1, or its factors
+    bool inverted() const;
+  };
+  /// Of a coupling, in values_.
+  struct Place {
     std::size_t lower;  ///< A_ik
     std::size_t upper;  ///< A_ki
-    std::size_t down;   ///< in down_: L_ik = A_ik D_k^-1 (A_ik beside blocks too large to invert)
-    std::size_t up;     ///< in up_: W_ki = D_k^-1 A_ki
   };
   struct Update {
     std::size_t target;  ///< A_ij -= A_ik W_kj
     int i;               ///< coupling numbers
     int j;
   };
-  struct Pivot {
-    int block;
-    int start;
-    int width;
-    std::size_t diagonal;
-    int couplingBegin, couplingEnd;
+  /// Of a pivot.
+  struct Elimination {
+    std::size_t diagonal;  ///< in values_
     int updateBegin, updateEnd;
-    std::size_t up;  ///< in up_: D_k^-1, or its factors
-    bool inverted() const;
   };
 
   void pack();
-  void eliminate(const Pivot& pivot);
+  void eliminate(std::size_t k);
   void sweepDown(const Pivot& pivot, double* x) const;
   void sweepUp(const Pivot& pivot, double* x) const;
-  void invertPivot(const Pivot& pivot);
+  void invertPivot(std::size_t k);
   void order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const;
 
   std::vector<Pivot> pivots_;
   std::vector<Coupling> couplings_;
+  std::vector<Elimination> eliminations_;  ///< of pivots_
+  std::vector<Place> places_;              ///< of couplings_
   std::vector<Update> updates_;
   BlockValues values_;
   BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "common/Error.hpp"
 #include "linalg/BlockKernels.hpp"
 
 namespace tooljoint::linalg {
@@ -153,6 +155,8 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
 }
 
 BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+  if (pattern.storage() > std::numeric_limits<std::uint32_t>::max()) throw ModelError("A matrix would take more than 32 GB.");
+  const auto offset = [&pattern](int e) { return static_cast<std::uint32_t>(pattern.offset(e)); };
   far_ = pattern.storage() > kernel::nearCache;
   findSymmetry(pattern, samples);
   int widest = 0;
@@ -174,12 +178,12 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
               offDiagonal = offDiagonal || i != j;
             }
       if (!any) continue;
-      Entry entry{pattern.offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
+      Entry entry{offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
       row.allSix = row.allSix && columns == 6 && offDiagonal;
       if (pattern.column(e) < b) {
         if (far_ && mirrored_ && offDiagonal) {
           entry.form = Form::Transposed;
-          entry.offset = pattern.offset(pattern.find(pattern.column(e), b));
+          entry.offset = offset(pattern.find(pattern.column(e), b));
         }
         ++row.diagonal;
       }

@@ -110,9 +110,9 @@ class BlockProduct {
   double sixForm(const Row& row, const double* values, const double* x) const;
   void findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;
-  enum class Form { Dense, Diagonal, Transposed };
+  enum class Form : std::uint8_t { Dense, Diagonal, Transposed };
   struct Entry {
-    std::size_t offset;
+    std::uint32_t offset;  ///< of the block, doubles
     int column;
     int width;
     Form form;
