@@ -7,6 +7,12 @@
 #include <limits>
 
 namespace tooljoint::transient {
+namespace {
+
+/// Brackets in a row without a smaller defect before Newton at a point is given up.
+constexpr int mostIdle = 2;
+
+}  // namespace
 
 /// y - free - G phi(y); phi and, if asked, its derivative in y.
 NodalProblem::Local NodalProblem::defect(PointBatch& batch, double t, double c, const Local& y, Local& phi,
@@ -114,10 +120,12 @@ double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local&
   LocalMatrix slope(w, w);
   Local best = y;
   double bestSize = INFINITY;
+  int idle = 0;  // brackets in a row that were of no use
   for (int iteration = 0; iteration < 30; ++iteration) {
     const Local now = defect(batch, t, c, y, phi, &slope);
     const double before = size(now);
     if (!std::isfinite(before)) break;
+    if (before < 0.9 * bestSize) idle = 0;
     if (before < bestSize) best = y, bestSize = before;
     if (before <= 1e-11 * (size(free) + size(y)) + 1e-300) break;
     const LocalMatrix J = LocalMatrix::Identity(w, w) - G * slope;
@@ -135,7 +143,7 @@ double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local&
       }
     }
     if (decreased) continue;
-    if (beyond == 0) break;
+    if (beyond == 0 || ++idle > mostIdle) break;
     double low = 0, high = beyond;
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
