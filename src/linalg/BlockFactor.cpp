@@ -103,7 +103,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
 void BlockFactor::pack() {
   std::size_t down = 0, up = 0;
   const auto take = [](std::size_t& next, int rows, int columns) {
-    if (next > std::numeric_limits<Offset>::max()) throw ModelError("The factors of the matrix would take more than 32 GB.");
+    if (next > std::numeric_limits<Offset>::max()) throw ModelError("The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes or fewer kept nodes.");
     const auto here = static_cast<Offset>(next);
     next += (z(rows) * z(columns) + 3) / 4 * 4;
     return here;

@@ -155,7 +155,7 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
 }
 
 BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
-  if (pattern.storage() > std::numeric_limits<std::uint32_t>::max()) throw ModelError("A matrix would take more than 32 GB.");
+  if (pattern.storage() > std::numeric_limits<std::uint32_t>::max()) throw ModelError("A matrix of the model would take more than 32 GB. Take a coarser mesh, fewer modes or fewer kept nodes.");
   const auto offset = [&pattern](int e) { return static_cast<std::uint32_t>(pattern.offset(e)); };
   far_ = pattern.storage() > kernel::nearCache;
   findSymmetry(pattern, samples);

@@ -24,8 +24,11 @@ bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
 
 }  // namespace
 
-LinearMap::LinearMap(Sparse A) : sparse_(std::move(A)) {
-  if (static_cast<double>(sparse_.nonZeros()) > 0.1 * static_cast<double>(sparse_.size())) dense_ = sparse_;
+LinearMap::LinearMap(Sparse A) {
+  if (static_cast<double>(A.nonZeros()) > 0.1 * static_cast<double>(A.size()))
+    dense_ = A;
+  else
+    sparse_ = std::move(A);
 }
 
 TOOLJOINT_CLONES Vector LinearMap::operator()(const Vector& x) const {
@@ -36,7 +39,7 @@ TOOLJOINT_CLONES Vector LinearMap::operator()(const Vector& x) const {
 }
 
 LinearMap LinearMap::times(const Sparse& B) const {
-  LinearMap product(*this);
+  LinearMap product;
   if (dense_.size() > 0)
     product.dense_ = dense_ * B;
   else

@@ -23,7 +23,8 @@ class LinearMap {
   LinearMap times(const Sparse& B) const;
 
  private:
-  Sparse sparse_;
+  LinearMap() = default;
+  Sparse sparse_;  ///< A, or empty where it is dense
   Matrix dense_;
 };
 
