@@ -44,6 +44,9 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
                     &savedChange_, &guess_, &last_, &drift_, &rowSize_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   predicted_.resize(n);
+  int longest = 0;
+  for (const auto& run : model.runs()) longest = std::max(longest, model.pattern().start(run.end) - model.pattern().start(run.begin));
+  stiff_.setZero(longest);
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);
@@ -77,26 +80,23 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
 /// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of; run by run, while it is in the cache.
 void ImplicitStep::linearResidual(const State& to) {
   const CompiledModel& model = *model_;
-  const double* load = model.load();
-  const double* w = weight_.data();
-  const double* q = to.q.data();
-  const double* rounding = rowSize_.data();
-  double* sum = linear_.data();
-  double* stiff = scratch_.data();
+  const Eigen::Map<const Vector> load(model.load(), model.size());
   double size = 0, floor = 0;
   for (const auto& run : model.runs()) {
-    const int begin = model.pattern().start(run.begin), end = model.pattern().start(run.end);
-    std::fill(sum + begin, sum + end, 0.0);
-    std::fill(stiff + begin, stiff + end, 0.0);
-    model.addMass(to.a.data(), sum, run);
-    model.addStiffness(q, stiff, run);
-    for (int i = begin; i < end; ++i) {
-      const double forces = std::max({std::abs(sum[i]), std::abs(stiff[i]), std::abs(load[i])});
-      size = std::max(size, w[i] * forces);
-      floor = std::max(floor, rounding[i] * std::abs(q[i]));
-      sum[i] += stiff[i] - load[i];
-    }
-    model.addDamping(to.v.data(), sum, run);
+    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
+    const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
+    auto sum = linear_.segment(begin, length).array();
+    auto stiff = stiff_.head(length).array();
+    sum.setZero();
+    model.addStiffness(to.q.data(), linear_.data(), run);
+    stiff = sum;
+    sum.setZero();
+    model.addMass(to.a.data(), linear_.data(), run);
+    const auto forces = sum.abs().max(stiff.abs()).max(part(load).abs());
+    size = std::max(size, (part(weight_) * forces).maxCoeff());
+    floor = std::max(floor, (part(rowSize_) * part(to.q).abs()).maxCoeff());
+    sum += stiff - part(load);
+    model.addDamping(to.v.data(), linear_.data(), run);
   }
   linearReference_ = reference_ = size;
   floor_ = floor;

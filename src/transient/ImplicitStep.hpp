@@ -114,6 +114,7 @@ class ImplicitStep {
   Vector base_, saved_, savedChange_;
   Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
+  Vector stiff_;  ///< K q of one run
   std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
   double error_ = 0;      ///< max |w R|
   double merit_ = 0;      ///< |w R|_2

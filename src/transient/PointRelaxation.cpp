@@ -138,21 +138,21 @@ void PointRelaxation::restore(const double*& memory) {
 void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& residual) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     PointBatch& batch = model_->points()[b];
+    Set& set = sets_[b];
+    const int w = batch.width();
     batch.gatherActive(q.data(), v.data());
-    std::copy(batch.d(), batch.d() + sets_[b].d.size(), sets_[b].d.begin());
-    std::copy(batch.v(), batch.v() + sets_[b].v.size(), sets_[b].v.begin());
     for (int p : batch.active()) {
-      if (sets_[b].known[z(p)]) continue;
-      batch.project(p, inverse_, &sets_[b].compliance[z(p * batch.width() * batch.width())]);
-      sets_[b].known[z(p)] = 1;
+      std::copy_n(batch.d() + p * w, w, &set.d[z(p * w)]);
+      std::copy_n(batch.v() + p * w, w, &set.v[z(p * w)]);
+      set.exact[z(p)] = 0;
+      set.moved[z(p)] = 1;
+      set.error[z(p)] = std::numeric_limits<double>::infinity();
+      if (set.known[z(p)]) continue;
+      batch.project(p, inverse_, &set.compliance[z(p * w * w)]);
+      set.known[z(p)] = 1;
     }
   }
   residual_ = &residual;
-  for (auto& set : sets_) {
-    std::fill(set.exact.begin(), set.exact.end(), 0);
-    std::fill(set.moved.begin(), set.moved.end(), 1);
-    std::fill(set.error.begin(), set.error.end(), std::numeric_limits<double>::infinity());
-  }
 }
 
 void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
