@@ -238,8 +238,8 @@ class Study {
   static void again(StudyRow& row, const PreparedModel& prepared, const Execution& execution) {
     row.cpu.push_back(execution.cpu);
     row.wall.push_back(execution.wall);
-    row.setupCpu = std::min(row.setupCpu, prepared.setupCpu);
-    row.setupWall = std::min(row.setupWall, prepared.setupWall);
+    row.setupCpu = std::min(row.setupCpu, prepared.setupCpu + execution.setupCpu);
+    row.setupWall = std::min(row.setupWall, prepared.setupWall + execution.setupWall);
   }
 
   void finish() {

@@ -96,8 +96,8 @@ void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared, c
   row.simulated = report.end - report.start;
   row.cpu = {execution.cpu};
   row.wall = {execution.wall};
-  row.setupCpu = prepared.setupCpu;
-  row.setupWall = prepared.setupWall;
+  row.setupCpu = prepared.setupCpu + execution.setupCpu;
+  row.setupWall = prepared.setupWall + execution.setupWall;
   row.steps = c.steps, row.rejected = c.rejected, row.halved = c.halved, row.unconverged = c.unconvergedSteps;
   row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations, row.rightHandSides = c.rightHandSides;
   row.minStep = c.minStep, row.maxStep = c.maxStep;

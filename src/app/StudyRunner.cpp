@@ -151,7 +151,7 @@ Execution integrate(const StudyScene& scene, const Measures& measures, const mod
   hooks.title = options.title;
   HistoryRecorder recorder(measures, model, options.record, estimator);
   Execution execution;
-  double cpu = 0.0, wall = 0.0;
+  double cpu = 0.0, wall = 0.0, setupCpu = 0.0, setupWall = 0.0;
   bool late = false;
   parallel::agree([&] {
     const Stopwatch watch;
@@ -162,8 +162,10 @@ Execution integrate(const StudyScene& scene, const Measures& measures, const mod
       return late || interruptRequested();
     };
     execution.report = transient::integrate(model, transientOptions, recorder, hooks);
-    cpu = watch.cpu() - recorder.cpu();
-    wall = watch.wall() - recorder.wall();
+    cpu = execution.report.cpu - recorder.cpu();
+    wall = execution.report.wall - recorder.wall();
+    setupCpu = watch.cpu() - execution.report.cpu;
+    setupWall = watch.wall() - execution.report.wall;
     if (execution.report.interrupted && !late) throw InterruptedError("Interrupted at " + formatNumber(execution.report.end) + " s.");
   });
   if (parallel::maximum(late ? 1.0 : 0.0) > 0.0)
@@ -171,6 +173,8 @@ Execution integrate(const StudyScene& scene, const Measures& measures, const mod
                          " s of CPU time (Study/Time Limit).");
   execution.cpu = parallel::sum(cpu);
   execution.wall = parallel::maximum(wall);
+  execution.setupCpu = parallel::sum(setupCpu);
+  execution.setupWall = parallel::maximum(setupWall);
   execution.history = std::move(recorder.history());
   if (options.record) countContact(measures, model, execution);
   return execution;

@@ -42,7 +42,8 @@ struct ExecutionOptions {
 struct Execution {
   transient::TransientReport report;
   study::RecordedHistory history;
-  double cpu = 0.0, wall = 0.0;
+  double cpu = 0.0, wall = 0.0;            ///< of the motion, without recording it
+  double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
   std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the transient; its time is not in `cpu` and `wall`

@@ -13,8 +13,6 @@ namespace tooljoint::linalg::kernel {
 
 /// Blocks up to this size are inverted explicitly: a product is faster than two triangular solves.
 constexpr int largestInverse = 64;
-/// Up to this size by Gauss and Jordan at once, above through LU.
-constexpr int largestDirect = 8;
 
 // Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one with AVX2 and FMA, and the
 // loader chooses. The two differ in the last bit.
@@ -56,6 +54,11 @@ struct Six {
   void addColumn(const double* column, double x) {
     a += *reinterpret_cast<const Quad*>(column) * x;
     b += *reinterpret_cast<const Pair*>(column + 4) * x;
+  }
+  /// this += A x, A 6 x 6 and diagonal.
+  void addDiagonal(const double* A, const double* x) {
+    a += Quad{A[0], A[7], A[14], A[21]} * *reinterpret_cast<const Quad*>(x);
+    b += Pair{A[28], A[35]} * *reinterpret_cast<const Pair*>(x + 4);
   }
   /// this -= A x, A 6 x 6.
   void subtract(const double* A, const double* x) {
@@ -286,7 +289,8 @@ void solveLarge(int n, int columns, const double* lu, const int* pivots, double*
 /// Replace a by its inverse through its LU.
 int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel);
 
-/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), LU above. Returns -1 or the
+/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), by Gauss and Jordan at once where widths
+/// are common (nodes, modes in pairs), LU above. Returns -1 or the
 /// position of the bad pivot.
 inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel) {
   switch (n) {
@@ -306,6 +310,14 @@ inline int factorBlock(int n, double* a, const double* scale, double* workScale,
       return invert<7>(a, scale);
     case 8:
       return invert<8>(a, scale);
+    case 10:
+      return invert<10>(a, scale);
+    case 12:
+      return invert<12>(a, scale);
+    case 14:
+      return invert<14>(a, scale);
+    case 16:
+      return invert<16>(a, scale);
     default:
       return n <= largestInverse ? invertLarge(n, a, scale, workScale, pivots, panel) : factorLarge(n, a, scale, workScale, pivots);
   }

@@ -179,7 +179,7 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
             }
       if (!any) continue;
       Entry entry{offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
-      row.allSix = row.allSix && columns == 6 && offDiagonal;
+      row.inSix = row.inSix && (columns == 6 || !far_);
       if (pattern.column(e) < b) {
         if (far_ && mirrored_ && offDiagonal) {
           entry.form = Form::Transposed;
@@ -234,23 +234,32 @@ TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int e
   }
 }
 
+/// even + odd += A_ij x_j over some entries of a row of six.
+TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const {
+  const Entry* last = entries_.data() + end;
+  for (const Entry* entry = entries_.data() + begin; entry != last; ++entry) {
+    const double* block = values + entry->offset;
+    const double* source = x + entry->column;
+    if (entry->form == Form::Transposed) {
+      kernel::addSixTransposed(block, source, odd);
+      continue;
+    }
+    if (far_) kernel::fetchAhead(block, 36);
+    if (entry->form == Form::Diagonal)
+      odd.addDiagonal(block, source);
+    else
+      kernel::addPairs(entry->width, block, source, even, odd);
+  }
+}
+
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
-  const Entry* entries = entries_.data();
   const Row* last = rows_.data() + end;
   for (const Row* at = rows_.data() + begin; at != last; ++at) {
     const Row row = *at;
     double* target = y + row.start;
-    if (row.allSix) {
+    if (row.inSix) {
       kernel::Six even, odd;
-      for (int e = row.begin; e < row.end; ++e) {
-        const double* block = values + entries[e].offset;
-        if (entries[e].form == Form::Transposed) {
-          kernel::addSixTransposed(block, x + entries[e].column, odd);
-          continue;
-        }
-        if (far_) kernel::fetchAhead(block, 36);
-        kernel::addPairs(6, block, x + entries[e].column, even, odd);
-      }
+      addSix(row.begin, row.end, values, x, even, odd);
       even.a += odd.a, even.b += odd.b;
       even.addTo(target, factor);
       continue;
@@ -263,28 +272,24 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
   }
 }
 
-/// x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j)
+/// x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or x_i'sum_j A_ij x_j
 TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* values, const double* x) const {
-  const Entry* entries = entries_.data();
   kernel::Six even, odd;
-  int e = row.diagonal;
-  if (e < row.end && entries[e].column == row.start) {
-    const double* block = values + entries[e++].offset;
-    if (far_) kernel::fetchAhead(block, 36);
-    kernel::addPairs(6, block, x + row.start, even, odd);
+  if (mirrored_) {
+    const bool own = row.diagonal < row.end && entries_[z(row.diagonal)].column == row.start;
+    const int beyond = own ? row.diagonal + 1 : row.diagonal;
+    addSix(row.diagonal, beyond, values, x, even, odd);
     even.a += odd.a, even.b += odd.b;
     even.a *= 0.5, even.b *= 0.5;
     odd = kernel::Six();
-  }
-  for (; e < row.end; ++e) {
-    const double* block = values + entries[e].offset;
-    if (far_) kernel::fetchAhead(block, 36);
-    kernel::addPairs(6, block, x + entries[e].column, even, odd);
+    addSix(beyond, row.end, values, x, even, odd);
+  } else {
+    addSix(row.begin, row.end, values, x, even, odd);
   }
   const kernel::Six own(x + row.start);
   const kernel::Quad a = own.a * (even.a + odd.a);
   const kernel::Pair b = own.b * (even.b + odd.b);
-  return 2.0 * (((a[0] + a[1]) + (a[2] + a[3])) + (b[0] + b[1]));
+  return (mirrored_ ? 2.0 : 1.0) * (((a[0] + a[1]) + (a[2] + a[3])) + (b[0] + b[1]));
 }
 
 /// sum_i x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or sum_ij x_i'A_ij x_j
@@ -294,7 +299,7 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
   double whole = 0;
   for (const Row* at = rows_.data() + begin; at != last; ++at) {
     const Row row = *at;
-    if (row.allSix && mirrored_) {
+    if (row.inSix) {
       whole += sixForm(row, values, x);
       continue;
     }

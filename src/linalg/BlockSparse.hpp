@@ -14,6 +14,10 @@
 
 namespace tooljoint::linalg {
 
+namespace kernel {
+struct Six;
+}
+
 using BlockValues = std::vector<double, LargePages<double>>;
 
 /// Which dofs form a block. Positions are dofs renumbered so that blocks are contiguous.
@@ -107,6 +111,7 @@ class BlockProduct {
   struct Row;
   double formRows(int begin, int end, const double* values, const double* x) const;
   void addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const;
+  void addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const;
   double sixForm(const Row& row, const double* values, const double* x) const;
   void findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
   void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;
@@ -123,7 +128,7 @@ class BlockProduct {
     int begin;
     int end;
     int diagonal;  ///< first entry on or above the diagonal
-    bool allSix;   ///< six rows, every block full with six columns
+    bool inSix;    ///< six rows, summed in registers (where blocks are asked for ahead, all of six columns)
   };
   std::vector<Row> rows_;
   std::vector<int> firstRow_;  ///< block -> first of rows_ from there on

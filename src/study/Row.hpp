@@ -53,7 +53,7 @@ struct StudyRow {
   std::optional<double> stepOrTolerance;
   double simulated = 0.0;         ///< [s]
   std::vector<double> cpu, wall;  ///< of each repeat, transient only [s]; CPU summed over the ranks
-  double setupCpu = 0.0;          ///< reduction and coupling [s]
+  double setupCpu = 0.0;          ///< reduction, coupling and the model in kernel form [s]
   double setupWall = 0.0;
   long steps = 0, rejected = 0, halved = 0, unconverged = 0, newtonIterations = 0, factorisations = 0, rightHandSides = 0;
   double minStep = 0.0, maxStep = 0.0;

@@ -132,6 +132,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
+  summed_ = last_;
 }
 
 bool MatrixSum::update(const std::vector<double>& lawValues) {
@@ -164,6 +165,14 @@ void MatrixSum::form() const {
   }
   if (!assigned) std::fill(sum_.begin(), sum_.end(), 0.0);
   formed_ = true;
+  summed_ = last_;
+}
+
+bool MatrixSum::isFormedAt(const std::vector<double>& lawValues) const {
+  if (terms_.empty() || constant_ || formed_) return false;
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (!(summed_[i] == lawValues[z(terms_[i].law)])) return false;
+  return true;
 }
 
 void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const {

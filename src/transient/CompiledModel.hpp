@@ -34,6 +34,10 @@ class MatrixSum {
   /// True if a law has another value than last time. The sum is formed when the laws stand still or somebody asks for it;
   /// while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
+  /// Whether A(t) is not formed while the sum for these values of all laws is, and y += that sum times x: what is missing then is
+  /// addChangeSince().
+  bool isFormedAt(const std::vector<double>& lawValues) const;
+  void addFormed(const double* x, double* y, linalg::BlockRange rows) const { product_.addTo(sum_.data(), x, y, 1.0, rows); }
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
   void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const;
   /// y += A(t) x, rows of these blocks.
@@ -57,10 +61,11 @@ class MatrixSum {
 
  private:
   std::vector<Term> terms_;
-  std::vector<double> last_;  ///< law values of sum_
+  std::vector<double> last_;  ///< law values at the time of the last update()
+  mutable std::vector<double> summed_;  ///< those of sum_
   void form() const;
   mutable linalg::BlockValues sum_;
-  mutable bool formed_ = false;  ///< sum_ belongs to last_
+  mutable bool formed_ = false;  ///< summed_ is last_
   linalg::BlockProduct product_;
   bool constant_ = false;  ///< one term with the law 1: no sum is kept
 };

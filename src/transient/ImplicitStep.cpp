@@ -78,7 +78,7 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
 }
 
 /// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of; run by run, while it is in the cache.
-void ImplicitStep::linearResidual(const State& to) {
+void ImplicitStep::linearResidual(const State& to, Damping damping) {
   const CompiledModel& model = *model_;
   const Eigen::Map<const Vector> load(model.load(), model.size());
   double size = 0, floor = 0;
@@ -96,7 +96,10 @@ void ImplicitStep::linearResidual(const State& to) {
     size = std::max(size, (part(weight_) * forces).maxCoeff());
     floor = std::max(floor, (part(rowSize_) * part(to.q).abs()).maxCoeff());
     sum += stiff - part(load);
-    model.addDamping(to.v.data(), linear_.data(), run);
+    if (damping == Damping::Now)
+      model.addDamping(to.v.data(), linear_.data(), run);
+    else
+      model.damping().addFormed(to.v.data(), linear_.data(), run);
   }
   linearReference_ = reference_ = size;
   floor_ = floor;
@@ -114,7 +117,8 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   counters_ = &counters;
   prepare(scheme, to.t);
   model_->setTime(to.t);
-  linearResidual(to);
+  lags_ = relaxes_ && factored_ && !wanted_ && factorScheme_.h == scheme_.h && model_->damping().isFormedAt(factorLaws_);
+  linearResidual(to, lags_ ? Damping::WhenFactored : Damping::Now);
   error_ = INFINITY;
   return (relaxes_ && relax(to)) || finish(to);
 }
@@ -122,6 +126,15 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
 /// y += (S(now) - S(then)) delta for what the laws have changed since S was factored.
 void ImplicitStep::addDrift(const Vector& delta, Vector& y) {
   model_->addChangeSince(factorLaws_, scheme_.velocity, delta.data(), y.data());
+}
+
+/// drift_ = (S(now) - S(then)) delta, with the damping of the predicted velocity where linear_ lacks it.
+void ImplicitStep::findDrift(const State& to, const Vector& delta) {
+  drift_.setZero();
+  if (!lags_) return addDrift(delta, drift_);
+  scratch_ = to.v + scheme_.velocity * delta;
+  model_->damping().addChangeSince(factorLaws_, 1.0, scratch_.data(), drift_.data());
+  model_->stiffness().addChangeSince(factorLaws_, 1.0, delta.data(), drift_.data());
 }
 
 /// A bound of max |w (S(now) - S(then)) x| / max |x|.
@@ -169,16 +182,18 @@ bool ImplicitStep::relax(State& to) {
 
 /// Newton from where relaxation stopped, which is often wrong at a few points only, and from the predicted state.
 bool ImplicitStep::finish(State& to) {
+  if (lags_) model_->damping().addChangeSince(factorLaws_, 1.0, to.v.data(), linear_.data());
+  lags_ = false;
   if (!(error_ <= reference_)) return iterate(to);  // nowhere, or nothing to start from
   if (corrected_) correctPhase(to);
   predicted_ = to;
   const double c = scheme_.velocity, a = scheme_.acceleration;
   for (int i = 0; i < delta_.size(); ++i) to.q[i] += delta_[i], to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
-  linearResidual(to);
+  linearResidual(to, Damping::Now);
   if (corrected_) linear_ -= correction_;
   if (iterate(to)) return true;
   to = predicted_;
-  linearResidual(to);
+  linearResidual(to, Damping::Now);
   wanted_ = true;
   return iterate(to);
 }
@@ -191,11 +206,13 @@ bool ImplicitStep::settle(State& to) {
   relaxation_.guess(to.t, c, guess_);
   corrected_ = false;
   if (norm > 0) {
-    drift_.setZero();
-    if (norm * guess_.cwiseAbs().maxCoeff() > negligible)
-      addDrift(guess_, drift_);
-    else
+    const double moved = guess_.cwiseAbs().maxCoeff() + (lags_ ? to.v.cwiseAbs().maxCoeff() / c : 0.0);
+    if (norm * moved > negligible) {
+      findDrift(to, guess_);
+    } else {
+      drift_.setZero();
       guess_.setZero();  // what drift_ stands for
+    }
   }
   bool phase = correctsPhase(), near = false;
   const double settled = std::sqrt(options_.tolerance);
@@ -227,8 +244,7 @@ bool ImplicitStep::settle(State& to) {
       changed = true;
     }
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
-      drift_.setZero();
-      addDrift(delta_, drift_);
+      findDrift(to, delta_);
       guess_ = delta_;
       debt_ += driftPrice;
       changed = true;

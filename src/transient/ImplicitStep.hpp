@@ -57,7 +57,8 @@ class ImplicitStep {
 
  private:
   void scale(const StepScheme& scheme, double t);
-  void linearResidual(const State& to);
+  enum class Damping { Now, WhenFactored };
+  void linearResidual(const State& to, Damping damping);
   bool relax(State& to);
   bool settle(State& to);
   bool finish(State& to);
@@ -71,6 +72,7 @@ class ImplicitStep {
   void buildFactor();
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
   void addDrift(const Vector& delta, Vector& y);
+  void findDrift(const State& to, const Vector& delta);
   double driftNorm() const;
   bool backtrack(State& to);
   bool solveTroubledPoints(State& to, double before);
@@ -100,6 +102,7 @@ class ImplicitStep {
   double usual_ = 0;        ///< relaxations of the first step with this factor
   double debt_ = 0;         ///< relaxations beyond that since
   Vector guess_, drift_;
+  bool lags_ = false;  ///< linear_ has the damping of the factor; what it lacks is in drift_
   State predicted_;  ///< to go back to
   bool corrected_ = false;  ///< correction_ belongs to this step
   Vector last_;  ///< delta of the last step

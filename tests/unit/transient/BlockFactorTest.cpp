@@ -356,5 +356,34 @@ TEST(BlockProduct, skipsZeroAndKnowsDiagonalBlocks) {
   EXPECT_TRUE(BlockProduct(blocks, {}).empty());
 }
 
+/// Rows of six beside a block of modes, their own blocks diagonal, with and without symmetry.
+TEST(BlockProduct, ofNodesBesideModes) {
+  const std::vector<int> widths{6, 12, 6, 6, 3};
+  for (const bool symmetric : {true, false}) {
+    const int n = 33;
+    Matrix a = Matrix::Random(n, n);
+    if (symmetric) a = (a + a.transpose()).eval();
+    std::vector<int> group;
+    for (int b = 0; b < 5; ++b) group.insert(group.end(), static_cast<std::size_t>(widths[static_cast<std::size_t>(b)]), b);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const int far = std::abs(group[static_cast<std::size_t>(i)] - group[static_cast<std::size_t>(j)]);
+        if (far > 1 || (far == 0 && i != j && widths[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])] == 6)) a(i, j) = 0;
+      }
+    const Sparse sparse = a.sparseView();
+    const BlockPattern pattern(partitionDofs({&sparse}, group, group), {&sparse});
+    ASSERT_EQ(pattern.blocks(), 5);
+    BlockValues values(pattern.storage(), 0.0);
+    pattern.add(sparse, 1.0, values);
+    const BlockProduct product(pattern, {&values});
+    EXPECT_EQ(product.isSymmetric(), symmetric);
+    const Vector x = Vector::LinSpaced(n, -1, 2), in = inPositions(pattern, x);
+    Vector y = Vector::Zero(n);
+    product.addTo(values.data(), in.data(), y.data(), -2.0);
+    EXPECT_LT((y + 2.0 * inPositions(pattern, a * x)).cwiseAbs().maxCoeff(), 1e-13);
+    EXPECT_NEAR(product.form(values.data(), in.data()), x.dot(a * x), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace tooljoint::linalg

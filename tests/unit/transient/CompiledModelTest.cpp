@@ -157,6 +157,30 @@ TEST(CompiledModel, changeSinceAnotherTime) {
   EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(CompiledModel, formedSumAndChangeAreTheWhole) {
+  const auto source = rich();
+  CompiledModel model(source);
+  const int n = source.size();
+  model.setTime(0.5);
+  model.damping().current();  // forms it
+  const auto then = model.lawValues();
+  EXPECT_FALSE(model.damping().isFormedAt(then)) << "what is formed now needs no change";
+  model.setTime(2.0);
+  ASSERT_TRUE(model.damping().isFormedAt(then));
+  EXPECT_FALSE(model.damping().isFormedAt(model.lawValues()));
+  const Vector x = sampleVector(n, 0.7);
+  Vector xp, y = Vector::Zero(n), back;
+  model.toPositions(x, xp);
+  model.damping().addFormed(xp.data(), y.data(), {0, model.pattern().blocks()});
+  model.toDofs(y, back);
+  EXPECT_LT((back - source.dampingAt(0.5) * x).cwiseAbs().maxCoeff(), 1e-12);
+  model.damping().addChangeSince(then, 1.0, xp.data(), y.data());
+  model.toDofs(y, back);
+  EXPECT_LT((back - source.dampingAt(2.0) * x).cwiseAbs().maxCoeff(), 1e-12);
+  model.damping().current();
+  EXPECT_FALSE(model.damping().isFormedAt(then));
+}
+
 TEST(CompiledModel, recognisesTermsThatDoNoWork) {
   auto source = denseModel(Matrix::Identity(2, 2), Matrix(), Matrix::Identity(2, 2), 2);
   Matrix G(2, 2);
