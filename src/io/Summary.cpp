@@ -94,6 +94,8 @@ const std::vector<std::string>& documentedKeys() {
       "transient.bit_speed_rpm.min",
       "transient.bit_speed_rpm.max",
       "transient.bit_speed_rpm.mean",
+      "transient.local_error",
+      "transient.halving_error",
       "transient.energy_residual",
       "transient.max_penetration",
       "transient.max_displacement",

@@ -13,7 +13,7 @@ namespace {
 
 constexpr char family[] = "Tooljoint checkpoint ";
 /// Counts up whenever Counters or anything that save() writes changes.
-constexpr char version[] = "3";
+constexpr char version[] = "4";
 
 class Writer {
  public:

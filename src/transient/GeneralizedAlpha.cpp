@@ -28,19 +28,22 @@
 ///     e = (d/2 + b - 1/6) h^2 (A_{n+1} - A_n) + h^2/2 M^-1 R'f,   d = am - af
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
 
 #include "common/Error.hpp"
 #include "common/Log.hpp"
-#include "linalg/BlockFactor.hpp"
-#include "transient/ImplicitStep.hpp"
+#include "transient/AlphaStep.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/StepControl.hpp"
+#include "transient/StepHalving.hpp"
 #include "transient/StepResolution.hpp"
 
 namespace tooljoint::transient {
 namespace {
+
+constexpr double defaultTolerance = 1e-5;
 
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
@@ -48,7 +51,7 @@ deck::ListSpec specification() {
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above the step in one step. Walls "
             "too stiff for the "
             "step (more than about 1 rad of contact frequency per step) need 0.2 or less.")
-      .real("Tolerance", "", 1e-5, deck::Range::positive(),
+      .real("Tolerance", "", defaultTolerance, deck::Range::positive(),
             "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls below this times the largest "
             "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1), "Newton iterations before a step is halved.")
@@ -62,9 +65,16 @@ deck::ListSpec specification() {
                "Make up for the period error of the scheme: vibration is then followed to fourth order in the step, at about a "
                "third more work per step.")
       .boolean("Accept Coarse Steps", false,
-               "Take a motion as a result although fixed steps do not follow it (their local error is more than 2.5 % of what moves in them).")
+               "Take a motion as a result although fixed steps do not follow it (their local error is more than 2.5 % of what moves in them, or "
+               "two of half the length end more than 2 to 3 % elsewhere).")
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
+}
+
+std::string percent(double part) {
+  std::ostringstream text;
+  text << std::round(1000 * part) / 10 << " %";
+  return text.str();
 }
 
 /// Largest step of the default when the deck gives none.
@@ -74,19 +84,15 @@ class GeneralizedAlpha final : public Integrator {
  public:
   explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
     const auto own = withDefaults(given, specification());
-    const double r = own.get<double>("Spectral Radius");
-    alphaM_ = (2 * r - 1) / (r + 1);
-    alphaF_ = r / (r + 1);
-    gamma_ = 0.5 - alphaM_ + alphaF_;
-    beta_ = 0.25 * (1 + alphaF_ - alphaM_) * (1 + alphaF_ - alphaM_);
-    equations_ = {own.get<double>("Tolerance"), own.get<int>("Max Iterations")};
+    tolerance_ = own.get<double>("Tolerance");
+    scheme_.emplace(AlphaStep::Parameters{own.get<double>("Spectral Radius"), own.get<bool>("Phase Correction"),
+                                          {tolerance_, own.get<int>("Max Iterations")}});
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
     acceptCoarse_ = own.get<bool>("Accept Coarse Steps");
     controlled_ = own.isParameter("Step Tolerance");
     if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
     if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
-    if (own.get<bool>("Phase Correction")) setPhaseCorrection();
   }
 
   /// Two steps of one length are booked together.
@@ -99,36 +105,24 @@ class GeneralizedAlpha final : public Integrator {
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
   void finish() const override;
+  StepErrors stepErrors() const override;
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 
  private:
-  /// One step of length to.t - from.t; false when Newton fails (unless `anyway`, which accepts the last iterate).
-  bool attempt(const State& from, State& to, double h, bool anyway);
-  void startAcceleration(State& state);
-  void predict(const State& from, State& to, double h);
-  void setPhaseCorrection();
-  StepScheme scheme(double h) const {
-    const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-    return {h, gamma_ / (beta_ * h), ca, filter_, phase_, massive_ ? 0.5 * h * h * ca : 1.0};
-  }
-  void complete(State& to, double h);
-  void keep();
-  double localError(double h, bool impacts);
-  void judge(const State& from, const State& to, double h);
+  void look(const State& from, const State& to, double h);
   int deepestLevel() const;
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
   [[noreturn]] void giveUpAccuracy(const State& from, double h);
   std::string describeFailure(double t, double h) const;
 
-  double alphaM_, alphaF_, beta_, gamma_;
-  ImplicitStep::Options equations_;
+  std::optional<AlphaStep> scheme_;
+  double tolerance_;
   int maxHalvings_;
   bool acceptUnconverged_, acceptCoarse_;
   bool controlled_ = false;  ///< steps follow their error
   double stepTolerance_ = 0, smallest_ = 0;
-  double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
 
   CompiledModel* model_ = nullptr;
   Window window_;
@@ -141,84 +135,25 @@ class GeneralizedAlpha final : public Integrator {
 
   StepControl control_;
   StepResolution resolution_;
+  StepHalving halving_;
   MassNorm length_;
-  double error_ = 0;   ///< of the step under way [m]
-  bool hit_ = false;   ///< impacts acted in it
-
-  ImplicitStep equation_;
-  linalg::BlockFactor mass_;  ///< unit pivots where there is no mass
-  std::vector<char> massless_;
-  bool massive_ = true;       ///< the mass matrix is regular but for dofs without any
-  Vector smooth_, nextSmooth_;  ///< q'' without impacts at t_n, t_{n+1}
-  Vector impact_, stepError_;
-  Vector A_, nextA_;  ///< algorithmic acceleration at t_n, t_{n+1}
+  double error_ = 0;  ///< of the step under way [m]
+  Vector change_;
 };
-
-/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors of the scheme,
-///
-///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
-///
-/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1 M, is that for low
-/// frequencies, (1 - k) M for high ones, symmetric and positive between, so that the scheme stays unconditionally stable;
-/// what is at rest stays where it is. s keeps k at 0.7 or below.
-void GeneralizedAlpha::setPhaseCorrection() {
-  const double d = alphaM_ - alphaF_;
-  const double ofVelocity = gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
-  const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
-  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
-  const double whole = (ofVelocity + ofDisplacement) * ca;
-  filter_ = std::min(1.0, 0.7 / whole);
-  phase_ = filter_ * whole;
-}
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   checkParameters(window.step);
   model_ = &model;
   window_ = window;
   step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
-  equation_.bind(model, equations_);
   deepest_ = controlled_ ? deepestLevel() : maxHalvings_;
   units_ = 1L << deepest_;
   if (controlled_) control_.set(stepTolerance_, deepest_);
   length_.bind(model);
-  startAcceleration(state);
-  A_ = nextA_ = smooth_ = nextSmooth_ = stepError_ = state.a;
-  impact_.setZero(model.size());
-  equation_.prepare(scheme(step_), state.t);
-}
-
-/// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
-void GeneralizedAlpha::startAcceleration(State& state) {
-  CompiledModel& model = *model_;
-  const int n = model.size();
-  for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
-  state.a.setZero();
-  model.addStiffness(state.q.data(), state.a.data());
-  model.addDamping(state.v.data(), state.a.data());
-  state.a = -state.a;
-  for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
-  model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
-  mass_ = linalg::BlockFactor(model.pattern());
-  Vector diagonal(n);
-  model.combine(1.0, 0.0, 0.0, mass_.values());
-  model.diagonal(1.0, 0.0, 0.0, diagonal.data());
-  massless_.assign(static_cast<std::size_t>(n), 0);
-  for (int i = 0; i < n; ++i)
-    if (diagonal[i] == 0.0) {
-      mass_.values()[model.pattern().address(i, i)] = 1.0;
-      massless_[static_cast<std::size_t>(i)] = 1;
-      state.a[i] = 0.0;
-    }
-  ++counters_.factorisations;
-  const int bad = mass_.factor();
-  massive_ = bad < 0;
-  if (massive_) {
-    mass_.solve(state.a.data());
-    return;
-  }
-  log::warn("The mass matrix is singular at " + model.dofName(bad) +
-            " although there is mass on it: the motion starts without acceleration, with an error of first order in the step.");
-  state.a.setZero();
+  scheme_->start(model, state, counters_);
+  scheme_->prepare(step_, state.t);
+  change_ = state.q;
+  if (!controlled_) halving_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
 }
 
 double GeneralizedAlpha::gridTime() const {
@@ -259,8 +194,8 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     // The nominal length, equal from step to step to the last digit; shorter only where the run ends.
     h = step_ * static_cast<double>(stride) / static_cast<double>(units_);
     if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
-    const bool solved = attempt(from, to, h, last && acceptUnconverged_);
-    if (solved && controlled_) error_ = localError(h, true);
+    const bool solved = scheme_->take(from, to, h, last && acceptUnconverged_, counters_);
+    if (solved && controlled_) error_ = length_(scheme_->localError(h, true));
     if (solved && (!controlled_ || control_.accepts(error_))) break;
     done_ -= stride;
     if (solved) {
@@ -275,8 +210,8 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     ++counters_.halved;
     control_.forget();
   }
-  if (!controlled_ && counters_.steps % StepResolution::stride == 0) judge(from, to, h);
-  keep();
+  if (!controlled_) look(from, to, h);
+  scheme_->keep();
   counters_.accept(h);
   if (done_ == units_) ++index_, done_ = 0;
   if (controlled_) {
@@ -287,81 +222,38 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
 }
 
-/// From constant algorithmic acceleration.
-void GeneralizedAlpha::predict(const State& from, State& to, double h) {
-  for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
-  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_);
-  for (int i = 0; i < A_.size(); ++i) {
-    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i];
-    to.v[i] = from.v[i] + h * A_[i];
-    to.a[i] = c * (A_[i] - alphaF_ * smooth_[i]);
+void GeneralizedAlpha::look(const State& from, const State& to, double h) {
+  if (counters_.steps % StepResolution::stride == 0) {
+    change_ = to.q - from.q;
+    resolution_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }
+  if (h == step_ && halving_.isDue(counters_.steps)) halving_.look(*scheme_, from, to);
 }
 
-bool GeneralizedAlpha::attempt(const State& from, State& to, double h, bool anyway) {
-  predict(from, to, h);
-  if (!equation_.solve(to, scheme(h), counters_)) {
-    if (!anyway || !equation_.isFinite()) return false;
-    ++counters_.unconvergedSteps;
-  }
-  complete(to, h);
-  return true;
-}
-
-/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
-void GeneralizedAlpha::complete(State& to, double h) {
-  hit_ = false;
-  for (const auto& batch : model_->points()) hit_ = hit_ || batch.isScaled();
-  if (hit_) {
-    // impact_ = M^-1 R' f of the impacts, whose forces stand in the batches multiplied by the scheme's factor
-    impact_.setZero();
-    for (const auto& batch : model_->points()) batch.addScaledForce(impact_.data());
-    for (int i = 0; i < impact_.size(); ++i)
-      if (massless_[static_cast<std::size_t>(i)]) impact_[i] = 0.0;
-    mass_.solve(impact_.data());
-    to.a -= impact_;
-  }
-  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_), last = alphaM_ / (1 - alphaM_);
-  for (int i = 0; i < A_.size(); ++i) {
-    nextSmooth_[i] = to.a[i];
-    nextA_[i] = now * nextSmooth_[i] + before * smooth_[i] - last * A_[i];
-  }
-  if (hit_) to.a += impact_ / scheme(h).impact;
-}
-
-void GeneralizedAlpha::keep() {
-  A_.swap(nextA_);
-  smooth_.swap(nextSmooth_);
-}
-
-double GeneralizedAlpha::localError(double h, bool impacts) {
-  stepError_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
-  if (hit_ && impacts) stepError_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
-  return length_(stepError_);
-}
-
-void GeneralizedAlpha::judge(const State& from, const State& to, double h) {
-  const double error = localError(h, false);
-  stepError_ = to.q - from.q;
-  resolution_.add(error, length_(stepError_), length_(to.q));
+StepErrors GeneralizedAlpha::stepErrors() const {
+  if (controlled_) return {};
+  return {resolution_.ratio(), halving_.ratio(resolution_.change() / step_)};
 }
 
 void GeneralizedAlpha::finish() const {
-  const double ratio = resolution_.ratio();
-  if (ratio < StepResolution::coarse) return;
+  const auto errors = stepErrors();
+  const auto verdict = judge(errors);
+  if (verdict == Resolution::Good) return;
+  const bool lost = verdict == Resolution::Lost;
   std::ostringstream text;
-  text << "Steps of " << counters_.maxStep << " s " << (ratio < StepResolution::lost ? "hardly follow" : "do not follow")
-       << " the motion: their local error is " << std::round(1000 * ratio) / 10 << " % of what moves in a step. Choose a smaller Transient/Step, or let "
-       << "Transient/Generalized-alpha/Step Tolerance choose it.";
-  if (ratio < StepResolution::lost || acceptCoarse_) return log::warn(text.str());
+  text << "Steps of " << counters_.maxStep << " s " << (lost ? "do not follow" : "hardly follow") << " the motion: their local error is "
+       << percent(errors.local) << " of what moves in a step, and two of half the length end " << percent(errors.halving)
+       << " elsewhere. Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance choose it.";
+  if (tolerance_ > defaultTolerance) text << " Iterations that stop at a Transient/Generalized-alpha/Tolerance of " << tolerance_ << " add to it.";
+  if (!lost || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }
 
 std::string GeneralizedAlpha::describeFailure(double t, double h) const {
   std::ostringstream text;
   text << "Newton did not converge in the step from t = " << t << " s (length " << h << " s after " << level_
-       << " halvings): the residual is " << equation_.relativeError() << " of the largest force, tolerance " << equations_.tolerance << ", worst at "
-       << model_->dofName(equation_.worstPosition()) << ".";
+       << " halvings): the residual is " << scheme_->equation().relativeError() << " of the largest force, tolerance " << tolerance_ << ", worst at "
+       << model_->dofName(scheme_->equation().worstPosition()) << ".";
   return text.str();
 }
 
@@ -374,28 +266,27 @@ void GeneralizedAlpha::giveUp(const State& from, double h) const {
 void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
   std::ostringstream text;
   text << "Generalized-alpha needs a step below " << h << " s at t = " << from.t << " s: the displacement is wrong by " << error_
-       << " m in one step, tolerance " << stepTolerance_ << " m, most at " << model_->dofName(worstPosition(stepError_))
+       << " m in one step, tolerance " << stepTolerance_ << " m, most at " << model_->dofName(worstPosition(scheme_->lastError()))
        << ". Raise Transient/Generalized-alpha/Step Tolerance, or allow a shorter Transient/Generalized-alpha/Smallest Step.";
   throw ConvergenceError(text.str());
 }
 
 void GeneralizedAlpha::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_), static_cast<double>(level_)});
-  for (const Vector* x : {&A_, &smooth_}) memory.insert(memory.end(), x->begin(), x->end());
+  scheme_->save(memory);
   control_.save(memory);
   resolution_.save(memory);
-  equation_.save(memory);
+  if (!controlled_) halving_.save(memory);
 }
 
 void GeneralizedAlpha::restore(const double*& memory) {
   index_ = static_cast<long>(*memory++);
   done_ = static_cast<long>(*memory++);
   level_ = static_cast<int>(*memory++);
-  for (Vector* vector : {&A_, &smooth_})
-    for (double& x : *vector) x = *memory++;
+  scheme_->restore(memory);
   control_.restore(memory);
   resolution_.restore(memory);
-  equation_.restore(memory);
+  if (!controlled_) halving_.restore(memory);
 }
 
 const bool registered = IntegratorRegistry::instance().add(

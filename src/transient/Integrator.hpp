@@ -45,6 +45,12 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
+/// How well fixed steps follow the motion, as parts of 1 (StepResolution.hpp); 0 where it is not known.
+struct StepErrors {
+  double local = 0;    ///< R
+  double halving = 0;  ///< D
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -70,6 +76,7 @@ class Integrator {
 
   /// After the last step: throws ConvergenceError when the steps, taken together, did not follow the motion.
   virtual void finish() const {}
+  virtual StepErrors stepErrors() const { return {}; }
 
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Whether fixed steps follow the motion: local error of a step beside what moves in it, in mean squares over the run,
+/// Whether fixed steps follow the motion. Two measures: R, the local error of the scheme beside what moves in a step, in mean squares over
+/// the run,
 ///
 ///     R^2 = sum |e|^2 / sum |q_{n+1} - q_n|^2
 ///
-/// Vibration of frequency w gives R of about (w h)^2 / 10: 0.025 is 12.6 steps a period. Whirling strings in contact have 0.001 where the motion
-/// is wrong by 0.3 %, 0.013 at 4 %, 0.03 at 30 %. Impacts are left out: their error is of first order at any step.
+/// which knows nothing of contact and iterations (vibration of frequency w gives R of about (w h)^2 / 10), and D, by how much two steps of half
+/// the length end elsewhere (StepHalving), which knows both. D counts where something moves. Its bounds and those of R are empirical:
+/// docs/theory.md has the figures.
 #pragma once
 
 #include <cmath>
 #include <vector>
 
+#include "transient/Integrator.hpp"
+
 namespace tooljoint::transient {
 
+/// R of steps looked at one by one.
 class StepResolution {
  public:
   /// Every so many steps one is looked at.
   static constexpr long stride = 8;
-  /// R above which the run is no result, and above which a person is warned.
-  static constexpr double lost = 0.025, coarse = 0.01;
 
   /// Lengths [m]: local error, change of the displacement, displacement.
   void add(double error, double change, double size) {
@@ -34,6 +37,9 @@ class StepResolution {
     return std::sqrt(error_) > noise ? std::sqrt(error_ / change_) : 0.0;
   }
 
+  /// Root of the mean square of the change [m].
+  double change() const { return count_ > 0 ? std::sqrt(change_ / static_cast<double>(count_)) : 0.0; }
+
   void save(std::vector<double>& memory) const { memory.insert(memory.end(), {error_, change_, size_, static_cast<double>(count_)}); }
   void restore(const double*& memory) {
     for (double* sum : {&error_, &change_, &size_}) *sum = *memory++;
@@ -44,5 +50,16 @@ class StepResolution {
   double error_ = 0, change_ = 0, size_ = 0;
   long count_ = 0;
 };
+
+enum class Resolution { Good, Coarse, Lost };
+
+/// What R and D say of a run: Coarse is worth a warning, Lost is no result.
+inline Resolution judge(const StepErrors& errors) {
+  const double r = errors.local, d = errors.halving;
+  const bool moves = r > 0.001;
+  const bool astray = d > 0.03 || (d > 0.02 && (d > 3.2 * r || r > 0.02));
+  if (r > 0.025 || (moves && astray)) return Resolution::Lost;
+  return r > 0.01 || (moves && d > 0.0033) ? Resolution::Coarse : Resolution::Good;
+}
 
 }  // namespace tooljoint::transient

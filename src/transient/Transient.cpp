@@ -124,6 +124,7 @@ class Run {
     report.end = state_.t;
     report.interrupted = interrupted;
     report.counters = integrator_->counters();
+    report.stepErrors = integrator_->stepErrors();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
     report.hasEnergy = options_.ledger;

@@ -292,6 +292,9 @@ TEST_P(Restart, goesOnWithTheSameNumbers) {
   EXPECT_EQ(report.counters.factorisations, reference.counters.factorisations);
   EXPECT_EQ(report.counters.minStep, reference.counters.minStep);
   EXPECT_EQ(report.samples, reference.samples);
+  EXPECT_EQ(reference.stepErrors.halving > 0.0, GetParam() == "Generalized-alpha");
+  EXPECT_EQ(report.stepErrors.local, reference.stepErrors.local);
+  EXPECT_EQ(report.stepErrors.halving, reference.stepErrors.halving);
   EXPECT_EQ(report.energy.numerical(), reference.energy.numerical());
   EXPECT_EQ(report.energy.exchanged, reference.energy.exchanged);
 }
@@ -346,7 +349,7 @@ TEST(Checkpoints, filesThatAreNoneAreRefused) {
     old.write(reinterpret_cast<const char*>(&length), sizeof length);
     old << magic << std::string(200, '\0');
   }
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 3"),
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 4"),
             std::string::npos);
   Checkpoint point;
   point.integrator = "RK4";

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/AlphaStep.hpp"
+
+#include <algorithm>
+
+#include "common/Log.hpp"
+
+namespace tooljoint::transient {
+
+AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
+  const double r = parameters.radius;
+  alphaM_ = (2 * r - 1) / (r + 1);
+  alphaF_ = r / (r + 1);
+  gamma_ = 0.5 - alphaM_ + alphaF_;
+  beta_ = 0.25 * (1 + alphaF_ - alphaM_) * (1 + alphaF_ - alphaM_);
+  if (parameters.phaseCorrection) setPhaseCorrection();
+}
+
+/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors of the scheme,
+///
+///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
+///
+/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1 M, is that for low
+/// frequencies, (1 - k) M for high ones, symmetric and positive between, so that the scheme stays unconditionally stable;
+/// what is at rest stays where it is. s keeps k at 0.7 or below.
+void AlphaStep::setPhaseCorrection() {
+  const double d = alphaM_ - alphaF_;
+  const double ofVelocity = gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
+  const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
+  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
+  const double whole = (ofVelocity + ofDisplacement) * ca;
+  filter_ = std::min(1.0, 0.7 / whole);
+  phase_ = filter_ * whole;
+}
+
+StepScheme AlphaStep::scheme(double h) const {
+  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
+  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, mass_->regular ? 0.5 * h * h * ca : 1.0};
+}
+
+/// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
+void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
+  model_ = &model;
+  mass_ = std::make_shared<Mass>();
+  const int n = model.size();
+  for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
+  state.a.setZero();
+  model.addStiffness(state.q.data(), state.a.data());
+  model.addDamping(state.v.data(), state.a.data());
+  state.a = -state.a;
+  for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
+  model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
+  mass_->factor = linalg::BlockFactor(model.pattern());
+  Vector diagonal(n);
+  model.combine(1.0, 0.0, 0.0, mass_->factor.values());
+  model.diagonal(1.0, 0.0, 0.0, diagonal.data());
+  mass_->missing.assign(static_cast<std::size_t>(n), 0);
+  for (int i = 0; i < n; ++i)
+    if (diagonal[i] == 0.0) {
+      mass_->factor.values()[model.pattern().address(i, i)] = 1.0;
+      mass_->missing[static_cast<std::size_t>(i)] = 1;
+      state.a[i] = 0.0;
+    }
+  ++counters.factorisations;
+  const int bad = mass_->factor.factor();
+  mass_->regular = bad < 0;
+  if (mass_->regular) {
+    mass_->factor.solve(state.a.data());
+  } else {
+    log::warn("The mass matrix is singular at " + model.dofName(bad) +
+              " although there is mass on it: the motion starts without acceleration, with an error of first order in the step.");
+    state.a.setZero();
+  }
+  equation_.bind(model, parameters_.equations);
+  A_ = nextA_ = smooth_ = nextSmooth_ = error_ = state.a;
+  impact_ = lastImpact_ = Vector::Zero(n);
+}
+
+void AlphaStep::startLike(const AlphaStep& other) {
+  model_ = other.model_;
+  mass_ = other.mass_;
+  equation_.bind(*model_, parameters_.equations);
+  A_ = nextA_ = smooth_ = nextSmooth_ = error_ = other.A_;
+  impact_ = lastImpact_ = Vector::Zero(A_.size());
+}
+
+/// From constant algorithmic acceleration.
+void AlphaStep::predict(const State& from, State& to, double h) {
+  for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
+  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_);
+  for (int i = 0; i < A_.size(); ++i) {
+    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i];
+    to.v[i] = from.v[i] + h * A_[i];
+    to.a[i] = c * (A_[i] - alphaF_ * smooth_[i]);
+  }
+}
+
+bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counters& counters) {
+  predict(from, to, h);
+  if (!equation_.solve(to, scheme(h), counters)) {
+    if (!anyway || !equation_.isFinite()) return false;
+    ++counters.unconvergedSteps;
+  }
+  complete(to, h);
+  return true;
+}
+
+/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
+void AlphaStep::complete(State& to, double h) {
+  hit_ = false;
+  for (const auto& batch : model_->points()) hit_ = hit_ || batch.isScaled();
+  if (hit_) {
+    // impact_ = M^-1 R' f of the impacts, whose forces stand in the batches multiplied by the scheme's factor
+    impact_.setZero();
+    for (const auto& batch : model_->points()) batch.addScaledForce(impact_.data());
+    for (int i = 0; i < impact_.size(); ++i)
+      if (mass_->missing[static_cast<std::size_t>(i)]) impact_[i] = 0.0;
+    mass_->factor.solve(impact_.data());
+    to.a -= impact_;
+  }
+  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_), last = alphaM_ / (1 - alphaM_);
+  for (int i = 0; i < A_.size(); ++i) {
+    nextSmooth_[i] = to.a[i];
+    nextA_[i] = now * nextSmooth_[i] + before * smooth_[i] - last * A_[i];
+  }
+  if (hit_) to.a += impact_ / scheme(h).impact;
+}
+
+void AlphaStep::keep() {
+  A_.swap(nextA_);
+  smooth_.swap(nextSmooth_);
+  impact_.swap(lastImpact_);
+  lastHit_ = hit_;
+}
+
+void AlphaStep::addImpactVelocity(double factor, double h, bool before, Vector& v) const {
+  if (before ? lastHit_ : hit_) v += factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact * (before ? lastImpact_ : impact_);
+}
+
+const Vector& AlphaStep::localError(double h, bool impacts) {
+  error_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
+  if (hit_ && impacts) error_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
+  return error_;
+}
+
+void AlphaStep::save(std::vector<double>& memory) const {
+  for (const Vector* x : {&A_, &smooth_, &lastImpact_}) memory.insert(memory.end(), x->begin(), x->end());
+  memory.push_back(lastHit_ ? 1.0 : 0.0);
+  equation_.save(memory);
+}
+
+void AlphaStep::restore(const double*& memory) {
+  for (Vector* vector : {&A_, &smooth_, &lastImpact_})
+    for (double& x : *vector) x = *memory++;
+  lastHit_ = *memory++ != 0.0;
+  equation_.restore(memory);
+}
+
+}  // namespace tooljoint::transient
