@@ -24,11 +24,10 @@ void StepHalving::bind(const AlphaStep& step, const State& state, double h, long
   auto parameters = step.parameters();
   parameters.equations.tolerance *= strictness;
   halves_.emplace(parameters);
-  halves_->startLike(step);
+  model_ = std::make_unique<CompiledModel>(step.model().source());
+  halves_->startLike(step, *model_);
   h_ = h;
   halves_->prepare(0.5 * h, state.t);
-  points_.clear();
-  for (const auto& set : step.model().source().points) points_.emplace_back(set, step.model().pattern());
   size_.bind(step.model());
   start_ = middle_ = end_ = state;
   velocity_ = difference_ = state.v;
@@ -58,19 +57,14 @@ bool StepHalving::takeHalves(const AlphaStep& step, const State& from, double en
 /// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has no part of its force.
 void StepHalving::shareImpacts(const std::vector<PointBatch>& points) {
   for (std::size_t b = 0; b < points.size(); ++b)
-    for (int p = 0; p < points[b].points(); ++p) points_[b].setScale(p, points[b].scale(p));
+    for (int p = 0; p < points[b].points(); ++p) model_->points()[b].setScale(p, points[b].scale(p));
 }
 
 void StepHalving::look(const AlphaStep& step, const State& from, const State& to) {
   ++seen_;
   plan();
-  CompiledModel& model = step.model();
-  shareImpacts(model.points());
-  points_.swap(model.points());
-  const bool solved = takeHalves(step, from, to.t);
-  points_.swap(model.points());
-  model.setTime(to.t);
-  if (!solved) return;
+  shareImpacts(step.model().points());
+  if (!takeHalves(step, from, to.t)) return;
   const auto add = [&](double& sum, const Vector& x) { sum += size_(x) * size_(x); };
   velocity_ = to.v;
   step.addImpactVelocity(-1.0, h_, false, velocity_);
@@ -95,7 +89,7 @@ double StepHalving::ratio(double speed) const {
 void StepHalving::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(seen_), change_, static_cast<double>(errors_.size())});
   memory.insert(memory.end(), errors_.begin(), errors_.end());
-  for (const auto& batch : points_) batch.save(memory);
+  for (const auto& batch : model_->points()) batch.save(memory);
   halves_->save(memory);
 }
 
@@ -105,11 +99,8 @@ void StepHalving::restore(const double*& memory) {
   errors_.resize(static_cast<std::size_t>(*memory++));
   for (double& error : errors_) error = *memory++;
   plan();
-  CompiledModel& model = halves_->model();
-  for (auto& batch : points_) batch.restore(memory);
-  points_.swap(model.points());
+  for (auto& batch : model_->points()) batch.restore(memory);
   halves_->restore(memory);
-  points_.swap(model.points());
 }
 
 }  // namespace tooljoint::transient

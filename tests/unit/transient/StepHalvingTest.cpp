@@ -59,6 +59,20 @@ TEST(StepHalving, leavesTheRunAlone) {
   EXPECT_EQ(first.counters.steps, 100);
 }
 
+/// Balls that lie on a wall too stiff for the step have a velocity that depends on its length; no halves differ by it.
+TEST(StepHalving, contactThatLastsIsNoError) {
+  auto model = droppedBalls(10, 1e8, 0, 7e11, 2e5);
+  model.loads[0].vector *= 20;
+  Keep samples;
+  auto o = options("Generalized-alpha", 2.0, 2e-3, 0.01);
+  o.own.set("Spectral Radius", 0.2);
+  o.own.set("Accept Coarse Steps", true);
+  const auto errors = integrate(model, o, samples).stepErrors;
+  EXPECT_GT(samples.v.back().norm(), 0.01);
+  EXPECT_GT(errors.local, 1e-3);
+  EXPECT_LT(errors.halving, 1e-4);
+}
+
 TEST(StepHalving, isWeighedBesideTheLocalError) {
   EXPECT_EQ(judge({0.0, 0.0}), Resolution::Good);
   EXPECT_EQ(judge({0.0005, 0.2}), Resolution::Good);  // rest
