@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 
+#include "transient/PointWidth.hpp"
+
 namespace tooljoint::transient {
 namespace {
 
@@ -248,20 +250,25 @@ void PointBatch::addForce(double factor, double* y) const {
 }
 
 void PointBatch::gather(const std::vector<int>& points, const double* x, double* rows) const {
-  for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r)
-      rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+  withWidth(width_, [&](auto width) {
+    const int w = width;
+    for (int p : points)
+      for (int r = p * w; r < (p + 1) * w; ++r) rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+  });
 }
 
 void PointBatch::scatter(const std::vector<int>& points, const double* rows, double* y) const {
-  for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r) {
-      if (single_) {
-        if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
-      } else {
-        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * rows[r];
+  withWidth(width_, [&](auto width) {
+    const int w = width;
+    for (int p : points)
+      for (int r = p * w; r < (p + 1) * w; ++r) {
+        if (single_) {
+          if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
+        } else {
+          for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * rows[r];
+        }
       }
-    }
+  });
 }
 
 void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tangent) {

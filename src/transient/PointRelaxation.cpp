@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "transient/PointWidth.hpp"
+
 namespace tooljoint::transient {
 namespace {
 
@@ -157,12 +159,14 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
 
 void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
   batch.gather(set.points, delta.data(), set.y.data());
-  const int w = batch.width();
   const double* y = set.y.data();
   double* d = batch.position();
   double* v = batch.velocity();
-  for (int p : set.points)
-    for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = set.v[z(r)] + c * y[r];
+  withWidth(batch.width(), [&](auto width) {
+    const int w = width;
+    for (int p : set.points)
+      for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = set.v[z(r)] + c * y[r];
+  });
   batch.evaluateHere(t, set.points, tangent);
 }
 
@@ -189,29 +193,31 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
 
 /// defect = f - P y - p of the points evaluated, and their errors.
 void PointRelaxation::measure(Set& set, PointBatch& batch, double small, double& force) {
-  const int w = batch.width();
   const double* f = batch.force();
   const double* P = batch.frozen();
   const double* y = set.y.data();
   const double* weight = set.weight.data();
-  for (int p : set.points) {
-    double wrong = 0;
-    for (int r = p * w; r < (p + 1) * w; ++r) {
-      double known = set.p[z(r)];
-      for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
-      const double defect = set.defect[z(r)] = f[r] - known;
-      const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
-      if (!(size <= wrong)) wrong = size;  // keeps a NaN
-      force = std::max(force, weight[r] * std::abs(f[r]));
+  double largest = force;
+  withWidth(batch.width(), [&](auto width) {
+    const int w = width;
+    for (int p : set.points) {
+      double wrong = 0;
+      for (int r = p * w; r < (p + 1) * w; ++r) {
+        double known = set.p[z(r)];
+        for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
+        const double defect = set.defect[z(r)] = f[r] - known;
+        const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
+        if (!(size <= wrong)) wrong = size;  // keeps a NaN
+        largest = std::max(largest, weight[r] * std::abs(f[r]));
+      }
+      if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
+      set.error[z(p)] = wrong;
     }
-    if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
-    set.error[z(p)] = wrong;
-  }
+  });
+  force = largest;
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& delta) {
-  double A[widest * widest];
-  double change[widest * widest];
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
@@ -219,31 +225,37 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
     set.points = batch.active();
     place(set, batch, t, c, delta, true);
     findImpacts(set, batch);
-    const int w = batch.width();
-    for (int p : batch.active()) {
-      const double* P = batch.frozen() + p * w * w;
-      // p = f - P y
-      for (int i = 0; i < w; ++i) {
-        double known = 0;
-        for (int k = 0; k < w; ++k) known += P[i * w + k] * set.y[z(p * w + k)];
-        set.p[z(p * w + i)] = batch.force()[p * w + i] - known;
-      }
-      // B = (I - (J - P) G)^-1
-      const double* dfdd = batch.dfdd() + p * w * w;
-      const double* dfdv = batch.dfdv() + p * w * w;
-      const double* G = &set.compliance[z(p * w * w)];
-      double* B = &set.answer[z(p * w * w)];
-      for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
-      for (int i = 0; i < w; ++i)
-        for (int j = 0; j < w; ++j) {
-          double sum = i == j ? 1.0 : 0.0;
-          for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
-          A[i * w + j] = sum;
-        }
-      if (!invertFew(w, A, B))
-        for (int i = 0; i < w * w; ++i) B[i] = i % (w + 1) == 0 ? 1.0 : 0.0;
-    }
+    withWidth(batch.width(), [&](auto width) {
+      for (int p : batch.active()) answer(set, batch, p, c, width);
+    });
   }
+}
+
+/// Consistent forces p = f - P y of a point, and B = (I - (J - P) G)^-1.
+template <class Width>
+void PointRelaxation::answer(Set& set, const PointBatch& batch, int point, double c, Width width) {
+  const int w = width, first = point * w;
+  const double* P = batch.frozen() + first * w;
+  const double* f = batch.force() + first;
+  for (int i = 0; i < w; ++i) {
+    double known = 0;
+    for (int k = 0; k < w; ++k) known += P[i * w + k] * set.y[z(first + k)];
+    set.p[z(first + i)] = f[i] - known;
+  }
+  double A[widest * widest], change[widest * widest];
+  const double* dfdd = batch.dfdd() + first * w;
+  const double* dfdv = batch.dfdv() + first * w;
+  const double* G = &set.compliance[z(first * w)];
+  double* B = &set.answer[z(first * w)];
+  for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
+  for (int i = 0; i < w; ++i)
+    for (int j = 0; j < w; ++j) {
+      double sum = i == j ? 1.0 : 0.0;
+      for (int k = 0; k < w; ++k) sum -= change[i * w + k] * G[k * w + j];
+      A[i * w + j] = sum;
+    }
+  if (!invertFew(w, A, B))
+    for (int i = 0; i < w * w; ++i) B[i] = i % (w + 1) == 0 ? 1.0 : 0.0;
 }
 
 void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta) {
@@ -314,8 +326,11 @@ void PointRelaxation::move(Set& set, PointBatch& batch, int point, double t, dou
   } else {
     const double* B = &set.answer[z(first * w)];
     const double* defect = &set.defect[z(first)];
-    for (int i = 0; i < w; ++i)
-      for (int k = 0; k < w; ++k) set.p[z(first + i)] += B[i * w + k] * defect[k];
+    withWidth(w, [&](auto width) {
+      const int n = width;
+      for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) set.p[z(first + i)] += B[i * n + k] * defect[k];
+    });
   }
   for (int r = first; r < first + w; ++r) set.change[z(r)] += set.p[z(r)];
 }

@@ -87,6 +87,8 @@ class PointRelaxation {
     std::vector<int> points;    ///< corrected, then those evaluated
   };
   void findImpacts(Set& set, PointBatch& batch);
+  template <class Width>
+  void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
   void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
   void measure(Set& set, PointBatch& batch, double small, double& force);
