@@ -76,8 +76,8 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   impact_ = lastImpact_ = Vector::Zero(n);
 }
 
-void AlphaStep::startLike(const AlphaStep& other, CompiledModel& model) {
-  model_ = &model;
+void AlphaStep::startLike(const AlphaStep& other) {
+  model_ = other.model_;
   mass_ = other.mass_;
   equation_.bind(*model_, parameters_.equations);
   A_ = nextA_ = smooth_ = nextSmooth_ = error_ = other.A_;

@@ -25,8 +25,8 @@ class AlphaStep {
 
   /// Bind to a model and complete state.a from state.{t, q, v}; counts a factorisation.
   void start(CompiledModel& model, State& state, Counters& counters);
-  /// Bind to a model that is the same as that of another step which has started, and share the factor of its mass.
-  void startLike(const AlphaStep& other, CompiledModel& model);
+  /// Bind to the model of another step that has started, and share its mass.
+  void startLike(const AlphaStep& other);
   /// What depends on the length alone.
   void prepare(double h, double t) { equation_.prepare(scheme(h), t); }
 

@@ -148,13 +148,21 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
   return changed;
 }
 
-/// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
-void MatrixSum::form() const {
+void MatrixSum::comeBack(const Moment& moment) {
+  last_ = moment.last;
+  const bool known = std::none_of(moment.summed.begin(), moment.summed.end(), [](double c) { return std::isnan(c); });
+  if (!sum_.empty() && known && summed_ != moment.summed) form(moment.summed);
+  summed_ = moment.summed;
+  formed_ = moment.formed;
+}
+
+/// A = sum_i c_i A_i for these values of the laws, first term assigned, terms whose law is zero skipped
+void MatrixSum::form(const std::vector<double>& laws) const {
   const std::size_t n = sum_.size();
   double* sum = sum_.data();
   bool assigned = false;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double c = last_[i];
+    const double c = laws[i];
     const double* values = terms_[i].values.data();
     if (c == 0.0) continue;
     if (!assigned)
@@ -165,7 +173,7 @@ void MatrixSum::form() const {
   }
   if (!assigned) std::fill(sum_.begin(), sum_.end(), 0.0);
   formed_ = true;
-  summed_ = last_;
+  summed_ = laws;
 }
 
 bool MatrixSum::isFormedAt(const std::vector<double>& lawValues) const {
@@ -268,6 +276,20 @@ void CompiledModel::setTime(double t) {
   load_.setZero();
   for (std::size_t i = 0; i < loads_.size(); ++i)
     if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
+}
+
+void CompiledModel::remember(Moment& moment) const {
+  moment.time = time_, moment.timeSet = timeSet_, moment.stamp = stamp_;
+  moment.lawValues = lawValues_, moment.loadLaws = lastLoadLaws_, moment.load = load_;
+  damping_.remember(moment.damping);
+  stiffness_.remember(moment.stiffness);
+}
+
+void CompiledModel::comeBack(const Moment& moment) {
+  time_ = moment.time, timeSet_ = moment.timeSet, stamp_ = moment.stamp;
+  lawValues_ = moment.lawValues, lastLoadLaws_ = moment.loadLaws, load_ = moment.load;
+  damping_.comeBack(moment.damping);
+  stiffness_.comeBack(moment.stiffness);
 }
 
 void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {

@@ -34,6 +34,13 @@ class MatrixSum {
   /// True if a law has another value than last time. The sum is formed when the laws stand still or somebody asks for it;
   /// while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
+  /// What update() and products have left, to come back to: the sum is formed anew where another has been.
+  struct Moment {
+    std::vector<double> last, summed;
+    bool formed = false;
+  };
+  void remember(Moment& moment) const { moment.last = last_, moment.summed = summed_, moment.formed = formed_; }
+  void comeBack(const Moment& moment);
   /// Whether A(t) is not formed while the sum for these values of all laws is, and y += that sum times x: what is missing then is
   /// addChangeSince().
   bool isFormedAt(const std::vector<double>& lawValues) const;
@@ -63,7 +70,8 @@ class MatrixSum {
   std::vector<Term> terms_;
   std::vector<double> last_;  ///< law values at the time of the last update()
   mutable std::vector<double> summed_;  ///< those of sum_
-  void form() const;
+  void form() const { form(last_); }
+  void form(const std::vector<double>& laws) const;
   mutable linalg::BlockValues sum_;
   mutable bool formed_ = false;  ///< summed_ is last_
   linalg::BlockProduct product_;
@@ -89,6 +97,17 @@ class CompiledModel {
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
   double time() const { return time_; }
+  /// What setTime() has left, for somebody who takes the model to other times and wants to leave no trace. Allocates once.
+  struct Moment {
+    double time = 0;
+    bool timeSet = false;
+    long stamp = 0;
+    std::vector<double> lawValues, loadLaws;
+    Vector load;
+    MatrixSum::Moment damping, stiffness;
+  };
+  void remember(Moment& moment) const;
+  void comeBack(const Moment& moment);
   /// Changes whenever C(t) or K(t) changed.
   long matrixStamp() const { return stamp_; }
   /// F(t).

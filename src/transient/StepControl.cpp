@@ -27,9 +27,11 @@ void MassNorm::bind(const CompiledModel& model) {
   model_ = &model;
   const auto& source = model.source();
   const auto components = static_cast<Eigen::Index>(source.componentNames.size());
+  std::vector<char> moves;
+  for (const auto& name : source.componentNames) moves.push_back(coupling::kindOf(name) == coupling::ComponentKind::Translation);
   double moved = 0;
   for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
-    if (coupling::kindOf(source.componentNames[static_cast<std::size_t>(row % components)]) != coupling::ComponentKind::Translation) continue;
+    if (!moves[static_cast<std::size_t>(row % components)]) continue;
     for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it) moved += it.value() * it.value();
   }
   if (components > 0 && source.recovery.rows() > 0) moved /= static_cast<double>(source.recovery.rows() / components);

@@ -10,7 +10,7 @@ namespace {
 
 /// Steps between those looked at, each at the price of about three, since its factor is not in the cache; runs that are short beside it
 /// still have `fewest` of them, long ones no more than `most`.
-constexpr long usualStride = 100, shortestStride = 8, fewest = 8, most = 128;
+constexpr long usualStride = 100, shortestStride = 25, fewest = 8, most = 128;
 /// Sums over less say nothing.
 constexpr std::size_t least = 4;
 /// One in so many steps differs by what happens once, a bounce or a grip, and not by how steps go.
@@ -24,16 +24,29 @@ void StepHalving::bind(const AlphaStep& step, const State& state, double h, long
   auto parameters = step.parameters();
   parameters.equations.tolerance *= strictness;
   halves_.emplace(parameters);
-  model_ = std::make_unique<CompiledModel>(step.model().source());
-  halves_->startLike(step, *model_);
+  points_.clear();
+  for (const auto& set : step.model().source().points) points_.emplace_back(set, step.model().pattern());
+  withModel(step.model(), [&] {
+    halves_->startLike(step);
+    halves_->prepare(0.5 * h, state.t);
+  });
   h_ = h;
-  halves_->prepare(0.5 * h, state.t);
   size_.bind(step.model());
   start_ = middle_ = end_ = state;
   velocity_ = difference_ = state.v;
   stride_ = std::max(std::clamp(steps / fewest, shortestStride, usualStride), steps / most);
   errors_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
   plan();
+}
+
+/// What is done with the model while the points are those of the halves; then it is as it was.
+template <class Work>
+void StepHalving::withModel(CompiledModel& model, const Work& work) {
+  model.remember(moment_);
+  points_.swap(model.points());
+  work();
+  points_.swap(model.points());
+  model.comeBack(moment_);
 }
 
 /// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
@@ -57,14 +70,16 @@ bool StepHalving::takeHalves(const AlphaStep& step, const State& from, double en
 /// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has no part of its force.
 void StepHalving::shareImpacts(const std::vector<PointBatch>& points) {
   for (std::size_t b = 0; b < points.size(); ++b)
-    for (int p = 0; p < points[b].points(); ++p) model_->points()[b].setScale(p, points[b].scale(p));
+    for (int p = 0; p < points[b].points(); ++p) points_[b].setScale(p, points[b].scale(p));
 }
 
 void StepHalving::look(const AlphaStep& step, const State& from, const State& to) {
   ++seen_;
   plan();
   shareImpacts(step.model().points());
-  if (!takeHalves(step, from, to.t)) return;
+  bool solved = false;
+  withModel(step.model(), [&] { solved = takeHalves(step, from, to.t); });
+  if (!solved) return;
   const auto add = [&](double& sum, const Vector& x) { sum += size_(x) * size_(x); };
   velocity_ = to.v;
   step.addImpactVelocity(-1.0, h_, false, velocity_);
@@ -89,7 +104,7 @@ double StepHalving::ratio(double speed) const {
 void StepHalving::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(seen_), change_, static_cast<double>(errors_.size())});
   memory.insert(memory.end(), errors_.begin(), errors_.end());
-  for (const auto& batch : model_->points()) batch.save(memory);
+  for (const auto& batch : points_) batch.save(memory);
   halves_->save(memory);
 }
 
@@ -99,8 +114,8 @@ void StepHalving::restore(const double*& memory) {
   errors_.resize(static_cast<std::size_t>(*memory++));
   for (double& error : errors_) error = *memory++;
   plan();
-  for (auto& batch : model_->points()) batch.restore(memory);
-  halves_->restore(memory);
+  for (auto& batch : points_) batch.restore(memory);
+  withModel(halves_->model(), [&] { halves_->restore(memory); });
 }
 
 }  // namespace tooljoint::transient

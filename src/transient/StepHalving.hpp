@@ -8,11 +8,10 @@
 ///
 /// with |.| of MassNorm and means over the steps looked at; of |e_v|^2 without its largest quarter, which is what happens once, such as a ball
 /// that lands within the step; of |v|^2 = |q_{n+1} - q_n|^2 / h^2 over the run. What a contact that lasts as an impact leaves in v
-/// (AlphaStep::addImpactVelocity) depends on the step and is no motion: it is taken out. The halves have model, factor, counters and
-/// memory of their own: the run does not notice them.
+/// (AlphaStep::addImpactVelocity) depends on the step and is no motion: it is taken out. The halves have points, factor, counters and
+/// memory of their own and leave the model as it was: the run does not notice them.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,12 +35,15 @@ class StepHalving {
   void restore(const double*& memory);
 
  private:
+  template <class Work>
+  void withModel(CompiledModel& model, const Work& work);
   bool takeHalves(const AlphaStep& step, const State& from, double end);
   void shareImpacts(const std::vector<PointBatch>& points);
   void plan();
 
   std::optional<AlphaStep> halves_;
-  std::unique_ptr<CompiledModel> model_;  ///< its own, whose time, sums and points nobody else sees
+  std::vector<PointBatch> points_;  ///< of the halves
+  CompiledModel::Moment moment_;    ///< of the run
   MassNorm size_;
   State start_, middle_, end_;
   Vector velocity_, difference_;

@@ -181,6 +181,39 @@ TEST(CompiledModel, formedSumAndChangeAreTheWhole) {
   EXPECT_FALSE(model.damping().isFormedAt(then));
 }
 
+/// Bit by bit: what is formed decides in which order sums are taken.
+TEST(CompiledModel, comesBackFromOtherTimes) {
+  const auto source = rich();
+  CompiledModel model(source);
+  const int n = source.size();
+  model.setTime(0.5);
+  model.damping().current();
+  const auto then = model.lawValues();
+  model.setTime(0.75);
+  Vector x;
+  model.toPositions(sampleVector(n, 0.7), x);
+  const auto products = [&] {
+    Vector y = Vector::Zero(n), z = Vector::Zero(n);
+    model.addDamping(x.data(), y.data());
+    model.addStiffness(x.data(), y.data());
+    model.damping().addFormed(x.data(), z.data(), {0, model.pattern().blocks()});
+    y += 3.0 * z + Eigen::Map<const Vector>(model.load(), n);
+    return y;
+  };
+  const Vector before = products();
+  const long stamp = model.matrixStamp();
+  CompiledModel::Moment moment;
+  model.remember(moment);
+  model.setTime(2.0);
+  model.damping().current();
+  EXPECT_NE(products(), before);
+  model.comeBack(moment);
+  EXPECT_EQ(products(), before);
+  EXPECT_TRUE(model.damping().isFormedAt(then));
+  EXPECT_EQ(model.matrixStamp(), stamp);
+  EXPECT_EQ(model.time(), 0.75);
+}
+
 TEST(CompiledModel, recognisesTermsThatDoNoWork) {
   auto source = denseModel(Matrix::Identity(2, 2), Matrix(), Matrix::Identity(2, 2), 2);
   Matrix G(2, 2);
