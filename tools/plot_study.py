@@ -221,7 +221,8 @@ def draw_speed(study):
     axes.set_title(f"Speed against error: {study.attribute('deck_name', '')}")
     note = "solid: full model, dashed: reduced"
     if study.failed:
-        note += f"; failed, not shown: {', '.join(run.label for run in study.failed[:3])}" + (" ..." if len(study.failed) > 3 else "")
+        names = ", ".join(run.label for run in study.failed)
+        note += f"; failed, not shown: {names}" if len(names) < 50 else f"; {len(study.failed)} failed, not shown"
     axes.text(1, 1.012, note, transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color="#666666")
     return figure
 

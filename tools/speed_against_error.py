@@ -139,14 +139,15 @@ def basis_target(study):
              f"dyn **{float(poor['dyn']) / float(good['dyn']):.3g}x** smaller ({percent(good['dyn'])} against {percent(poor['dyn'])}) at {cpu(good) / cpu(poor):.2f} of the cost")]
 
 
-def reduced_target(study, error=2e-2):
-    """Time of the full-model curve, interpolated at the dyn of the reduced run, over that of the reduced run; runs within 2 %."""
-    rows = [row for row in study.done(model="reduced") if row["integrator"] == "Generalized-alpha" and row["speedup_best_full"] and
-            float(row["dyn"]) <= error and "Nguyen" not in row["line"]]
-    if not rows:
-        return f"no reduced run within {percent(error)} has a full run of the same dyn"
-    best = max(rows, key=lambda row: float(row["speedup_best_full"]))
-    return f"**{float(best['speedup_best_full']):.2f}x** ({best['label']}, {best['reduced_dofs']} dofs, {cpu(best):.3g} s, dyn {percent(best['dyn'])})"
+def reduced_target(study):
+    """Time of the full-model curve, interpolated at the dyn of the reduced run, over that of the reduced run: the best within 2 %, and within 5 % if better."""
+    rows = [row for row in study.done(model="reduced") if row["integrator"] == "Generalized-alpha" and row["speedup_best_full"] and "Nguyen" not in row["line"]]
+    factor = lambda row: float(row["speedup_best_full"])
+    best = [max((row for row in rows if float(row["dyn"]) <= error), key=factor, default=None) for error in (2e-2, 5e-2)]
+    if best[1] is None:
+        return f"no reduced run within {percent(5e-2)} has a full run of the same dyn"
+    shown = [row for i, row in enumerate(best) if row is not None and row not in best[:i]]
+    return "; ".join(f"**{factor(row):.2f}x** ({row['label']}, {row['reduced_dofs']} dofs, {cpu(row):.3g} s, dyn {percent(row['dyn'])})" for row in shown)
 
 
 def cost(results, name):
