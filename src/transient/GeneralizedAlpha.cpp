@@ -245,6 +245,9 @@ void GeneralizedAlpha::finish() const {
        << percent(errors.local) << " of what moves in a step, and two of half the length end " << percent(errors.halving)
        << " elsewhere. Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance choose it.";
   if (tolerance_ > defaultTolerance) text << " Iterations that stop at a Transient/Generalized-alpha/Tolerance of " << tolerance_ << " add to it.";
+  const auto& points = model_->points();
+  if (std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); }))
+    text << " Walls too stiff for the step are met as impacts, whose rebound is damped with a Transient/Generalized-alpha/Spectral Radius of 0.2 or less.";
   if (!lost || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }
