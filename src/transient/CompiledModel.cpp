@@ -148,12 +148,12 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
   return changed;
 }
 
-void MatrixSum::comeBack(const Moment& moment) {
-  last_ = moment.last;
-  const bool known = std::none_of(moment.summed.begin(), moment.summed.end(), [](double c) { return std::isnan(c); });
-  if (!sum_.empty() && known && summed_ != moment.summed) form(moment.summed);
-  summed_ = moment.summed;
-  formed_ = moment.formed;
+void MatrixSum::comeBack(const Snapshot& snapshot) {
+  last_ = snapshot.last;
+  const bool known = std::none_of(snapshot.summed.begin(), snapshot.summed.end(), [](double c) { return std::isnan(c); });
+  if (!sum_.empty() && known && summed_ != snapshot.summed) form(snapshot.summed);
+  summed_ = snapshot.summed;
+  formed_ = snapshot.formed;
 }
 
 /// A = sum_i c_i A_i for these values of the laws, first term assigned, terms whose law is zero skipped
@@ -278,18 +278,18 @@ void CompiledModel::setTime(double t) {
     if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
 }
 
-void CompiledModel::remember(Moment& moment) const {
-  moment.time = time_, moment.timeSet = timeSet_, moment.stamp = stamp_;
-  moment.lawValues = lawValues_, moment.loadLaws = lastLoadLaws_, moment.load = load_;
-  damping_.remember(moment.damping);
-  stiffness_.remember(moment.stiffness);
+void CompiledModel::remember(Snapshot& snapshot) const {
+  snapshot.time = time_, snapshot.timeSet = timeSet_, snapshot.stamp = stamp_;
+  snapshot.lawValues = lawValues_, snapshot.loadLaws = lastLoadLaws_, snapshot.load = load_;
+  damping_.remember(snapshot.damping);
+  stiffness_.remember(snapshot.stiffness);
 }
 
-void CompiledModel::comeBack(const Moment& moment) {
-  time_ = moment.time, timeSet_ = moment.timeSet, stamp_ = moment.stamp;
-  lawValues_ = moment.lawValues, lastLoadLaws_ = moment.loadLaws, load_ = moment.load;
-  damping_.comeBack(moment.damping);
-  stiffness_.comeBack(moment.stiffness);
+void CompiledModel::comeBack(const Snapshot& snapshot) {
+  time_ = snapshot.time, timeSet_ = snapshot.timeSet, stamp_ = snapshot.stamp;
+  lawValues_ = snapshot.lawValues, lastLoadLaws_ = snapshot.loadLaws, load_ = snapshot.load;
+  damping_.comeBack(snapshot.damping);
+  stiffness_.comeBack(snapshot.stiffness);
 }
 
 void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {

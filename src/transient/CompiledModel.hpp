@@ -35,12 +35,12 @@ class MatrixSum {
   /// while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
   /// What update() and products have left, to come back to: the sum is formed anew where another has been.
-  struct Moment {
+  struct Snapshot {
     std::vector<double> last, summed;
     bool formed = false;
   };
-  void remember(Moment& moment) const { moment.last = last_, moment.summed = summed_, moment.formed = formed_; }
-  void comeBack(const Moment& moment);
+  void remember(Snapshot& snapshot) const { snapshot.last = last_, snapshot.summed = summed_, snapshot.formed = formed_; }
+  void comeBack(const Snapshot& snapshot);
   /// Whether A(t) is not formed while the sum for these values of all laws is, and y += that sum times x: what is missing then is
   /// addChangeSince().
   bool isFormedAt(const std::vector<double>& lawValues) const;
@@ -98,16 +98,17 @@ class CompiledModel {
   void setTime(double t);
   double time() const { return time_; }
   /// What setTime() has left, for somebody who takes the model to other times and wants to leave no trace. Allocates once.
-  struct Moment {
+  struct Snapshot {
     double time = 0;
     bool timeSet = false;
     long stamp = 0;
     std::vector<double> lawValues, loadLaws;
     Vector load;
-    MatrixSum::Moment damping, stiffness;
+    MatrixSum::Snapshot damping, stiffness;
   };
-  void remember(Moment& moment) const;
-  void comeBack(const Moment& moment);
+  void remember(Snapshot& snapshot) const;
+  /// Products and loads are then bit by bit those of the time of remember().
+  void comeBack(const Snapshot& snapshot);
   /// Changes whenever C(t) or K(t) changed.
   long matrixStamp() const { return stamp_; }
   /// F(t).

@@ -44,6 +44,8 @@ namespace tooljoint::transient {
 namespace {
 
 constexpr double defaultTolerance = 1e-5;
+/// Spectral radius from which the rebound of impacts is no longer damped enough.
+constexpr double forImpacts = 0.2;
 
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
@@ -222,6 +224,7 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
 }
 
+/// What says, in the end, whether the steps follow the motion.
 void GeneralizedAlpha::look(const State& from, const State& to, double h) {
   if (counters_.steps % StepResolution::stride == 0) {
     change_ = to.q - from.q;
@@ -242,12 +245,15 @@ void GeneralizedAlpha::finish() const {
   const bool lost = verdict == Resolution::Lost;
   std::ostringstream text;
   text << "Steps of " << counters_.maxStep << " s " << (lost ? "do not follow" : "hardly follow") << " the motion: their local error is "
-       << percent(errors.local) << " of what moves in a step, and two of half the length end " << percent(errors.halving)
-       << " elsewhere. Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance choose it.";
+       << percent(errors.local) << " of what moves in a step";
+  if (errors.halving > 0) text << ", and two of half the length end " << percent(errors.halving) << " elsewhere";
+  text << ". Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance choose it.";
   if (tolerance_ > defaultTolerance) text << " Iterations that stop at a Transient/Generalized-alpha/Tolerance of " << tolerance_ << " add to it.";
   const auto& points = model_->points();
-  if (std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); }))
-    text << " Walls too stiff for the step are met as impacts, whose rebound is damped with a Transient/Generalized-alpha/Spectral Radius of 0.2 or less.";
+  const bool hits = std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); });
+  if (hits && scheme_->parameters().radius > forImpacts)
+    text << " Walls too stiff for the step are met as impacts, whose rebound is damped with a Transient/Generalized-alpha/Spectral Radius of "
+         << forImpacts << " or less.";
   if (!lost || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }

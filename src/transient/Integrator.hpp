@@ -76,6 +76,7 @@ class Integrator {
 
   /// After the last step: throws ConvergenceError when the steps, taken together, did not follow the motion.
   virtual void finish() const {}
+  /// Of the steps done so far.
   virtual StepErrors stepErrors() const { return {}; }
 
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes on with the same numbers.

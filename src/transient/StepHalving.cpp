@@ -42,11 +42,11 @@ void StepHalving::bind(const AlphaStep& step, const State& state, double h, long
 /// What is done with the model while the points are those of the halves; then it is as it was.
 template <class Work>
 void StepHalving::withModel(CompiledModel& model, const Work& work) {
-  model.remember(moment_);
+  model.remember(snapshot_);
   points_.swap(model.points());
   work();
   points_.swap(model.points());
-  model.comeBack(moment_);
+  model.comeBack(snapshot_);
 }
 
 /// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
@@ -79,7 +79,7 @@ void StepHalving::look(const AlphaStep& step, const State& from, const State& to
   shareImpacts(step.model().points());
   bool solved = false;
   withModel(step.model(), [&] { solved = takeHalves(step, from, to.t); });
-  if (!solved) return;
+  if (!solved) return;  // says nothing: the step itself has been solved
   const auto add = [&](double& sum, const Vector& x) { sum += size_(x) * size_(x); };
   velocity_ = to.v;
   step.addImpactVelocity(-1.0, h_, false, velocity_);

@@ -43,7 +43,7 @@ class StepHalving {
 
   std::optional<AlphaStep> halves_;
   std::vector<PointBatch> points_;  ///< of the halves
-  CompiledModel::Moment moment_;    ///< of the run
+  CompiledModel::Snapshot snapshot_; ///< of the run
   MassNorm size_;
   State start_, middle_, end_;
   Vector velocity_, difference_;

@@ -55,11 +55,15 @@ enum class Resolution { Good, Coarse, Lost };
 
 /// What R and D say of a run: Coarse is worth a warning, Lost is no result.
 inline Resolution judge(const StepErrors& errors) {
+  constexpr double moving = 0.001;  ///< R of a motion for which D counts
+  constexpr double lost = 0.025, coarse = 0.01;
+  constexpr double lostHalves = 0.03, coarseHalves = 0.0033;
+  /// D is suspect where contact and iterations are most of it, or where R is large as well.
+  constexpr double suspectHalves = 0.02, mostOfIt = 3.2, large = 0.02;
   const double r = errors.local, d = errors.halving;
-  const bool moves = r > 0.001;
-  const bool astray = d > 0.03 || (d > 0.02 && (d > 3.2 * r || r > 0.02));
-  if (r > 0.025 || (moves && astray)) return Resolution::Lost;
-  return r > 0.01 || (moves && d > 0.0033) ? Resolution::Coarse : Resolution::Good;
+  const bool astray = d > lostHalves || (d > suspectHalves && (d > mostOfIt * r || r > large));
+  if (r > lost || (r > moving && astray)) return Resolution::Lost;
+  return r > coarse || (r > moving && d > coarseHalves) ? Resolution::Coarse : Resolution::Good;
 }
 
 }  // namespace tooljoint::transient

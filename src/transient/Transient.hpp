@@ -38,7 +38,7 @@ struct TransientReport {
   double wall = 0;            ///< [s]
   double cpu = 0;             ///< [s]
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
-  StepErrors stepErrors;
+  StepErrors stepErrors;      ///< of fixed implicit steps
   bool hasEnergy = false;
   EnergyAccount energy;
 };

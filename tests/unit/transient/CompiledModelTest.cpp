@@ -202,12 +202,12 @@ TEST(CompiledModel, comesBackFromOtherTimes) {
   };
   const Vector before = products();
   const long stamp = model.matrixStamp();
-  CompiledModel::Moment moment;
-  model.remember(moment);
+  CompiledModel::Snapshot snapshot;
+  model.remember(snapshot);
   model.setTime(2.0);
   model.damping().current();
   EXPECT_NE(products(), before);
-  model.comeBack(moment);
+  model.comeBack(snapshot);
   EXPECT_EQ(products(), before);
   EXPECT_TRUE(model.damping().isFormedAt(then));
   EXPECT_EQ(model.matrixStamp(), stamp);

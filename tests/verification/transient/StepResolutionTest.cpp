@@ -47,6 +47,20 @@ TEST(StepResolution, refusesStepsThatLoseTheVibration) {
   EXPECT_NO_THROW(integrate(model, anyway, sink));
 }
 
+/// Too short for steps to be taken twice: nothing is said of what was not measured.
+TEST(StepResolution, refusesShortRunsByTheLocalErrorAlone) {
+  const double w = 2 * 3.14159265358979 * 10;
+  NoSamples sink;
+  try {
+    integrate(oscillator(1.0, 0.0, w * w, 1e-3, 0.0), steps(5e-2, 3.0), sink);
+    ADD_FAILURE() << "two steps a period were taken for a result";
+  } catch (const ConvergenceError& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("do not follow the motion"), std::string::npos) << said;
+    EXPECT_EQ(said.find("half the length"), std::string::npos) << said;
+  }
+}
+
 /// What is damped out long before a step ends does not move any more.
 TEST(StepResolution, passesWhatStandsStillOrCreeps) {
   NoSamples sink;
@@ -112,6 +126,7 @@ TEST(StepResolution, saysWhatWallsTooStiffForTheStepNeed) {
   auto damped = hard;
   damped.push_back("Transient/Generalized-alpha/Spectral Radius=0.2");
   EXPECT_NO_THROW(move("helical_170m", damped));
+  for (const auto& line : log::warnings()) EXPECT_EQ(line.find("Spectral Radius of"), std::string::npos) << line;
 }
 
 }  // namespace
