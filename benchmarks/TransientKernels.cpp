@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "HelicalString.hpp"
+#include "linalg/LargePages.hpp"
 #include "transient/Explicit.hpp"
 #include "transient/Transient.hpp"
 
@@ -260,4 +261,9 @@ BENCHMARK(longString)->ArgsProduct({{162, 1620, 16200}, {0, 1}})->UseManualTime(
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  tooljoint::linalg::shareLargePages(std::size_t{1} << 30);  // as the program does
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -16,10 +16,14 @@
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
 #include "common/Version.hpp"
+#include "linalg/LargePages.hpp"
 
 namespace {
 
 using tooljoint::ExitCode;
+
+/// What all vectors of a string of a million dofs take; address space alone until it is written to [bytes].
+constexpr std::size_t heapOnLargePages = std::size_t{1} << 30;
 
 int code(ExitCode exit) { return static_cast<int>(exit); }
 
@@ -140,6 +144,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tooljoint::linalg::shareLargePages(heapOnLargePages);
   Tpetra::ScopeGuard scope(&argc, &argv);
   return run(argc, argv);
 }

@@ -16,6 +16,31 @@ namespace {
 
 std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
+constexpr std::size_t word = 64;  // bits
+
+void set(std::vector<std::uint64_t>& bits, std::size_t i) { bits[i / word] |= std::uint64_t{1} << (i % word); }
+void clear(std::vector<std::uint64_t>& bits, std::size_t i) { bits[i / word] &= ~(std::uint64_t{1} << (i % word)); }
+
+/// act(i) for each bit i that is set, upwards or downwards; those that act() sets further on are met too.
+template <class Act>
+TOOLJOINT_INLINED void upwards(const std::vector<std::uint64_t>& bits, const Act& act) {
+  for (std::size_t w = 0; w < bits.size(); ++w)
+    for (std::uint64_t left = ~std::uint64_t{0}; (bits[w] & left) != 0;) {
+      const auto bit = static_cast<std::size_t>(__builtin_ctzll(bits[w] & left));
+      left = bit == word - 1 ? 0 : ~std::uint64_t{0} << (bit + 1);
+      act(w * word + bit);
+    }
+}
+template <class Act>
+TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const Act& act) {
+  for (std::size_t w = bits.size(); w-- > 0;)
+    for (std::uint64_t left = ~std::uint64_t{0}; (bits[w] & left) != 0;) {
+      const auto bit = word - 1 - static_cast<std::size_t>(__builtin_clzll(bits[w] & left));
+      left = (std::uint64_t{1} << bit) - 1;
+      act(w * word + bit);
+    }
+}
+
 }  // namespace
 
 /// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one that waited longest, which makes
@@ -89,6 +114,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     eliminations_.push_back(elimination);
   }
   pack();
+  findEarlier();
   far_ = storage > kernel::nearCache;
   values_.assign(storage, 0.0);
   scale_.assign(z(pattern.size()), 0.0);
@@ -116,6 +142,21 @@ void BlockFactor::pack() {
   }
   down_.assign(down, 0.0);
   up_.assign(up, 0.0);
+}
+
+void BlockFactor::findEarlier() {
+  pivotOf_.resize(pivots_.size());
+  for (std::size_t k = 0; k < pivots_.size(); ++k) pivotOf_[z(pivots_[k].block)] = static_cast<int>(k);
+  std::vector<std::vector<int>> earlier(pivots_.size());
+  for (std::size_t k = 0; k < pivots_.size(); ++k)
+    for (int c = pivots_[k].couplingBegin; c < pivots_[k].couplingEnd; ++c)
+      earlier[z(pivotOf_[z(couplings_[z(c)].block)])].push_back(static_cast<int>(k));
+  earlierBegin_.push_back(0);
+  for (const auto& each : earlier) {
+    earlier_.insert(earlier_.end(), each.begin(), each.end());
+    earlierBegin_.push_back(static_cast<int>(earlier_.size()));
+  }
+  reached_.assign(pivots_.size() / word + 1, 0);
 }
 
 bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
@@ -219,33 +260,31 @@ TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
   for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) sweepUp(*p, x);
 }
 
-TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<char>& live, const double* weight, double small) const {
-  const auto isSmall = [&](const Pivot& p, bool weighted) {
+TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live, const double* weight, double small) const {
+  const auto isSmall = [&](const Pivot& p, bool weighted) __attribute__((always_inline)) {
     double size = 0;
     for (int i = p.start; i < p.start + p.width; ++i) size = std::max(size, std::abs(x[i]) * (weighted ? weight[i] : 1.0));
     return size <= small;
   };
-  const auto drop = [&](const Pivot& p) {
-    std::fill(x + p.start, x + p.start + p.width, 0.0);
-    live[z(p.block)] = 0;
+  const auto drop = [&](std::size_t k) {
+    std::fill(x + pivots_[k].start, x + pivots_[k].start + pivots_[k].width, 0.0);
+    clear(reached_, k);
   };
-  const Coupling* couplings = couplings_.data();
-  for (const Pivot& p : pivots_) {
-    if (!live[z(p.block)]) continue;
-    if (isSmall(p, true)) {
-      drop(p);
-      continue;
-    }
+  for (int block : live) set(reached_, z(pivotOf_[z(block)]));
+  upwards(reached_, [&](std::size_t k) __attribute__((always_inline)) {
+    const Pivot& p = pivots_[k];
+    if (isSmall(p, true)) return drop(k);
     sweepDown(p, x);
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) live[z(couplings[c].block)] = 1;
-  }
-  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
-    char& mine = live[z(p->block)];
-    for (int c = p->couplingBegin; c < p->couplingEnd; ++c) mine = static_cast<char>(mine | live[z(couplings[c].block)]);
-    if (!mine) continue;
-    sweepUp(*p, x);
-    if (isSmall(*p, false)) drop(*p);
-  }
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) set(reached_, z(pivotOf_[z(couplings_[z(c)].block)]));
+  });
+  live.clear();
+  downwards(reached_, [&](std::size_t k) __attribute__((always_inline)) {
+    sweepUp(pivots_[k], x);
+    if (isSmall(pivots_[k], false)) return drop(k);
+    live.push_back(pivots_[k].block);
+    for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e) set(reached_, z(earlier_[z(e)]));
+  });
+  std::fill(reached_.begin(), reached_.end(), 0);
 }
 
 void BlockFactor::reserveInverse() {

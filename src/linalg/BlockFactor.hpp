@@ -31,10 +31,10 @@ class BlockFactor {
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
 
-  /// The same for an x that is zero outside the blocks that `live` marks. What falls below `small` in units of `weight` (forces
-  /// on the way down, displacements on the way up) is dropped, so that the cost is that of the blocks a local force reaches;
-  /// `live` then marks those where x is not zero. In a stiff chain that is a few neighbours.
-  void solveNear(double* x, std::vector<char>& live, const double* weight, double small) const;
+  /// The same for an x that is zero outside the blocks `live` (any order, repeated or not). What falls below `small` in units of
+  /// `weight` (forces on the way down, displacements on the way up) is dropped, so that the cost is that of the blocks a local force
+  /// reaches; `live` then holds those where x is not zero, each once. In a stiff chain that is a few neighbours.
+  void solveNear(double* x, std::vector<int>& live, const double* weight, double small) const;
 
   /// Blocks of A^-1 on the pattern, for what `wanted` asks of the diagonal blocks (and everything that takes): the recursion of
   /// Takahashi, Fagan and Chen (1973), which never leaves the fill. After factor(); costs about as much.
@@ -90,6 +90,7 @@ class BlockFactor {
   void sweepDown(const Pivot& pivot, double* x) const;
   void sweepUp(const Pivot& pivot, double* x) const;
   void invertPivot(std::size_t k);
+  void findEarlier();
   void order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const;
 
   std::vector<Pivot> pivots_;
@@ -97,6 +98,9 @@ class BlockFactor {
   std::vector<Elimination> eliminations_;  ///< of pivots_
   std::vector<Place> places_;              ///< of couplings_
   std::vector<Update> updates_;
+  std::vector<int> pivotOf_;                     ///< of each block
+  std::vector<int> earlierBegin_, earlier_;      ///< per pivot: those before it that couple to its block
+  mutable std::vector<std::uint64_t> reached_;  ///< solveNear(): one bit per pivot, none between calls
   BlockValues values_;
   BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it
   BlockValues inverse_;        ///< allocated by the first invert()

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "transient/PointWidth.hpp"
 
@@ -94,6 +95,13 @@ void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
     block_.erase(std::unique(block_.begin() + begin, block_.end()), block_.end());
     blockBegin_.push_back(static_cast<int>(block_.size()));
   }
+  pointBegin_.assign(z(pattern.blocks() + 1), 0);
+  for (int b : block_) ++pointBegin_[z(b + 1)];
+  std::partial_sum(pointBegin_.begin(), pointBegin_.end(), pointBegin_.begin());
+  point_.resize(block_.size());
+  std::vector<int> next(pointBegin_.begin(), pointBegin_.end() - 1);
+  for (int p = 0; p < points_; ++p)
+    for (int i = blockBegin_[z(p)]; i < blockBegin_[z(p + 1)]; ++i) point_[z(next[z(block_[z(i)])]++)] = p;
 }
 
 double PointBatch::rowTimes(int row, const double* x) const {
@@ -284,14 +292,8 @@ void PointBatch::markBlocks(std::vector<char>& blocks) const {
   for (int b : block_) blocks[z(b)] = 1;
 }
 
-void PointBatch::markBlocks(int point, std::vector<char>& blocks) const {
-  for (int i = blockBegin_[z(point)]; i < blockBegin_[z(point + 1)]; ++i) blocks[z(block_[z(i)])] = 1;
-}
-
-bool PointBatch::isIn(int point, const std::vector<char>& blocks) const {
-  for (int i = blockBegin_[z(point)]; i < blockBegin_[z(point + 1)]; ++i)
-    if (blocks[z(block_[z(i)])]) return true;
-  return false;
+void PointBatch::appendBlocks(int point, std::vector<int>& blocks) const {
+  blocks.insert(blocks.end(), block_.begin() + blockBegin_[z(point)], block_.begin() + blockBegin_[z(point + 1)]);
 }
 
 double PointBatch::rowTimesVector(int row, const double* x) const {

@@ -74,10 +74,17 @@ class PointBatch {
   void project(int point, const double* values, double* block) const;
   /// Blocks of the pattern the rows of any point touch.
   void markBlocks(std::vector<char>& blocks) const;
-  /// Those of one point.
-  void markBlocks(int point, std::vector<char>& blocks) const;
-  /// Whether one of them is marked.
-  bool isIn(int point, const std::vector<char>& blocks) const;
+  /// Append those of one point.
+  void appendBlocks(int point, std::vector<int>& blocks) const;
+  /// act(p) for the active points whose rows touch a block.
+  template <class Act>
+  void forActiveIn(int block, const Act& act) const {
+    const auto b = static_cast<std::size_t>(block);
+    for (int i = pointBegin_[b]; i < pointBegin_[b + 1]; ++i) {
+      const int p = point_[static_cast<std::size_t>(i)];
+      if (isActive_[static_cast<std::size_t>(p)]) act(p);
+    }
+  }
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
   void freezeTangent(double cd, double cv);
@@ -146,6 +153,7 @@ class PointBatch {
   std::vector<double> offset_;
 
   std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
+  std::vector<int> pointBegin_, point_;  ///< per block: the points whose rows touch it
 
   // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x block, column-major).
   struct Touch {

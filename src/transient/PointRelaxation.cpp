@@ -61,12 +61,14 @@ void PointRelaxation::bind(CompiledModel& model) {
     set.error.assign(z(batch.points()), 0.0);
     set.exact.assign(z(batch.points()), 0);
     set.moved.assign(z(batch.points()), 1);
+    set.listed.assign(z(batch.points()), 0);
     set.points.reserve(z(batch.points()));
     sets_.push_back(std::move(set));
     batch.markBlocks(blocks_);
   }
   near_.setZero(model.size());
-  live_.assign(z(model.pattern().blocks()), 0);
+  live_.clear();
+  live_.reserve(4 * blocks_.size());
 }
 
 void PointRelaxation::setWeights(const Vector& weight) {
@@ -175,20 +177,27 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
-    if (batch.active().empty()) continue;
-    if (isNear_) {
-      set.points.clear();
-      for (int p : batch.active())
-        if (set.moved[z(p)] || batch.isIn(p, live_)) set.points.push_back(p);  // a small change may have ended where it began
-    } else {
+    if (isNear_)
+      listMoved(set, batch);
+    else
       set.points = batch.active();
-    }
     place(set, batch, t, c, delta, false);
     measure(set, batch, small, force);
-    for (int p : batch.active())
+    for (int p : isNear_ && allMoved_ ? set.points : batch.active())
       if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
   }
   return worst;
+}
+
+/// The points corrected, whose small change may have ended where it began, and those that solveNear() reached.
+void PointRelaxation::listMoved(Set& set, const PointBatch& batch) const {
+  for (int p : set.points) set.listed[z(p)] = 1;
+  for (int block : live_)
+    batch.forActiveIn(block, [&](int p) {
+      if (!set.listed[z(p)]) set.points.push_back(p);
+      set.listed[z(p)] = 1;
+    });
+  for (int p : set.points) set.listed[z(p)] = 0;
 }
 
 /// defect = f - P y - p of the points evaluated, and their errors.
@@ -221,8 +230,8 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
-    if (batch.active().empty()) continue;
     set.points = batch.active();
+    if (set.points.empty()) continue;
     place(set, batch, t, c, delta, true);
     findImpacts(set, batch);
     withWidth(batch.width(), [&](auto width) {
@@ -273,21 +282,17 @@ void PointRelaxation::solve(const linalg::BlockFactor& factor, const Vector* for
 
 /// delta += S^-1 R' (change of p)
 void PointRelaxation::solveNear(const linalg::BlockFactor& factor, double small, Vector& delta) {
-  std::fill(live_.begin(), live_.end(), 0);
+  live_.clear();
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     const PointBatch& batch = model_->points()[b];
     batch.scatter(sets_[b].points, sets_[b].change.data(), near_.data());
-    for (int p : sets_[b].points) batch.markBlocks(p, live_);
+    for (int p : sets_[b].points) batch.appendBlocks(p, live_);
   }
   factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
   const auto& pattern = model_->pattern();
-  int reached = 0;
-  for (int b = 0; b < pattern.blocks(); ++b) {
-    if (!live_[z(b)]) continue;
-    ++reached;
+  for (int b : live_)
     for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) delta[i] += near_[i], near_[i] = 0;
-  }
-  nearShare_ = static_cast<double>(reached) / pattern.blocks();
+  nearShare_ = static_cast<double>(live_.size()) / pattern.blocks();
   isNear_ = true;
 }
 
@@ -319,7 +324,6 @@ bool PointRelaxation::isFew(long points) const { return positionsPerPoint * poin
 /// p += B defect, or to where the point is alone in equilibrium.
 void PointRelaxation::move(Set& set, PointBatch& batch, int point, double t, double c) {
   const int w = batch.width(), first = point * w;
-  set.points.push_back(point);
   for (int r = first; r < first + w; ++r) set.change[z(r)] = -set.p[z(r)];
   if (set.exact[z(point)]) {
     solvePoint(set, batch, point, t, c);
@@ -337,22 +341,28 @@ void PointRelaxation::move(Set& set, PointBatch& batch, int point, double t, dou
 
 bool PointRelaxation::correct(double t, double c, double small, bool all) {
   long wrong = 0;
-  for (std::size_t b = 0; b < sets_.size(); ++b)
-    for (int p : model_->points()[b].active()) wrong += isWrong(sets_[b], p, small) ? 1 : 0;
+  for (const Set& set : sets_)  // what was not evaluated is not wrong
+    for (int p : set.points) wrong += isWrong(set, p, small) ? 1 : 0;
   const bool few = !all && isFew(wrong);
+  allMoved_ = true;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
-    set.points.clear();
-    for (int p : model_->points()[b].active()) {
-      set.moved[z(p)] = !few || isWrong(set, p, small);
-      if (set.moved[z(p)]) move(set, model_->points()[b], p, t, c);
+    PointBatch& batch = model_->points()[b];
+    if (few) {
+      const auto isRight = [&](int p) { return (set.moved[z(p)] = isWrong(set, p, small)) == 0; };
+      set.points.erase(std::remove_if(set.points.begin(), set.points.end(), isRight), set.points.end());
+    } else {
+      set.points = batch.active();
+      for (int p : set.points) set.moved[z(p)] = 1;
     }
+    for (int p : set.points) move(set, batch, p, t, c);
   }
   return few;
 }
 
 bool PointRelaxation::correctColour(double t, double c, double small, int colour) {
   long moved = 0, place = 0;
+  allMoved_ = false;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     set.points.clear();
@@ -360,6 +370,7 @@ bool PointRelaxation::correctColour(double t, double c, double small, int colour
       set.moved[z(p)] = place++ % colours == colour && isWrong(set, p, small);
       if (!set.moved[z(p)]) continue;
       set.exact[z(p)] = 1;
+      set.points.push_back(p);
       move(set, model_->points()[b], p, t, c);
       ++moved;
     }

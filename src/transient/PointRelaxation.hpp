@@ -85,10 +85,12 @@ class PointRelaxation {
     std::vector<double> change; ///< of p in the last correct()
     std::vector<char> moved;    ///< per point: corrected last time
     std::vector<int> points;    ///< corrected, then those evaluated
+    std::vector<char> listed;   ///< per point: in `points` already, in listMoved()
   };
   void findImpacts(Set& set, PointBatch& batch);
   template <class Width>
   void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
+  void listMoved(Set& set, const PointBatch& batch) const;
   void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
   void measure(Set& set, PointBatch& batch, double small, double& force);
@@ -104,8 +106,9 @@ class PointRelaxation {
   const Vector* residual_ = nullptr;
   Vector weight_;
   Vector near_;             ///< change of delta in solveNear(), zero between calls
-  std::vector<char> live_;  ///< blocks where it is not zero
+  std::vector<int> live_;   ///< blocks where it is not zero
   bool isNear_ = false;     ///< the last solve was solveNear()
+  bool allMoved_ = true;    ///< the last correction was of all points that were wrong: those it did not reach are right
   double nearShare_ = 0;    ///< of all blocks, that it reached
   NodalProblem problem_;
   NodalProblem::Local y_, phi_;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/LargePages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace tooljoint::linalg {
+namespace {
+
+/// Whether the mapping that holds an address asks for large pages ("hg" among its flags).
+bool asksForLargePages(const void* address) {
+  const auto at = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream maps("/proc/self/smaps");
+  bool inside = false;
+  for (std::string line; std::getline(maps, line);) {
+    std::istringstream words(line);
+    std::uintptr_t begin = 0, end = 0;
+    char dash = 0;
+    if (words >> std::hex >> begin >> dash >> end && dash == '-') inside = begin <= at && at < end;
+    if (inside && line.rfind("VmFlags:", 0) == 0) return line.find(" hg") != std::string::npos;
+  }
+  return false;
+}
+
+TEST(LargePages, AreSharedByArraysTooShortForTheirOwn) {
+  if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "a kernel without large pages";
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "another allocator";
+#endif
+  constexpr std::size_t arrays = 20, doubles = 100000;
+  shareLargePages(arrays * doubles * sizeof(double));
+  int asking = 0;
+  std::vector<std::vector<double>> all;
+  for (std::size_t i = 0; i < arrays; ++i) {
+    all.emplace_back(doubles, 1.0);
+    asking += asksForLargePages(&all.back()[doubles / 2]) ? 1 : 0;
+  }
+  EXPECT_GE(asking, static_cast<int>(arrays) - 3) << "ends of the memory set aside need not be whole pages";
+}
+
+TEST(LargePages, AreLeftAloneForALittle) {
+  shareLargePages(0);
+  shareLargePages(1 << 20);
+}
+
+TEST(LargePages, AlignLongArrays) {
+  for (const std::size_t bytes : {std::size_t{1}, std::size_t{5} << 20}) {
+    std::vector<char, LargePages<char>> array(bytes, 1);
+    const std::size_t unit = bytes > LargePages<char>::page ? LargePages<char>::page : LargePages<char>::line;
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % unit, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace tooljoint::linalg
