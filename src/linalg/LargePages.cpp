@@ -6,6 +6,7 @@
 #include <limits>
 #if defined(__GLIBC__)
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #endif
 
@@ -15,6 +16,8 @@ namespace tooljoint::linalg {
 void shareLargePages(std::size_t bytes) {
   constexpr std::size_t page = LargePages<char>::page;
   constexpr int usualPad = 128 * 1024;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) bytes = std::min<std::size_t>(bytes, limit.rlim_cur / 8);
   if (bytes < 2 * page) return;
   // Arrays of up to 32 MB (no more can be set) stand side by side in the heap, and what is given back to it stays there.
   mallopt(M_MMAP_THRESHOLD, 16 * page);

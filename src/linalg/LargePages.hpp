@@ -39,8 +39,8 @@ struct LargePages {
 };
 
 /// Arrays too short for large pages of their own share them: what the process allocates next, up to so many bytes, is taken from memory
-/// that asks for them. Many vectors read one after the other are then read a tenth faster. Does nothing for a few megabytes, or
-/// without glibc.
+/// that asks for them, address space until it is written to (an eighth of what a limit allows at most). Many vectors read one after
+/// the other are then read a tenth faster. Does nothing for a few megabytes, or without glibc.
 void shareLargePages(std::size_t bytes);
 
 }  // namespace tooljoint::linalg
