@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <vector>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #include <sys/resource.h>
@@ -24,11 +25,15 @@ void shareLargePages(std::size_t bytes) {
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   // The heap grows by all of it at once, of which only the beginning has been written to: pages are chosen at the first write.
   mallopt(M_TOP_PAD, static_cast<int>(std::min<std::size_t>(bytes, std::numeric_limits<int>::max())));
-  void* first = std::malloc(page);
-  const auto begin = (reinterpret_cast<std::uintptr_t>(first) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
-  if (first != nullptr && begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a wish
-  std::free(first);
+  const auto end = [] { return reinterpret_cast<std::uintptr_t>(sbrk(0)); };
+  const std::uintptr_t before = end();
+  std::vector<void*> held;  // what was free already, and the first of what was not
+  do {
+    held.push_back(std::malloc(page));
+  } while (held.back() != nullptr && end() == before);
+  const std::uintptr_t begin = (before + page - 1) / page * page;
+  if (begin < end()) madvise(reinterpret_cast<void*>(begin), end() - begin, MADV_HUGEPAGE);  // a wish
+  for (void* each : held) std::free(each);
   mallopt(M_TOP_PAD, usualPad);
 }
 #else

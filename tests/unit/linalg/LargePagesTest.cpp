@@ -2,6 +2,7 @@
 #include "linalg/LargePages.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <fstream>
@@ -27,20 +28,18 @@ bool asksForLargePages(const void* address) {
   return false;
 }
 
-TEST(LargePages, AreSharedByArraysTooShortForTheirOwn) {
+TEST(LargePages, AreAskedForByWhatTheHeapGrowsBy) {
   if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "a kernel without large pages";
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "another allocator";
 #endif
-  constexpr std::size_t arrays = 20, doubles = 100000;
-  shareLargePages(arrays * doubles * sizeof(double));
-  int asking = 0;
-  std::vector<std::vector<double>> all;
-  for (std::size_t i = 0; i < arrays; ++i) {
-    all.emplace_back(doubles, 1.0);
-    asking += asksForLargePages(&all.back()[doubles / 2]) ? 1 : 0;
-  }
-  EXPECT_GE(asking, static_cast<int>(arrays) - 3) << "ends of the memory set aside need not be whole pages";
+  const char* before = static_cast<char*>(sbrk(0));
+  constexpr std::size_t bytes = std::size_t{16} << 20, page = LargePages<char>::page;
+  shareLargePages(bytes);
+  const char* end = static_cast<char*>(sbrk(0));
+  ASSERT_GE(static_cast<std::size_t>(end - before), bytes);
+  EXPECT_TRUE(asksForLargePages(before + page));
+  EXPECT_TRUE(asksForLargePages(end - page));
 }
 
 TEST(LargePages, AreLeftAloneForALittle) {
