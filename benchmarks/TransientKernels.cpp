@@ -262,7 +262,7 @@ BENCHMARK(longString)->ArgsProduct({{162, 1620, 16200}, {0, 1}})->UseManualTime(
 }  // namespace
 
 int main(int argc, char** argv) {
-  tooljoint::linalg::shareLargePages(std::size_t{1} << 30);  // as the program does
+  tooljoint::linalg::shareLargePages();  // as the program does
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

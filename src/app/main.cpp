@@ -22,9 +22,6 @@ namespace {
 
 using tooljoint::ExitCode;
 
-/// What all vectors of a string of a million dofs take; address space alone until it is written to [bytes].
-constexpr std::size_t heapOnLargePages = std::size_t{1} << 30;
-
 int code(ExitCode exit) { return static_cast<int>(exit); }
 
 /// Prints a message once, whatever the number of ranks.
@@ -144,7 +141,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tooljoint::linalg::shareLargePages(heapOnLargePages);
+  tooljoint::linalg::shareLargePages();
   Tpetra::ScopeGuard scope(&argc, &argv);
   return run(argc, argv);
 }

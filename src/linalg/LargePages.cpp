@@ -27,10 +27,12 @@ void shareLargePages(std::size_t bytes) {
   mallopt(M_TOP_PAD, static_cast<int>(std::min<std::size_t>(bytes, std::numeric_limits<int>::max())));
   const auto end = [] { return reinterpret_cast<std::uintptr_t>(sbrk(0)); };
   const std::uintptr_t before = end();
-  std::vector<void*> held;  // what was free already, and the first of what was not
-  do {
+  // What was free already is taken first. Where the heap does not grow (a limit, another allocator) nothing is asked for.
+  std::vector<void*> held;
+  for (std::size_t size = 0; size < bytes && end() == before; size += page) {
     held.push_back(std::malloc(page));
-  } while (held.back() != nullptr && end() == before);
+    if (held.back() == nullptr || reinterpret_cast<std::uintptr_t>(held.back()) >= before) break;
+  }
   const std::uintptr_t begin = (before + page - 1) / page * page;
   if (begin < end()) madvise(reinterpret_cast<void*>(begin), end() - begin, MADV_HUGEPAGE);  // a wish
   for (void* each : held) std::free(each);
