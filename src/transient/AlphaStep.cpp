@@ -2,10 +2,17 @@
 #include "transient/AlphaStep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/Log.hpp"
 
 namespace tooljoint::transient {
+namespace {
+
+/// What the acceleration by an impact has fallen to, beside its largest, where it is left out.
+constexpr double negligible = 1e-12;
+
+}  // namespace
 
 AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
   const double r = parameters.radius;
@@ -54,12 +61,15 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   Vector diagonal(n);
   model.combine(1.0, 0.0, 0.0, mass_->factor.values());
   model.diagonal(1.0, 0.0, 0.0, diagonal.data());
+  mass_->perUnit.setOnes(n);
   mass_->missing.assign(static_cast<std::size_t>(n), 0);
   for (int i = 0; i < n; ++i)
     if (diagonal[i] == 0.0) {
       mass_->factor.values()[model.pattern().address(i, i)] = 1.0;
       mass_->missing[static_cast<std::size_t>(i)] = 1;
       state.a[i] = 0.0;
+    } else {
+      mass_->perUnit[i] = 1.0 / diagonal[i];
     }
   ++counters.factorisations;
   const int bad = mass_->factor.factor();
@@ -72,27 +82,53 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
     state.a.setZero();
   }
   equation_.bind(model, parameters_.equations);
-  A_ = nextA_ = smooth_ = nextSmooth_ = error_ = state.a;
-  impact_ = lastImpact_ = Vector::Zero(n);
+  bind(state.a);
 }
 
 void AlphaStep::startLike(const AlphaStep& other) {
   model_ = other.model_;
   mass_ = other.mass_;
   equation_.bind(*model_, parameters_.equations);
-  A_ = nextA_ = smooth_ = nextSmooth_ = error_ = other.A_;
-  impact_ = lastImpact_ = Vector::Zero(A_.size());
+  bind(other.A_);
 }
 
-/// From constant algorithmic acceleration.
+void AlphaStep::bind(const Vector& a) {
+  A_ = nextA_ = error_ = a;
+  for (Impacts* impacts : {&impacts_, &lastImpacts_}) {
+    impacts->a.setZero(a.size());
+    impacts->blocks.clear();
+    impacts->blocks.reserve(4 * static_cast<std::size_t>(model_->pattern().blocks()));
+  }
+}
+
+void AlphaStep::clear(Impacts& impacts) const {
+  const auto& pattern = model_->pattern();
+  for (int b : impacts.blocks) impacts.a.segment(pattern.start(b), pattern.width(b)).setZero();
+  impacts.blocks.clear();
+}
+
+void AlphaStep::addImpacts(double factor, const Impacts& impacts, Vector& y) const {
+  const auto& pattern = model_->pattern();
+  for (int b : impacts.blocks) y.segment(pattern.start(b), pattern.width(b)) += factor * impacts.a.segment(pattern.start(b), pattern.width(b));
+}
+
+void AlphaStep::startWhere(const AlphaStep& other) {
+  A_ = other.A_;
+  lastImpacts_ = other.lastImpacts_;
+}
+
+/// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q'' is no part of it.
 void AlphaStep::predict(const State& from, State& to, double h) {
   for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
-  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_);
+  const StepScheme s = scheme(h);
+  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_), perVelocity = 1 / s.velocity, ofVelocity = s.acceleration / s.velocity;
   for (int i = 0; i < A_.size(); ++i) {
-    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i];
-    to.v[i] = from.v[i] + h * A_[i];
-    to.a[i] = c * (A_[i] - alphaF_ * smooth_[i]);
+    const double v = from.v[i] + h * A_[i];
+    to.v[i] = v;
+    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i] - perVelocity * v;
+    to.a[i] = c * (A_[i] - alphaF_ * from.a[i]) - ofVelocity * v;
   }
+  addImpacts(c * alphaF_ / s.impact, lastImpacts_, to.a);
 }
 
 bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counters& counters) {
@@ -101,58 +137,63 @@ bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counte
     if (!anyway || !equation_.isFinite()) return false;
     ++counters.unconvergedSteps;
   }
-  complete(to, h);
+  complete(from, to, h);
   return true;
 }
 
 /// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
-void AlphaStep::complete(State& to, double h) {
-  hit_ = false;
-  for (const auto& batch : model_->points()) hit_ = hit_ || batch.isScaled();
-  if (hit_) {
-    // impact_ = M^-1 R' f of the impacts, whose forces stand in the batches multiplied by the scheme's factor
-    impact_.setZero();
-    for (const auto& batch : model_->points()) batch.addScaledForce(impact_.data());
-    for (int i = 0; i < impact_.size(); ++i)
-      if (mass_->missing[static_cast<std::size_t>(i)]) impact_[i] = 0.0;
-    mass_->factor.solve(impact_.data());
-    to.a -= impact_;
-  }
+void AlphaStep::complete(const State& from, State& to, double h) {
   const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_), last = alphaM_ / (1 - alphaM_);
-  for (int i = 0; i < A_.size(); ++i) {
-    nextSmooth_[i] = to.a[i];
-    nextA_[i] = now * nextSmooth_[i] + before * smooth_[i] - last * A_[i];
-  }
-  if (hit_) to.a += impact_ / scheme(h).impact;
+  const double s = scheme(h).impact;
+  findImpacts();
+  for (int i = 0; i < A_.size(); ++i) nextA_[i] = now * to.a[i] + before * from.a[i] - last * A_[i];
+  addImpacts(-now, impacts_, nextA_);
+  addImpacts(-before / s, lastImpacts_, nextA_);
+  addImpacts(1 / s - 1, impacts_, to.a);
+}
+
+/// From the forces in the batches, which are multiplied by the scheme's factor.
+void AlphaStep::findImpacts() {
+  clear(impacts_);
+  for (const auto& batch : model_->points())
+    if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
+  const auto& pattern = model_->pattern();
+  double largest = 0;
+  for (int b : impacts_.blocks)
+    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) {
+      if (mass_->missing[static_cast<std::size_t>(i)]) impacts_.a[i] = 0.0;
+      largest = std::max(largest, std::abs(mass_->perUnit[i] * impacts_.a[i]));
+    }
+  mass_->factor.solveNear(impacts_.a.data(), impacts_.blocks, mass_->perUnit.data(), negligible * largest);
 }
 
 void AlphaStep::keep() {
   A_.swap(nextA_);
-  smooth_.swap(nextSmooth_);
-  impact_.swap(lastImpact_);
-  lastHit_ = hit_;
+  std::swap(impacts_, lastImpacts_);
 }
 
 void AlphaStep::addImpactVelocity(double factor, double h, bool before, Vector& v) const {
-  if (before ? lastHit_ : hit_) v += factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact * (before ? lastImpact_ : impact_);
+  addImpacts(factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact, before ? lastImpacts_ : impacts_, v);
 }
 
 const Vector& AlphaStep::localError(double h, bool impacts) {
   error_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
-  if (hit_ && impacts) error_ += impact_ / scheme(h).acceleration;  // h^2/2 M^-1 R'f, see complete()
+  if (impacts) addImpacts(1.0 / scheme(h).acceleration, impacts_, error_);  // h^2/2 M^-1 R'f, see complete()
   return error_;
 }
 
 void AlphaStep::save(std::vector<double>& memory) const {
-  for (const Vector* x : {&A_, &smooth_, &lastImpact_}) memory.insert(memory.end(), x->begin(), x->end());
-  memory.push_back(lastHit_ ? 1.0 : 0.0);
+  for (const Vector* x : {&A_, &lastImpacts_.a}) memory.insert(memory.end(), x->begin(), x->end());
   equation_.save(memory);
 }
 
 void AlphaStep::restore(const double*& memory) {
-  for (Vector* vector : {&A_, &smooth_, &lastImpact_})
+  for (Vector* vector : {&A_, &lastImpacts_.a})
     for (double& x : *vector) x = *memory++;
-  lastHit_ = *memory++ != 0.0;
+  lastImpacts_.blocks.clear();
+  const auto& pattern = model_->pattern();
+  for (int b = 0; b < pattern.blocks(); ++b)
+    if (!lastImpacts_.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0)) lastImpacts_.blocks.push_back(b);
   equation_.restore(memory);
 }
 

@@ -36,7 +36,7 @@ class AlphaStep {
   /// The step just taken counts: the next one starts where it ends.
   void keep();
   /// Start the next step where another has started the one it has just taken and not kept.
-  void startWhere(const AlphaStep& other) { A_ = other.A_, smooth_ = other.smooth_; }
+  void startWhere(const AlphaStep& other);
 
   /// What contact that lasts as an impact leaves in the velocity of a step of length h, where the step just taken starts (`before`) or ends,
   /// is added to v `factor` times. While q rests the scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
@@ -55,13 +55,24 @@ class AlphaStep {
   /// M with unit pivots where there is no mass.
   struct Mass {
     linalg::BlockFactor factor;
+    Vector perUnit;             ///< 1 / M_ii
     std::vector<char> missing;  ///< per position: no mass
     bool regular = true;        ///< but for those
   };
   void setPhaseCorrection();
+  void bind(const Vector& a);
   StepScheme scheme(double h) const;
   void predict(const State& from, State& to, double h);
-  void complete(State& to, double h);
+  /// M^-1 R'f of the impacts of a step, times the scheme's factor: zero but in a few blocks.
+  struct Impacts {
+    Vector a;
+    std::vector<int> blocks;
+  };
+  void complete(const State& from, State& to, double h);
+  void findImpacts();
+  void clear(Impacts& impacts) const;
+  /// y += factor a where a is not zero.
+  void addImpacts(double factor, const Impacts& impacts, Vector& y) const;
 
   Parameters parameters_;
   double alphaM_, alphaF_, beta_, gamma_;
@@ -69,11 +80,8 @@ class AlphaStep {
   CompiledModel* model_ = nullptr;
   ImplicitStep equation_;
   std::shared_ptr<Mass> mass_;
-  bool hit_ = false;            ///< impacts acted in the last step
-  Vector smooth_, nextSmooth_;  ///< q'' without impacts at t_n, t_{n+1}
-  Vector A_, nextA_;            ///< algorithmic acceleration at t_n, t_{n+1}
-  Vector impact_, lastImpact_;  ///< M^-1 R'f of impacts in the last step and the one before, times the scheme's factor
-  bool lastHit_ = false;
+  Vector A_, nextA_;              ///< algorithmic acceleration at t_n, t_{n+1}
+  Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
   Vector error_;
 };
 

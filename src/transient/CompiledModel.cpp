@@ -132,7 +132,6 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
-  summed_ = last_;
 }
 
 bool MatrixSum::update(const std::vector<double>& lawValues) {
@@ -149,20 +148,19 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
 }
 
 void MatrixSum::comeBack(const Snapshot& snapshot) {
+  const bool still = formed_ && last_ == snapshot.last;
   last_ = snapshot.last;
-  const bool known = std::none_of(snapshot.summed.begin(), snapshot.summed.end(), [](double c) { return std::isnan(c); });
-  if (!sum_.empty() && known && summed_ != snapshot.summed) form(snapshot.summed);
-  summed_ = snapshot.summed;
   formed_ = snapshot.formed;
+  if (formed_ && !still) form();
 }
 
-/// A = sum_i c_i A_i for these values of the laws, first term assigned, terms whose law is zero skipped
-void MatrixSum::form(const std::vector<double>& laws) const {
+/// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
+void MatrixSum::form() const {
   const std::size_t n = sum_.size();
   double* sum = sum_.data();
   bool assigned = false;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double c = laws[i];
+    const double c = last_[i];
     const double* values = terms_[i].values.data();
     if (c == 0.0) continue;
     if (!assigned)
@@ -173,14 +171,6 @@ void MatrixSum::form(const std::vector<double>& laws) const {
   }
   if (!assigned) std::fill(sum_.begin(), sum_.end(), 0.0);
   formed_ = true;
-  summed_ = laws;
-}
-
-bool MatrixSum::isFormedAt(const std::vector<double>& lawValues) const {
-  if (terms_.empty() || constant_ || formed_) return false;
-  for (std::size_t i = 0; i < terms_.size(); ++i)
-    if (!(summed_[i] == lawValues[z(terms_[i].law)])) return false;
-  return true;
 }
 
 void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const {

@@ -36,15 +36,11 @@ class MatrixSum {
   bool update(const std::vector<double>& lawValues);
   /// What update() and products have left, to come back to: the sum is formed anew where another has been.
   struct Snapshot {
-    std::vector<double> last, summed;
+    std::vector<double> last;
     bool formed = false;
   };
-  void remember(Snapshot& snapshot) const { snapshot.last = last_, snapshot.summed = summed_, snapshot.formed = formed_; }
+  void remember(Snapshot& snapshot) const { snapshot.last = last_, snapshot.formed = formed_; }
   void comeBack(const Snapshot& snapshot);
-  /// Whether A(t) is not formed while the sum for these values of all laws is, and y += that sum times x: what is missing then is
-  /// addChangeSince().
-  bool isFormedAt(const std::vector<double>& lawValues) const;
-  void addFormed(const double* x, double* y, linalg::BlockRange rows) const { product_.addTo(sum_.data(), x, y, 1.0, rows); }
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
   void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const;
   /// y += A(t) x, rows of these blocks.
@@ -69,11 +65,9 @@ class MatrixSum {
  private:
   std::vector<Term> terms_;
   std::vector<double> last_;  ///< law values at the time of the last update()
-  mutable std::vector<double> summed_;  ///< those of sum_
-  void form() const { form(last_); }
-  void form(const std::vector<double>& laws) const;
+  void form() const;
   mutable linalg::BlockValues sum_;
-  mutable bool formed_ = false;  ///< summed_ is last_
+  mutable bool formed_ = false;  ///< sum_ is for last_
   linalg::BlockProduct product_;
   bool constant_ = false;  ///< one term with the law 1: no sum is kept
 };
@@ -121,7 +115,9 @@ class CompiledModel {
   /// x' M x.
   double massForm(const double* x) const { return massProduct_.form(mass_.data(), x); }
   /// The same for the rows of some blocks.
-  void addMass(const double* x, double* y, linalg::BlockRange rows) const { massProduct_.addTo(mass_.data(), x, y, 1.0, rows); }
+  void addMass(const double* x, double* y, linalg::BlockRange rows, double factor = 1.0) const {
+    massProduct_.addTo(mass_.data(), x, y, factor, rows);
+  }
   void addDamping(const double* x, double* y, linalg::BlockRange rows) const { damping_.addTo(x, y, rows); }
   void addStiffness(const double* x, double* y, linalg::BlockRange rows) const { stiffness_.addTo(x, y, rows); }
   /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long vectors once.

@@ -33,15 +33,15 @@ void EnergyLedger::allocate(CompiledModel& model) {
   dissipated_.assign(dissipative_.size(), 0.0);
 }
 
-EnergyLedger::Powers EnergyLedger::pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, Looked at) {
+template <class Power>
+EnergyLedger::Powers EnergyLedger::sumPowers(CompiledModel& model, const Power& power) {
   Powers sum;
   for (auto& batch : model.points()) {
-    const auto& points = at == Looked::Everywhere ? batch.everyPoint() : at == Looked::WhereActed ? batch.acted() : batch.active();
-    const auto power = batch.power(t, q.data(), v.data(), points);
-    sum.stored += power.stored;
-    sum.damping += power.damping;
-    sum.friction += power.friction;
-    sum.drive += power.drive;
+    const auto each = power(batch);
+    sum.stored += each.stored;
+    sum.damping += each.damping;
+    sum.friction += each.friction;
+    sum.drive += each.drive;
   }
   return sum;
 }
@@ -57,7 +57,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   q_ = state.q;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
-  stored_ = pointPowers(model, state.t, state.q, state.v, Looked::Everywhere).stored;
+  stored_ = sumPowers(model, [&](auto& batch) { return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint()); }).stored;
   EnergyAccount now = account(model, state);
   now.contact = stored_;
   account_.initial = now.kinetic + now.strain + now.contact;
@@ -68,6 +68,34 @@ void EnergyLedger::book(CompiledModel& model, const State& to) {
   ++unwatched_;
   if (++skipped_ < stride_) return;
   enter(model, to);
+}
+
+/// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq, which is the change of q'K q / 2 for a constant
+/// symmetric K; the rest is circulatory. Of each damping term: dq' C_i dq.
+EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const State& to) {
+  const bool conservative = model.stiffness().isConservative();
+  const auto& terms = model.damping().terms();
+  double strain = 0, work = 0;
+  std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
+  for (const auto& run : model.runs()) {
+    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
+    if (conservative) {
+      strain += 0.5 * model.stiffness().form(to.q.data(), run);
+    } else {
+      const auto step = step_.segment(begin, length);
+      auto product = product_.segment(begin, length);
+      product.setZero();
+      model.addStiffness(to.q.data(), product_.data(), run);
+      strain += 0.5 * to.q.segment(begin, length).dot(product);
+      work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
+      internal_.segment(begin, length) = product;
+    }
+    for (std::size_t i = 0; i < dissipative_.size(); ++i) {
+      const auto& term = terms[dissipative_[i]];
+      if (model.damping().factor(dissipative_[i]) != 0.0) dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
+    }
+  }
+  return {strain, conservative ? strain - strain_ : work};
 }
 
 void EnergyLedger::enter(CompiledModel& model, const State& to) {
@@ -91,31 +119,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     load_[i] = load[i];
   }
   entry(account_.loads, loads);
-  // K: (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory.
-  // C_i: dq' c_i C_i dq / h
-  const bool conservative = model.stiffness().isConservative();
-  const auto& terms = model.damping().terms();
-  double work = 0, strain = 0;
-  std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
-  for (const auto& run : model.runs()) {
-    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
-    if (conservative) {
-      strain += 0.5 * model.stiffness().form(to.q.data(), run);
-    } else {
-      const auto step = step_.segment(begin, length);
-      auto product = product_.segment(begin, length);
-      product.setZero();
-      model.addStiffness(to.q.data(), product_.data(), run);
-      strain += 0.5 * to.q.segment(begin, length).dot(product);
-      work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
-      internal_.segment(begin, length) = product;
-    }
-    for (std::size_t i = 0; i < dissipative_.size(); ++i) {
-      const auto& term = terms[dissipative_[i]];
-      if (model.damping().factor(dissipative_[i]) != 0.0) dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
-    }
-  }
-  if (conservative) work = strain - strain_;
+  const auto [strain, work] = formWorks(model, to);
   entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
@@ -124,11 +128,8 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at the end of a step that meets
   // a wall is not what it went in with)
   if (!model.points().empty()) {
-    for (int i = 0; i < step_.size(); ++i) {
-      product_[i] = to.q[i] - 0.5 * step_[i];
-      step_[i] /= h;
-    }
-    const Powers mean = pointPowers(model, to.t - 0.5 * h, product_, step_, Looked::WhereActed);
+    const Powers mean =
+        sumPowers(model, [&](auto& batch) { return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted()); });
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
@@ -141,12 +142,17 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
       std::abs(account_.loads - given) + std::abs(account_.drive - driven) + std::abs(account_.circulatory - turned);
 }
 
+/// Points that are not active store nothing.
+double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
+  return sumPowers(model, [&](auto& batch) { return batch.power(state.t, state.q.data(), state.v.data(), batch.active()); }).stored;
+}
+
 bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
   unwatched_ = 0;
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = 0.5 * model.massForm(state.v.data());
   account_.strain = strain_;
-  account_.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
+  account_.contact = storedNow(model, state);
   return account_.runaway();
 }
 
@@ -155,7 +161,7 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
   EnergyAccount result = account_;
   result.kinetic = 0.5 * model.massForm(state.v.data());
   result.strain = strain_;
-  result.contact = pointPowers(model, state.t, state.q, state.v, Looked::WhereActive).stored;
+  result.contact = storedNow(model, state);
   return result;
 }
 

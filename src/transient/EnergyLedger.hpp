@@ -58,10 +58,15 @@ class EnergyLedger {
   struct Powers {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
+  struct Works {
+    double strain, stiffness;
+  };
   void allocate(CompiledModel& model);
-  /// Points whose laws are asked: all, those active since the last entry, those active now (others store nothing).
-  enum class Looked { Everywhere, WhereActed, WhereActive };
-  Powers pointPowers(CompiledModel& model, double t, const Vector& q, const Vector& v, Looked at);
+  Works formWorks(const CompiledModel& model, const State& to);
+  /// Sum of power(batch) over all batches.
+  template <class Power>
+  static Powers sumPowers(CompiledModel& model, const Power& power);
+  static double storedNow(CompiledModel& model, const State& state);
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work

@@ -18,10 +18,10 @@ constexpr double slowestSweeps = 0.8;
 /// Pairs of sweeps in a row that may make less of it: the first ones spread what stuck at a few points.
 constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
-constexpr double factorPrice = 14;
+constexpr double factorPrice = 45;
 
-/// A product with what the laws have changed, and what a relaxation near few points costs beside the blocks it reaches, in relaxations.
-constexpr double driftPrice = 0.5, nearPrice = 0.1;
+/// A product with what the laws have changed, in relaxations; what a relaxation near few points costs beside the blocks it reaches, in blocks.
+constexpr double driftPrice = 0.5, nearPrice = 16;
 
 /// max_i w_i sum_j |A_ij|
 double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
@@ -41,12 +41,9 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   options_ = options;
   const int n = model.size();
   for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
-                    &savedChange_, &guess_, &last_, &drift_, &rowSize_, &correction_, &filtered_, &acceleration_})
+                    &savedChange_, &guess_, &last_, &lastPredicted_, &drift_, &rowSize_, &inertia_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   predicted_.resize(n);
-  int longest = 0;
-  for (const auto& run : model.runs()) longest = std::max(longest, model.pattern().start(run.end) - model.pattern().start(run.begin));
-  stiff_.setZero(longest);
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);
@@ -62,6 +59,8 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   model_->diagonal(scheme.acceleration, scheme.velocity, 1.0, weight_.data());
   const double smallest = 1e-12 * weight_.cwiseAbs().maxCoeff();
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
+  model_->diagonal(1.0, 0.0, 0.0, inertia_.data());
+  inertia_ = inertia_.cwiseProduct(weight_);
   relaxation_.setWeights(weight_);
   const auto& pattern = model_->pattern();
   if (relaxes_) relaxation_.setImpacts(scheme.h, scheme.impact);
@@ -77,39 +76,42 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   rowSize_ = 4e-16 * rowSize_.cwiseProduct(weight_);
 }
 
-/// linear_ = M a + C v + K q - F at the predicted state, with the sizes of what it is made of; run by run, while it is in the cache.
-void ImplicitStep::linearResidual(const State& to, Damping damping) {
+/// linear_ = M a + K q - F where v = 0, or M a + C v + K q - F, with the sizes of what it is made of (a the predicted one); run by
+/// run, while it is in the cache.
+void ImplicitStep::linearResidual(const State& to, From from) {
   const CompiledModel& model = *model_;
   const Eigen::Map<const Vector> load(model.load(), model.size());
+  const double ahead = from == From::Rest ? scheme_.acceleration / scheme_.velocity : 0.0;
   double size = 0, floor = 0;
   for (const auto& run : model.runs()) {
     const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
     const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
     auto sum = linear_.segment(begin, length).array();
-    auto stiff = stiff_.head(length).array();
     sum.setZero();
     model.addStiffness(to.q.data(), linear_.data(), run);
-    stiff = sum;
-    sum.setZero();
-    model.addMass(to.a.data(), linear_.data(), run);
-    const auto forces = sum.abs().max(stiff.abs()).max(part(load).abs());
-    size = std::max(size, (part(weight_) * forces).maxCoeff());
+    const auto forces = part(weight_) * sum.abs().max(part(load).abs());
+    const auto inertia = part(inertia_) * (part(to.a) + ahead * part(to.v)).abs();
+    size = std::max(size, forces.max(inertia).maxCoeff());
     floor = std::max(floor, (part(rowSize_) * part(to.q).abs()).maxCoeff());
-    sum += stiff - part(load);
-    if (damping == Damping::Now)
-      model.addDamping(to.v.data(), linear_.data(), run);
-    else
-      model.damping().addFormed(to.v.data(), linear_.data(), run);
+    model.addMass(to.a.data(), linear_.data(), run);
+    sum -= part(load);
+    if (from == From::Motion) model.addDamping(to.v.data(), linear_.data(), run);
   }
   linearReference_ = reference_ = size;
   floor_ = floor;
+}
+
+/// From q, a where v = 0 to those of the predicted v.
+void ImplicitStep::predict(State& to) const {
+  to.q += to.v / scheme_.velocity;
+  to.a += scheme_.acceleration / scheme_.velocity * to.v;
 }
 
 void ImplicitStep::prepare(const StepScheme& scheme, double t) {
   if (scheme_.h == scheme.h) return;
   if (scheme.phase != 0.0 && filter_.empty()) filter_ = linalg::BlockFactor(model_->pattern());
   scale(scheme, t);
-  for (Vector* x : {&last_, &guess_}) x->setZero();
+  for (Vector* x : {&last_, &lastPredicted_, &guess_}) x->setZero();
   scheme_ = scheme;
 }
 
@@ -117,8 +119,7 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   counters_ = &counters;
   prepare(scheme, to.t);
   model_->setTime(to.t);
-  lags_ = relaxes_ && factored_ && !wanted_ && factorScheme_.h == scheme_.h && model_->damping().isFormedAt(factorLaws_);
-  linearResidual(to, lags_ ? Damping::WhenFactored : Damping::Now);
+  linearResidual(to, From::Rest);
   error_ = INFINITY;
   return (relaxes_ && relax(to)) || finish(to);
 }
@@ -126,15 +127,6 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
 /// y += (S(now) - S(then)) delta for what the laws have changed since S was factored.
 void ImplicitStep::addDrift(const Vector& delta, Vector& y) {
   model_->addChangeSince(factorLaws_, scheme_.velocity, delta.data(), y.data());
-}
-
-/// drift_ = (S(now) - S(then)) delta, with the damping of the predicted velocity where linear_ lacks it.
-void ImplicitStep::findDrift(const State& to, const Vector& delta) {
-  drift_.setZero();
-  if (!lags_) return addDrift(delta, drift_);
-  scratch_ = to.v + scheme_.velocity * delta;
-  model_->damping().addChangeSince(factorLaws_, 1.0, scratch_.data(), drift_.data());
-  model_->stiffness().addChangeSince(factorLaws_, 1.0, delta.data(), drift_.data());
 }
 
 /// A bound of max |w (S(now) - S(then)) x| / max |x|.
@@ -150,20 +142,19 @@ double ImplicitStep::driftNorm() const {
   return norm;
 }
 
-/// Relaxation of the point forces. False, with `to` and linear_ at the predicted state and delta_ where it stopped, when it does
-/// not get there.
+/// Relaxation of the point forces. False, with `to` and linear_ as they were and delta_ where it stopped, when it does not get there.
 bool ImplicitStep::relax(State& to) {
   if (!factored_ || factorScheme_.h != scheme_.h || wanted_) {
-    refactor(to);
+    predicted_ = to;
+    predict(predicted_);
+    refactor(predicted_);
     if (!factored_) return false;
   }
-  guess_.swap(last_);
   if (!compliant_) relaxation_.setCompliance(factor_);
   compliant_ = true;
-  for (;;) {
-    relaxation_.start(to.q, to.v, linear_);
-    if (!settle(to)) {
-      guess_.swap(last_);
+  for (bool again = false;; again = true) {
+    relaxation_.start(to.q, linear_);
+    if (!settle(to, again)) {
       wanted_ = true;
       return false;
     }
@@ -171,49 +162,74 @@ bool ImplicitStep::relax(State& to) {
     bool missed = false;
     for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
     if (!missed) break;
-    guess_ = delta_;
   }
   to.q.swap(q0_);
+  to.v.swap(lastPredicted_);
   const double c = scheme_.velocity, a = scheme_.acceleration;
-  for (int i = 0; i < delta_.size(); ++i) to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
+  for (int i = 0; i < delta_.size(); ++i) to.v[i] = c * delta_[i], to.a[i] += a * delta_[i];
   last_.swap(delta_);
   return true;
 }
 
 /// Newton from where relaxation stopped, which is often wrong at a few points only, and from the predicted state.
 bool ImplicitStep::finish(State& to) {
-  if (lags_) model_->damping().addChangeSince(factorLaws_, 1.0, to.v.data(), linear_.data());
-  lags_ = false;
-  if (!(error_ <= reference_)) return iterate(to);  // nowhere, or nothing to start from
-  if (corrected_) correctPhase(to);
   predicted_ = to;
-  const double c = scheme_.velocity, a = scheme_.acceleration;
-  for (int i = 0; i < delta_.size(); ++i) to.q[i] += delta_[i], to.v[i] += c * delta_[i], to.a[i] += a * delta_[i];
-  linearResidual(to, Damping::Now);
-  if (corrected_) linear_ -= correction_;
-  if (iterate(to)) return true;
+  predict(predicted_);
+  if (error_ <= reference_) {  // relaxation got somewhere
+    if (corrected_) correctPhase(to);
+    to.q += delta_;
+    to.v = scheme_.velocity * delta_;
+    to.a += scheme_.acceleration * delta_;
+    linearResidual(to, From::Motion);
+    if (corrected_) linear_ -= correction_;
+    if (iterate(to)) return true;
+    wanted_ = true;
+  }
   to = predicted_;
-  linearResidual(to, Damping::Now);
-  wanted_ = true;
+  linearResidual(to, From::Motion);
   return iterate(to);
 }
 
-/// The iteration itself: delta_ from guess_ (which it may change).
-bool ImplicitStep::settle(State& to) {
+/// Where iterations begin: at delta_ when it has been found before points were found to be missed, else at the predicted v and as
+/// much beyond it as the last step has gone. With what laws have changed, drift_ is that of guess_.
+void ImplicitStep::guess(const State& to, bool again, double norm) {
+  const double c = scheme_.velocity;
+  if (again)
+    relaxation_.guess(to.t, c, delta_);
+  else
+    relaxation_.guess(to.t, c, last_, to.v, lastPredicted_);
+  if (!(norm > 0)) return;
+  if (again)
+    guess_ = delta_;
+  else
+    guess_ = last_ + (to.v - lastPredicted_) / c;
+  if (norm * guess_.cwiseAbs().maxCoeff() > 0.1 * tolerance())
+    findDrift();
+  else
+    guess_.setZero(), drift_.setZero();
+}
+
+/// drift_ = (S(now) - S(then)) guess_
+void ImplicitStep::findDrift() {
+  drift_.setZero();
+  addDrift(guess_, drift_);
+}
+
+/// What acts beside the linear residual and the points, if anything.
+const Vector* ImplicitStep::otherForces(double norm) {
+  if (!(norm > 0)) return corrected_ ? &correction_ : nullptr;
+  scratch_ = -drift_;
+  if (corrected_) scratch_ += correction_;
+  return &scratch_;
+}
+
+/// The iteration itself: delta_.
+bool ImplicitStep::settle(State& to, bool again) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
   const double negligible = 0.1 * tolerance();
-  relaxation_.guess(to.t, c, guess_);
+  guess(to, again, norm);
   corrected_ = false;
-  if (norm > 0) {
-    const double moved = guess_.cwiseAbs().maxCoeff() + (lags_ ? to.v.cwiseAbs().maxCoeff() / c : 0.0);
-    if (norm * moved > negligible) {
-      findDrift(to, guess_);
-    } else {
-      drift_.setZero();
-      guess_.setZero();  // what drift_ stands for
-    }
-  }
   bool phase = correctsPhase(), near = false;
   const double settled = std::sqrt(options_.tolerance);
   double last = 0, work = 1;
@@ -222,15 +238,9 @@ bool ImplicitStep::settle(State& to) {
   for (int iteration = 1; turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     if (near) {
       relaxation_.solveNear(factor_, tolerance(), delta_);
-      work += nearPrice + relaxation_.nearShare();
+      work += relaxation_.nearShare() + nearPrice / model_->pattern().blocks();
     } else {
-      const Vector* force = corrected_ ? &correction_ : nullptr;
-      if (norm > 0) {
-        scratch_ = -drift_;
-        if (corrected_) scratch_ += correction_;
-        force = &scratch_;
-      }
-      relaxation_.solve(factor_, force, delta_);
+      relaxation_.solve(factor_, otherForces(norm), delta_);
     }
     ++counters_->newtonIterations;
     double force = near ? reference_ : linearReference_;
@@ -244,8 +254,8 @@ bool ImplicitStep::settle(State& to) {
       changed = true;
     }
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
-      findDrift(to, delta_);
       guess_ = delta_;
+      findDrift();
       debt_ += driftPrice;
       changed = true;
       good = false;
@@ -318,18 +328,18 @@ bool ImplicitStep::correctsPhase() const {
 /// again from one that is near where the first was not: what that misses is of the order of the square of k (I - F) F.
 void ImplicitStep::correctPhase(const State& to) {
   const auto& pattern = model_->pattern();
+  const double k = scheme_.phase, kF = k * scheme_.filter * scheme_.acceleration;
   acceleration_ = to.a + scheme_.acceleration * delta_;
   for (const auto& run : model_->runs()) {
-    std::fill(&filtered_[pattern.start(run.begin)], filtered_.data() + pattern.start(run.end), 0.0);
+    const int begin = pattern.start(run.begin), length = pattern.start(run.end) - begin;
+    auto inertia = filtered_.segment(begin, length);
+    inertia.setZero();
     model_->addMass(acceleration_.data(), filtered_.data(), run);
+    correction_.segment(begin, length) = k * inertia;
   }
   filter_.solve(filtered_.data());
-  acceleration_ = scheme_.phase * (acceleration_ - scheme_.filter * scheme_.acceleration * filtered_);
+  for (const auto& run : model_->runs()) model_->addMass(filtered_.data(), correction_.data(), run, -kF);
   corrected_ = true;
-  for (const auto& run : model_->runs()) {
-    std::fill(&correction_[pattern.start(run.begin)], correction_.data() + pattern.start(run.end), 0.0);
-    model_->addMass(acceleration_.data(), correction_.data(), run);
-  }
 }
 
 double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
@@ -341,7 +351,7 @@ void ImplicitStep::save(std::vector<double>& memory) const {
     memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
   memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
   memory.insert(memory.end(), weight_.begin(), weight_.end());
-  memory.insert(memory.end(), last_.begin(), last_.end());
+  for (const Vector* x : {&last_, &lastPredicted_}) memory.insert(memory.end(), x->begin(), x->end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
   relaxation_.save(memory);
 }
@@ -361,7 +371,8 @@ void ImplicitStep::restore(const double*& memory) {
   if (scheme.h > 0) scale(scheme, now);
   scheme_ = scheme;
   for (double& x : weight_) x = *memory++;
-  for (double& x : last_) x = *memory++;
+  for (Vector* vector : {&last_, &lastPredicted_})
+    for (double& x : *vector) x = *memory++;
   if (scheme.h > 0) relaxation_.setWeights(weight_);
   for (double& x : factorLaws_) x = *memory++;
   relaxation_.restore(memory);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The nonlinear equations of one implicit step. From a predicted q, v, a,
+/// The nonlinear equations of one implicit step. From the q, a of a step that would end at rest,
 ///
-///     M (a + ca delta) + C (v + cv delta) + K (q + delta) = F + R' f(q + delta, v + cv delta, t)
+///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
 /// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme asks for it, see
-/// GeneralizedAlpha::setPhaseCorrection) is solved for delta, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
+/// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
 /// once (PointRelaxation), and where that is slow by modified Newton with exact tangents: the factor is renewed, each update
 /// backtracked on the residual scaled by the diagonal of S, points whose force jumps are solved by themselves
 /// (NodalCorrection), and a jump along the search direction is bracketed.
@@ -43,7 +43,8 @@ class ImplicitStep {
 
   /// What depends on the scheme alone; solve() calls it when it has another one.
   void prepare(const StepScheme& scheme, double t);
-  /// Completes the predicted `to`; false when nothing converged (`to` then holds the last iterate).
+  /// Completes `to`, which has q and a as they are where v = 0, and the predicted v; false when nothing converged (`to` then holds
+  /// the last iterate).
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
   /// Whether the iterate left by a failed solve() is made of numbers.
@@ -57,10 +58,11 @@ class ImplicitStep {
 
  private:
   void scale(const StepScheme& scheme, double t);
-  enum class Damping { Now, WhenFactored };
-  void linearResidual(const State& to, Damping damping);
+  enum class From { Rest, Motion };
+  void linearResidual(const State& to, From from);
+  void predict(State& to) const;
   bool relax(State& to);
-  bool settle(State& to);
+  bool settle(State& to, bool again);
   bool finish(State& to);
   void account(double relaxations);
   bool iterate(State& to);
@@ -72,8 +74,10 @@ class ImplicitStep {
   void buildFactor();
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
   void addDrift(const Vector& delta, Vector& y);
-  void findDrift(const State& to, const Vector& delta);
   double driftNorm() const;
+  void guess(const State& to, bool again, double norm);
+  void findDrift();
+  const Vector* otherForces(double norm);
   bool backtrack(State& to);
   bool solveTroubledPoints(State& to, double before);
   bool bracket(State& to, double beyond);
@@ -101,11 +105,10 @@ class ImplicitStep {
   bool compliant_ = false;  ///< its compliance belongs to the factor
   double usual_ = 0;        ///< relaxations of the first step with this factor
   double debt_ = 0;         ///< relaxations beyond that since
-  Vector guess_, drift_;
-  bool lags_ = false;  ///< linear_ has the damping of the factor; what it lacks is in drift_
-  State predicted_;  ///< to go back to
+  Vector guess_, drift_;    ///< where iterations began, and what the changes of the laws make of it
+  State predicted_;         ///< to go back to
   bool corrected_ = false;  ///< correction_ belongs to this step
-  Vector last_;  ///< delta of the last step
+  Vector last_, lastPredicted_;  ///< delta and predicted v of the last step
 
   linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R
   Vector correction_;           ///< k M (I - F) q'' at the iterate
@@ -117,7 +120,7 @@ class ImplicitStep {
   Vector base_, saved_, savedChange_;
   Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
-  Vector stiff_;  ///< K q of one run
+  Vector inertia_;  ///< w_i M_ii
   std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
   double error_ = 0;      ///< max |w R|
   double merit_ = 0;      ///< |w R|_2

@@ -126,7 +126,13 @@ void PointBatch::gatherAll(const double* q, const double* v) {
   }
 }
 
-void PointBatch::gatherActive(const double* q, const double* v) { gatherThese(active_, q, v); }
+void PointBatch::gatherActive(const double* q) { gatherPositions(active_, q); }
+
+void PointBatch::gatherPositions(const std::vector<int>& points, const double* q) {
+  for (int p : points)
+    for (int r = p * width_; r < (p + 1) * width_; ++r)
+      d_[z(r)] = offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
+}
 
 void PointBatch::gatherThese(const std::vector<int>& points, const double* q, const double* v) {
   for (int p : points)
@@ -145,9 +151,7 @@ void PointBatch::gatherThese(const std::vector<int>& points, const double* q, co
 /// Clearances at q of the points that are awake; what slept is as if it had stood still.
 void PointBatch::measure(const double* q, std::vector<double>& gap) {
   watch_.wake(q);
-  for (int p : watch_.awake())
-    for (int r = p * width_; r < (p + 1) * width_; ++r)
-      d_[z(r)] = offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
+  gatherPositions(watch_.awake(), q);
   law_->clearanceLeft(watch_.awake(), d_.data(), gap.data());
   for (int p : watch_.woken()) gap_[z(p)] = lastGap_[z(p)] = check_[z(p)] = gap[z(p)];
   watch_.settle(q, gap.data());
@@ -189,6 +193,13 @@ model::PointLaw::Power PointBatch::power(double t, const double* q, const double
   return law_->power(t, points, d_.data(), v_.data());
 }
 
+model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* q, const double* step, const std::vector<int>& points) {
+  gatherThese(points, q, step);
+  for (int p : points)
+    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] -= 0.5 * v_[z(r)], v_[z(r)] /= h;
+  return law_->power(t, points, d_.data(), v_.data());
+}
+
 const std::vector<int>& PointBatch::acted() {
   acted_.clear();
   for (int p = 0; p < points_; ++p)
@@ -211,13 +222,13 @@ bool PointBatch::addMissed(const double* q, double t) {
 
 void PointBatch::evaluate(double t, const double* q, const double* v) {
   if (active_.empty()) return;
-  gatherActive(q, v);
+  gatherThese(active_, q, v);
   evaluateHere(t, active_, false);
 }
 
 void PointBatch::evaluateWithTangent(double t, const double* q, const double* v) {
   if (active_.empty()) return;
-  gatherActive(q, v);
+  gatherThese(active_, q, v);
   evaluateHere(t, active_, true);
 }
 
@@ -235,10 +246,12 @@ void PointBatch::scalePoint(int p, bool tangent) {
   for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) dfdd_[z(i)] *= scale, dfdv_[z(i)] *= scale;
 }
 
-void PointBatch::addScaledForce(double* y) const {
-  for (int p : active_)
-    if (scale_[z(p)] != 1.0)
-      for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[z(r)], y);
+void PointBatch::addScaledForce(double* y, std::vector<int>& blocks) const {
+  for (int p : active_) {
+    if (scale_[z(p)] == 1.0) continue;
+    for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[z(r)], y);
+    appendBlocks(p, blocks);
+  }
 }
 
 void PointBatch::applyScale(const std::vector<int>& points, bool tangent) {

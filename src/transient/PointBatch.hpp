@@ -47,8 +47,8 @@ class PointBatch {
   /// Multiply force and tangents of a point by this in all evaluations from now on (1 at first).
   void setScale(int point, double scale);
   double scale(int point) const { return scale_[static_cast<std::size_t>(point)]; }
-  /// y += R' f of the points whose scale is not 1, f multiplied by it.
-  void addScaledForce(double* y) const;
+  /// y += R' f of the points whose scale is not 1, f multiplied by it; their blocks are appended.
+  void addScaledForce(double* y, std::vector<int>& blocks) const;
   /// Apply a scale set after the last evaluation with tangents to what it left.
   void rescale(int point) { scalePoint(point, true); }
   bool isScaled() const { return scaled_ > 0; }
@@ -58,8 +58,8 @@ class PointBatch {
   void gather(const std::vector<int>& points, const double* x, double* rows) const;
   /// y += R' rows.
   void scatter(const std::vector<int>& points, const double* rows, double* y) const;
-  /// d() and v() at (q, v).
-  void gatherActive(const double* q, const double* v);
+  /// d() at q.
+  void gatherActive(const double* q);
   /// Where the next evaluateHere() evaluates, offsets included.
   double* position() { return d_.data(); }
   double* velocity() { return v_.data(); }
@@ -114,6 +114,8 @@ class PointBatch {
 
   /// Powers at (q, v), summed over these points.
   model::PointLaw::Power power(double t, const double* q, const double* v, const std::vector<int>& points);
+  /// The same in the middle of the chord `step` that ends at q after h seconds, at its velocity.
+  model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step, const std::vector<int>& points);
   /// All points, and those that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
@@ -132,6 +134,7 @@ class PointBatch {
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
+  void gatherPositions(const std::vector<int>& points, const double* q);
   void findBlocks(const linalg::BlockPattern& pattern);
   void listActive();
   void measure(const double* q, std::vector<double>& gap);

@@ -53,7 +53,7 @@ void PointRelaxation::bind(CompiledModel& model) {
   for (const auto& batch : model.points()) {
     Set set;
     const std::size_t rows = z(batch.points()) * z(batch.width());
-    for (auto* array : {&set.d, &set.v, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change}) array->assign(rows, 0.0);
+    for (auto* array : {&set.d, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
     set.known.assign(z(batch.points()), 0);
@@ -139,15 +139,14 @@ void PointRelaxation::restore(const double*& memory) {
     for (double& stiffness : set.stiffness) stiffness = *memory++;
 }
 
-void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& residual) {
+void PointRelaxation::start(const Vector& q, const Vector& residual) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     PointBatch& batch = model_->points()[b];
     Set& set = sets_[b];
     const int w = batch.width();
-    batch.gatherActive(q.data(), v.data());
+    batch.gatherActive(q.data());
     for (int p : batch.active()) {
       std::copy_n(batch.d() + p * w, w, &set.d[z(p * w)]);
-      std::copy_n(batch.v() + p * w, w, &set.v[z(p * w)]);
       set.exact[z(p)] = 0;
       set.moved[z(p)] = 1;
       set.error[z(p)] = std::numeric_limits<double>::infinity();
@@ -159,15 +158,14 @@ void PointRelaxation::start(const Vector& q, const Vector& v, const Vector& resi
   residual_ = &residual;
 }
 
-void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent) {
-  batch.gather(set.points, delta.data(), set.y.data());
+void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, bool tangent) {
   const double* y = set.y.data();
   double* d = batch.position();
   double* v = batch.velocity();
   withWidth(batch.width(), [&](auto width) {
     const int w = width;
     for (int p : set.points)
-      for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = set.v[z(r)] + c * y[r];
+      for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = c * y[r];
   });
   batch.evaluateHere(t, set.points, tangent);
 }
@@ -181,7 +179,8 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
       listMoved(set, batch);
     else
       set.points = batch.active();
-    place(set, batch, t, c, delta, false);
+    batch.gather(set.points, delta.data(), set.y.data());
+    place(set, batch, t, c, false);
     measure(set, batch, small, force);
     for (int p : isNear_ && allMoved_ ? set.points : batch.active())
       if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
@@ -231,13 +230,34 @@ void PointRelaxation::guess(double t, double c, const Vector& delta) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     set.points = batch.active();
-    if (set.points.empty()) continue;
-    place(set, batch, t, c, delta, true);
-    findImpacts(set, batch);
-    withWidth(batch.width(), [&](auto width) {
-      for (int p : batch.active()) answer(set, batch, p, c, width);
-    });
+    batch.gather(set.points, delta.data(), set.y.data());
+    prepare(set, batch, t, c);
   }
+}
+
+void PointRelaxation::guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV) {
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    Set& set = sets_[b];
+    PointBatch& batch = model_->points()[b];
+    set.points = batch.active();
+    batch.gather(set.points, last.data(), set.y.data());
+    batch.gather(set.points, v.data(), set.target.data());
+    batch.gather(set.points, lastV.data(), set.change.data());
+    const int w = batch.width();
+    for (int p : set.points)
+      for (std::size_t r = z(p * w); r < z((p + 1) * w); ++r) set.y[r] += (set.target[r] - set.change[r]) / c;
+    prepare(set, batch, t, c);
+  }
+}
+
+/// Laws, impacts and answers at y.
+void PointRelaxation::prepare(Set& set, PointBatch& batch, double t, double c) {
+  if (set.points.empty()) return;
+  place(set, batch, t, c, true);
+  findImpacts(set, batch);
+  withWidth(batch.width(), [&](auto width) {
+    for (int p : set.points) answer(set, batch, p, c, width);
+  });
 }
 
 /// Consistent forces p = f - P y of a point, and B = (I - (J - P) G)^-1.
@@ -304,7 +324,7 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
   const auto local = [&](const std::vector<double>& rows) { return Eigen::Map<const Vector>(&rows[z(first)], w); };
   problem_.point = point;
   problem_.d = local(set.d);
-  problem_.v = local(set.v);
+  problem_.v = NodalProblem::Local::Zero(w);
   problem_.f0 = NodalProblem::Local::Zero(w);
   problem_.P = Rows(batch.frozen() + first * w, w, w);
   problem_.G = Rows(&set.compliance[z(first * w)], w, w);

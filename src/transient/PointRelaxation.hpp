@@ -45,10 +45,11 @@ class PointRelaxation {
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
-  /// Remember where the step starts: predicted q, v and the residual R0 of all linear terms there, which must outlive the step.
-  void start(const Vector& q, const Vector& v, const Vector& residual);
-  /// Evaluate the laws at delta, with tangents, and set p so that it is consistent with them.
+  /// Remember where delta counts from: q where v = 0, and the residual R0 of all linear terms there, which must outlive the step.
+  void start(const Vector& q, const Vector& residual);
+  /// Evaluate the laws at delta, or at last + (v - lastV) / c, with tangents, and set p so that it is consistent with them.
   void guess(double t, double c, const Vector& delta);
+  void guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV);
   /// delta for the present p; `force`, if any, acts as well.
   void solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta);
   /// The same after a correct() that says so: delta changes by what the forces of the points corrected have changed, but for
@@ -56,7 +57,7 @@ class PointRelaxation {
   void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
   /// Share of all blocks that the last solveNear() reached.
   double nearShare() const { return nearShare_; }
-  /// Evaluate the laws at delta (v changes by c per unit of delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
+  /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
   /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
   /// One Newton step at every point, and the whole way at those where Newton does not help. True when it was only taken at the
@@ -70,7 +71,7 @@ class PointRelaxation {
 
  private:
   struct Set {
-    std::vector<double> d, v;     ///< rows at delta = 0
+    std::vector<double> d;        ///< rows at delta = 0
     std::vector<double> y;        ///< rows of delta
     std::vector<double> p;
     std::vector<double> defect;   ///< f - P y - p
@@ -91,7 +92,8 @@ class PointRelaxation {
   template <class Width>
   void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
   void listMoved(Set& set, const PointBatch& batch) const;
-  void place(Set& set, PointBatch& batch, double t, double c, const Vector& delta, bool tangent);
+  void place(Set& set, PointBatch& batch, double t, double c, bool tangent);
+  void prepare(Set& set, PointBatch& batch, double t, double c);
   void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
   void measure(Set& set, PointBatch& batch, double small, double& force);
   void move(Set& set, PointBatch& batch, int point, double t, double c);

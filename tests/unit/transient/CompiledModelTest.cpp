@@ -69,21 +69,21 @@ TEST(CompiledModel, productsAndLoadsAreThoseOfTheModelAtEveryTime) {
   model.toPositions(x, xp);
   for (double t : {0.0, 0.5, 2.0, 0.5}) {
     model.setTime(t);
-    using Product = void (CompiledModel::*)(const double*, double*, linalg::BlockRange) const;
-    const auto expectProduct = [&](Product add, const Matrix& a) {
+    const auto expectProduct = [&](const auto& add, const Matrix& a) {
       // whole, and block by block in any order
       for (const bool whole : {true, false}) {
         y.setZero();
         const int blocks = model.pattern().blocks();
-        if (whole) (model.*add)(xp.data(), y.data(), {0, blocks});
-        for (int b = blocks - 1; !whole && b >= 0; --b) (model.*add)(xp.data(), y.data(), {b, b + 1});
+        if (whole) add(linalg::BlockRange{0, blocks});
+        for (int b = blocks - 1; !whole && b >= 0; --b) add(linalg::BlockRange{b, b + 1});
         model.toDofs(y, back);
         EXPECT_LT((back - a * x).cwiseAbs().maxCoeff(), 1e-13) << "t = " << t;
       }
     };
-    expectProduct(&CompiledModel::addMass, Matrix(source.mass));
-    expectProduct(&CompiledModel::addDamping, Matrix(source.dampingAt(t)));
-    expectProduct(&CompiledModel::addStiffness, Matrix(source.stiffnessAt(t)));
+    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows); }, Matrix(source.mass));
+    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows, -3.0); }, -3.0 * Matrix(source.mass));
+    expectProduct([&](linalg::BlockRange rows) { model.addDamping(xp.data(), y.data(), rows); }, Matrix(source.dampingAt(t)));
+    expectProduct([&](linalg::BlockRange rows) { model.addStiffness(xp.data(), y.data(), rows); }, Matrix(source.stiffnessAt(t)));
     model.toDofs(Eigen::Map<const Vector>(model.load(), n), back);
     EXPECT_LT((back - source.loadAt(t)).cwiseAbs().maxCoeff(), 1e-14);
   }
@@ -157,61 +157,40 @@ TEST(CompiledModel, changeSinceAnotherTime) {
   EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(CompiledModel, formedSumAndChangeAreTheWhole) {
-  const auto source = rich();
-  CompiledModel model(source);
-  const int n = source.size();
-  model.setTime(0.5);
-  model.damping().current();  // forms it
-  const auto then = model.lawValues();
-  EXPECT_FALSE(model.damping().isFormedAt(then)) << "what is formed now needs no change";
-  model.setTime(2.0);
-  ASSERT_TRUE(model.damping().isFormedAt(then));
-  EXPECT_FALSE(model.damping().isFormedAt(model.lawValues()));
-  const Vector x = sampleVector(n, 0.7);
-  Vector xp, y = Vector::Zero(n), back;
-  model.toPositions(x, xp);
-  model.damping().addFormed(xp.data(), y.data(), {0, model.pattern().blocks()});
-  model.toDofs(y, back);
-  EXPECT_LT((back - source.dampingAt(0.5) * x).cwiseAbs().maxCoeff(), 1e-12);
-  model.damping().addChangeSince(then, 1.0, xp.data(), y.data());
-  model.toDofs(y, back);
-  EXPECT_LT((back - source.dampingAt(2.0) * x).cwiseAbs().maxCoeff(), 1e-12);
-  model.damping().current();
-  EXPECT_FALSE(model.damping().isFormedAt(then));
-}
-
 /// Bit by bit: what is formed decides in which order sums are taken.
 TEST(CompiledModel, comesBackFromOtherTimes) {
   const auto source = rich();
   CompiledModel model(source);
   const int n = source.size();
-  model.setTime(0.5);
-  model.damping().current();
-  const auto then = model.lawValues();
-  model.setTime(0.75);
   Vector x;
   model.toPositions(sampleVector(n, 0.7), x);
   const auto products = [&] {
-    Vector y = Vector::Zero(n), z = Vector::Zero(n);
+    Vector y = Eigen::Map<const Vector>(model.load(), n);
     model.addDamping(x.data(), y.data());
     model.addStiffness(x.data(), y.data());
-    model.damping().addFormed(x.data(), z.data(), {0, model.pattern().blocks()});
-    y += 3.0 * z + Eigen::Map<const Vector>(model.load(), n);
     return y;
   };
-  const Vector before = products();
-  const long stamp = model.matrixStamp();
-  CompiledModel::Snapshot snapshot;
-  model.remember(snapshot);
-  model.setTime(2.0);
-  model.damping().current();
-  EXPECT_NE(products(), before);
-  model.comeBack(snapshot);
-  EXPECT_EQ(products(), before);
-  EXPECT_TRUE(model.damping().isFormedAt(then));
-  EXPECT_EQ(model.matrixStamp(), stamp);
-  EXPECT_EQ(model.time(), 0.75);
+  for (const bool formed : {false, true}) {
+    model.setTime(0.5);
+    model.setTime(0.75);
+    if (formed) model.damping().current();
+    const Vector before = products();
+    const long stamp = model.matrixStamp();
+    CompiledModel::Snapshot snapshot;
+    model.remember(snapshot);
+    model.setTime(2.0);
+    model.damping().current();
+    EXPECT_NE(products(), before);
+    model.setTime(0.75);  // not formed
+    model.comeBack(snapshot);
+    EXPECT_EQ(products(), before);
+    model.setTime(2.0);
+    model.damping().current();
+    model.comeBack(snapshot);
+    EXPECT_EQ(products(), before);
+    EXPECT_EQ(model.matrixStamp(), stamp);
+    EXPECT_EQ(model.time(), 0.75);
+  }
 }
 
 TEST(CompiledModel, recognisesTermsThatDoNoWork) {

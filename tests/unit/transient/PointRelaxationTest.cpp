@@ -16,7 +16,7 @@ constexpr double ca = 4e6, cv = 2e3;  // steps of about 1 ms
 /// A chain of 300 masses of 1 kg, of which two stand 0.1 mm above floors, is pressed onto one of them by 1500 N.
 struct TwoFloors {
   TwoFloors() : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source)), factor(model.pattern()), residual(Vector::Zero(300)) {
-    const Vector q = Vector::Constant(300, 1e-4), v = Vector::Zero(300);
+    const Vector q = Vector::Constant(300, 1e-4);
     model.setTime(0.0);
     for (auto& batch : model.points()) batch.look(0.0, 1e-3, q.data());
     model.combine(ca, cv, 1.0, factor.values());
@@ -25,7 +25,7 @@ struct TwoFloors {
     relaxation.setWeights(Vector::Constant(300, 1 / ca));
     relaxation.setCompliance(factor);
     residual[60] = 1500;
-    relaxation.start(q, v, residual);
+    relaxation.start(q, residual);
     relaxation.guess(0.0, cv, Vector::Zero(300));
     relaxation.solve(factor, nullptr, delta);
   }
