@@ -68,7 +68,7 @@ deck::ListSpec specification() {
                "third more work per step.")
       .boolean("Accept Coarse Steps", false,
                "Take a motion as a result although fixed steps do not follow it (their local error is more than 2.5 % of what moves in them, or "
-               "two of half the length end more than 2 to 3 % elsewhere).")
+               "two of half the length end more than 2 to 4 % elsewhere).")
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps are counted and reported.");
 }

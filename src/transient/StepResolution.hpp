@@ -57,9 +57,9 @@ enum class Resolution { Good, Coarse, Lost };
 inline Resolution judge(const StepErrors& errors) {
   constexpr double moving = 0.001;  ///< R of a motion for which D counts
   constexpr double lost = 0.025, coarse = 0.01;
-  constexpr double lostHalves = 0.03, coarseHalves = 0.0033;
+  constexpr double lostHalves = 0.04, coarseHalves = 0.0033;
   /// D is suspect where contact and iterations are most of it, or where R is large as well.
-  constexpr double suspectHalves = 0.02, mostOfIt = 3.2, large = 0.02;
+  constexpr double suspectHalves = 0.02, mostOfIt = 4.2, large = 0.02;
   const double r = errors.local, d = errors.halving;
   const bool astray = d > lostHalves || (d > suspectHalves && (d > mostOfIt * r || r > large));
   if (r > lost || (r > moving && astray)) return Resolution::Lost;

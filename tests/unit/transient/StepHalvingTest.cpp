@@ -76,8 +76,9 @@ TEST(StepHalving, contactThatLastsIsNoError) {
 TEST(StepHalving, isWeighedBesideTheLocalError) {
   EXPECT_EQ(judge({0.0, 0.0}), Resolution::Good);
   EXPECT_EQ(judge({0.0005, 0.2}), Resolution::Good);  // rest
-  EXPECT_EQ(judge({0.009, 0.027}), Resolution::Coarse);  // sticking points
-  EXPECT_EQ(judge({0.006, 0.024}), Resolution::Lost);    // iterations that stop early
+  EXPECT_EQ(judge({0.0062, 0.0258}), Resolution::Coarse);  // sticking points
+  EXPECT_EQ(judge({0.0105, 0.0378}), Resolution::Coarse);
+  EXPECT_EQ(judge({0.005, 0.024}), Resolution::Lost);  // what contact and iterations spoil
   EXPECT_EQ(judge({0.022, 0.025}), Resolution::Lost);
   EXPECT_EQ(judge({0.003, 0.003}), Resolution::Good);
   EXPECT_EQ(judge({0.017, 0.08}), Resolution::Lost);

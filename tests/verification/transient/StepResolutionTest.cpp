@@ -79,8 +79,8 @@ StepErrors move(const std::string& scene, std::vector<std::string> overrides) {
   return integrate(model, read.list().sublist("Transient"), sink).stepErrors;
 }
 
-/// A kilometre hanging, its first two seconds. Its motion is wrong by 69 % with steps of 10 ms whose iterations stop at 1e-4, by 8 %
-/// with the default of 1e-5, by 0.1 % with steps of 1 ms (beside 0.125 ms and 1e-8).
+/// A kilometre hanging, its first two seconds. Its motion is wrong by 5 % with steps of 10 ms, by 14 % where their iterations stop at 4e-3, by 180 % at
+/// 1e-2, and by 0.1 % with steps of 1 ms (dyn beside 0.125 ms and 1e-8).
 StepErrors hang(std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"Transient/End Time=2", "!Study"});
   return move("vertical_1000m", overrides);
@@ -94,12 +94,12 @@ bool warned() {
 
 TEST(StepResolution, refusesAStringThatContactAndIterationsLeadAstray) {
   try {
-    hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=1e-4"});
-    ADD_FAILURE() << "69 % of error were taken for a result";
+    hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=1e-2"});
+    ADD_FAILURE() << "180 % of error were taken for a result";
   } catch (const ConvergenceError& error) {
     const std::string said = error.what();
     EXPECT_NE(said.find("do not follow the motion"), std::string::npos) << said;
-    EXPECT_NE(said.find("Iterations that stop at a Transient/Generalized-alpha/Tolerance of 0.0001 add to it"), std::string::npos) << said;
+    EXPECT_NE(said.find("Iterations that stop at a Transient/Generalized-alpha/Tolerance of 0.01 add to it"), std::string::npos) << said;
   }
 }
 
@@ -107,8 +107,8 @@ TEST(StepResolution, warnsOfAStringThatIsHardlyFollowed) {
   const auto coarse = hang({"Transient/Step=10 ms"});
   EXPECT_TRUE(warned());
   EXPECT_LT(coarse.local, 0.01);  // which alone would have said nothing
-  const auto stopped = hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=1e-4", "Transient/Generalized-alpha/Accept Coarse Steps=true"});
-  EXPECT_GT(stopped.halving, 3 * coarse.halving);  // what iterations leave is in it
+  const auto stopped = hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=4e-3"});
+  EXPECT_GT(stopped.halving, 2 * coarse.halving);  // what iterations leave is in it
   const auto fine = hang({"Transient/Step=1 ms"});
   EXPECT_FALSE(warned());
   EXPECT_LT(10 * fine.halving, coarse.halving);
