@@ -80,7 +80,7 @@ class AlphaStep {
   CompiledModel* model_ = nullptr;
   ImplicitStep equation_;
   std::shared_ptr<Mass> mass_;
-  Vector A_, nextA_;              ///< algorithmic acceleration at t_n, t_{n+1}
+  Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
   Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
   Vector error_;
 };

@@ -114,7 +114,7 @@ class CompiledModel {
   void addStiffness(const double* x, double* y) const { addStiffness(x, y, all()); }
   /// x' M x.
   double massForm(const double* x) const { return massProduct_.form(mass_.data(), x); }
-  /// The same for the rows of some blocks.
+  /// The same for the rows of some blocks, M times a factor.
   void addMass(const double* x, double* y, linalg::BlockRange rows, double factor = 1.0) const {
     massProduct_.addTo(mass_.data(), x, y, factor, rows);
   }
