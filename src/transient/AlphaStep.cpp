@@ -157,6 +157,7 @@ void AlphaStep::findImpacts() {
   clear(impacts_);
   for (const auto& batch : model_->points())
     if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
+  if (impacts_.blocks.empty()) return;
   const auto& pattern = model_->pattern();
   double largest = 0;
   for (int b : impacts_.blocks)
