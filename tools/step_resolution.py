@@ -6,7 +6,8 @@ rewrites the table of docs/theory.md.
     tools/step_resolution.py --program build/release/tooljoint [--work results/step_resolution]
 
 Each run of 2 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8; dyn is what `tooljoint
-compare` prints. Runs that are already in the work folder are not repeated.
+compare` prints. Runs that are already in the work folder are not repeated; all of them take some
+ten minutes.
 """
 import argparse
 import json

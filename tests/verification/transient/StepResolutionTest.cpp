@@ -79,8 +79,8 @@ StepErrors move(const std::string& scene, std::vector<std::string> overrides) {
   return integrate(model, read.list().sublist("Transient"), sink).stepErrors;
 }
 
-/// A kilometre hanging, its first two seconds. Its motion is wrong by 5 % with steps of 10 ms, by 14 % where their iterations stop at 4e-3, by 180 % at
-/// 1e-2, and by 0.1 % with steps of 1 ms (dyn beside 0.125 ms and 1e-8).
+/// A kilometre hanging, its first two seconds. Its motion is wrong by 5 % with steps of 10 ms, by 180 % where their iterations stop at 1e-2, and by
+/// 0.1 % with steps of 1 ms (dyn beside 0.125 ms and 1e-8).
 StepErrors hang(std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"Transient/End Time=2", "!Study"});
   return move("vertical_1000m", overrides);
@@ -107,14 +107,14 @@ TEST(StepResolution, warnsOfAStringThatIsHardlyFollowed) {
   const auto coarse = hang({"Transient/Step=10 ms"});
   EXPECT_TRUE(warned());
   EXPECT_LT(coarse.local, 0.01);  // which alone would have said nothing
-  const auto stopped = hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=4e-3"});
-  EXPECT_GT(stopped.halving, 2 * coarse.halving);  // what iterations leave is in it
+  const auto stopped = hang({"Transient/Step=10 ms", "Transient/Generalized-alpha/Tolerance=1e-2", "Transient/Generalized-alpha/Accept Coarse Steps=true"});
+  EXPECT_GT(stopped.halving, 3 * coarse.halving);  // what iterations leave is in it
   const auto fine = hang({"Transient/Step=1 ms"});
   EXPECT_FALSE(warned());
   EXPECT_LT(10 * fine.halving, coarse.halving);
 }
 
-/// Walls of 1e9 N/m at 1 ms: the motion is wrong by 28 % with the usual damping of high frequencies, by 4 % with that of impacts.
+/// Walls of 1e9 N/m at 1 ms: with the usual damping of high frequencies a step leaves seven times as much (D of 2.1 %) as with that of impacts.
 TEST(StepResolution, saysWhatWallsTooStiffForTheStepNeed) {
   const std::vector<std::string> hard = {"Contact/Stiffness=1e9", "Transient/End Time=1.5"};
   try {
