@@ -152,8 +152,8 @@ bool ImplicitStep::relax(State& to) {
   }
   if (!compliant_) relaxation_.setCompliance(factor_);
   compliant_ = true;
+  relaxation_.start(to.q, linear_);
   for (bool again = false;; again = true) {
-    relaxation_.start(to.q, linear_);
     if (!settle(to, again)) {
       wanted_ = true;
       return false;
@@ -190,19 +190,13 @@ bool ImplicitStep::finish(State& to) {
   return iterate(to);
 }
 
-/// Where iterations begin: at delta_ when it has been found before points were found to be missed, else at the predicted v and as
-/// much beyond it as the last step has gone. With what laws have changed, drift_ is that of guess_.
-void ImplicitStep::guess(const State& to, bool again, double norm) {
+/// Where iterations begin: at the predicted v and as much beyond it as the last step has gone. With what laws have changed, drift_ is
+/// that of guess_.
+void ImplicitStep::guess(const State& to, double norm) {
   const double c = scheme_.velocity;
-  if (again)
-    relaxation_.guess(to.t, c, delta_);
-  else
-    relaxation_.guess(to.t, c, last_, to.v, lastPredicted_);
+  relaxation_.guess(to.t, c, last_, to.v, lastPredicted_);
   if (!(norm > 0)) return;
-  if (again)
-    guess_ = delta_;
-  else
-    guess_ = last_ + (to.v - lastPredicted_) / c;
+  guess_ = last_ + (to.v - lastPredicted_) / c;
   if (norm * guess_.cwiseAbs().maxCoeff() > 0.1 * tolerance())
     findDrift();
   else
@@ -223,31 +217,27 @@ const Vector* ImplicitStep::otherForces(double norm) {
   return &scratch_;
 }
 
-/// The iteration itself: delta_.
+/// The iteration itself: delta_. When it has been found before points were found to be missed, it goes on from there, at these points first.
 bool ImplicitStep::settle(State& to, bool again) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
   const double negligible = 0.1 * tolerance();
-  guess(to, again, norm);
-  corrected_ = false;
-  bool phase = correctsPhase(), near = false;
+  bool changed = false, near = false, phase = false;
+  if (again)
+    changed = join(to);
+  else
+    phase = begin(to, norm);
   const double settled = std::sqrt(options_.tolerance);
-  double last = 0, work = 1;
+  double last = 0, work = again ? 0 : 1;
   int turn = -1;  // of the colours, once points take turns
   int idle = 0;   // pairs of sweeps in a row without progress
   for (int iteration = 1; turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
-    if (near) {
-      relaxation_.solveNear(factor_, tolerance(), delta_);
-      work += relaxation_.nearShare() + nearPrice / model_->pattern().blocks();
-    } else {
-      relaxation_.solve(factor_, otherForces(norm), delta_);
+    const bool joins = again && iteration == 1;
+    if (!joins) {
+      work += relaxOnce(to, near, norm);
+      changed = false;
     }
-    ++counters_->newtonIterations;
-    double force = near ? reference_ : linearReference_;
-    error_ = relaxation_.evaluate(to.t, c, delta_, tolerance(), force);
-    reference_ = force;
-    bool changed = false;
-    bool good = converged() && !phase;
+    bool good = converged() && !joins && !phase;
     if (phase && (!corrected_ || error_ <= settled * reference_)) {
       phase = error_ > settled * reference_;  // to be taken again from an iterate that is near
       correctPhase(to);
@@ -278,6 +268,38 @@ bool ImplicitStep::settle(State& to, bool again) {
     if (!near) work += 1.0;
   }
   return false;
+}
+
+/// One relaxation, of all points or near few. Returns what one near few costs beside one of all.
+double ImplicitStep::relaxOnce(const State& to, bool near, double norm) {
+  double work = 0;
+  if (near) {
+    relaxation_.solveNear(factor_, tolerance(), delta_);
+    work = relaxation_.nearShare() + nearPrice / model_->pattern().blocks();
+  } else {
+    relaxation_.solve(factor_, otherForces(norm), delta_);
+  }
+  ++counters_->newtonIterations;
+  double force = near ? reference_ : linearReference_;
+  error_ = relaxation_.evaluate(to.t, scheme_.velocity, delta_, tolerance(), force);
+  reference_ = force;
+  return work;
+}
+
+/// Start at the guess. Returns whether the phase is to be corrected.
+bool ImplicitStep::begin(const State& to, double norm) {
+  guess(to, norm);
+  corrected_ = false;
+  return correctsPhase();
+}
+
+/// Take in the points that were missed; the phase correction stays as it is, since they have only just touched. True when one of them is
+/// an impact and there is none to be after all.
+bool ImplicitStep::join(const State& to) {
+  error_ = relaxation_.join(to.t, scheme_.velocity, delta_, tolerance(), reference_);
+  if (!corrected_ || correctsPhase()) return false;
+  corrected_ = false;
+  return true;
 }
 
 /// A step took this many relaxations: ask for a new factorisation once that would have paid.

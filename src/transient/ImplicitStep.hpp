@@ -75,7 +75,10 @@ class ImplicitStep {
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
   void addDrift(const Vector& delta, Vector& y);
   double driftNorm() const;
-  void guess(const State& to, bool again, double norm);
+  void guess(const State& to, double norm);
+  double relaxOnce(const State& to, bool near, double norm);
+  bool begin(const State& to, double norm);
+  bool join(const State& to);
   void findDrift();
   const Vector* otherForces(double norm);
   bool backtrack(State& to);

@@ -126,8 +126,6 @@ void PointBatch::gatherAll(const double* q, const double* v) {
   }
 }
 
-void PointBatch::gatherActive(const double* q) { gatherPositions(active_, q); }
-
 void PointBatch::gatherPositions(const std::vector<int>& points, const double* q) {
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r)

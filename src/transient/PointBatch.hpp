@@ -59,7 +59,7 @@ class PointBatch {
   /// y += R' rows.
   void scatter(const std::vector<int>& points, const double* rows, double* y) const;
   /// d() at q.
-  void gatherActive(const double* q);
+  void gatherPositions(const std::vector<int>& points, const double* q);
   /// Where the next evaluateHere() evaluates, offsets included.
   double* position() { return d_.data(); }
   double* velocity() { return v_.data(); }
@@ -134,7 +134,6 @@ class PointBatch {
 
  private:
   void gatherThese(const std::vector<int>& points, const double* q, const double* v);
-  void gatherPositions(const std::vector<int>& points, const double* q);
   void findBlocks(const linalg::BlockPattern& pattern);
   void listActive();
   void measure(const double* q, std::vector<double>& gap);

@@ -56,6 +56,7 @@ void PointRelaxation::bind(CompiledModel& model) {
     for (auto* array : {&set.d, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change}) array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
+    set.started.assign(z(batch.points()), 0);
     set.known.assign(z(batch.points()), 0);
     set.stiffness.assign(z(batch.points()), 0.0);
     set.error.assign(z(batch.points()), 0.0);
@@ -86,14 +87,14 @@ void PointRelaxation::setImpacts(double h, double impact) {
       model_->points()[b].setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
 }
 
-/// After an evaluation with tangents: points that turn out to be stiff are impacts from now on.
+/// After an evaluation of set.points with tangents: those that turn out to be stiff are impacts from now on.
 ///
 ///     G0 = G (I + P G)^-1,   stiffness = -tr(df/dd G0) / h^2
 void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
   if (impact_ == 1.0) return;
   const int w = batch.width();
   double A[widest * widest], B[widest * widest], G0[widest * widest];
-  for (int p : batch.active()) {
+  for (int p : set.points) {
     const double* J = batch.dfdd() + p * w * w;
     const double* P = batch.frozen() + p * w * w;
     const double* G = &set.compliance[z(p * w * w)];
@@ -140,22 +141,48 @@ void PointRelaxation::restore(const double*& memory) {
 }
 
 void PointRelaxation::start(const Vector& q, const Vector& residual) {
-  for (std::size_t b = 0; b < sets_.size(); ++b) {
-    PointBatch& batch = model_->points()[b];
-    Set& set = sets_[b];
-    const int w = batch.width();
-    batch.gatherActive(q.data());
-    for (int p : batch.active()) {
-      std::copy_n(batch.d() + p * w, w, &set.d[z(p * w)]);
-      set.exact[z(p)] = 0;
-      set.moved[z(p)] = 1;
-      set.error[z(p)] = std::numeric_limits<double>::infinity();
-      if (set.known[z(p)]) continue;
-      batch.project(p, inverse_, &set.compliance[z(p * w * w)]);
-      set.known[z(p)] = 1;
-    }
-  }
+  q_ = &q;
   residual_ = &residual;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    std::fill(sets_[b].started.begin(), sets_[b].started.end(), 0);
+    sets_[b].points = model_->points()[b].active();
+    start(sets_[b], model_->points()[b]);
+  }
+}
+
+/// Of set.points.
+void PointRelaxation::start(Set& set, PointBatch& batch) {
+  const int w = batch.width();
+  batch.gatherPositions(set.points, q_->data());
+  for (int p : set.points) {
+    std::copy_n(batch.d() + p * w, w, &set.d[z(p * w)]);
+    set.started[z(p)] = 1;
+    set.exact[z(p)] = 0;
+    set.moved[z(p)] = 1;
+    set.error[z(p)] = std::numeric_limits<double>::infinity();
+    if (set.known[z(p)]) continue;
+    batch.project(p, inverse_, &set.compliance[z(p * w * w)]);
+    set.known[z(p)] = 1;
+  }
+}
+
+double PointRelaxation::join(double t, double c, const Vector& delta, double small, double& force) {
+  double worst = 0;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    Set& set = sets_[b];
+    PointBatch& batch = model_->points()[b];
+    set.points.clear();
+    for (int p : batch.active())
+      if (!set.started[z(p)]) set.points.push_back(p);
+    start(set, batch);
+    batch.gather(set.points, delta.data(), set.y.data());
+    prepare(set, batch, t, c);
+    for (int p : set.points) std::fill_n(&set.p[z(p * batch.width())], batch.width(), 0.0);
+    measure(set, batch, small, force);
+    for (int p : set.points)
+      if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
+  }
+  return worst;
 }
 
 void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, bool tangent) {
@@ -223,16 +250,6 @@ void PointRelaxation::measure(Set& set, PointBatch& batch, double small, double&
     }
   });
   force = largest;
-}
-
-void PointRelaxation::guess(double t, double c, const Vector& delta) {
-  for (std::size_t b = 0; b < sets_.size(); ++b) {
-    Set& set = sets_[b];
-    PointBatch& batch = model_->points()[b];
-    set.points = batch.active();
-    batch.gather(set.points, delta.data(), set.y.data());
-    prepare(set, batch, t, c);
-  }
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV) {

@@ -47,8 +47,7 @@ class PointRelaxation {
 
   /// Remember where delta counts from: q where v = 0, and the residual R0 of all linear terms there, which must outlive the step.
   void start(const Vector& q, const Vector& residual);
-  /// Evaluate the laws at delta, or at last + (v - lastV) / c, with tangents, and set p so that it is consistent with them.
-  void guess(double t, double c, const Vector& delta);
+  /// Evaluate the laws at last + (v - lastV) / c, with tangents, and set p so that it is consistent with them.
   void guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV);
   /// delta for the present p; `force`, if any, acts as well.
   void solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta);
@@ -60,6 +59,9 @@ class PointRelaxation {
   /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
   /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
+  /// Take in the points looked at since start(): they have had no force up to now, and are evaluated at delta as by evaluate(). Only they
+  /// are corrected next.
+  double join(double t, double c, const Vector& delta, double small, double& force);
   /// One Newton step at every point, and the whole way at those where Newton does not help. True when it was only taken at the
   /// few points wrong by more than a part of `small` (never if `all` are asked for), and solveNear() can follow.
   bool correct(double t, double c, double small, bool all);
@@ -75,6 +77,7 @@ class PointRelaxation {
     std::vector<double> y;        ///< rows of delta
     std::vector<double> p;
     std::vector<double> defect;   ///< f - P y - p
+    std::vector<char> started;    ///< per point: looked at since start() or join()
     std::vector<char> known;      ///< per point: its compliance belongs to the factor
     std::vector<double> stiffness;  ///< largest -tr(df/dd G0) / h^2 seen
     std::vector<double> weight;   ///< per row: largest weight of the dofs it acts on
@@ -88,6 +91,7 @@ class PointRelaxation {
     std::vector<int> points;    ///< corrected, then those evaluated
     std::vector<char> listed;   ///< per point: in `points` already, in listMoved()
   };
+  void start(Set& set, PointBatch& batch);
   void findImpacts(Set& set, PointBatch& batch);
   template <class Width>
   void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
@@ -105,6 +109,7 @@ class PointRelaxation {
   std::vector<char> blocks_;
   double h_ = 0, impact_ = 1;
   const double* inverse_ = nullptr;
+  const Vector* q_ = nullptr;
   const Vector* residual_ = nullptr;
   Vector weight_;
   Vector near_;             ///< change of delta in solveNear(), zero between calls

@@ -26,7 +26,8 @@ struct TwoFloors {
     relaxation.setCompliance(factor);
     residual[60] = 1500;
     relaxation.start(q, residual);
-    relaxation.guess(0.0, cv, Vector::Zero(300));
+    const Vector none = Vector::Zero(300);
+    relaxation.guess(0.0, cv, none, none, none);
     relaxation.solve(factor, nullptr, delta);
   }
   static const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain) {
@@ -78,6 +79,92 @@ TEST(PointRelaxation, NearFewPointsEndsWhereAllEnd) {
   }
   EXPECT_LT(all.delta[60], -1e-4) << "pressed into the floor";
   EXPECT_LT((all.delta - near.delta).cwiseAbs().maxCoeff(), 1e-10 * all.delta.cwiseAbs().maxCoeff() + 10 * near.small);
+}
+
+/// The same chain with floors 0.1 mm below it that damp hard, so that what is pressed onto them comes to rest within the micrometre in
+/// which they begin. The second one is met although it is not looked at, or (`seen`) is looked at from the start.
+struct SoftFloors {
+  explicit SoftFloors(bool seen)
+      : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source)), factor(model.pattern()), residual(Vector::Zero(300)) {
+    auto& floors = model.points()[0];
+    Vector q = Vector::Zero(300);
+    model.setTime(0.0);
+    floors.look(0.0, 1e-3, q.data());
+    q[60] = -1;
+    if (seen) q[240] = -1;
+    floors.addMissed(q.data());
+    model.combine(ca, cv, 1.0, factor.values());
+    EXPECT_LT(factor.factor(), 0);
+    relaxation.bind(model);
+    relaxation.setWeights(Vector::Constant(300, 1 / ca));
+    relaxation.setImpacts(1e-3, 0.5);
+    relaxation.setCompliance(factor);
+    residual[60] = residual[240] = 1500;
+    relaxation.start(none, residual);
+    relaxation.guess(0.0, cv, none, none, none);
+    relaxation.solve(factor, nullptr, delta);
+    settle(relaxation.evaluate(0.0, cv, delta, small, force));
+  }
+  static const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain) {
+    model::PointSet set;
+    set.name = "floor";
+    set.law = std::make_shared<testing::Floor>(2, 1e6, 1e4, 1e7);
+    set.rows.resize(2, 300);
+    set.rows.insert(0, 60) = set.rows.insert(1, 240) = 1;
+    set.offset = Vector::Constant(2, 1e-4);
+    set.entities = {61, 241};
+    chain.points.push_back(set);
+    return chain;
+  }
+  /// Iterations near few points until all are right; how many.
+  int settle(double error) {
+    int count = 0;
+    for (; error > small && count < 60; ++count) {
+      EXPECT_TRUE(relaxation.correct(0.0, cv, small, false));
+      relaxation.solveNear(factor, small, delta);
+      error = relaxation.evaluate(0.0, cv, delta, small, force);
+    }
+    EXPECT_LE(error, small);
+    return count;
+  }
+
+  static constexpr double small = 1e-11;
+  const Vector none = Vector::Zero(300);
+  model::SecondOrderModel source;
+  CompiledModel model;
+  linalg::BlockFactor factor;
+  Vector residual, delta = Vector::Zero(300);
+  PointRelaxation relaxation;
+  double force = 0;
+};
+
+TEST(PointRelaxation, GoesOnWhereItWasWhenAPointWasMissed) {
+  SoftFloors all(true), later(false);
+  auto& floors = later.model.points()[0];
+  ASSERT_EQ(floors.active(), std::vector<int>{0});
+  EXPECT_LT(later.delta[240], -2e-4) << "through a floor that is not looked at";
+  ASSERT_TRUE(floors.addMissed(later.delta.data()));
+  const Vector before = later.delta;
+  later.force = 0;
+  const double error = later.relaxation.join(0.0, cv, later.delta, later.small, later.force);
+  EXPECT_EQ(before, later.delta);
+  EXPECT_GT(later.force, 1e3 / ca) << "the force of the floor where the point is now";
+  EXPECT_NEAR(error, later.force, 1e-3 * later.force) << "of which none has acted yet";
+  EXPECT_GT(later.settle(error), 0);
+  EXPECT_LT((all.delta - later.delta).cwiseAbs().maxCoeff(), 1e-9 * all.delta.cwiseAbs().maxCoeff());
+}
+
+TEST(PointRelaxation, TakesNothingForAnImpactThatHasComeToRest) {
+  SoftFloors step(false);
+  auto& floors = step.model.points()[0];
+  EXPECT_NEAR(step.delta[60], -1e-4, 1e-6);
+  ASSERT_TRUE(floors.addMissed(step.delta.data()));
+  step.settle(step.relaxation.join(0.0, cv, step.delta, step.small, step.force));
+  // Within the micrometre a floor of 1e6 N/m is as steep as one of 1e9, which 1 kg would meet as an impact in a step of 1 ms.
+  const Vector q = step.delta, v = cv * step.delta;
+  floors.evaluateWithTangent(0.0, q.data(), v.data());
+  EXPECT_LT(floors.dfdd()[0], -1e8);
+  EXPECT_FALSE(floors.isScaled());
 }
 
 }  // namespace
