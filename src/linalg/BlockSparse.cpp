@@ -154,46 +154,58 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
   return runs;
 }
 
-BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, const BlockProduct* like) {
   if (pattern.storage() > std::numeric_limits<std::uint32_t>::max()) throw ModelError("A matrix of the model would take more than 32 GB. Take a coarser mesh, fewer modes or fewer kept nodes.");
-  const auto offset = [&pattern](int e) { return static_cast<std::uint32_t>(pattern.offset(e)); };
   far_ = pattern.storage() > kernel::nearCache;
   findSymmetry(pattern, samples);
   int widest = 0;
+  Layout layout;
   for (int b = 0; b < pattern.blocks(); ++b) {
-    firstRow_.push_back(static_cast<int>(rows_.size()));
-    const int rows = pattern.width(b);
-    widest = std::max(widest, rows);
-    Row row{pattern.start(b), rows, static_cast<int>(entries_.size()), 0, 0, rows == 6};
-    row.diagonal = row.begin;
-    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
-      const int columns = pattern.width(pattern.column(e));
-      bool any = false;
-      bool offDiagonal = rows != columns;
-      for (int j = 0; j < columns; ++j)
-        for (int i = 0; i < rows; ++i)
-          for (const BlockValues* sample : samples)
-            if ((*sample)[pattern.offset(e) + z(j * rows + i)] != 0.0) {
-              any = true;
-              offDiagonal = offDiagonal || i != j;
-            }
-      if (!any) continue;
-      Entry entry{offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
-      row.inSix = row.inSix && (columns == 6 || !far_);
-      if (pattern.column(e) < b) {
-        if (far_ && mirrored_ && offDiagonal) {
-          entry.form = Form::Transposed;
-          entry.offset = offset(pattern.find(pattern.column(e), b));
-        }
-        ++row.diagonal;
-      }
-      entries_.push_back(entry);
-    }
-    row.end = static_cast<int>(entries_.size());
-    if (row.end > row.begin) rows_.push_back(row);
+    layout.firstRow.push_back(static_cast<int>(layout.rows.size()));
+    widest = std::max(widest, pattern.width(b));
+    const Row row = listRow(pattern, samples, b, layout.entries);
+    if (row.end > row.begin) layout.rows.push_back(row);
   }
-  firstRow_.push_back(static_cast<int>(rows_.size()));
+  layout.firstRow.push_back(static_cast<int>(layout.rows.size()));
+  if (like != nullptr && like->layout_ != nullptr && *like->layout_ == layout)
+    layout_ = like->layout_;
+  else
+    layout_ = std::make_shared<const Layout>(std::move(layout));
   sum_.assign(z(widest), 0.0);
+}
+
+/// The entries of a block row that are not zero in all samples.
+BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, int block,
+                                        std::vector<Entry>& entries) const {
+  const auto offset = [&pattern](int e) { return static_cast<std::uint32_t>(pattern.offset(e)); };
+  const int rows = pattern.width(block);
+  Row row{pattern.start(block), rows, static_cast<int>(entries.size()), 0, 0, rows == 6};
+  row.diagonal = row.begin;
+  for (int e = pattern.rowBegin(block); e < pattern.rowBegin(block + 1); ++e) {
+    const int columns = pattern.width(pattern.column(e));
+    bool any = false;
+    bool offDiagonal = rows != columns;
+    for (int j = 0; j < columns; ++j)
+      for (int i = 0; i < rows; ++i)
+        for (const BlockValues* sample : samples)
+          if ((*sample)[pattern.offset(e) + z(j * rows + i)] != 0.0) {
+            any = true;
+            offDiagonal = offDiagonal || i != j;
+          }
+    if (!any) continue;
+    Entry entry{offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
+    row.inSix = row.inSix && (columns == 6 || !far_);
+    if (pattern.column(e) < block) {
+      if (far_ && mirrored_ && offDiagonal) {
+        entry.form = Form::Transposed;
+        entry.offset = offset(pattern.find(pattern.column(e), block));
+      }
+      ++row.diagonal;
+    }
+    entries.push_back(entry);
+  }
+  row.end = static_cast<int>(entries.size());
+  return row;
 }
 
 void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
@@ -221,7 +233,7 @@ void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<c
 
 /// sum += A_ij x_j over some entries of a row.
 TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const {
-  const Entry* entries = entries_.data();
+  const Entry* entries = layout_->entries.data();
   for (int e = begin; e < end; ++e) {
     const double* block = values + entries[e].offset;
     const double* source = x + entries[e].column;
@@ -236,8 +248,8 @@ TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int e
 
 /// even + odd += A_ij x_j over some entries of a row of six.
 TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const {
-  const Entry* last = entries_.data() + end;
-  for (const Entry* entry = entries_.data() + begin; entry != last; ++entry) {
+  const Entry* last = layout_->entries.data() + end;
+  for (const Entry* entry = layout_->entries.data() + begin; entry != last; ++entry) {
     const double* block = values + entry->offset;
     const double* source = x + entry->column;
     if (entry->form == Form::Transposed) {
@@ -253,8 +265,8 @@ TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* va
 }
 
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
-  const Row* last = rows_.data() + end;
-  for (const Row* at = rows_.data() + begin; at != last; ++at) {
+  const Row* last = layout_->rows.data() + end;
+  for (const Row* at = layout_->rows.data() + begin; at != last; ++at) {
     const Row row = *at;
     double* target = y + row.start;
     if (row.inSix) {
@@ -276,7 +288,7 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
 TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* values, const double* x) const {
   kernel::Six even, odd;
   if (mirrored_) {
-    const bool own = row.diagonal < row.end && entries_[z(row.diagonal)].column == row.start;
+    const bool own = row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
     const int beyond = own ? row.diagonal + 1 : row.diagonal;
     addSix(row.diagonal, beyond, values, x, even, odd);
     even.a += odd.a, even.b += odd.b;
@@ -294,10 +306,10 @@ TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* val
 
 /// sum_i x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or sum_ij x_i'A_ij x_j
 TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double* values, const double* x) const {
-  const Row* last = rows_.data() + end;
+  const Row* last = layout_->rows.data() + end;
   double* sum = sum_.data();
   double whole = 0;
-  for (const Row* at = rows_.data() + begin; at != last; ++at) {
+  for (const Row* at = layout_->rows.data() + begin; at != last; ++at) {
     const Row row = *at;
     if (row.inSix) {
       whole += sixForm(row, values, x);
@@ -305,7 +317,7 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
     }
     std::fill(sum, sum + row.width, 0.0);
     if (mirrored_) {
-      const bool own = row.diagonal < row.end && entries_[z(row.diagonal)].column == row.start;
+      const bool own = row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
       const int beyond = own ? row.diagonal + 1 : row.diagonal;
       addEntries(row, beyond, row.end, values, x, sum);
       for (int i = 0; i < row.width; ++i) sum[i] *= 2.0;

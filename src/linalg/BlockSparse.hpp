@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/Types.hpp"
@@ -89,26 +90,32 @@ std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 class BlockProduct {
  public:
   BlockProduct() = default;
-  BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
-  bool empty() const { return rows_.empty(); }
+  /// \param like  another product on the pattern: where both read the same blocks alike, they share the list of these
+  BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, const BlockProduct* like = nullptr);
+  bool empty() const { return layout_ == nullptr || layout_->rows.empty(); }
+  /// Whether both have one list of blocks, which is then read once where they follow each other.
+  bool shares(const BlockProduct& other) const { return layout_ == other.layout_; }
   /// |A_ij - A_ji| <= 1e-12 sqrt(A_ii A_jj) in all samples: what assembly in rotated frames leaves.
   bool isSymmetric() const { return symmetric_; }
   /// y += factor A x, vectors in positions.
   void addTo(const double* values, const double* x, double* y, double factor = 1.0) const {
-    addRows(0, static_cast<int>(rows_.size()), values, x, y, factor);
+    if (!empty()) addRows(0, static_cast<int>(layout_->rows.size()), values, x, y, factor);
   }
   /// The same for the rows of these blocks alone.
   void addTo(const double* values, const double* x, double* y, double factor, BlockRange range) const {
-    addRows(firstRow_[static_cast<std::size_t>(range.begin)], firstRow_[static_cast<std::size_t>(range.end)], values, x, y, factor);
+    if (!empty()) addRows(firstRow(range.begin), firstRow(range.end), values, x, y, factor);
   }
   /// x' A x, and the part of it that the rows of some blocks add: of a symmetric A half the blocks are read.
-  double form(const double* values, const double* x) const { return formRows(0, static_cast<int>(rows_.size()), values, x); }
+  double form(const double* values, const double* x) const {
+    return empty() ? 0.0 : formRows(0, static_cast<int>(layout_->rows.size()), values, x);
+  }
   double form(const double* values, const double* x, BlockRange range) const {
-    return formRows(firstRow_[static_cast<std::size_t>(range.begin)], firstRow_[static_cast<std::size_t>(range.end)], values, x);
+    return empty() ? 0.0 : formRows(firstRow(range.begin), firstRow(range.end), values, x);
   }
 
  private:
   struct Row;
+  int firstRow(int block) const { return layout_->firstRow[static_cast<std::size_t>(block)]; }
   double formRows(int begin, int end, const double* values, const double* x) const;
   void addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const;
   void addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const;
@@ -121,6 +128,9 @@ class BlockProduct {
     int column;
     int width;
     Form form;
+    bool operator==(const Entry& other) const {
+      return offset == other.offset && column == other.column && width == other.width && form == other.form;
+    }
   };
   struct Row {
     int start;
@@ -129,10 +139,20 @@ class BlockProduct {
     int end;
     int diagonal;  ///< first entry on or above the diagonal
     bool inSix;    ///< six rows, summed in registers (where blocks are asked for ahead, all of six columns)
+    bool operator==(const Row& other) const {
+      return start == other.start && width == other.width && begin == other.begin && end == other.end && diagonal == other.diagonal &&
+             inSix == other.inSix;
+    }
   };
-  std::vector<Row> rows_;
-  std::vector<int> firstRow_;  ///< block -> first of rows_ from there on
-  std::vector<Entry> entries_;
+  /// What is read beside the values: as much as an eighth of them.
+  struct Layout {
+    std::vector<Row> rows;
+    std::vector<int> firstRow;  ///< block -> first of rows from there on
+    std::vector<Entry> entries;
+    bool operator==(const Layout& other) const { return rows == other.rows && firstRow == other.firstRow && entries == other.entries; }
+  };
+  Row listRow(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, int block, std::vector<Entry>& entries) const;
+  std::shared_ptr<const Layout> layout_;
   bool symmetric_ = false;
   bool mirrored_ = false;  ///< A_ij = A_ji' for i != j; diagonal blocks need not be symmetric
   bool far_ = false;  ///< matrices are longer than a near cache

@@ -106,7 +106,7 @@ bool isSkew(const Sparse& matrix) {
 }  // namespace
 
 MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
-                     const linalg::BlockPattern& pattern) {
+                     const linalg::BlockPattern& pattern, const linalg::BlockProduct& like) {
   std::map<std::string, std::size_t> byLaw;  // laws of one name are one law
   std::vector<Sparse> matrices;
   for (const auto& term : terms) {
@@ -124,11 +124,11 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vec
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     terms_[i].values.assign(pattern.storage(), 0.0);
     pattern.add(matrices[i], 1.0, terms_[i].values);
-    terms_[i].product = linalg::BlockProduct(pattern, {&terms_[i].values});
+    terms_[i].product = linalg::BlockProduct(pattern, {&terms_[i].values}, &like);
     terms_[i].skew = isSkew(matrices[i]);
   }
   for (const auto& term : terms_) samples.push_back(&term.values);
-  product_ = linalg::BlockProduct(pattern, samples);
+  product_ = linalg::BlockProduct(pattern, samples, &like);
   constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
@@ -213,8 +213,8 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   mass_.assign(pattern_.storage(), 0.0);
   pattern_.add(model.mass, 1.0, mass_);
   massProduct_ = linalg::BlockProduct(pattern_, {&mass_});
-  damping_ = MatrixSum(model.damping, model.laws, pattern_);
-  stiffness_ = MatrixSum(model.stiffness, model.laws, pattern_);
+  damping_ = MatrixSum(model.damping, model.laws, pattern_, massProduct_);
+  stiffness_ = MatrixSum(model.stiffness, model.laws, pattern_, massProduct_);
   diagonalAddress_.resize(z(n));
   for (int p = 0; p < n; ++p) diagonalAddress_[z(p)] = pattern_.address(p, p);
 

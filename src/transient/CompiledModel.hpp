@@ -28,8 +28,9 @@ class MatrixSum {
   };
 
   MatrixSum() = default;
+  /// \param like  a product whose list of blocks those of the terms share where they can
   MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
-            const linalg::BlockPattern& pattern);
+            const linalg::BlockPattern& pattern, const linalg::BlockProduct& like);
   bool empty() const { return terms_.empty(); }
   /// True if a law has another value than last time. The sum is formed when the laws stand still or somebody asks for it;
   /// while they change, products go term by term.

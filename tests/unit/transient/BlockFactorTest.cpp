@@ -355,6 +355,25 @@ TEST(BlockProduct, skipsZeroAndKnowsDiagonalBlocks) {
   EXPECT_TRUE(BlockProduct(blocks, {}).empty());
 }
 
+TEST(BlockProduct, sharesTheListOfBlocksThatAreReadAlike) {
+  const Sparse chain = Matrix(Matrix::Ones(6, 6)).sparseView();
+  const std::vector<int> group{0, 0, 1, 1, 2, 2};
+  const BlockPattern pattern(partitionDofs({&chain}, group, group), {&chain});
+  BlockValues values(pattern.storage(), 1.0), diagonal(pattern.storage(), 0.0);
+  diagonal[pattern.offset(pattern.find(0, 0))] = 3.0;
+  const BlockProduct product(pattern, {&values});
+  const BlockProduct alike(pattern, {&values}, &product), other(pattern, {&diagonal}, &product), alone(pattern, {&values});
+  EXPECT_TRUE(alike.shares(product));
+  EXPECT_FALSE(other.shares(product));
+  EXPECT_FALSE(alone.shares(product));
+  const Vector x = Vector::LinSpaced(6, 1, 6);
+  for (const auto& [each, its, sum] : {std::make_tuple(&alike, &values, 21.0), std::make_tuple(&other, &diagonal, 3.0)}) {
+    Vector y = Vector::Zero(6);
+    each->addTo(its->data(), x.data(), y.data());
+    EXPECT_EQ(y[0], sum);
+  }
+}
+
 /// Rows of six beside a block of modes, their own blocks diagonal, with and without symmetry.
 TEST(BlockProduct, ofNodesBesideModes) {
   const std::vector<int> widths{6, 12, 6, 6, 3};
