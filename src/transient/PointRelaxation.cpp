@@ -44,6 +44,14 @@ bool invertFew(int n, const double* A, double* B) {
   return true;
 }
 
+/// -tr(J G): above 1 where a wall gives way less than what meets it.
+double yielding(int n, const double* J, const double* G) {
+  double trace = 0;
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < n; ++k) trace -= J[i * n + k] * G[k * n + i];
+  return trace;
+}
+
 }  // namespace
 
 void PointRelaxation::bind(CompiledModel& model) {
@@ -90,7 +98,7 @@ void PointRelaxation::setImpacts(double h, double impact) {
 /// After an evaluation of set.points with tangents: those that turn out to be stiff are impacts from now on.
 ///
 ///     G0 = G (I + P G)^-1,   stiffness = -tr(df/dd G0) / h^2
-void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
+void PointRelaxation::findImpacts(Set& set, PointBatch& batch, double t) {
   if (impact_ == 1.0) return;
   const int w = batch.width();
   double A[widest * widest], B[widest * widest], G0[widest * widest];
@@ -98,10 +106,7 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
     const double* J = batch.dfdd() + p * w * w;
     const double* P = batch.frozen() + p * w * w;
     const double* G = &set.compliance[z(p * w * w)];
-    double trace = 0;
-    for (int i = 0; i < w; ++i)
-      for (int k = 0; k < w; ++k) trace -= J[i * w + k] * G[k * w + i];
-    if (trace < 0.5) continue;  // with J = P that is a stiffness of 1/h^2
+    if (yielding(w, J, G) < 0.5) continue;  // with J = P that is a stiffness of 1/h^2
     for (int i = 0; i < w; ++i)
       for (int j = 0; j < w; ++j) {
         A[i * w + j] = i == j ? 1.0 : 0.0;
@@ -113,16 +118,30 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch) {
         G0[i * w + j] = 0;
         for (int k = 0; k < w; ++k) G0[i * w + j] += G[i * w + k] * B[k * w + j];
       }
-    trace = 0;
-    for (int i = 0; i < w; ++i)
-      for (int k = 0; k < w; ++k) trace -= J[i * w + k] * G0[k * w + i];
-    const double stiffness = trace / (batch.scale(p) * h_ * h_);
-    if (stiffness > set.stiffness[z(p)]) set.stiffness[z(p)] = stiffness;
+    const double unit = batch.scale(p) * h_ * h_;
+    if (yielding(w, J, G0) / unit <= set.stiffness[z(p)]) continue;
+    const double stiffness = std::min(yielding(w, J, G0), yieldingDeeper(batch, p, t, G0)) / unit;
+    set.stiffness[z(p)] = std::max(set.stiffness[z(p)], stiffness);
     if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
       batch.setScale(p, impact_);
       batch.rescale(p);
     }
   }
+}
+
+/// -tr(df/dd G0) as far beyond a point as its force moves it in the step: what is steep there too is the wall, and not the depth in which a
+/// regularised law begins.
+double PointRelaxation::yieldingDeeper(PointBatch& batch, int point, double t, const double* G0) {
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  const int w = batch.width();
+  const auto local = [&](const double* rows) -> NodalProblem::Local { return Eigen::Map<const Vector>(rows + point * w, w); };
+  const NodalProblem::Local d = local(batch.d()), v = local(batch.v()), deeper = d - Rows(G0, w, w).lazyProduct(local(batch.force()));
+  NodalProblem::Local f = d;
+  double dfdd[widest * widest] = {}, dfdv[widest * widest];
+  batch.evaluateOne(t, point, deeper.data(), v.data(), f.data(), dfdd, dfdv);
+  const double result = yielding(w, dfdd, G0);
+  batch.evaluateOne(t, point, d.data(), v.data(), f.data(), dfdd, dfdv);  // what the batch holds
+  return result;
 }
 
 void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
@@ -271,7 +290,7 @@ void PointRelaxation::guess(double t, double c, const Vector& last, const Vector
 void PointRelaxation::prepare(Set& set, PointBatch& batch, double t, double c) {
   if (set.points.empty()) return;
   place(set, batch, t, c, true);
-  findImpacts(set, batch);
+  findImpacts(set, batch, t);
   withWidth(batch.width(), [&](auto width) {
     for (int p : set.points) answer(set, batch, p, c, width);
   });

@@ -92,7 +92,8 @@ class PointRelaxation {
     std::vector<char> listed;   ///< per point: in `points` already, in listMoved()
   };
   void start(Set& set, PointBatch& batch);
-  void findImpacts(Set& set, PointBatch& batch);
+  void findImpacts(Set& set, PointBatch& batch, double t);
+  double yieldingDeeper(PointBatch& batch, int point, double t, const double* G0);
   template <class Width>
   void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
   void listMoved(Set& set, const PointBatch& batch) const;

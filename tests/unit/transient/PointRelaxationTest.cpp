@@ -167,5 +167,36 @@ TEST(PointRelaxation, TakesNothingForAnImpactThatHasComeToRest) {
   EXPECT_FALSE(floors.isScaled());
 }
 
+/// Of one mass of 1 kg pressed onto a floor of this stiffness by 100 N, at the depth where it is expected to end: whether it is an impact.
+bool isImpact(double stiffness, double depth) {
+  auto source = testing::springChain(1, 1.0, 0.0, 1e3);
+  testing::addFloor(source, stiffness, 1e4, 1e9);
+  CompiledModel model(source);
+  model.setTime(0.0);
+  auto& floor = model.points()[0];
+  const Vector q = Vector::Constant(1, -depth), none = Vector::Zero(1), residual = Vector::Constant(1, 100.0), approach = Vector::Constant(1, -0.1);
+  floor.look(0.0, 1e-3, q.data());
+  linalg::BlockFactor factor(model.pattern());
+  model.combine(ca, cv, 1.0, factor.values());
+  EXPECT_LT(factor.factor(), 0);
+  PointRelaxation relaxation;
+  relaxation.bind(model);
+  relaxation.setWeights(Vector::Constant(1, 1 / ca));
+  relaxation.setImpacts(1e-3, 0.5);
+  relaxation.setCompliance(factor);
+  const Vector start = q - approach / cv;  // with v = -0.1 m/s it ends at q
+  relaxation.start(start, residual);
+  relaxation.guess(0.0, cv, none, approach, none);
+  floor.evaluateWithTangent(0.0, q.data(), approach.data());
+  EXPECT_LT(floor.dfdd()[0], -2 * ca) << "steeper than the mass";
+  return floor.isScaled();
+}
+
+TEST(PointRelaxation, TellsAStiffWallFromWhereASoftOneBegins) {
+  EXPECT_TRUE(isImpact(1e9, 1e-6));
+  EXPECT_TRUE(isImpact(1e9, 1e-10));
+  EXPECT_FALSE(isImpact(1e6, 1e-10)) << "it damps by 1 kN within a nanometre, but is no stiffer than 1e6 N/m beyond";
+}
+
 }  // namespace
 }  // namespace tooljoint::transient
