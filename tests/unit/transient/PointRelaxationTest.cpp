@@ -13,9 +13,22 @@ namespace {
 
 constexpr double ca = 4e6, cv = 2e3;  // steps of about 1 ms
 
+/// With floors this far below two masses of a chain of 300.
+const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain, double damping, double lambda, double clearance) {
+  model::PointSet set;
+  set.name = "floor";
+  set.law = std::make_shared<testing::Floor>(2, 1e6, damping, lambda);
+  set.rows.resize(2, 300);
+  set.rows.insert(0, 60) = set.rows.insert(1, 240) = 1;
+  set.offset = Vector::Constant(2, clearance);
+  set.entities = {61, 241};
+  chain.points.push_back(set);
+  return chain;
+}
+
 /// A chain of 300 masses of 1 kg, of which two stand 0.1 mm above floors, is pressed onto one of them by 1500 N.
 struct TwoFloors {
-  TwoFloors() : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source)), factor(model.pattern()), residual(Vector::Zero(300)) {
+  TwoFloors() : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source, 10.0, 1e5, 0.0)), factor(model.pattern()), residual(Vector::Zero(300)) {
     const Vector q = Vector::Constant(300, 1e-4);
     model.setTime(0.0);
     for (auto& batch : model.points()) batch.look(0.0, 1e-3, q.data());
@@ -29,17 +42,6 @@ struct TwoFloors {
     const Vector none = Vector::Zero(300);
     relaxation.guess(0.0, cv, none, none, none);
     relaxation.solve(factor, nullptr, delta);
-  }
-  static const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain) {
-    model::PointSet set;
-    set.name = "floor";
-    set.law = std::make_shared<testing::Floor>(2, 1e6, 10.0, 1e5);
-    set.rows.resize(2, 300);
-    set.rows.insert(0, 60) = set.rows.insert(1, 240) = 1;
-    set.offset = Vector::Zero(2);
-    set.entities = {61, 241};
-    chain.points.push_back(set);
-    return chain;
   }
   double error() {
     double force = 0;
@@ -85,7 +87,7 @@ TEST(PointRelaxation, NearFewPointsEndsWhereAllEnd) {
 /// which they begin. The second one is met although it is not looked at, or (`seen`) is looked at from the start.
 struct SoftFloors {
   explicit SoftFloors(bool seen)
-      : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source)), factor(model.pattern()), residual(Vector::Zero(300)) {
+      : source(testing::springChain(300, 1.0, 0.0, 1e6)), model(withFloors(source, 1e4, 1e7, 1e-4)), factor(model.pattern()), residual(Vector::Zero(300)) {
     auto& floors = model.points()[0];
     Vector q = Vector::Zero(300);
     model.setTime(0.0);
@@ -104,17 +106,6 @@ struct SoftFloors {
     relaxation.guess(0.0, cv, none, none, none);
     relaxation.solve(factor, nullptr, delta);
     settle(relaxation.evaluate(0.0, cv, delta, small, force));
-  }
-  static const model::SecondOrderModel& withFloors(model::SecondOrderModel& chain) {
-    model::PointSet set;
-    set.name = "floor";
-    set.law = std::make_shared<testing::Floor>(2, 1e6, 1e4, 1e7);
-    set.rows.resize(2, 300);
-    set.rows.insert(0, 60) = set.rows.insert(1, 240) = 1;
-    set.offset = Vector::Constant(2, 1e-4);
-    set.entities = {61, 241};
-    chain.points.push_back(set);
-    return chain;
   }
   /// Iterations near few points until all are right; how many.
   int settle(double error) {
