@@ -118,10 +118,9 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch, double t) {
         G0[i * w + j] = 0;
         for (int k = 0; k < w; ++k) G0[i * w + j] += G[i * w + k] * B[k * w + j];
       }
-    const double unit = batch.scale(p) * h_ * h_;
-    if (yielding(w, J, G0) / unit <= set.stiffness[z(p)]) continue;
-    const double stiffness = std::min(yielding(w, J, G0), yieldingDeeper(batch, p, t, G0)) / unit;
-    set.stiffness[z(p)] = std::max(set.stiffness[z(p)], stiffness);
+    const double unit = batch.scale(p) * h_ * h_, here = yielding(w, J, G0);
+    if (here / unit <= set.stiffness[z(p)]) continue;
+    set.stiffness[z(p)] = std::max(set.stiffness[z(p)], std::min(here, yieldingDeeper(batch, p, t, G0)) / unit);
     if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
       batch.setScale(p, impact_);
       batch.rescale(p);

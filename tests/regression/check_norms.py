@@ -18,7 +18,7 @@ A gold is a JSON file:
     }
 
 Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
-allowances holds), or `at_most`; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
+allowances holds), or `at_most`, which bounds its size; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
 on the first of `ranks` and rewrites the values (not those with `at_most`), never the tolerances.
 """
 import argparse
@@ -69,7 +69,7 @@ def compare(norm, found):
     if not math.isfinite(found):
         return "", "finite", False
     if norm.get("at_most"):
-        return f"{found - expected:.3e}", "at most", found <= expected
+        return f"{abs(found) - expected:.3e}", "at most", abs(found) <= expected
     allowed = norm.get("relative", 0.0) * abs(expected) + norm.get("absolute", 0.0)
     return f"{abs(found - expected):.3e}", f"{allowed:.3e}", abs(found - expected) <= allowed
 
