@@ -13,7 +13,7 @@ namespace {
 
 constexpr char family[] = "Tooljoint checkpoint ";
 /// Counts up whenever Counters or anything that save() writes changes.
-constexpr char version[] = "4";
+constexpr char version[] = "5";
 
 class Writer {
  public:

@@ -20,6 +20,9 @@ constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 45;
 
+/// Share of the point forces that may be wrong in the iterate that the phase correction is taken from.
+constexpr double mostWrong = 0.1;
+
 /// A product with what the laws have changed, in relaxations; what a relaxation near few points costs beside the blocks it reaches, in blocks.
 constexpr double driftPrice = 0.5, nearPrice = 16;
 
@@ -41,7 +44,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   options_ = options;
   const int n = model.size();
   for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
-                    &savedChange_, &guess_, &last_, &lastPredicted_, &drift_, &rowSize_, &inertia_, &correction_, &filtered_, &acceleration_})
+                    &savedChange_, &guess_, &drift_, &rowSize_, &inertia_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   predicted_.resize(n);
   factorLaws_.assign(model.lawValues().size(), 0.0);
@@ -111,7 +114,7 @@ void ImplicitStep::prepare(const StepScheme& scheme, double t) {
   if (scheme_.h == scheme.h) return;
   if (scheme.phase != 0.0 && filter_.empty()) filter_ = linalg::BlockFactor(model_->pattern());
   scale(scheme, t);
-  for (Vector* x : {&last_, &lastPredicted_, &guess_}) x->setZero();
+  guess_.setZero();
   scheme_ = scheme;
 }
 
@@ -164,10 +167,8 @@ bool ImplicitStep::relax(State& to) {
     if (!missed) break;
   }
   to.q.swap(q0_);
-  to.v.swap(lastPredicted_);
   const double c = scheme_.velocity, a = scheme_.acceleration;
   for (int i = 0; i < delta_.size(); ++i) to.v[i] = c * delta_[i], to.a[i] += a * delta_[i];
-  last_.swap(delta_);
   return true;
 }
 
@@ -176,7 +177,6 @@ bool ImplicitStep::finish(State& to) {
   predicted_ = to;
   predict(predicted_);
   if (error_ <= reference_) {  // relaxation got somewhere
-    if (corrected_) correctPhase(to);
     to.q += delta_;
     to.v = scheme_.velocity * delta_;
     to.a += scheme_.acceleration * delta_;
@@ -190,13 +190,13 @@ bool ImplicitStep::finish(State& to) {
   return iterate(to);
 }
 
-/// Where iterations begin: at the predicted v and as much beyond it as the last step has gone. With what laws have changed, drift_ is
-/// that of guess_.
+/// Where iterations begin: at the predicted v. Points whose tangent in S is far stiffer than they are stay there in the first iterate, which the phase
+/// correction is taken from, and what is extrapolated further makes vibration of 1.5 to 2 rad per step grow. With what laws have changed, drift_ is that of guess_.
 void ImplicitStep::guess(const State& to, double norm) {
   const double c = scheme_.velocity;
-  relaxation_.guess(to.t, c, last_, to.v, lastPredicted_);
+  relaxation_.guess(to.t, c, to.v);
   if (!(norm > 0)) return;
-  guess_ = last_ + (to.v - lastPredicted_) / c;
+  guess_ = to.v / c;
   if (norm * guess_.cwiseAbs().maxCoeff() > 0.1 * tolerance())
     findDrift();
   else
@@ -227,7 +227,6 @@ bool ImplicitStep::settle(State& to, bool again) {
     changed = join(to);
   else
     phase = begin(to, norm);
-  const double settled = std::sqrt(options_.tolerance);
   double last = 0, work = again ? 0 : 1;
   int turn = -1;  // of the colours, once points take turns
   int idle = 0;   // pairs of sweeps in a row without progress
@@ -238,9 +237,9 @@ bool ImplicitStep::settle(State& to, bool again) {
       changed = false;
     }
     bool good = converged() && !joins && !phase;
-    if (phase && (!corrected_ || error_ <= settled * reference_)) {
-      phase = error_ > settled * reference_;  // to be taken again from an iterate that is near
+    if (phase && (converged() || relaxation_.wrongShare() <= mostWrong)) {
       correctPhase(to);
+      phase = false;
       changed = true;
     }
     if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
@@ -346,8 +345,8 @@ bool ImplicitStep::correctsPhase() const {
   return true;
 }
 
-/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken from the first delta, without it, and
-/// again from one that is near where the first was not: what that misses is of the order of the square of k (I - F) F.
+/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once, from the first delta that is near, which is without it:
+/// what that misses is of the order of the square of k (I - F) F.
 void ImplicitStep::correctPhase(const State& to) {
   const auto& pattern = model_->pattern();
   const double k = scheme_.phase, kF = k * scheme_.filter * scheme_.acceleration;
@@ -373,7 +372,6 @@ void ImplicitStep::save(std::vector<double>& memory) const {
     memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
   memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
   memory.insert(memory.end(), weight_.begin(), weight_.end());
-  for (const Vector* x : {&last_, &lastPredicted_}) memory.insert(memory.end(), x->begin(), x->end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
   relaxation_.save(memory);
 }
@@ -393,8 +391,6 @@ void ImplicitStep::restore(const double*& memory) {
   if (scheme.h > 0) scale(scheme, now);
   scheme_ = scheme;
   for (double& x : weight_) x = *memory++;
-  for (Vector* vector : {&last_, &lastPredicted_})
-    for (double& x : *vector) x = *memory++;
   if (scheme.h > 0) relaxation_.setWeights(weight_);
   for (double& x : factorLaws_) x = *memory++;
   relaxation_.restore(memory);

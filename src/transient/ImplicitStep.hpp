@@ -111,7 +111,6 @@ class ImplicitStep {
   Vector guess_, drift_;    ///< where iterations began, and what the changes of the laws make of it
   State predicted_;         ///< to go back to
   bool corrected_ = false;  ///< correction_ belongs to this step
-  Vector last_, lastPredicted_;  ///< delta and predicted v of the last step
 
   linalg::BlockFactor filter_;  ///< s ca M + K - R' df/dd R
   Vector correction_;           ///< k M (I - F) q'' at the iterate

@@ -270,17 +270,29 @@ void PointRelaxation::measure(Set& set, PointBatch& batch, double small, double&
   force = largest;
 }
 
-void PointRelaxation::guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV) {
+double PointRelaxation::wrongShare() const {
+  double wrong = 0, whole = 0;
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const Set& set = sets_[b];
+    const PointBatch& batch = model_->points()[b];
+    for (int p : batch.active())
+      for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
+        const double error = set.weight[z(r)] * set.defect[z(r)], force = set.weight[z(r)] * batch.force()[r];
+        wrong += error * error, whole += force * force;
+      }
+  }
+  return whole > 0 ? std::sqrt(wrong / whole) : 0.0;
+}
+
+void PointRelaxation::guess(double t, double c, const Vector& v) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     set.points = batch.active();
-    batch.gather(set.points, last.data(), set.y.data());
-    batch.gather(set.points, v.data(), set.target.data());
-    batch.gather(set.points, lastV.data(), set.change.data());
-    const int w = batch.width();
+    batch.gather(set.points, v.data(), set.y.data());
+    const std::size_t w = z(batch.width());
     for (int p : set.points)
-      for (std::size_t r = z(p * w); r < z((p + 1) * w); ++r) set.y[r] += (set.target[r] - set.change[r]) / c;
+      for (std::size_t r = z(p) * w; r < z(p + 1) * w; ++r) set.y[r] /= c;
     prepare(set, batch, t, c);
   }
 }

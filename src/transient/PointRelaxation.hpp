@@ -47,8 +47,8 @@ class PointRelaxation {
 
   /// Remember where delta counts from: q where v = 0, and the residual R0 of all linear terms there, which must outlive the step.
   void start(const Vector& q, const Vector& residual);
-  /// Evaluate the laws at last + (v - lastV) / c, with tangents, and set p so that it is consistent with them.
-  void guess(double t, double c, const Vector& last, const Vector& v, const Vector& lastV);
+  /// Evaluate the laws at delta = v / c, with tangents, and set p so that it is consistent with them.
+  void guess(double t, double c, const Vector& v);
   /// delta for the present p; `force`, if any, acts as well.
   void solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta);
   /// The same after a correct() that says so: delta changes by what the forces of the points corrected have changed, but for
@@ -59,6 +59,8 @@ class PointRelaxation {
   /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
   /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
+  /// |w (f - P y - p)|_2 over |w f|_2 where they were evaluated: how much of the force between points and walls is not accounted for.
+  double wrongShare() const;
   /// Take in the points looked at since start(): they have had no force up to now, and are evaluated at delta as by evaluate(). Only they
   /// are corrected next.
   double join(double t, double c, const Vector& delta, double small, double& force);

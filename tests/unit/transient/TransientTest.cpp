@@ -349,7 +349,7 @@ TEST(Checkpoints, filesThatAreNoneAreRefused) {
     old.write(reinterpret_cast<const char*>(&length), sizeof length);
     old << magic << std::string(200, '\0');
   }
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 4"),
+  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 5"),
             std::string::npos);
   Checkpoint point;
   point.integrator = "RK4";
