@@ -20,7 +20,7 @@ constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 45;
 
-/// Share of the point forces that may be wrong in the iterate that the phase correction is taken from.
+/// PointRelaxation::wrongShare() of an iterate that the phase correction may be taken from.
 constexpr double mostWrong = 0.1;
 
 /// A product with what the laws have changed, in relaxations; what a relaxation near few points costs beside the blocks it reaches, in blocks.
@@ -114,7 +114,6 @@ void ImplicitStep::prepare(const StepScheme& scheme, double t) {
   if (scheme_.h == scheme.h) return;
   if (scheme.phase != 0.0 && filter_.empty()) filter_ = linalg::BlockFactor(model_->pattern());
   scale(scheme, t);
-  guess_.setZero();
   scheme_ = scheme;
 }
 
@@ -191,7 +190,7 @@ bool ImplicitStep::finish(State& to) {
 }
 
 /// Where iterations begin: at the predicted v. Points whose tangent in S is far stiffer than they are stay there in the first iterate, which the phase
-/// correction is taken from, and what is extrapolated further makes vibration of 1.5 to 2 rad per step grow. With what laws have changed, drift_ is that of guess_.
+/// correction is taken from, and what is extrapolated further makes vibration of a few steps per period grow. With what laws have changed, drift_ is that of guess_.
 void ImplicitStep::guess(const State& to, double norm) {
   const double c = scheme_.velocity;
   relaxation_.guess(to.t, c, to.v);

@@ -281,7 +281,7 @@ double PointRelaxation::wrongShare() const {
         wrong += error * error, whole += force * force;
       }
   }
-  return whole > 0 ? std::sqrt(wrong / whole) : 0.0;
+  return wrong == 0 ? 0.0 : std::sqrt(wrong / whole);  // infinite where all that was expected is gone
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& v) {

@@ -59,7 +59,7 @@ class PointRelaxation {
   /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force` becomes the
   /// largest of itself and |w f|; an error below `small` needs no care. After solveNear() only what moved is evaluated.
   double evaluate(double t, double c, const Vector& delta, double small, double& force);
-  /// |w (f - P y - p)|_2 over |w f|_2 where they were evaluated: how much of the force between points and walls is not accounted for.
+  /// |w (f - P y - p)|_2 over |w f|_2 where they were evaluated: how much of the forces of all points is not accounted for (infinite where there are none any more).
   double wrongShare() const;
   /// Take in the points looked at since start(): they have had no force up to now, and are evaluated at delta as by evaluate(). Only they
   /// are corrected next.

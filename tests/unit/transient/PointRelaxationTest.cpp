@@ -66,6 +66,14 @@ TEST(PointRelaxation, MeasuresAPointAgainWhoseChangeDoesNotTravel) {
   EXPECT_LT(step.error(), 1e-3 * before) << "its force is now that of where it is";
 }
 
+TEST(PointRelaxation, SaysThatLittleIsLeftOfTheForceExpected) {
+  TwoFloors step;
+  step.relaxation.guess(0.0, cv, Vector::Constant(300, -1e-3 * cv));  // both on the floor
+  step.delta.setConstant(1e-2);  // and far above it
+  step.error();
+  EXPECT_GT(step.relaxation.wrongShare(), 100);
+}
+
 TEST(PointRelaxation, NearFewPointsEndsWhereAllEnd) {
   TwoFloors all, near;
   all.error();

@@ -80,7 +80,7 @@ StepErrors move(const std::string& scene, std::vector<std::string> overrides) {
 }
 
 /// A kilometre hanging, its first two seconds. Its motion is wrong by 6 % with steps of 10 ms and by 0.1 % with steps of 1 ms (dyn beside 0.125 ms and
-/// 1e-8); where iterations of the former stop at 1e-2, by 42 %.
+/// 1e-8); where iterations of the former stop at 1e-2, by two fifths.
 StepErrors hang(std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"Transient/End Time=2", "!Study"});
   return move("vertical_1000m", overrides);
