@@ -9,6 +9,7 @@ work folder are not repeated.
 """
 import argparse
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -80,6 +81,53 @@ def static_table(bench):
             rows.append(f"| {path} | {stress} | {s['contact_nodes']} | {s['compressed_elements']} | {kilo(s['top_axial_force'])} "
                         f"| {kilo(s['last_element_axial_force'])} | {kilo(s['last_element_torque'])} | {kilo(s['max_normal_force'])} "
                         f"({s['max_normal_force_node']}) | {kilo(s['top_torque'])} | {s['torque_balance_defect']:.4g} |")
+    return bench.taken() + "\n" + "\n".join(rows) + "\n"
+
+
+class SoftString:
+    """Johancsik, Friesen and Dawson (1984) on the string of xml/build_hold_1400m.xml in a build-and-hold well."""
+    WOB, STAND, JOINT_RADIUS = 50e3, 9.5, 0.084
+    WEIGHT = 9.81 * 7850.0 * math.pi * (9.0 * (0.0635**2 - 0.0543**2) + 0.5 * (0.084**2 - 0.0413**2)) / STAND  # [N/m]
+
+    def __init__(self, kick_off, build_rate, inclination, stands, friction):
+        self.curvature = math.radians(build_rate) / 30.0
+        self.kick_off, self.inclination = kick_off, math.radians(inclination)
+        self.length, self.friction = stands * self.STAND, friction
+
+    def torque(self, bit_torque, climbs, step=0.05):
+        """Top torque [N m]. `climbs`: a string that turns climbs until N sqrt(1 + mu^2) carries the load q of the wall; else N = q."""
+        tension, torque, s = -self.WOB, bit_torque, self.length
+        per_load = self.friction * self.JOINT_RADIUS / (math.sqrt(1.0 + self.friction**2) if climbs else 1.0)
+        while s > 1e-9:
+            along = s - 0.5 * step - self.kick_off
+            angle = min(max(along * self.curvature, 0.0), self.inclination)
+            bend = self.curvature if 0.0 < along < self.inclination / self.curvature else 0.0
+            torque += per_load * abs(tension * bend - self.WEIGHT * math.sin(angle)) * step
+            tension += self.WEIGHT * math.cos(angle) * step
+            s -= step
+        return torque
+
+
+def torque_table(bench):
+    """Top torque of three wells on four meshes, beside the torque that bit and friction ask for and the soft string."""
+    rows = ["| well | elements per body | top torque by displacements [kN m] | by bit and friction [kN m] | apart [%] | soft string that climbs [kN m] | soft string [kN m] |",
+            "|---|---|---|---|---|---|---|"]
+    wells = [("3 deg/30 m from 400 m to 60 deg, 1425 m of pipe", 400, 3, 60, 150, 4.0), ("4 deg/30 m from 600 m to 80 deg, 2470 m", 600, 4, 80, 260, 0.0),
+             ("10 deg/30 m from 100 m to 88 deg, 570 m", 100, 10, 88, 60, 0.0)]
+    for number, (title, kick_off, rate, inclination, stands, bit) in enumerate(wells):
+        # mu of eq. (9) of Nguyen et al. 2020 at v = Omega R_c, mu_s = 0.3, mu_d = 0.25, v_r = 0.1 m/s
+        v, xi = 4.0 * math.pi * SoftString.JOINT_RADIUS, math.sqrt(1.0 - 0.25 / 0.3)
+        q = 1.0 / (1.0 + (1.0 - xi) / (2.0 * 0.1 * 0.25) * v)
+        soft = SoftString(kick_off, rate, inclination, stands, v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q))
+        for elements in (1, 2, 5, 10):
+            arguments = ["--without", "Transient", "--set", f"Drillstring/Components/body/Elements={elements}"]
+            if number > 0:
+                arguments += settings(**{"Well/Arc/Kick-off Depth": kick_off, "Well/Arc/Build Rate": f"{rate} deg/30m", "Well/Arc/End Inclination": f"{inclination} deg",
+                                         "Well/Arc/Tangent Length": 1500, "Drillstring/Assembly": f"{{{stands}*stand}}", "Loads/Torque On Bit": f"{bit:g} kN m"})
+            s = bench.run(f"torque_{number + 1}_{elements}", "build_hold_1400m", arguments)["static"]
+            top, asked = -s["top_torque"], -s["top_torque_equilibrium"]
+            rows.append(f"| {title if elements == 1 else ''} | {elements} | {kilo(top)} | {kilo(asked)} | {100.0 * (top - asked) / asked:.3f} "
+                        f"| {kilo(soft.torque(1e3 * bit, True))} | {kilo(soft.torque(1e3 * bit, False))} |")
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
@@ -184,7 +232,7 @@ def source_table(bench):
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+TABLES = {"static": static_table, "torque": torque_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
 
 
 def main():

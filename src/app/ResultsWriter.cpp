@@ -48,7 +48,8 @@ void writePath(const StaticStage& stage, io::ResultsFile& file) {
   const auto nodes = stage.path.position.size();
   const auto elements = stage.path.chordLength.size();
   file.write("/path/position", rows(stage.path.position), {nodes, 3}, "m", "Nodes at the end of the path, global X, Y, Z");
-  file.write("/path/reaction", Matrix(stage.path.reaction.transpose()), "N, N m", "Pre-load R_ipa of the nodes in nodal frames, forces then moments");
+  file.write("/path/reaction", Matrix(stage.path.reaction.transpose()), "N, N m",
+             "Pre-load R_ipa of the nodes in nodal frames, forces then moments");
   file.write("/path/axial_force", stage.path.axialForce, {elements}, "N", "Axial force of the elements, tension positive");
   file.write("/path/torque", stage.path.torque, {elements}, "N m", "Torque of the elements");
 }
@@ -73,15 +74,24 @@ void writeBases(const std::vector<reduction::ReducedSubstructure>& parts, io::Re
     file.write(group + "/basis", Matrix(part.basis->vectors), "1", "Basis Phi of " + part.name + ": D = offset + Phi q");
     file.write(group + "/offset", part.offset, {static_cast<std::size_t>(part.offset.size())}, "m, rad", "D at q = 0");
     if (part.basis->eigenvalues.size() > 0)
-      file.write(group + "/eigenvalues", part.basis->eigenvalues, {static_cast<std::size_t>(part.basis->eigenvalues.size())}, "rad2/s2",
-                 "Squared angular frequencies of the modes");
+      file.write(group + "/eigenvalues", part.basis->eigenvalues, {static_cast<std::size_t>(part.basis->eigenvalues.size())},
+                 "rad2/s2", "Squared angular frequencies of the modes");
   }
 }
 
 void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputFolder& folder) {
   const auto& state = stage.state;
-  io::Csv nodes({{"node", ""}, {"s", "m"}, {"u", "m"}, {"v", "m"}, {"w", "m"}, {"theta_z", "rad"}, {"r", "m"}, {"clearance", "m"},
-                 {"normal_force", "N"}, {"tangential_force", "N"}, {"friction_torque", "N m"}});
+  io::Csv nodes({{"node", ""},
+                 {"s", "m"},
+                 {"u", "m"},
+                 {"v", "m"},
+                 {"w", "m"},
+                 {"theta_z", "rad"},
+                 {"r", "m"},
+                 {"clearance", "m"},
+                 {"normal_force", "N"},
+                 {"tangential_force", "N"},
+                 {"friction_torque", "N m"}});
   for (int i = 0; i < scene.string.nodeCount(); ++i) {
     const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
     const auto d = state.displacement.segment<6>(6 * i);
@@ -89,7 +99,8 @@ void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputF
                state.tangentialForce(i), state.frictionTorque(i)});
   }
   nodes.stage(folder.file("static_nodes.csv"));
-  io::Csv elements({{"element", ""}, {"s", "m"}, {"axial_force", "N"}, {"torque", "N m"}, {"path_axial_force", "N"}, {"path_torque", "N m"}});
+  io::Csv elements(
+      {{"element", ""}, {"s", "m"}, {"axial_force", "N"}, {"torque", "N m"}, {"path_axial_force", "N"}, {"path_torque", "N m"}});
   for (int e = 0; e < scene.string.elementCount(); ++e) {
     const auto i = static_cast<std::size_t>(e);
     elements.row({e + 1.0, 0.5 * (scene.string.nodes[i].s + scene.string.nodes[i + 1].s), state.axialForce(e), state.torque(e),
@@ -99,7 +110,14 @@ void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputF
 }
 
 void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts, io::OutputFolder& folder) {
-  io::Csv table({{"part", ""}, {"kind", ""}, {"vector", ""}, {"frequency", "Hz"}, {"omega2", "rad2/s2"}, {"residual", ""}, {"kept", ""}, {"why", ""}});
+  io::Csv table({{"part", ""},
+                 {"kind", ""},
+                 {"vector", ""},
+                 {"frequency", "Hz"},
+                 {"omega2", "rad2/s2"},
+                 {"residual", ""},
+                 {"kept", ""},
+                 {"why", ""}});
   const auto number = [](double value) { return std::isfinite(value) ? formatNumber(value) : std::string(); };
   for (const auto& part : parts)
     for (const auto& row : part.basisRows())
@@ -136,7 +154,12 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.max_normal_force_node", state.maxNormalForceNode);
   summary.set("static.total_normal_force", state.totalNormalForce);
   summary.set("static.top_torque", state.topTorque);
-  summary.set("static.torque_balance_defect", state.torqueBalanceDefect);
+  summary.set("static.top_torque_equilibrium", state.topTorqueEquilibrium());
+  summary.set("static.torque_balance_defect", state.torqueBalanceDefect());
+  summary.set("static.torque_scale", state.torqueScale);
+  summary.set("static.friction", stage.friction.why);
+  summary.set("static.friction_direction", stage.friction.direction);
+  summary.set("static.friction_speed_rpm", stage.friction.speed * kRpm);
 }
 
 void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis, int reducedDofs, double wall,

@@ -36,7 +36,8 @@ class Run {
     parallel::agree([&] {
       folder_.emplace(folderName);
       folder_->requireSpace(expectedBytes());
-      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_.deck), io::ResultsOptions{scene_.output.compression});
+      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_.deck),
+                                                io::ResultsOptions{scene_.output.compression});
     });
     summarise(scene_, summary_);
     try {
@@ -52,7 +53,7 @@ class Run {
   void stages() {
     log::info("Tooljoint " + programVersion() + ": " + scene_.deck.name());
     log::info(describeScene(scene_));
-    stage_ = settle(scene_);
+    stage_ = solveStatic(scene_);
     log::info(describeStatic(stage_));
     summarise(stage_, summary_);
     parallel::agree([&] {
@@ -62,6 +63,7 @@ class Run {
       if (scene_.output.csv) stageStaticTables(scene_, stage_, *folder_);
       file_->flush();
     });
+    judgeTorqueBalance(scene_, stage_);
     if (!scene_.moves()) return;
     if (scene_.reduces()) {
       reduce();
@@ -77,7 +79,8 @@ class Run {
     auto planned = plannedParts(scene_, stage_);
     parts_ = std::move(planned.parts);
     const auto& list = scene_.list().sublist("Reduction");
-    outcome_ = estimate::synthesise(parts_, list, [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); }, planned.options);
+    outcome_ = estimate::synthesise(
+        parts_, list, [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); }, planned.options);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -101,7 +104,8 @@ class Run {
 
   void predictCost() {
     const auto full = fullStepCost(scene_, stage_);
-    const auto reduced = transient::stepCost(outcome_.synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")));
+    const auto reduced =
+        transient::stepCost(outcome_.synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")));
     log::info(describeCost(full, reduced));
     summary_.set("reduction.cost_ratio", reduced.total() / full.total());
   }
@@ -110,13 +114,15 @@ class Run {
     if (scene_.output.exportFormat == io::ExportFormat::None) return;
     std::vector<parts::PartContent> originals;
     for (const auto& part : parts_) originals.push_back(parts::contentOf(part));
-    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat, (std::filesystem::path(folder_->folder()) / "parts").string());
+    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat,
+                (std::filesystem::path(folder_->folder()) / "parts").string());
   }
 
   /// The motion of a candidate of the reduction, for its error only.
   estimate::MotionEstimate probe(const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts_, synthesis, stage_.state.displacement);
-    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")), limit);
+    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")),
+                                 limit);
   }
 
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model, const transient::RunHooks& hooks) {
@@ -144,12 +150,14 @@ class Run {
     };
     if (estimatesMotion_ && restart_)
       log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
-    const auto report = estimatesMotion_ && !restart_ ? integrateEstimating(model, hooks)
-                                                      : transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
+    const auto report = estimatesMotion_ && !restart_
+                            ? integrateEstimating(model, hooks)
+                            : transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
     summarise(report, recorder_->figures(), scene_.reduces(), summary_);
     if (report.interrupted)
-      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " + folder_->folder() +
-                             "; go on with: tooljoint run " + options_.deck + " --restart " + folder_->folder());
+      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " +
+                             folder_->folder() + "; go on with: tooljoint run " + options_.deck + " --restart " +
+                             folder_->folder());
     log::info(describeTransient(report, recorder_->figures()));
     warnOfMissedNodes();
     if (scene_.output.csv) recorder_->stageTable(*folder_);
@@ -158,7 +166,8 @@ class Run {
   void warnOfMissedNodes() const {
     const auto& missed = recorder_->figures().missed;
     if (missed.empty()) return;
-    log::warn(std::to_string(missed.size()) + " nodes reached the wall although contact is evaluated at retained nodes only (node " +
+    log::warn(std::to_string(missed.size()) +
+              " nodes reached the wall although contact is evaluated at retained nodes only (node " +
               std::to_string(missed.front()) + " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
   }
 
@@ -200,10 +209,12 @@ class Run {
     const auto folder = std::filesystem::path(options_.restart);
     parallel::agree([&] {
       if (!std::filesystem::exists(folder / kCheckpoint))
-        throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint + ". --restart goes on from the folder of an interrupted run.");
+        throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint +
+                        ". --restart goes on from the folder of an interrupted run.");
       // The old samples are read whole before the new run writes a file of the same name.
       for (const char* name : {"results.h5.part", "results.h5"})
-        if (!restart_ && std::filesystem::exists(folder / name)) restart_ = std::make_unique<RecordedMotion>((folder / name).string());
+        if (!restart_ && std::filesystem::exists(folder / name))
+          restart_ = std::make_unique<RecordedMotion>((folder / name).string());
       if (!restart_) throw FileError("\"" + options_.restart + "\" holds no results to go on from.");
     });
   }
@@ -214,7 +225,8 @@ class Run {
   double expectedBytes() const {
     if (!scene_.moves()) return 1e6;
     const auto& list = scene_.list().sublist("Transient");
-    const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) / list.get<double>("Sampling Interval");
+    const double samples =
+        (list.get<double>("End Time") - list.get<double>("Start Time")) / list.get<double>("Sampling Interval");
     return 1e6 + 8.0 * samples * scene_.string.nodeCount() * (6.0 * static_cast<double>(scene_.output.fields.size()));
   }
 

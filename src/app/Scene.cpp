@@ -11,8 +11,8 @@
 #include "parts/PartsParameters.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
-#include "substructures/string/ContactNodes.hpp"
 #include "study/StudyParameters.hpp"
+#include "substructures/string/ContactNodes.hpp"
 #include "substructures/string/DrillstringReader.hpp"
 #include "substructures/string/StringModel.hpp"
 #include "transient/Integrator.hpp"
@@ -21,8 +21,9 @@
 namespace tooljoint::app {
 
 deck::ListSpec sceneSpec() {
-  deck::ListSpec scene("Scene", "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
-                                "Drillstring may be left out, and what is left out is not modelled.");
+  deck::ListSpec scene("Scene",
+                       "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
+                       "Drillstring may be left out, and what is left out is not modelled.");
   scene.requiredList(well::parameters());
   scene.requiredList(string_::drillstringParameters());
   scene.list(string_::supportParameters());
@@ -41,14 +42,6 @@ deck::ListSpec sceneSpec() {
   scene.list(io::parameters());
   scene.list(study::parameters());
   return scene;
-}
-
-double Scene::direction() const {
-  if (!rotary.present()) return 0.0;
-  // The first instant at which the string turns, looked for up to a minute.
-  for (double t = 0.0; t <= 60.0; t = t == 0.0 ? 1e-3 : 2.0 * t)
-    if (rotary.speed(t) != 0.0) return std::copysign(1.0, rotary.speed(t));
-  return 0.0;
 }
 
 int Scene::freeDofs() const { return static_cast<int>(std::count(held.begin(), held.end(), char{0})); }
@@ -101,23 +94,32 @@ bool stepsExplicitly(const Teuchos::ParameterList& transient) {
 void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
-    faults.add("Coupling/Node Numbers", "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it at \"Shared\".");
+    faults.add("Coupling/Node Numbers",
+               "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it at \"Shared\".");
   const auto& plan = *scene.coupling;
   if (scene.reduces()) {
     const auto& reduction = list.sublist("Reduction");
     const auto estimated = reduction.get<std::string>("Error Estimate");
-    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() && plan.constraints.empty() && plan.links.empty() && plan.hinges.empty();
+    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() && plan.constraints.empty() &&
+                        plan.links.empty() && plan.hinges.empty();
     if (!simple && (estimated == "Transient" || estimated == "Both" || reduction.isParameter("Motion Tolerance")))
-      faults.add("Coupling", "gives frames, constraints, links, hinges or dual assembly, and Reduction asks for the error of the motion, which is estimated only where parts are joined by "
-                             "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the \"Motion Tolerance\".");
+      faults.add("Coupling",
+                 "gives frames, constraints, links, hinges or dual assembly, and Reduction asks for the error of the motion, "
+                 "which is estimated only where parts are joined by "
+                 "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the \"Motion Tolerance\".");
   }
   if (plan.assembly != coupling::Assembly::Dual) return;
-  if (!scene.reduces()) faults.add("Coupling/Assembly", "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
+  if (!scene.reduces())
+    faults.add(
+        "Coupling/Assembly",
+        "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
   if (scene.moves() && stepsExplicitly(list.sublist("Transient")))
-    faults.add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator \"" + list.sublist("Transient").get<std::string>("Integrator") +
+    faults.add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator \"" +
+                                        list.sublist("Transient").get<std::string>("Integrator") +
                                         "\" needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
   if (scene.reduces() && list.sublist("Reduction").get<std::string>("Interface Reduction") != "None")
-    faults.add("Reduction/Interface Reduction", "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
+    faults.add("Reduction/Interface Reduction",
+               "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
 }
 
 /// What only several lists together can tell.
@@ -126,31 +128,39 @@ void crossCheck(const Scene& scene, Faults& faults) {
   if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)
     faults.add("Substructures", "has no effect without a Reduction list. Add one, or leave Substructures out.");
   if (list.isSublist("Parts"))
-    faults.add("Parts", "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and export the string (tooljoint export), and import it there.");
+    faults.add("Parts",
+               "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and export the string (tooljoint "
+               "export), and import it there.");
   if (scene.output.exportFormat != io::ExportFormat::None && !(scene.reduces() && scene.moves()))
     faults.add("Output/Export Parts", "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
   if (scene.coupling) crossCheckCoupling(scene, faults);
   if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
-    faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
+    faults.add("Reduction",
+               "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
   if (scene.reduces() && !scene.moves()) {
     const auto& reduction = list.sublist("Reduction");
     if (reduction.isParameter("Motion Tolerance"))
-      faults.add("Reduction/Motion Tolerance", "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
+      faults.add("Reduction/Motion Tolerance",
+                 "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
     const auto estimated = reduction.get<std::string>("Error Estimate");
     if (estimated == "Transient" || estimated == "Both")
-      faults.add("Reduction/Error Estimate", "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
+      faults.add("Reduction/Error Estimate",
+                 "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
   }
   if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
-    faults.add("Contact/Friction", "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
+    faults.add("Contact/Friction",
+               "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
   if (scene.loads.weightOnBit < 0.0)
     faults.add("Loads/Weight On Bit", "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
                                           " N. A weight on bit is positive when it compresses the string.");
   const auto dofs = scene.held.size() - 6;
   const auto held = [&](std::size_t dof) { return scene.held[dof] != 0; };
   if (scene.loads.weightOnBit != 0.0 && held(dofs + 2))
-    faults.add("Loads/Weight On Bit", "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the load out.");
+    faults.add("Loads/Weight On Bit",
+               "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the load out.");
   if (scene.loads.torqueOnBit != 0.0 && held(dofs + 5))
-    faults.add("Loads/Torque On Bit", "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or leave the load out.");
+    faults.add("Loads/Torque On Bit",
+               "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or leave the load out.");
   if (scene.freeDofs() == 0) faults.add("Supports", "hold every dof of the string; nothing is left to compute. Release some.");
 }
 
@@ -178,7 +188,8 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
     for (int node = ranges[p].firstElement; node <= ranges[p].lastElement + 1; ++node) {
       const auto first = scene.held.begin() + string_::kNodeDofs * node;
       const auto free = static_cast<int>(std::count(first, first + string_::kNodeDofs, 0));
-      const bool shared = (p > 0 && node == ranges[p].firstElement) || (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
+      const bool shared =
+          (p > 0 && node == ranges[p].firstElement) || (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
       part.dofs += free;
       part.inner = part.inner || (free > 0 && !shared);
     }
@@ -222,7 +233,8 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   if (list.isSublist("Coupling")) faults.attempt([&] { coupling = coupling::readCoupling(list.sublist("Coupling")); });
   if (list.isSublist("Study")) faults.attempt([&] { study::readStudy(list.sublist("Study")); });
   const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
-  faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
+  faults.attempt(
+      [&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();
 
   Scene scene{deck, *well, *string, supports, {}, mud, contact, {}, rotary, loads, damping, path, statics, partition, output};

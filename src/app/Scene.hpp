@@ -48,8 +48,6 @@ struct Scene {
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }
   bool moves() const { return list().isSublist("Transient"); }
-  /// +1 or -1: the direction the string turns in first; 0 without rotation (no sliding friction in the static state then).
-  double direction() const;
   int freeDofs() const;
 };
 

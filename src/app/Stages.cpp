@@ -2,15 +2,33 @@
 #include "app/Stages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "app/NoxSolver.hpp"
 #include "common/Error.hpp"
+#include "common/Log.hpp"
+#include "common/Text.hpp"
 #include "linalg/DirectSolver.hpp"
 #include "substructures/string/EquationBuilder.hpp"
 
 namespace tooljoint::app {
+
+StaticFriction staticFriction(const Scene& scene) {
+  constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
+  using equilibrium::FrictionRule;
+  if (!scene.contact || !scene.contact->friction) return {0.0, 0.0, "no friction in the Contact list"};
+  if (scene.statics.friction == FrictionRule::None) return {0.0, 0.0, "switched off in Static/Friction"};
+  const double start = scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
+  const double speed = scene.rotary.speed(start);
+  const bool turns = std::abs(speed) > atRest;
+  const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
+  if (direction == 0.0) return {0.0, 0.0, "the string never turns"};
+  if (scene.statics.friction == FrictionRule::Peak) return {direction, 0.0, "peak coefficient"};
+  if (!turns) return {direction, 0.0, "peak coefficient: the string starts from rest"};
+  return {direction, std::abs(speed), "coefficient at the sliding speed Omega R_c"};
+}
 
 namespace {
 
@@ -31,11 +49,12 @@ path::PathState bend(const Scene& scene) {
 }
 
 /// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
-equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path, const string_::StringModel& equations) {
+equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path, const string_::StringModel& equations,
+                                     const StaticFriction& friction) {
   equilibrium::StaticInput input;
   input.nodes = equations.nodes;
   input.held = equations.held;
-  input.direction = scene.direction();
+  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
   input.geometricStiffness = scene.statics.geometricStiffness;
   for (int e = 0; e < equations.elements(); ++e) {
     const auto i = static_cast<std::size_t>(e);
@@ -48,15 +67,23 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
     element.length = path.initialLength[i];
     element.axialRigidity = section.axialRigidity();
     element.torsionalRigidity = section.torsionalRigidity();
+    const double curvature = std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
+                                      scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
+    element.bendingMoment = section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
     input.elements.push_back(element);
   }
   input.load = Vector::Zero(string_::kNodeDofs * equations.nodes);
   for (const auto& load : equations.loads) {
     if (load.law != 0) continue;
-    if (load.name == kPathReaction) input.pathReaction = load.vector;
-    else input.load += load.vector;
+    if (load.name == kPathReaction)
+      input.pathReaction = load.vector;
+    else
+      input.load += load.vector;
   }
-  if (scene.contactPoints.size() > 0) input.contact = scene.contact->law->atRest(scene.contactPoints);
+  input.direction = friction.direction;
+  if (scene.contactPoints.size() > 0)
+    input.contact =
+        scene.contact->law->atRest(friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
   return input;
 }
 
@@ -68,14 +95,17 @@ void requireHeld(const Scene& scene, const string_::StringModel& equations) {
   for (int i = 0; i < scene.contactPoints.size(); ++i)
     for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
       if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] && model.dofs[dof].component < 2)
-        walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof), scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
+        walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof),
+                           scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
   Sparse wall(model.size(), model.size());
   wall.setFromTriplets(walls.begin(), walls.end());
   try {
-    linalg::DirectSolver(Sparse(model.stiffnessAt(0.0) + wall),
-                         [&](int dof) { return model::describe(model.dofs[static_cast<std::size_t>(dof)], model.componentNames); });
+    linalg::DirectSolver(Sparse(model.stiffnessAt(0.0) + wall), [&](int dof) {
+      return model::describe(model.dofs[static_cast<std::size_t>(dof)], model.componentNames);
+    });
   } catch (const ModelError& error) {
-    throw ModelError(std::string("The string floats: nothing holds it. ") + error.what() + " Hold that dof in the Supports list.");
+    throw ModelError(std::string("The string floats: nothing holds it. ") + error.what() +
+                     " Hold that dof in the Supports list.");
   }
 }
 
@@ -86,8 +116,9 @@ struct FreeMotion {
 };
 constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns about its axis"}};
 
-/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it curves, walls and bending resist sliding, but by
-/// far too little for the weight. Said when that string has no static equilibrium: exit code of a model that floats, not of a solver that failed.
+/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it curves, walls and bending resist
+/// sliding, but by far too little for the weight. Said when that string has no static equilibrium: exit code of a model that
+/// floats, not of a solver that failed.
 void explainFailure(const Scene& scene, const ConvergenceError& error) {
   for (const auto& motion : freeMotions) {
     bool heldSomewhere = false;
@@ -95,20 +126,24 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
       heldSomewhere = heldSomewhere || scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
     if (heldSomewhere) continue;
     const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion.component)];
-    throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion.does +
-                     ", which walls and bending cannot hold. Hold " + dof + " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
+    throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) +
+                     " nodes, so that it " + motion.does + ", which walls and bending cannot hold. Hold " + dof +
+                     " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
   }
 }
 
 }  // namespace
 
-StaticStage settle(const Scene& scene) {
+StaticStage solveStatic(const Scene& scene) {
   StaticStage stage;
+  warnOfPrestress(scene);
+  stage.friction = staticFriction(scene);
   stage.path = bend(scene);
   const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
-  stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
+  stage.equations =
+      string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, stage.equations);
-  const auto input = staticInput(scene, stage.path, stage.equations);
+  const auto input = staticInput(scene, stage.path, stage.equations, stage.friction);
   try {
     stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
   } catch (const ConvergenceError& error) {
@@ -118,10 +153,55 @@ StaticStage settle(const Scene& scene) {
   string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement, scene.damping);
   if (scene.contactPoints.size() > 0) {
     const auto rotary = scene.rotary;
-    stage.equations.contact.law = scene.contact->law->inMotion(scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
+    stage.equations.contact.law =
+        scene.contact->law->inMotion(scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
     for (int node : scene.contactPoints.node) stage.equations.contact.nodes.push_back(node - 1);
   }
   return stage;
+}
+
+void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
+  constexpr double worthAWarning = 0.02, wrong = 0.1;  // of the torque scale
+  const auto& state = stage.state;
+  const double defect = state.relativeTorqueDefect();
+  if (defect <= worthAWarning) return;
+  const std::string found =
+      "The displacements of the static state give a torque of " + formatNumber(std::round(state.topTorque)) +
+      " N m at the top, loads, friction and supports below give " + formatNumber(std::round(state.topTorqueEquilibrium())) +
+      " N m: the balance of torque is off by " + formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
+      formatNumber(std::round(state.torqueScale)) + " N m. ";
+  const bool round = std::all_of(scene.string.elements.begin(), scene.string.elements.end(),
+                                 [](const string_::Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
+  if (scene.path.prestress == path::Prestress::AxialAndTorque)
+    log::warn(
+        found +
+        "The pre-stress \"Axial and torque\" resists a spin about the curved axis; Path/Pre-stress \"Full tangent\" does not.");
+  else if (!round)
+    log::warn(found + "Sections that are not round resist a spin about the curved axis.");
+  else if (defect <= wrong)
+    log::warn(found + "Use more elements per component, or shorter ones where the well bends most.");
+  else
+    throw ConvergenceError(found +
+                           "Use more elements per component, shorter ones where the well bends most; or accept the imbalance "
+                           "with Path/Pre-stress \"Axial and torque\".");
+}
+
+StaticStage settle(const Scene& scene) {
+  auto stage = solveStatic(scene);
+  judgeTorqueBalance(scene, stage);
+  return stage;
+}
+
+void warnOfPrestress(const Scene& scene) {
+  if (scene.path.prestress != path::Prestress::AxialAndTorque) return;
+  for (const double s : scene.string.depths())
+    if (scene.well.trajectory().at(s).curvature.norm() > 0.0) {
+      log::warn(
+          "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then resists a spin about its own curved "
+          "axis, and torques are wrong. "
+          "Take \"Full tangent\" (the default) unless the published model of Nguyen et al. 2020 is wanted.");
+      return;
+    }
 }
 
 model::SecondOrderModel fullModel(const StaticStage& stage) { return string_::assemble(stage.equations); }

@@ -4,6 +4,7 @@
 /// scene -> path -> equations and static state -> parts -> reduced parts -> coupled model.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "app/Scene.hpp"
@@ -22,15 +23,33 @@ namespace tooljoint::app {
 /// Name of the point set of the borehole wall.
 constexpr const char* kContactSet = "contact";
 
+/// Friction of the static state, as Static/Friction and the rotary speed decide it.
+struct StaticFriction {
+  double direction = 0.0;  ///< sense of the sliding: +1, -1, or 0 without friction
+  double speed = 0.0;      ///< |Omega| whose coefficient acts [rad/s]; 0: the peak mu_s
+  std::string why;         ///< for the log
+};
+StaticFriction staticFriction(const Scene& scene);
+
 /// The string at rest in its well, and its equations of motion about that state.
 struct StaticStage {
   path::PathState path;
   string_::StringModel equations;
   equilibrium::StaticState state;
+  StaticFriction friction;
 };
 
 /// Bends the string into the well and finds its static equilibrium. Throws ConvergenceError, ModelError.
+StaticStage solveStatic(const Scene& scene);
+/// Torque at the top against what loads, friction and supports below ask for: above 2 % of the scale of StaticState a warning,
+/// above 10 % a ConvergenceError. With the pre-stress "Axial and torque", or sections that are not round, always a warning: there
+/// the model itself resists a spin about the curved axis.
+void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
+/// Both in turn.
 StaticStage settle(const Scene& scene);
+
+/// A warning when the deck takes the pre-stress "Axial and torque" in a well that bends.
+void warnOfPrestress(const Scene& scene);
 
 /// The full model of the string alone, in total displacements.
 model::SecondOrderModel fullModel(const StaticStage& stage);

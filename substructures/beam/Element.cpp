@@ -16,14 +16,13 @@ struct Plane {
   std::array<int, 4> dof;
   std::array<double, 4> sign;
 };
-constexpr Plane kU{{0, 4, 6, 10}, {1.0, 1.0, 1.0, 1.0}};    // u' = +theta_y
+constexpr Plane kU{{0, 4, 6, 10}, {1.0, 1.0, 1.0, 1.0}};   // u' = +theta_y
 constexpr Plane kV{{1, 3, 7, 9}, {1.0, -1.0, 1.0, -1.0}};  // v' = -theta_x
 
 /// Adds a 4x4 block that acts between the (displacement, slope) dofs of two planes.
 void addBlock(const Plane& row, const Plane& column, const Block4& block, Matrix12& out) {
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      out(row.dof[i], column.dof[j]) += row.sign[i] * column.sign[j] * block(i, j);
+    for (int j = 0; j < 4; ++j) out(row.dof[i], column.dof[j]) += row.sign[i] * column.sign[j] * block(i, j);
 }
 
 /// Adds factor * length/6 [2 1; 1 2] on one dof of both ends.
@@ -38,8 +37,7 @@ void addLinear(int dof, double factor, Matrix12& out) {
 Row4 hermite(double x, double l, int order) {
   switch (order) {
     case 0:
-      return {1 - 3 * x * x + 2 * x * x * x, l * (x - 2 * x * x + x * x * x), 3 * x * x - 2 * x * x * x,
-              l * (x * x * x - x * x)};
+      return {1 - 3 * x * x + 2 * x * x * x, l * (x - 2 * x * x + x * x * x), 3 * x * x - 2 * x * x * x, l * (x * x * x - x * x)};
     case 1:
       return {(6 * x * x - 6 * x) / l, 1 - 4 * x + 3 * x * x, (6 * x - 6 * x * x) / l, 3 * x * x - 2 * x};
     default:
@@ -75,9 +73,9 @@ Matrix12 lateralIntegral(int a, int b, double l) {
 /// E I/(l^3 (1+phi)) [12 6l -12 6l; (4+phi) l^2 -6l (2-phi) l^2; 12 -6l; (4+phi) l^2].
 Block4 bending(double rigidity, double phi, double l) {
   Block4 k;
-  k << 12, 6 * l, -12, 6 * l,                                     //
-      6 * l, (4 + phi) * l * l, -6 * l, (2 - phi) * l * l,        //
-      -12, -6 * l, 12, -6 * l,                                    //
+  k << 12, 6 * l, -12, 6 * l,                               //
+      6 * l, (4 + phi) * l * l, -6 * l, (2 - phi) * l * l,  //
+      -12, -6 * l, 12, -6 * l,                              //
       6 * l, (2 - phi) * l * l, -6 * l, (4 + phi) * l * l;
   return rigidity / (l * l * l * (1.0 + phi)) * k;
 }
@@ -164,6 +162,13 @@ Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3&
   Matrix12 r = Matrix12::Zero();
   r.block<3, 3>(0, 0) = r.block<3, 3>(3, 3) = r1;
   r.block<3, 3>(6, 6) = r.block<3, 3>(9, 9) = r2;
+  return r;
+}
+
+Matrix12 slopeRotation(const Matrix12& rotation) {
+  Matrix12 r = rotation;
+  r.col(5).setZero();
+  r.col(11).setZero();
   return r;
 }
 

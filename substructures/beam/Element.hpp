@@ -50,6 +50,11 @@ Vector12 distributedLoad(const Vector3& q, double length);
 /// axes), so that K_nodal = R' K_element R.
 Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3& node2);
 
+/// The same for what depends on slopes alone (geometric stiffness). The change of a nodal tangent t is theta x t, to which the
+/// spin theta_z about t gives nothing: the columns of theta_z of `rotation` = rotation12(...) are zero here. Turned by
+/// rotation12 itself, the spin of a node tilts the chord of a curved element by theta_z kappa l/2.
+Matrix12 slopeRotation(const Matrix12& rotation);
+
 /// Element triad from its end points and nodal triads: z on the chord, x and y from the mean of the nodal y axes.
 /// ModelError if the points coincide or the mean y axis lies on the chord.
 Matrix3 elementTriad(const Vector3& x1, const Vector3& x2, const Matrix3& node1, const Matrix3& node2);

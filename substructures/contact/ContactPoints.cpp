@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "substructures/contact/FrictionCurve.hpp"
 
 namespace tooljoint::contact {
 namespace {
@@ -50,6 +51,14 @@ ContactPoint ContactPoints::at(int position) const {
 ContactPoints ContactPoints::subset(const std::vector<int>& positions) const {
   ContactPoints out;
   for (const int i : positions) out.add(at(i));
+  return out;
+}
+
+ContactPoints ContactPoints::slidingAt(double omega) const {
+  ContactPoints out = *this;
+  for (std::size_t i = 0; i < out.muStatic.size(); ++i)
+    out.muStatic[i] =
+        FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i]).value(std::abs(omega) * contactRadius[i]);
   return out;
 }
 

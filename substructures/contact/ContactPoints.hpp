@@ -42,6 +42,9 @@ struct ContactPoints {
   ContactPoints subset(const std::vector<int>& positions) const;
   /// No point has friction.
   bool frictionless() const;
+  /// The same points with mu_s replaced by mu(|Omega| R_c) of eq. (9): what a section that turns at Omega [rad/s] without moving
+  /// sideways slides with. For StaticContact, which knows mu_s alone.
+  ContactPoints slidingAt(double omega) const;
 };
 
 }  // namespace tooljoint::contact

@@ -22,8 +22,8 @@ std::string shortNumber(double value) {
   return text;
 }
 
-/// The line searches tried in turn from the same start. Without friction the string has an energy, and the work of a step judges it;
-/// friction has none, and full steps follow a small change of it best.
+/// The line searches tried in turn from the same start. Without friction the string has an energy, and the work of a step judges
+/// it; friction has none, and full steps follow a small change of it best.
 using Searches = std::vector<model::LineSearch>;
 const Searches minimising{model::LineSearch::Work, model::LineSearch::None};
 const Searches following{model::LineSearch::None, model::LineSearch::Work};
@@ -93,7 +93,8 @@ class Stages {
   std::string complaint(double tolerance) const {
     std::string text = "The static equilibrium did not converge to " + shortNumber(tolerance) + " of the largest load; tried ";
     for (const StageReport& stage : report_.stages)
-      text += stage.name + " (" + std::to_string(stage.iterations) + " iterations, residual " + shortNumber(stage.residual) + "), ";
+      text +=
+          stage.name + " (" + std::to_string(stage.iterations) + " iterations, residual " + shortNumber(stage.residual) + "), ";
     return text + (options_.recipe == Recipe::Source
                        ? "by the recipe \"Source\". Use /Static/Recipe \"Continuation\". "
                        : "by the recipe \"Continuation\". Allow more /Static/Max Iterations or /Static/Friction Steps, a shorter "
@@ -123,8 +124,9 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); }).solve(-negativeLoad);
 }
 
-/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law of the scene, then each point's own.
-/// Until then a wall is no stiffer than that the largest load presses a point in by 1/lambda, over which its law bends.
+/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law of the scene, then each
+/// point's own. Until then a wall is no stiffer than that the largest load presses a point in by 1/lambda, over which its law
+/// bends.
 void sharpen(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
              const StaticSwitches& switches, double tolerance, Vector& x) {
   const contact::ContactPoints& points = input.contact->points();
@@ -155,7 +157,8 @@ void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& s
     return shortNumber(scale) + " of the friction";
   };
   for (int step = 1; step <= options.frictionSteps; ++step)
-    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0, friction, switches, following, x);
+    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0, friction, switches,
+                 following, x);
 }
 
 /// Some laws pull open points to the wall, and friction turns what is pulled about the axis. Throws ConvergenceError saying so
@@ -168,8 +171,10 @@ void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& swi
   try {
     stages.march(0.0, 1.0, 0.0, pull, switches, following, x);
   } catch (const ConvergenceError& error) {
-    throw ConvergenceError(std::string(error.what()) + " The string rests against walls that only push; the contact law also pulls every " +
-                           "open point to the wall with up to " + shortNumber(input.contact->largestPull()) + " N and, by friction, around the hole. Raise " +
+    throw ConvergenceError(std::string(error.what()) +
+                           " The string rests against walls that only push; the contact law also pulls every " +
+                           "open point to the wall with up to " + shortNumber(input.contact->largestPull()) +
+                           " N and, by friction, around the hole. Raise " +
                            "/Contact/Stiffness Regularisation, or use /Contact/Law \"Clamped\", which does not pull.");
   }
 }
@@ -244,6 +249,20 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
   }
 }
 
+/// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic force, so the torque at the
+/// top equals what loads, friction and supports below ask for.
+void describeTorque(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
+  state.topTorque = state.torque(0);
+  const Vector unbalanced = problem.unbalanced(state.displacement);
+  for (int n = 1; n < input.nodes; ++n) {
+    const int dof = 6 * n + 5;
+    state.appliedTorque += input.load(dof);
+    if (input.held[static_cast<std::size_t>(dof)] != 0) state.appliedTorque += unbalanced(dof);
+  }
+  for (const StaticElement& element : input.elements) state.torqueScale = std::max(state.torqueScale, element.bendingMoment);
+  state.torqueScale = std::max(state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
+}
+
 }  // namespace
 
 StaticState describe(const StaticInput& input, const StaticProblem& problem, const Vector& displacement) {
@@ -262,9 +281,7 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem, con
   state.lastElementAxialForce = state.axialForce(elements - 1);
   state.lastElementTorque = state.torque(elements - 1);
   describeContact(input, problem, state);
-  for (int n = 1; n < input.nodes; ++n) state.appliedTorque += input.load(6 * n + 5);
-  state.topTorque = state.torque(0);
-  state.torqueBalanceDefect = state.topTorque - state.appliedTorque - state.totalFrictionTorque;
+  describeTorque(input, problem, state);
   return state;
 }
 

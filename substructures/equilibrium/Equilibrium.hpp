@@ -21,14 +21,22 @@ enum class Recipe {
   Source,        ///< from K_pa^-1 F_s with full Newton steps: first without, then with K_gpo
 };
 
+/// Which coefficient the sliding friction of the static state has.
+enum class FrictionRule {
+  SlidingSpeed,  ///< mu(|Omega| R_c) of the law of motion; mu_s when the string starts from rest
+  Peak,          ///< mu_s (the source)
+  None,
+};
+
 /// The deck's `Static` list as a plain value.
 struct StaticOptions {
   Recipe recipe = Recipe::Continuation;
+  FrictionRule friction = FrictionRule::SlidingSpeed;
   bool exactJacobian = true;
   bool geometricStiffness = true;
-  double tolerance = 1e-9;         ///< on the largest scaled residual
-  int maxIterations = 200;         ///< per stage
-  double lateralStepLimit = 0.05;  ///< [m], `Continuation`
+  double tolerance = 1e-9;                     ///< on the largest scaled residual
+  int maxIterations = 200;                     ///< per stage
+  double lateralStepLimit = 0.05;              ///< [m], `Continuation`
   std::vector<double> lambdas{1e3, 1e4, 1e6};  ///< stages before each point's own lambda [1/m], `Continuation`
   int frictionSteps = 4;                       ///< `Continuation`
 };

@@ -44,7 +44,7 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
     const StaticElement& element = input.elements[e];
     const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * kDofs;
     lists.emplace_back(first, first + 2 * kDofs);
-    const beam::Matrix12& r = element.rotation;
+    const beam::Matrix12 r = input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
     unitAxial_.push_back(r.transpose() * beam::geometricAxial(element.length) * r);
     unitTorque_.push_back(r.transpose() * beam::geometricTorque(element.length) * r);
     length += element.length;
@@ -124,21 +124,27 @@ void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& no
   input_.contact->normalForce(contactOptions(), uv.data(), normal.data());
 }
 
-void StaticProblem::residual(const Vector& x, Vector& r) const {
-  const Vector full = expand(x);
+void StaticProblem::residual(const Vector& x, Vector& r) const { r = restrict(unbalanced(expand(x))); }
+
+Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector external = input_.load;
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
-  r = -restrict(external);
+  Vector r = -external;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const beam::Vector12 d = full.segment<12>(kDofs * e);
-    const beam::Vector12 force = (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
-    assembler_.add(e, force, r);
+    r.segment<12>(kDofs * e) += (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
   }
-  if (!touches()) return;
+  if (!touches()) return r;
   Vector forces(3 * input_.contact->size());
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data());
-  for (int p = 0; p < input_.contact->size(); ++p)
-    assembler_.add(static_cast<int>(input_.elements.size()) + p, -forces.segment<3>(3 * p), r);
+  const std::vector<int>& nodes = input_.contact->points().node;
+  for (std::size_t p = 0; p < nodes.size(); ++p) {
+    const int dof = kDofs * (nodes[p] - 1);
+    const auto force = forces.segment<3>(3 * static_cast<int>(p));
+    r.segment<2>(dof) -= force.head<2>();
+    r(dof + 5) -= force(2);
+  }
+  return r;
 }
 
 void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {

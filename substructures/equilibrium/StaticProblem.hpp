@@ -21,18 +21,22 @@ struct StaticElement {
   double length = 0.0;             ///< [m]
   double axialRigidity = 0.0;      ///< E S [N]
   double torsionalRigidity = 0.0;  ///< G J [N m2]
+  double bendingMoment = 0.0;      ///< E I kappa of the well [N m], the scale of the torque balance
 };
 
 /// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path state.
 struct StaticInput {
   int nodes = 0;
   std::vector<StaticElement> elements;
-  Vector load;             ///< F_s: weight, mud, WOB, TOB [N, N m]
-  Vector pathReaction;     ///< R_ipa; empty means zero
-  std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
+  Vector load;                                            ///< F_s: weight, mud, WOB, TOB [N, N m]
+  Vector pathReaction;                                    ///< R_ipa; empty means zero
+  std::vector<char> held;                                 ///< 1 where a support (or the choice of dof families) holds the dof
   std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
-  double direction = 1.0;          ///< sign of the rotary speed the string slides with; 0: no friction
-  bool geometricStiffness = true;  ///< K_gpo(D)
+  double direction = 1.0;                                 ///< sign of the rotary speed the string slides with; 0: no friction
+  bool geometricStiffness = true;                         ///< K_gpo(D)
+  /// K_gpo takes its slopes from all rotations in the element frame, spin included, as the source does. False: from the change of
+  /// the nodal tangents (beam::slopeRotation), so that a section that spins about its own axis meets no geometric stiffness.
+  bool chordSlopes = false;
 };
 
 /// Which parts of the equation are switched on, and how the Jacobian is formed.
@@ -40,13 +44,13 @@ struct StaticSwitches {
   bool geometricStiffness = true;
   bool pathReaction = true;
   bool contact = true;
-  bool exactJacobian = true;     ///< false: without dK_gpo/dD, equation (25)
-  double lambda = 0.0;           ///< regularisation of all contacts [1/m]; 0: each point's own
-  double frictionScale = 1.0;    ///< factor on mu_s
-  double stiffnessScale = 1.0;  ///< on the stiffness of the wall
-  double pull = 1.0;             ///< share of what contact laws pull open points with
-  double lateralStepLimit = 0.0; ///< largest change of u or v in a step [m]; 0: none
-  bool slideAlongWall = false;   ///< steps take points that touch along the wall, not along its tangent
+  bool exactJacobian = true;      ///< false: without dK_gpo/dD, equation (25)
+  double lambda = 0.0;            ///< regularisation of all contacts [1/m]; 0: each point's own
+  double frictionScale = 1.0;     ///< factor on mu_s
+  double stiffnessScale = 1.0;    ///< on the stiffness of the wall
+  double pull = 1.0;              ///< share of what contact laws pull open points with
+  double lateralStepLimit = 0.0;  ///< largest change of u or v in a step [m]; 0: none
+  bool slideAlongWall = false;    ///< steps take points that touch along the wall, not along its tangent
 };
 
 /// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
@@ -74,6 +78,10 @@ class StaticProblem : public model::NonlinearProblem {
   Vector expand(const Vector& x) const;
   Vector restrict(const Vector& full) const;
 
+  /// (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa at every dof of a full vector D; at a held dof it is the reaction of its support
+  /// on the string [N, N m].
+  Vector unbalanced(const Vector& full) const;
+
   /// F_apo = E S (w2 - w1)/l and T_apo = G J (theta_z2 - theta_z1)/l in the element frame, equation (20) [N, N m].
   double axialForce(int element, const Vector& full) const;
   double torque(int element, const Vector& full) const;
@@ -94,8 +102,8 @@ class StaticProblem : public model::NonlinearProblem {
   const StaticInput& input_;
   StaticSwitches switches_;
   int unknowns_ = 0;
-  std::vector<int> index_;            ///< unknown of each dof, -1 when held
-  beam::SparseAssembler assembler_;   ///< elements first, then contact points (u, v, theta_z)
+  std::vector<int> index_;                  ///< unknown of each dof, -1 when held
+  beam::SparseAssembler assembler_;         ///< elements first, then contact points (u, v, theta_z)
   std::vector<beam::Matrix12> unitAxial_;   ///< K_gF per unit F in nodal frames
   std::vector<beam::Matrix12> unitTorque_;  ///< K_gT per unit T in nodal frames
   double forceScale_ = 1.0;

@@ -3,6 +3,7 @@
 /// The string at rest in the well: displacements, contact, element forces, and how well the result balances.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -45,11 +46,17 @@ struct StaticState {
   double maxNormalForce = 0.0;
   int maxNormalForceNode = 0;  ///< 1-based, 0 when nothing touches
   double totalNormalForce = 0.0;
-  double topTorque = 0.0;            ///< T_apo of the first element [N m]
-  double appliedTorque = 0.0;        ///< sum of the theta_z entries of F_s below the first node (TOB, usually) [N m]
+  double topTorque = 0.0;  ///< T_apo of the first element, from displacements [N m]
+  double appliedTorque =
+      0.0;  ///< theta_z entries of F_s and of the support reactions below the first node (TOB, usually), summed [N m]
   double totalFrictionTorque = 0.0;  ///< [N m]
-  /// topTorque - appliedTorque - totalFrictionTorque [N m]: zero for a shaft that turns freely about its curved axis.
-  double torqueBalanceDefect = 0.0;
+  double torqueScale = 0.0;  ///< the larger of |appliedTorque| + sum |friction torque| and E I kappa_max of the well [N m]
+  /// Top torque that loads, friction and supports below ask for [N m].
+  double topTorqueEquilibrium() const { return appliedTorque + totalFrictionTorque; }
+  /// topTorque - topTorqueEquilibrium [N m]: zero for a shaft that turns freely about its curved axis.
+  double torqueBalanceDefect() const { return topTorque - topTorqueEquilibrium(); }
+  /// |torqueBalanceDefect| / torqueScale; 0 for a string without torque in a straight well.
+  double relativeTorqueDefect() const { return torqueScale > 0.0 ? std::abs(torqueBalanceDefect()) / torqueScale : 0.0; }
   StaticReport report;
 };
 

@@ -34,6 +34,20 @@ RotarySpeed RotarySpeed::fromDeck(const Teuchos::ParameterList& deck) {
   return deck.isSublist("Rotary Speed") ? RotarySpeed(deck.sublist("Rotary Speed")) : RotarySpeed();
 }
 
+double RotarySpeed::sense(double from) const {
+  if (!law_) return 0.0;
+  constexpr double justAfter = 1e-6;  // share of a smooth stretch: the sign with which the stretch begins
+  std::vector<double> starts{from};
+  for (double corner : law_->corners())
+    if (corner > from) starts.push_back(corner);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const double width = i + 1 < starts.size() ? starts[i + 1] - starts[i] : 1.0;
+    for (double t : {starts[i], starts[i] + justAfter * width})
+      if (speed(t) != 0.0) return std::copysign(1.0, speed(t));
+  }
+  return 0.0;
+}
+
 model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
   // F = m e (phi'^2 cos phi + phi'' sin phi, phi'^2 sin phi - phi'' cos phi), phi' = Omega
   static const std::map<std::string, double (*)(const RotarySpeed&, double)> functions{

@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "deck/ListSpec.hpp"
 #include "deck/Registry.hpp"
@@ -20,6 +21,9 @@ class SpeedLaw {
   virtual double speed(double t) const = 0;         ///< Omega [rad/s]
   virtual double acceleration(double t) const = 0;  ///< dOmega/dt [rad/s2]; at a corner the value to its right
   virtual double angle(double t) const = 0;         ///< int_0^t Omega [rad]
+  /// Increasing times [s] at which the formula changes; between them and after the last one the law is smooth, and zero
+  /// everywhere or at single instants only.
+  virtual std::vector<double> corners() const { return {}; }
 };
 
 /// name -> law; a new law is one file that registers itself.
@@ -45,6 +49,8 @@ class RotarySpeed {
   double speed(double t) const { return law_ ? law_->speed(t) : 0.0; }
   double acceleration(double t) const { return law_ ? law_->acceleration(t) : 0.0; }
   double angle(double t) const { return law_ ? law_->angle(t) : 0.0; }
+  /// Sign of the speed at `from` [s] or, where it is zero there, of the first rotation after it; 0 when nothing ever turns.
+  double sense(double from) const;
 
   /// Law of time by name: "1", "Omega", "sqrt|Omega|", "Omega^2", "Omega sqrt|Omega|", "dOmega/dt", and the two of a mass
   /// unbalance, "Omega^2 cos + dOmega/dt sin" and "Omega^2 sin - dOmega/dt cos" (of the angle int Omega dt).

@@ -70,6 +70,7 @@ class Ramp : public SpeedLaw {
     const double after = std::max(0.0, t - start_ - duration_);
     return from_ * t + rise_ * (duration_ * ramp + after);
   }
+  std::vector<double> corners() const override { return {start_, start_ + duration_}; }
 
  private:
   double along(double t) const { return std::clamp((t - start_) / duration_, 0.0, 1.0); }

@@ -66,6 +66,8 @@ class Table : public SpeedLaw {
     return pieces_[i].angle + integral(i, (t - time_[i]) / pieces_[i].width);
   }
 
+  std::vector<double> corners() const override { return time_; }
+
  private:
   struct Piece {
     double width;   ///< h

@@ -62,6 +62,7 @@ class HelicalScene {
       input.elements.push_back({stiffness, beam::rotation12(path.elementFrame[e], path.frame[e], path.frame[e + 1]),
                                 element.length, element.section.axialRigidity(), element.section.torsionalRigidity()});
     }
+    input.chordSlopes = path.tangent.empty();  // pre-stress "Axial and torque": the source's matrices
     input.contact = contact::makeLaw("Nguyen")->atRest(contactPoints(input.held, lambda));
     return input;
   }
@@ -97,9 +98,16 @@ class HelicalScene {
     for (int i = 0; i < 5; ++i)
       for (const auto& [count, name] : {std::pair{1, "body"}, {1, "upset"}, {2, "joint half"}, {1, "upset"}})
         out.push_back({count, name});
-    for (const auto& [count, name] :
-         {std::pair{1, "body"}, {1, "upset"}, {1, "joint half"}, {1, "upset"}, {3, "collar"}, {1, "stabiliser"}, {4, "collar"},
-          {1, "stabiliser"}, {3, "collar"}, {1, "bit"}})
+    for (const auto& [count, name] : {std::pair{1, "body"},
+                                      {1, "upset"},
+                                      {1, "joint half"},
+                                      {1, "upset"},
+                                      {3, "collar"},
+                                      {1, "stabiliser"},
+                                      {4, "collar"},
+                                      {1, "stabiliser"},
+                                      {3, "collar"},
+                                      {1, "bit"}})
       out.push_back({count, name});
     return out;
   }

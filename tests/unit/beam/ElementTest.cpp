@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Signs, symmetries and totals of the element matrices.
-#include <gtest/gtest.h>
+#include "substructures/beam/Element.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <gtest/gtest.h>
 
-#include "substructures/beam/Element.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::beam {
@@ -143,6 +143,33 @@ TEST(Element, RotationMovesARigidTranslationIntoTheElementFrame) {
   const Vector12 local = rotation12(e, q1, q2) * nodal;
   EXPECT_LT((local.segment<3>(0) - e.transpose() * move).norm(), 1e-14);
   EXPECT_LT((local.segment<3>(6) - e.transpose() * move).norm(), 1e-14);
+}
+
+/// On a curved element the spin of a node about its own tangent, theta = t, turns no tangent: it has no slope. Everything else is
+/// as in the element frame. Without it the spin tilts the ends of the chord by -+kappa l/2, and K_g of a tension F resists it.
+TEST(Element, SlopesDoNotKnowTheSpin) {
+  const double l = 9.0, kappa = 1.745e-3;
+  const auto tilted = [&](double angle) {
+    return rotationExponential(Vector3(0.0, angle, 0.0));
+  };  // about y, in the plane of the arc
+  const Matrix12 r = rotation12(Matrix3::Identity(), tilted(-0.5 * kappa * l), tilted(0.5 * kappa * l));
+  const Matrix12 slopes = slopeRotation(r);
+  Vector12 spin = Vector12::Zero();
+  spin(5) = spin(11) = 1.0;
+  for (const Matrix12& k : {geometricAxial(l), geometricTorque(l)}) {
+    const Matrix12 nodal = slopes.transpose() * k * slopes;
+    EXPECT_EQ((nodal * spin).norm(), 0.0);
+    EXPECT_EQ((nodal.transpose() * spin).norm(), 0.0);
+    Matrix12 same = r.transpose() * k * r - nodal;
+    for (const int dof : {5, 11}) {
+      same.row(dof).setZero();
+      same.col(dof).setZero();
+    }
+    EXPECT_EQ(same.norm(), 0.0);
+  }
+  // F kappa^2 l^2/12 per length, twice the energy of the parabola with slopes -+kappa l/2
+  EXPECT_NEAR(spin.dot(r.transpose() * geometricAxial(l) * r * spin), kappa * kappa * l * l / 12.0 * l,
+              1e-3 * kappa * kappa * l * l * l);
 }
 
 TEST(Element, TriadHasItsZOnTheChord) {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "substructures/contact/ContactPoints.hpp"
 #include "substructures/contact/FrictionCurve.hpp"
 
 using tooljoint::contact::FrictionCurve;
@@ -64,6 +65,28 @@ TEST(FrictionCurve, EqualCoefficientsRiseMonotonicallyToTheOne) {
     before = mu.value(v);
   }
   EXPECT_NEAR(before, 0.2, 1e-5);
+}
+
+TEST(SlidingAt, TakesTheCoefficientOfTheSpeedOfEachPoint) {
+  tooljoint::contact::ContactPoints points;
+  tooljoint::contact::ContactPoint point;
+  point.stiffness = 1e7;
+  point.muStatic = 0.3;
+  point.muDynamic = 0.2;
+  point.contactRadius = 0.08;
+  points.add(point);
+  point.contactRadius = 0.1;
+  point.regularisationVelocity = 0.02;
+  points.add(point);
+  point.muStatic = point.muDynamic = 0.0;
+  points.add(point);
+  for (const double omega : {0.5, -0.5, 12.0}) {
+    const tooljoint::contact::ContactPoints sliding = points.slidingAt(omega);
+    EXPECT_NEAR(sliding.muStatic[0], printed(std::abs(omega) * 0.08, 0.3, 0.2, 0.1), 1e-12);
+    EXPECT_NEAR(sliding.muStatic[1], printed(std::abs(omega) * 0.1, 0.3, 0.2, 0.02), 1e-12);
+    EXPECT_EQ(sliding.muStatic[2], 0.0);
+    EXPECT_EQ(sliding.muDynamic, points.muDynamic);
+  }
 }
 
 TEST(FrictionCurve, NoDynamicFrictionFallsToZeroAndNoFrictionIsZero) {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Rotary speed laws: each against finite differences and quadrature of itself, and against numbers worked out by hand.
-#include <gtest/gtest.h>
+#include "substructures/loads/RotarySpeed.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <cmath>
 #include <functional>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
 #include "common/Error.hpp"
-#include "substructures/loads/RotarySpeed.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
@@ -280,6 +280,41 @@ TEST(RotarySpeedLaws, OutliveTheObjectTheyCameFrom) {
     omega = r.scalar("Omega");
   }
   EXPECT_NEAR(omega.value(100.0), 120.0 * rpm, 1e-12);
+}
+
+/// The sense of the first rotation, however late and however short it is.
+TEST(RotarySpeed, KnowsTheSenseOfTheFirstRotation) {
+  EXPECT_EQ(RotarySpeed().sense(0.0), 0.0);
+  EXPECT_EQ(exponential().sense(0.0), 1.0);
+  EXPECT_EQ(RotarySpeed(law("Constant", [](auto& l) { l.set("Speed", 0.0); })).sense(0.0), 0.0);
+  EXPECT_EQ(RotarySpeed(law("Constant", [](auto& l) { l.set("Speed", -1.0); })).sense(0.0), -1.0);
+  const auto lateRamp = [](double to, bool smooth) {
+    return RotarySpeed(law("Ramp", [&](auto& l) {
+      l.set("Initial Speed", 0.0);
+      l.set("Final Speed", to);
+      l.set("Start Time", 1000.0);
+      l.set("Duration", 2.0);
+      l.set("Smooth", smooth);
+    }));
+  };
+  EXPECT_EQ(lateRamp(-3.0, true).sense(0.0), -1.0);
+  EXPECT_EQ(lateRamp(3.0, false).sense(0.0), 1.0);
+  EXPECT_EQ(lateRamp(0.0, true).sense(0.0), 0.0);
+  const auto pulse = RotarySpeed(law("Table", [](auto& l) {
+    l.set("Times", Teuchos::Array<double>(std::vector<double>{0.0, 70.0, 70.01, 70.02, 90.0, 91.0}));
+    l.set("Speeds", Teuchos::Array<double>(std::vector<double>{0.0, 0.0, -1e-3, 0.0, 0.0, 5.0}));
+  }));
+  EXPECT_EQ(pulse.sense(0.0), -1.0);
+  EXPECT_EQ(pulse.sense(70.02), 1.0);
+  EXPECT_EQ(RotarySpeed(law("Harmonic",
+                            [](auto& l) {
+                              l.set("Mean Speed", 0.0);
+                              l.set("Amplitude", 2.0);
+                              l.set("Frequency", 0.01);
+                              l.set("Phase", 0.0);
+                            }))
+                .sense(0.0),
+            1.0);
 }
 
 }  // namespace

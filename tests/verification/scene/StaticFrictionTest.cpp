@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Which friction the static state has: decided by Static/Friction and by how the string turns when the motion starts.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "tests/support/Scenes.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+const double rpm = std::acos(-1.0) / 30.0;
+
+app::Scene scene(std::vector<std::string> overrides) {
+  overrides.insert(overrides.begin(), {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
+                                       "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}"});
+  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml", overrides);
+}
+
+const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 100, 101}",
+                                             "Rotary Speed/Table/Speeds={0, 0, -5}"};
+
+TEST(StaticFriction, FollowsTheSpeedWithWhichTheMotionStarts) {
+  const auto turning = app::staticFriction(scene({}));
+  EXPECT_EQ(turning.direction, 1.0);
+  EXPECT_NEAR(turning.speed, 120.0 * rpm, 1e-12);
+
+  const auto backwards = app::staticFriction(scene({"Rotary Speed/Constant/Speed=-60 rpm"}));
+  EXPECT_EQ(backwards.direction, -1.0);
+  EXPECT_NEAR(backwards.speed, 60.0 * rpm, 1e-12);
+
+  const auto laterStart = app::staticFriction(scene({"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 1, 2}",
+                                                     "Rotary Speed/Table/Speeds={0, 3, 3}", "Transient/Start Time=1.5"}));
+  EXPECT_NEAR(laterStart.speed, 3.0, 1e-12);
+}
+
+TEST(StaticFriction, IsThePeakFromRestInTheSenseOfTheFirstRotation) {
+  const auto later = app::staticFriction(scene(fromRestLater));
+  EXPECT_EQ(later.direction, -1.0);
+  EXPECT_EQ(later.speed, 0.0);
+}
+
+TEST(StaticFriction, PeakAndNoneAreTaken) {
+  const auto peak = app::staticFriction(scene({"Static/Friction=Peak"}));
+  EXPECT_EQ(peak.direction, 1.0);
+  EXPECT_EQ(peak.speed, 0.0);
+  EXPECT_EQ(app::staticFriction(scene({"Static/Friction=None"})).direction, 0.0);
+}
+
+TEST(StaticFriction, IsNoneWithoutRotation) {
+  EXPECT_EQ(app::staticFriction(scene({"!Rotary Speed"})).direction, 0.0);
+  EXPECT_EQ(app::staticFriction(scene({"Rotary Speed/Constant/Speed=0"})).direction, 0.0);
+}
+
+/// The friction torque of the state is that of the coefficient, force by force.
+TEST(StaticFriction, ActsWithItsCoefficient) {
+  const auto coefficient = [](const std::vector<std::string>& overrides) {
+    const auto given = scene(overrides);
+    const auto state = app::settle(given).state;
+    EXPECT_GT(state.totalNormalForce, 1e3);
+    return -state.totalFrictionTorque / (0.084 * state.totalNormalForce);  // it lies on its joints
+  };
+  // eq. (9) of Nguyen et al. 2020 at v = Omega R_c = 4 pi 0.084 m/s, v_r = 0.1 m/s, mu_s = 0.3, mu_d = 0.25
+  const double v = 4.0 * std::acos(-1.0) * 0.084, xi = std::sqrt(1.0 - 0.25 / 0.3), c = (1.0 - xi) / (2.0 * 0.1 * 0.25),
+               q = 1.0 / (1.0 + c * v);
+  const double sliding = v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q);
+  EXPECT_NEAR(sliding, 0.27, 0.02);
+  EXPECT_NEAR(coefficient({}), sliding, 1e-9);
+  EXPECT_NEAR(coefficient({"Rotary Speed/Constant/Speed=-120 rpm"}), -sliding, 1e-9);
+  EXPECT_NEAR(coefficient({"Static/Friction=Peak"}), 0.3, 1e-9);
+  EXPECT_NEAR(coefficient(fromRestLater), -0.3, 1e-9);
+  EXPECT_EQ(coefficient({"Static/Friction=None"}), 0.0);
+  EXPECT_EQ(coefficient({"!Rotary Speed"}), 0.0);
+}
+
+}  // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A section that spins about its own axis meets no elastic force, however the string bends: the torque at the top is the sum of
+/// the torques of bit and friction, on every mesh, at rest and in motion.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "common/Error.hpp"
+#include "common/Log.hpp"
+#include "tests/support/Scenes.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+app::Scene buildAndHold(const std::vector<std::string>& overrides) {
+  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml", overrides);
+}
+
+/// A well with its share of curvature, tension and compression.
+struct WellCase {
+  const char* name;
+  std::vector<std::string> overrides;
+};
+const WellCase wells[] = {
+    {"3 deg/30 m to 60 deg", {}},
+    {"4 deg/30 m to 80 deg, 2500 m, no bit torque",
+     {"Well/Arc/Kick-off Depth=600", "Well/Arc/Build Rate=4 deg/30m", "Well/Arc/End Inclination=80 deg",
+      "Well/Arc/Tangent Length=1500", "Drillstring/Assembly={260*stand}", "Loads/Torque On Bit=0"}},
+    {"10 deg/30 m to 88 deg, 570 m, off bottom",
+     {"Well/Arc/Kick-off Depth=100", "Well/Arc/Build Rate=10 deg/30m", "Well/Arc/End Inclination=88 deg",
+      "Well/Arc/Tangent Length=300", "Drillstring/Assembly={60*stand}", "Loads/Torque On Bit=0", "Loads/Weight On Bit=0"}},
+};
+
+class TorqueBalance : public testing::TestWithParam<WellCase> {
+ protected:
+  static equilibrium::StaticState state(int elements) {
+    auto overrides = GetParam().overrides;
+    overrides.push_back("!Transient");
+    overrides.push_back("Drillstring/Components/body/Elements=" + std::to_string(elements));
+    return app::settle(buildAndHold(overrides)).state;
+  }
+};
+
+TEST_P(TorqueBalance, HoldsWithOneElementPerBody) {
+  const auto coarse = state(1);
+  EXPECT_GT(std::abs(coarse.totalFrictionTorque), 1e3);
+  EXPECT_NEAR(coarse.topTorque, coarse.topTorqueEquilibrium(), 0.01 * std::abs(coarse.topTorqueEquilibrium()));
+  EXPECT_LT(coarse.relativeTorqueDefect(), 0.005);
+}
+
+TEST_P(TorqueBalance, HoldsBetterWithFive) {
+  const auto fine = state(5);
+  EXPECT_NEAR(fine.topTorque, fine.topTorqueEquilibrium(), 0.002 * std::abs(fine.topTorqueEquilibrium()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Wells, TorqueBalance, testing::ValuesIn(wells),
+                         [](const auto& instance) { return "well" + std::to_string(instance.index); });
+
+/// Soft string (Johancsik, Friesen and Dawson 1984) from the bit up: q = |T kappa n + w (g - (g.t) t)| per length is what the
+/// wall carries. A string that turns climbs until normal force and friction together carry it, N sqrt(1 + mu^2) = q; its friction
+/// torque is mu N r with r of the joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
+TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
+  const auto scene = buildAndHold({"!Transient"});
+  const auto state = app::settle(scene).state;
+  double tension = -50e3, torque = 0.0;
+  const auto& elements = scene.string.elements;
+  const double mu = std::abs(scene.contactPoints.slidingAt(120.0 * std::acos(-1.0) / 30.0).muStatic.front());
+  double s = scene.string.length();
+  for (auto element = elements.rbegin(); element != elements.rend(); ++element) {
+    const int pieces = 20;
+    // weight of body and joint spread over the stand
+    const double weight = 9.81 * 7850.0 * (9.0 * elements[0].section.area() + 0.5 * elements[1].section.area()) / 9.5;
+    for (int piece = 0; piece < pieces; ++piece) {
+      const double ds = element->length / pieces;
+      const auto well = scene.well.trajectory().at(s - 0.5 * ds);
+      const Vector3 g(0.0, 0.0, 1.0);
+      torque += mu / std::sqrt(1.0 + mu * mu) * 0.084 *
+                (tension * well.curvature + weight * (g - g.dot(well.tangent) * well.tangent)).norm() * ds;
+      tension += weight * g.dot(well.tangent) * ds;
+      s -= ds;
+    }
+  }
+  EXPECT_NEAR(-state.topTorqueEquilibrium(), 4e3 + torque, 0.01 * (4e3 + torque));
+  EXPECT_NEAR(state.topAxialForce, tension, 0.01 * tension);
+}
+
+TEST(TorqueInMotion, AStringThatTurnsAtConstantSpeedStaysAtRest) {
+  const auto scene = buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false"});
+  const auto stage = app::settle(scene);
+  const auto motion = testing_::move(scene, app::fullModel(stage));
+  ASSERT_GT(motion.size(), 30U);
+  for (const auto& sample : motion)
+    EXPECT_LT((sample - stage.state.displacement).cwiseAbs().maxCoeff(),
+              1e-6);  // the twist of the string is 2 rad, its sag centimetres
+}
+
+TEST(TorqueInMotion, ThePeakCoefficientWouldStartAJump) {
+  const auto scene = buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false", "Static/Friction=Peak"});
+  const auto stage = app::settle(scene);
+  const auto motion = testing_::move(scene, app::fullModel(stage));
+  EXPECT_GT((motion.back() - stage.state.displacement).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+/// A static state whose top torque misses its balance by a share of the scale.
+app::StaticStage unbalanced(double share) {
+  app::StaticStage stage;
+  stage.state.torqueScale = 1e4;
+  stage.state.appliedTorque = -8e3;
+  stage.state.topTorque = -8e3 + share * 1e4;
+  return stage;
+}
+
+TEST(TorqueJudgement, WarnsAboveTwoPerCentAndRefusesAboveTen) {
+  const auto scene = buildAndHold({});
+  const auto warnings = [&](double share, const app::Scene& of) {
+    log::clearWarnings();
+    app::judgeTorqueBalance(of, unbalanced(share));
+    return log::warnings().size();
+  };
+  EXPECT_EQ(warnings(0.019, scene), 0U);
+  EXPECT_EQ(warnings(0.021, scene), 1U);
+  EXPECT_EQ(warnings(-0.099, scene), 1U);
+  EXPECT_THROW(app::judgeTorqueBalance(scene, unbalanced(0.101)), ConvergenceError);
+  EXPECT_THROW(app::judgeTorqueBalance(scene, unbalanced(-0.101)), ConvergenceError);
+  EXPECT_EQ(warnings(0.5, buildAndHold({"Path/Pre-stress=Axial and torque"})), 1U);
+  log::clearWarnings();
+}
+
+}  // namespace
