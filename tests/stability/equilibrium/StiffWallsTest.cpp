@@ -18,12 +18,18 @@ equilibrium::StaticState settled(const std::string& deck, const std::vector<std:
 
 constexpr double tolerance = 1e-9;
 
+/// Nodes with more than a thousandth of all contact force, which is what a wall of 1e8 N/m leaves open: nodes that graze the wall
+/// touch or not by micrometres.
+int carrying(const equilibrium::StaticState& state) {
+  return static_cast<int>((state.normalForce.array() > 1e-3 * state.totalNormalForce).count());
+}
+
 TEST(StiffWalls, AKilometreOfStringComesToRest) {
   const auto soft = settled("vertical_1000m", {"Contact/Stiffness=1e8"});
   for (const char* stiffness : {"1e9", "1e10", "1e11"}) {
     const auto stiff = settled("vertical_1000m", {std::string("Contact/Stiffness=") + stiffness});
     EXPECT_LE(stiff.report.residual, tolerance) << stiffness;
-    EXPECT_EQ(stiff.contactNodes, soft.contactNodes) << stiffness;
+    EXPECT_EQ(carrying(stiff), carrying(soft)) << stiffness;
     // a wall of 1e8 N/m yields 0.03 mm, a thousandth of the clearance: about as much of the forces
     EXPECT_NEAR(stiff.totalNormalForce, soft.totalNormalForce, 1e-2 * soft.totalNormalForce) << stiffness;
     // F_n = k_c (G - 1/(pi^2 lambda)) well inside the wall
@@ -36,7 +42,8 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
 TEST(StiffWalls, TakeAboutAsManyIterationsAsSoftOnes) {
   for (const char* deck : {"vertical_1000m", "inclined_1000m", "helical_170m"})
     for (const char* stiffness : {"1e7", "1e10"})
-      EXPECT_LT(settled(deck, {std::string("Contact/Stiffness=") + stiffness}).report.iterations, 200) << deck << ' ' << stiffness;
+      EXPECT_LT(settled(deck, {std::string("Contact/Stiffness=") + stiffness}).report.iterations, 200)
+          << deck << ' ' << stiffness;
 }
 
 /// The law of the paper pulls every open point to the wall with k/(pi^2 lambda), here 101 N: it lies there as far as it can.
@@ -47,8 +54,8 @@ TEST(StiffWalls, AStringThatTheLawPullsToTheWallComesToRest) {
   EXPECT_GE(state.normalForce.minCoeff(), -1e9 / (M_PI * M_PI * 1e6));
 }
 
-/// Friction turns what the law pulls to the wall, against the sense in which it turns what lies there: with little of it a hanging
-/// string still rests, with more it has to whirl.
+/// Friction turns what the law pulls to the wall, against the sense in which it turns what lies there: with little of it a
+/// hanging string still rests, with more it has to whirl.
 TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
   const std::vector<std::string> pulled{"Contact/Stiffness Regularisation=1e6", "Contact/Friction/Dynamic=0.1"};
   auto little = pulled, much = pulled;
@@ -59,7 +66,8 @@ TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
     settled("vertical_1000m", much);
     FAIL() << "it rests";
   } catch (const ConvergenceError& error) {
-    EXPECT_NE(std::string(error.what()).find("pulls every open point to the wall with up to 1.01 N"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("pulls every open point to the wall with up to 1.01 N"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -57,6 +57,19 @@ TEST_P(TorqueBalance, HoldsBetterWithFive) {
 INSTANTIATE_TEST_SUITE_P(Wells, TorqueBalance, testing::ValuesIn(wells),
                          [](const auto& instance) { return "well" + std::to_string(instance.index); });
 
+/// Every scene of strings but the published case, which takes the paper's pre-stress.
+TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
+  for (const char* deck : {"xml/build_hold_1400m.xml", "xml/cms_variants.xml", "xml/inclined_1000m.xml", "xml/stress_170m.xml",
+                           "xml/study_helical_170m.xml", "xml/vertical_1000m.xml", "examples/01_vertical_string/deck.xml",
+                           "examples/03_survey_well/deck.xml", "tests/effects/scene.xml", "tests/study/study.xml"}) {
+    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/" + deck, {});
+    EXPECT_EQ(scene.path.prestress, path::Prestress::FullTangent) << deck;
+    const auto state = app::solveStatic(scene).state;
+    EXPECT_LT(state.relativeTorqueDefect(), 0.005)
+        << deck << ": " << state.torqueBalanceDefect() << " N m of " << state.torqueScale;
+  }
+}
+
 /// Soft string (Johancsik, Friesen and Dawson 1984) from the bit up: q = |T kappa n + w (g - (g.t) t)| per length is what the
 /// wall carries. A string that turns climbs until normal force and friction together carry it, N sqrt(1 + mu^2) = q; its friction
 /// torque is mu N r with r of the joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
