@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares all bases on the reference scene and on a frame, and rewrites tables and figures of docs/cms-variants.md.
 
@@ -194,8 +194,8 @@ def tolerance_frequency(bench, scene, count, tolerance):
 
 
 def dyn_between(bench, folder, reference, end):
-    done = subprocess.run([bench.program, "compare", str(folder), str(reference), "--to", str(end)], stdout=subprocess.PIPE, text=True, check=True)
-    return float(re.search(r"dyn (\S+)", done.stdout).group(1))
+    done = subprocess.run([bench.program, "compare", str(folder), str(reference), "--to", str(end), "--json"], stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(done.stdout)["dyn"]
 
 
 def tolerance_motion(bench, scene, end, more, count, tolerance):

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the plots of a study: plot_study.py DIR [--output DIR] [--formats png,svg]
 

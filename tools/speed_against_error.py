@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Reruns the studies of speed against error and the benchmarks, and rewrites docs/speed-against-error.md with its figures.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures whether R and D, the two signs by which a run tells that its fixed steps lose the motion, say so where they do, and
 rewrites the table of docs/theory.md.
@@ -61,8 +61,9 @@ class Run:
             self.local, self.halving = transient["local_error"] or 0.0, transient["halving_error"] or 0.0
 
     def dyn(self, options, reference):
-        done = subprocess.run([options.program, "compare", str(self.folder), str(reference.folder), "--to", "2"], stdout=subprocess.PIPE, text=True, check=True)
-        return float(re.search(r"dyn (\S+)", done.stdout).group(1))
+        done = subprocess.run([options.program, "compare", str(self.folder), str(reference.folder), "--to", "2", "--json"],
+                              stdout=subprocess.PIPE, text=True, check=True)
+        return json.loads(done.stdout)["dyn"]
 
 
 def measured(options, cases):

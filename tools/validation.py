@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the reference scene in all its variants and rewrites the tables of docs/validation.md.
 
@@ -49,10 +49,10 @@ class Bench:
 
     def compare(self, name, reference, end):
         """eps_t max, eps_t mean, eps_n max and dyn over 0..end."""
-        done = subprocess.run([self.program, "compare", str(self.work / name), str(self.work / reference), "--to", str(end)],
+        done = subprocess.run([self.program, "compare", str(self.work / name), str(self.work / reference), "--to", str(end), "--json"],
                               stdout=subprocess.PIPE, text=True, check=True)
-        match = re.search(r"eps_t max (\S+) mean (\S+), eps_n max (\S+), dyn (\S+)", done.stdout)
-        return [float(value) for value in match.groups()]
+        errors = json.loads(done.stdout)
+        return [errors["eps_t"]["max"], errors["eps_t"]["mean"], errors["eps_n"]["max"], errors["dyn"]]
 
     def taken(self):
         """The commands since the last call, as a code block."""

@@ -8,9 +8,8 @@ tolerances=(--without Reduction --set "Reduction/Frequency Tolerance=1e-4" --set
 tooljoint run "$deck" --output chosen "${tolerances[@]}" --set "Reduction/Error Estimate=Both" "${short[@]}"
 tooljoint modes "$deck" --output modes --without Reduction --set "Reduction/Frequency Tolerance=1e-4" "${short[@]}"
 tooljoint run "$deck" --output full --without Reduction --without Substructures "${short[@]}"
-line=$(tooljoint compare chosen full --to 0.5)
-echo "$line"
-python3 - "$line" <<'PY'
+tooljoint compare chosen full --to 0.5 --json > compared.json
+python3 - <<'PY'
 import csv, json, sys
 reduction = json.load(open("chosen/summary.json"))["reduction"]
 estimate = reduction["estimate"]
@@ -20,7 +19,7 @@ rows = list(csv.DictReader(open("modes/modes.csv")))
 errors = [(abs(float(row["error"])), abs(float(row["estimate"]))) for row in rows]
 worst = max(error for error, _ in errors)
 print(f"frequencies: largest error {worst:.2e}, largest estimate {max(guess for _, guess in errors):.2e}")
-dyn = float(sys.argv[1].split("dyn")[1])
+dyn = json.load(open("compared.json"))["dyn"]
 print(f"motion: dyn {dyn:.2e}, estimated {estimate['motion_error']:.2e}")
 faults = []
 if worst > 1e-4:

@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "coupling/ComponentAxes.hpp"
 #include "io/ResultsReader.hpp"
 
 namespace tooljoint::app {
@@ -19,6 +20,14 @@ std::vector<io::Csv::Column> columns(const model::ComponentNames& names) {
   std::vector<io::Csv::Column> out{{"time", "s"}};
   for (const auto& name : names) out.push_back({"max_" + name, "m or rad"});
   return out;
+}
+
+std::string unitOf(const std::string& component) {
+  switch (coupling::kindOf(component)) {
+    case coupling::ComponentKind::Translation: return "m";
+    case coupling::ComponentKind::Rotation: return "rad";
+    default: return "";
+  }
 }
 
 std::string plain(std::string name) {
@@ -35,11 +44,13 @@ void writePartsModel(const PartsDeck& deck, const model::SecondOrderModel& model
     part.push_back(name.part + 1);
     node.push_back(static_cast<int>(name.node));
   }
-  std::vector<std::string> names;
+  std::vector<std::string> names, units;
   for (const auto& one : deck.scene.parts) names.push_back(one.name);
+  for (const auto& name : model.componentNames) units.push_back(unitOf(name));
   const std::size_t count = node.size();
   file.write("/model/part_names", names, "Parts in the order of the deck");
   file.write("/model/components", model.componentNames, "Components of a node");
+  file.write("/model/component_units", units, "Unit of each component; empty where its name tells neither a translation nor a rotation");
   file.write("/model/part", part, {count}, "1", "Part of each node, counted from 1; the first one of a joined node");
   file.write("/model/node", node, {count}, "1", "Number of each node in that part");
 }

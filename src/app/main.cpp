@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
+#include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "linalg/LargePages.hpp"
 
@@ -54,6 +56,38 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool
   command.add_option("--without", options.without, "take a list out of the deck before --set, e.g. --without Mud: what it describes is not modelled")
       ->allow_extra_args(false);
   if (writes) command.add_option("--output,-o", options.output, "folder for the results (default: results/<name of the deck>)");
+}
+
+/// What is wrong with a command line that holds words or options no command takes.
+std::string describeUnknown(const CLI::App& program, const std::vector<std::string>& unknown) {
+  if (!program.get_subcommands().empty() || unknown.front().front() == '-')
+    return (unknown.size() == 1 ? "Unknown argument: " : "Unknown arguments: ") + tooljoint::join(unknown, " ") +
+           ". Options and what they take are listed by --help.";
+  std::vector<std::string> commands;
+  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command->get_name());
+  const auto meant = tooljoint::closest(unknown.front(), commands);
+  return "Unknown command \"" + unknown.front() + "\"." + (meant.empty() ? "" : " Did you mean \"" + meant + "\"?") +
+         " Available: " + tooljoint::quotedList(commands) + ".";
+}
+
+/// Reads the command line; an exit code where nothing is left to do (help, or an error that has been told).
+std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11 takes --help before it looks at words it does not know.
+    if (const auto unknown = program.remaining(true); !unknown.empty()) {
+      say(std::cerr, "tooljoint: " + describeUnknown(program, unknown) + "\n");
+      return ExitCode::Usage;
+    }
+    std::ostringstream out;
+    std::ostringstream err;
+    const int cliCode = program.exit(error, out, err);
+    say(std::cout, out.str());
+    say(std::cerr, err.str());
+    return cliCode == 0 ? ExitCode::Done : ExitCode::Usage;
+  }
+  return std::nullopt;
 }
 
 int run(int argc, char** argv) {
@@ -102,6 +136,8 @@ int run(int argc, char** argv) {
   compareCommand->add_option("REFERENCE", comparison.reference, "results folder of the reference run")->required();
   compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
   compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
+  compareCommand->add_option("--fail-above", comparison.failAbove, "end with exit code 4 when dyn is larger than this")->check(CLI::NonNegativeNumber);
+  compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
 
   auto* docCommand = program.add_subcommand("doc", "print the parameter manual");
@@ -113,16 +149,7 @@ int run(int argc, char** argv) {
   templateCommand->add_option("KIND", kind, "scene or components")->required();
   templateCommand->callback([&] { command = [&] { say(std::cout, app::deckTemplate(kind)); }; });
 
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::ostringstream out;
-    std::ostringstream err;
-    const int cliCode = program.exit(error, out, err);
-    say(std::cout, out.str());
-    say(std::cerr, err.str());
-    return cliCode == 0 ? code(ExitCode::Done) : code(ExitCode::Usage);
-  }
+  if (const auto ended = parse(program, argc, argv)) return code(*ended);
   if (version) {
     say(std::cout, tooljoint::versionText());
     return code(ExitCode::Done);
@@ -142,6 +169,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   tooljoint::linalg::shareLargePages();
-  Tpetra::ScopeGuard scope(&argc, &argv);
+  // Neither MPI nor Kokkos takes arguments from the command line: Kokkos would answer --help with its own.
+  int none = 0;
+  char* end = nullptr;
+  char** nothing = &end;
+  const Tpetra::ScopeGuard scope(&none, &nothing);
   return run(argc, argv);
 }

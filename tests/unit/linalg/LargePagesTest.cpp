@@ -2,6 +2,9 @@
 #include "linalg/LargePages.hpp"
 
 #include <gtest/gtest.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 #include <cstdint>
@@ -28,6 +31,21 @@ bool asksForLargePages(const void* address) {
   return false;
 }
 
+/// Less than two large pages is not worth it: the allocator stays as it is, and a long array gets a mapping of its own.
+TEST(LargePages, LeaveTheAllocatorAloneForALittle) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "another allocator";
+#else
+  const char* heap = static_cast<char*>(sbrk(0));
+  ASSERT_EQ(mallopt(M_MMAP_THRESHOLD, 128 * 1024), 1);  // what glibc begins with
+  shareLargePages(0);
+  shareLargePages(2 * LargePages<char>::page - 1);
+  EXPECT_EQ(static_cast<char*>(sbrk(0)), heap);
+  const std::vector<char> array(std::size_t{24} << 20);
+  EXPECT_GE(array.data(), static_cast<char*>(sbrk(0)));
+#endif
+}
+
 TEST(LargePages, AreAskedForByWhatTheHeapGrowsBy) {
   if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "a kernel without large pages";
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
@@ -40,11 +58,6 @@ TEST(LargePages, AreAskedForByWhatTheHeapGrowsBy) {
   ASSERT_GE(static_cast<std::size_t>(end - before), bytes);
   EXPECT_TRUE(asksForLargePages(before + page));
   EXPECT_TRUE(asksForLargePages(end - page));
-}
-
-TEST(LargePages, AreLeftAloneForALittle) {
-  shareLargePages(0);
-  shareLargePages(1 << 20);
 }
 
 TEST(LargePages, AlignLongArrays) {

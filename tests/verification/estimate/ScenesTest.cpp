@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
+#include "app/PartsDeck.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "common/Error.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/Scenes.hpp"
+#include "tests/support/TrackedDecks.hpp"
 
 namespace {
 
@@ -22,18 +22,14 @@ using namespace tooljoint;
 
 std::string folder() { return std::string(TOOLJOINT_SOURCE_DIR) + "/xml/"; }
 
-/// Every deck of xml/ that is a scene with a Reduction list.
+/// Every deck of the project in xml/ that is a string with a Reduction list.
 std::vector<std::string> scenes() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
-    if (entry.path().extension() != ".xml") continue;
-    try {
-      if (app::readScene(entry.path().string(), {}).reduces()) files.push_back(entry.path().filename().string());
-    } catch (const Error& notAScene) {
-      std::printf("left out: %s\n", notAScene.what());
-    }
+  for (const auto& name : testing_::trackedDecks(folder())) {
+    app::RunOptions options;
+    options.deck = folder() + name;
+    if (!app::isPartsDeck(options) && app::readScene(options.deck, {}).reduces()) files.push_back(name);
   }
-  std::sort(files.begin(), files.end());
   return files;
 }
 

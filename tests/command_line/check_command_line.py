@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command line as a person meets it: check_command_line.py PROGRAM MPIEXEC DECK PARTS_DECK PLOTTER
+
+Help of every command, words that are no command, what `compare` says of two runs of DECK, and the pictures that PLOTTER draws of runs of a string and
+of PARTS_DECK.
+"""
+import csv
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
+COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template")
+FULL = ["--without", "Reduction", "--without", "Substructures"]
+FAULTS = []
+
+
+def tooljoint(*arguments, ranks=1):
+    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120)
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def help_is_our_own():
+    for arguments in ([], *([command] for command in COMMANDS)):
+        for ranks in (1, 2) if arguments in ([], ["run"]) else (1,):
+            for flag in ("--help", "-h"):
+                done = tooljoint(*arguments, flag, ranks=ranks)
+                name = " ".join(["tooljoint", *arguments, flag])
+                expect(f"{name}, {ranks} rank(s): exit code 0, nothing on stderr", done.returncode == 0 and done.stderr == "", f"({done.returncode}) {done.stderr}")
+                expect(f"{name}, {ranks} rank(s): says once how the command is used", done.stdout.count("Usage: ") == 1 and "Usage: " + " ".join(["tooljoint", *arguments]) in done.stdout,
+                       done.stdout)
+                expect(f"{name}, {ranks} rank(s): nothing of Kokkos", "kokkos" not in (done.stdout + done.stderr).lower(), done.stdout[:300])
+    whole = tooljoint("--help").stdout
+    expect("the program's help names every command", all(f"\n  {command} " in whole for command in COMMANDS), whole)
+
+
+def unknown_words():
+    for arguments, sentence in ((["modse"], 'Unknown command "modse". Did you mean "modes"? Available: "run", '), (["modse", "--help"], 'Did you mean "modes"?'),
+                                (["--help", "modse"], 'Did you mean "modes"?'), (["nonsense", "-h"], 'Unknown command "nonsense". Available: "run", '),
+                                (["run", "--nonsense", "--help"], "Unknown argument: --nonsense"), (["--kokkos-help"], "Unknown argument: --kokkos-help"),
+                                (["template", "nonsense"], 'There is no template "nonsense"')):
+        done = tooljoint(*arguments)
+        expect(f"{' '.join(arguments)}: exit code 1, and what is wrong", done.returncode == 1 and done.stdout == "" and done.stderr.count(sentence) == 1,
+               f"({done.returncode}) {done.stdout[:200]} {done.stderr}")
+
+
+def two_runs():
+    """Full and reduced motion of the deck for 0.2 s, and the reduced one for half of it."""
+    ends = {}
+    for folder, arguments in (("full", [*FULL, "--set", "Transient/End Time=0.2"]), ("reduced", ["--set", "Transient/End Time=0.2"]),
+                              ("brief", ["--set", "Transient/End Time=0.1"])):
+        done = tooljoint("run", DECK, "--output", folder, "--set", "Output/XDMF=false", *arguments)
+        expect(f"the run {folder} succeeds", done.returncode == 0, done.stderr[-400:])
+        with open(pathlib.Path(folder, "motion.csv"), newline="", encoding="utf-8") as text:
+            ends[folder] = [float(row[0]) for row in list(csv.reader(text))[1:]]
+    return ends
+
+
+def comparisons(times):
+    said = tooljoint("compare", "reduced", "full")
+    whole = times["full"]
+    expect("compare says the window of the samples, and not the one it looked into", said.stdout.startswith(f"window {whole[0]:g} to {whole[-1]:g} s ({len(whole)} samples): "), said.stdout)
+    asked = tooljoint("compare", "reduced", "full", "--json")
+    found = json.loads(asked.stdout)
+    expect("compare --json prints JSON and nothing else", found["window"] == {"begin": whole[0], "end": whole[-1], "samples": len(whole)}, asked.stdout)
+    line = f"eps_t max {found['eps_t']['max']:.4e} mean {found['eps_t']['mean']:.4e}, eps_n max {found['eps_n']['max']:.4e}, dyn {found['dyn']:.4e}"
+    expect("with the numbers of the line for people", line in said.stdout and found["dyn"] > 0, f"{line}\n{said.stdout}")
+    inner = [t for t in whole if 0.05 - 1e-9 <= t <= 0.12 + 1e-9]
+    part = json.loads(tooljoint("compare", "reduced", "full", "--from", "0.0499", "--to", "0.1201", "--json").stdout)
+    expect("a window between samples is that of the samples in it", part["window"] == {"begin": inner[0], "end": inner[-1], "samples": len(inner)}, str(part))
+    for factor, code in ((0.99, 4), (1.01, 0)):
+        limit = repr(factor * found["dyn"])
+        done = tooljoint("compare", "reduced", "full", "--fail-above", limit, ranks=2 if code else 1)
+        expect(f"--fail-above {factor} dyn: exit code {code}", done.returncode == code, f"({done.returncode}) {done.stderr}")
+        expect(f"--fail-above {factor} dyn: the errors are printed all the same", done.stdout == said.stdout, done.stdout)
+        expect(f"--fail-above {factor} dyn: the limit is named {code // 4} times", done.stderr.count("of --fail-above") == code // 4, done.stderr)
+    same = json.loads(tooljoint("compare", "full", "full", "--fail-above", "0", "--json").stdout)
+    expect("a run is its own equal", same["dyn"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
+    for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, "--fail-above"), (["reduced", "full", "--from", "7", "--to", "9"], 1, "full holds 0 samples"),
+                                      (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"),
+                                      (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes")):
+        done = tooljoint("compare", *arguments)
+        expect(f"compare {' '.join(arguments)}: exit code {code}", done.returncode == code and done.stderr.count(sentence) == 1, f"({done.returncode}) {done.stderr}")
+
+
+def white_share(picture):
+    """Share of the picture that is white, and its size."""
+    import matplotlib.image
+    pixels = matplotlib.image.imread(picture)
+    return float((pixels[:, :, :3].min(axis=2) > 0.999).mean()), pixels.shape
+
+
+def pictures():
+    """Of parts that move, that rest, with forces between them, and of a string."""
+    runs = {"parts": (PARTS_DECK, ["--set", "Transient/End Time=0.2"]), "resting parts": (PARTS_DECK, ["--without", "Transient"]), "full": (DECK, None)}
+    for folder, (deck, arguments) in runs.items():
+        if arguments is not None:
+            done = tooljoint("run", deck, "--output", folder, *arguments)
+            expect(f"the run {folder} succeeds", done.returncode == 0, done.stderr[-400:])
+        drawn = subprocess.run([PLOTTER, folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        picture = pathlib.Path(folder, "results.png")
+        expect(f"{folder}: a picture is drawn", drawn.returncode == 0 and drawn.stdout == "" and picture.is_file(), drawn.stdout[-600:])
+        if picture.is_file():
+            white, shape = white_share(picture)
+            expect(f"{folder}: there is something in it", 0.3 < white < 0.97 and min(shape[:2]) > 400, f"({white}, {shape})")
+
+
+def main():
+    for left in ("full", "reduced", "brief", "parts", "resting parts"):  # of an earlier run of this test
+        shutil.rmtree(left, ignore_errors=True)
+    help_is_our_own()
+    unknown_words()
+    times = two_runs()
+    pictures()
+    comparisons(times)
+    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
+    return 1 if FAULTS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the block "Go on" of README.md word for word: check_readme.py PROGRAM PROJECT
+
+The block runs in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; a study,
+which takes minutes, is given fewer runs and a shorter motion on the way, so that all words are tried and the test takes seconds.
+"""
+import json
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+SHORT_STUDY = ["--set", "Transient/End Time=0.2", "--set", "Study/Window=0.1", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false"]
+FAULTS = []
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def block():
+    """The lines of the block as they stand, without what indents them."""
+    text = (PROJECT / "README.md").read_text(encoding="utf-8")
+    section = re.search(r"^## Go on\n\n((?:    .*\n)+)", text, re.M)
+    return [line[4:] for line in section.group(1).splitlines()]
+
+
+def stage(folder):
+    """A folder that looks like the project to the block."""
+    shutil.rmtree(folder, ignore_errors=True)
+    (folder / "build/release").mkdir(parents=True)
+    for name in ("tools", "xml"):
+        (folder / name).symlink_to(PROJECT / name)
+    program = folder / "build/release/tooljoint"
+    short = " ".join(shlex.quote(word) for word in SHORT_STUDY)
+    program.write_text(f'#!/bin/bash\nif [ "$1" = study ]; then set -- "$@" {short}; fi\nexec {shlex.quote(str(PROGRAM))} "$@"\n', encoding="utf-8")
+    program.chmod(0o755)
+
+
+def summary(path):
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {"status": "absent"}
+
+
+def main():
+    lines = block()
+    folder = pathlib.Path("project")
+    stage(folder)
+    timed = "".join(f"{line}\necho \"@@ $SECONDS s, {number} lines\" >&2\n" for number, line in enumerate(lines, 1))
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", timed], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    count = done.stderr.count("@@ ")
+    expect("every line of the block succeeds", done.returncode == 0 and count == len(lines), f"({done.returncode}) ended in: {lines[min(count, len(lines) - 1)]}\n{done.stderr[-1500:]}")
+    print(re.sub(r"(?m)^(?!@@ ).*\n", "", done.stderr))
+    results = folder / "results"
+    left = {path.parent.name: summary(path)["status"] for path in results.glob("*/summary.json")}
+    expect("and leaves finished results", left and set(left.values()) == {"finished"}, str(left))
+    named = set(re.findall(r"results/(\w+)", "\n".join(lines)))
+    expect("in every folder it names", named <= set(left), f"{named} {left}")
+    study = summary(results / "s/summary.json").get("study") or []
+    expect("all runs of the study are done", len(study) > 3 and all(row["status"] == "done" for row in study), str([row.get("reason") for row in study]))
+    drawn = re.findall(r"plot_results\.py (\S+)", "\n".join(lines))
+    expect("the pictures are there", drawn and all((folder / name / "results.png").is_file() for name in drawn), str(drawn))
+    compared = re.search(r"window 0 to (\S+) s .*dyn (\S+)", done.stdout)
+    expect("the comparison is that of a reduced and a full run of the same deck", compared is not None and float(compared.group(2)) < 0.05, str(compared))
+    print(f"\n{len(FAULTS)} failed")
+    return 1 if FAULTS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
