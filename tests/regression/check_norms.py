@@ -9,6 +9,10 @@ A gold is a JSON file:
       "set": ["Transient/End Time=0.2"],                  overrides, may be absent
       "ranks": [1, 2, 4],                                 one CTest each
       "timeout_s": 300,
+      "rests_on": {                                       of every norm: why its value is right
+        "static.residual":        "balance: the bound is Static/Tolerance",
+        "static.top_axial_force": "closed form: weight of the string less the weight on bit"
+      },
       "norms": {
         "static.residual":        {"value": 1e-9, "at_most": true},
         "path.converged":         {"value": true},
@@ -17,17 +21,24 @@ A gold is a JSON file:
       }
     }
 
+`rests_on` begins with one of "closed form", "balance", "published", "independent computation", "pinned", a colon, and the argument. "pinned" is a value that
+is right only because it was so before: the argument says why there is nothing better.
+
 Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
 allowances holds), or `at_most`, which bounds its size; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
 on the first of `ranks` and rewrites the values (not those with `at_most`), never the tolerances.
 """
 import argparse
+import copy
 import json
 import math
 import os
 import pathlib
 import subprocess
 import sys
+
+
+SOURCES = ("closed form", "balance", "published", "independent computation", "pinned")
 
 
 def look_up(summary, key):
@@ -74,15 +85,54 @@ def compare(norm, found):
     return f"{abs(found - expected):.3e}", f"{allowed:.3e}", abs(found - expected) <= allowed
 
 
-def check_gold(gold, path):
-    """Ends the process when the gold itself cannot fail or cannot be read."""
-    for key, norm in gold.get("norms", {}).items():
+def faults_of(gold):
+    """What is wrong with a gold: what cannot fail, cannot be read, or does not say why it is right."""
+    norms, arguments = gold.get("norms", {}), gold.get("rests_on", {})
+    if not norms:
+        yield "no norms, so nothing would be compared."
+    for key, norm in norms.items():
         if "value" not in norm:
-            sys.exit(f"{path}: {key} has no value yet: run with --update and look at what it wrote.")
-        if isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most"} & norm.keys()):
-            sys.exit(f"{path}: {key} is a real number and states no tolerance.")
-    if not gold.get("norms"):
-        sys.exit(f"{path}: no norms, so nothing would be compared.")
+            yield f"{key} has no value yet: run with --update and look at what it wrote."
+        elif isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most"} & norm.keys()):
+            yield f"{key} is a real number and states no tolerance."
+        source, _, argument = arguments.get(key, "").partition(": ")
+        if source not in SOURCES or not argument.strip():
+            yield f"{key} does not say in \"rests_on\" what its value rests on: one of {', '.join(SOURCES)}, a colon, and why."
+    for key in arguments.keys() - norms.keys():
+        yield f"\"rests_on\" argues for {key}, which is no norm."
+
+
+def check_gold(gold, path):
+    """Ends the process when there is something wrong with the gold itself."""
+    faults = list(faults_of(gold))
+    if faults:
+        sys.exit("\n".join(f"{path}: {fault}" for fault in faults))
+
+
+def self_test():
+    """Shows that every fault of a gold is found, and that values outside of their tolerance fail."""
+    good = {"norms": {"a.b": {"value": 1.5, "relative": 0.1}, "c": {"value": 3}, "d": {"value": 1.0, "at_most": True}},
+            "rests_on": {"a.b": "closed form: 3/2", "c": "pinned: no closed form", "d": "balance: what goes in comes out"}}
+    cases = {"": lambda gold: None, "no norms": lambda gold: gold.update(norms={}, rests_on={}), "no value yet": lambda gold: gold["norms"]["c"].pop("value"),
+             "states no tolerance": lambda gold: gold["norms"]["a.b"].pop("relative"), "c does not say": lambda gold: gold["rests_on"].pop("c"),
+             "d does not say": lambda gold: gold.pop("rests_on"), "a.b does not say": lambda gold: gold["rests_on"].update({"a.b": "guess: it looks right"}),
+             "one of closed form": lambda gold: gold["rests_on"].update({"a.b": "closed form: "}), "argues for e": lambda gold: gold["rests_on"].update(e="pinned: x")}
+    failures = 0
+    for sentence, spoil in cases.items():
+        gold = copy.deepcopy(good)
+        spoil(gold)
+        faults = list(faults_of(gold))
+        fine = any(sentence in fault for fault in faults) if sentence else not faults
+        failures += not fine
+        print(f"{'ok    ' if fine else 'FAILED'} {sentence or 'a good gold'}: {faults}")
+    for norm, found, expected in (({"value": 2.0, "relative": 0.1}, 2.19, True), ({"value": 2.0, "relative": 0.1}, 2.21, False), ({"value": 2.0, "absolute": 0.1}, 1.89, False),
+                                  ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True), ({"value": 1.0, "at_most": True}, -1.1, False),
+                                  ({"value": 1.0, "at_most": True}, -0.9, True), ({"value": 1.0, "at_most": True}, math.nan, False), ({"value": 3}, 4, False),
+                                  ({"value": True}, 1, False), ({"value": 3}, None, False)):
+        fine = compare(norm, found)[2] is expected
+        failures += not fine
+        print(f"{'ok    ' if fine else 'FAILED'} {norm} against {found}")
+    return 1 if failures else 0
 
 
 def update(options, gold):
@@ -118,6 +168,8 @@ def verify(options, gold):
 
 
 def main():
+    if sys.argv[1:] == ["--self-test"]:
+        return self_test()
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("gold", type=pathlib.Path)
     parser.add_argument("--program", default=os.environ.get("TOOLJOINT_PROGRAM", "tooljoint"))

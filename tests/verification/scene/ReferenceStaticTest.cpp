@@ -32,6 +32,31 @@ TEST(ReferenceStatic, TheLastElementCarriesTheBitLoads) {
   EXPECT_NEAR(state.lastElementTorque, -5e3, 10.0);
 }
 
+/// A string without bending stiffness on a helix (curvature kappa, constant inclination theta): its effective tension falls from the top by w cos(theta)
+/// a metre to the weight on bit, and it presses on the wall with sqrt((F kappa)^2 + (w sin(theta))^2) a metre, since the normal of a helix is
+/// horizontal. w is the weight in mud. Bending stiffness spreads the forces and leaves both sums where they are, to a per cent.
+TEST(ReferenceStatic, AgreesWithTheSoftString) {
+  const auto scene = reference();
+  const auto& state = sourcePrestress().state;
+  constexpr double gravity = 9.81, mud = 1200, steel = 7900, weightOnBit = 1e4, radius = 85.1, turned = 0.5 * M_PI, length = 170.2;
+  const double drop = std::sqrt(length * length - std::pow(radius * turned, 2)), pitch = drop / turned;
+  const double curvature = radius / (radius * radius + pitch * pitch), down = drop / length, aside = std::sqrt(1 - down * down);
+  double tension = -weightOnBit, pressed = 0, middle = 0;
+  int compressed = 0;
+  for (auto element = scene.string.elements.rbegin(); element != scene.string.elements.rend(); ++element) {
+    const auto& section = element->section;
+    const double in = M_PI * std::pow(section.innerRadius(), 2), out = M_PI * std::pow(section.outerRadius(), 2);
+    const double weight = gravity * (steel * (out - in) - mud * out + mud * in);
+    middle = tension + 0.5 * weight * down * element->length;
+    compressed += middle < 0;
+    pressed += std::hypot(middle * curvature, weight * aside) * element->length;
+    tension += weight * down * element->length;
+  }
+  EXPECT_NEAR(state.topAxialForce, middle, 3e-3 * middle);
+  EXPECT_NEAR(state.totalNormalForce, pressed, 2e-2 * pressed);
+  EXPECT_EQ(state.compressedElements, compressed);
+}
+
 TEST(ReferenceStatic, BothRecipesFindTheSameState) {
   const auto state = [](const std::string& recipe) {
     return app::settle(reference({"Static/Tolerance=1e-12", "Static/Recipe=" + recipe})).state.displacement;
