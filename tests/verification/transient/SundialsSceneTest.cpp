@@ -32,6 +32,7 @@ TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
             model, {"Transient/Integrator=SUNDIALS " + std::string(name),
                     "Transient/SUNDIALS " + std::string(name) + "/Relative Tolerance=" + tolerance, "Transient/Step=1e-6"}));
   } catch (const DeckError& error) {
+    if (std::string(error.what()).find("built without SUNDIALS") == std::string::npos) throw;
     GTEST_SKIP() << error.what();
   }
   for (std::size_t i = 0; i < found.size(); i += 2) {
