@@ -115,6 +115,7 @@ def draw_parts(results):
     for c, (name, unit) in enumerate(zip(components, units)):
         draw_nodes(axes[c, 0], results, start[:, c], None if motion is None else motion[:, :, c])
         axes[c, 0].set_ylabel(f"{name} [{unit}]" if unit else name)
+        axes[c, 0].tick_params(labelbottom=c + 1 == len(components))
         if motion is not None:
             draw_mover(axes[c, 1], results, start[:, c], motion[:, :, c])
         elif columns == 2:
@@ -122,7 +123,7 @@ def draw_parts(results):
     for row, name in enumerate(channels, len(components)):
         axes[row, 0].axis("off")
         draw_forces(axes[row, 1], results, name)
-    axes[0, 0].legend(fontsize=7, loc="upper right")
+    axes[0, 0].legend(fontsize=7)
     if columns == 2:
         axes[-1, 1].set_xlabel("time [s]")
     return figure

@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
-SHORT_STUDY = ["--set", "Transient/End Time=0.2", "--set", "Study/Window=0.1", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false"]
+SHORT_STUDY = ["--set", "Study/End Time=0.06", "--set", "Study/Window=0.03", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false"]
 FAULTS = []
 
 
