@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, without precompiled headers).
+# Targets for developers: `cms-variants` runs all bases anew and rewrites docs/cms-variants.md, `format` rewrites the sources with clang-format, `tidy` runs clang-tidy (in a build of its own, without precompiled headers), `mutants` runs the mutation check of tools/mutants in a copy of the sources.
 find_program(CLANG_FORMAT clang-format)
 if(CLANG_FORMAT)
   file(GLOB_RECURSE formatted CONFIGURE_DEPENDS src/*.[ch]pp substructures/*.[ch]pp tests/*.[ch]pp examples/*.[ch]pp benchmarks/*.[ch]pp)
@@ -19,4 +19,10 @@ find_program(PYTHON3_FOR_FIGURES NAMES /usr/bin/python3 python3)
 if(PYTHON3_FOR_FIGURES)
   add_custom_target(cms-variants COMMAND ${PYTHON3_FOR_FIGURES} ${PROJECT_SOURCE_DIR}/tools/cms_variants.py --program $<TARGET_FILE:tooljoint>
     --work ${PROJECT_BINARY_DIR}/cms_variants --fresh DEPENDS tooljoint USES_TERMINAL VERBATIM)
+endif()
+
+find_program(PYTHON3_FOR_MUTANTS NAMES /usr/bin/python3 python3)
+if(PYTHON3_FOR_MUTANTS)
+  add_custom_target(mutants COMMAND ${PYTHON3_FOR_MUTANTS} ${PROJECT_SOURCE_DIR}/tools/mutants/run.py --tree ${PROJECT_BINARY_DIR}/mutants
+    USES_TERMINAL VERBATIM)
 endif()

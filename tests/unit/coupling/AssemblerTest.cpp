@@ -254,4 +254,29 @@ TEST(AssemblerErrors, RecoveryThatDisagrees) {
   EXPECT_EQ(refusal(parts), "Part \"bottom\": its recovery rows do not match its 3 output nodes with 1 components each.");
 }
 
+/// Two clamped bars whose ends are joined with a misfit, u_4 - u_5 = g: each end gives way by g/2, and the bars pull at one
+/// another with N = (k/3) g/2, in both assemblies.
+TEST(Assembler, JoinsEndsThatDoNotFit) {
+  std::vector<Substructure> parts{samples::bar("top", 1, 3, 30.0, 2.0, {1}), samples::bar("bottom", 5, 3, 30.0, 2.0, {8})};
+  samples::classify(parts[0], {4});
+  samples::classify(parts[1], {5});
+  const double misfit = 0.02, force = 10.0 * misfit / 2.0;
+  parts[0].model.initialDisplacement[samples::find(parts[0].model, DofLabel::physical(4, 0))] = misfit;
+  for (const Assembly assembly : {Assembly::Primal, Assembly::Dual}) {
+    CouplingOptions options;
+    options.assembly = assembly;
+    options.connections.constraints.push_back({"misfit", {{{"top", 4, "u"}, 1.0}, {{"bottom", 5, "u"}, -1.0}}, misfit, false});
+    const auto coupled = coupleWithPositions(parts, options);
+    const Vector z = Matrix(coupled.model.stiffnessAt(0.0)).partialPivLu().solve(coupled.model.loadAt(0.0));
+    const Vector top = coupled.maps[0] * z + coupled.offsets[0], bottom = coupled.maps[1] * z + coupled.offsets[1];
+    const auto end = [](const Substructure& part, const Vector& d, int node) { return d[samples::find(part.model, DofLabel::physical(node, 0))]; };
+    EXPECT_NEAR(end(parts[0], top, 4), misfit / 2.0, 1e-12);
+    EXPECT_NEAR(end(parts[1], bottom, 5), -misfit / 2.0, 1e-12);
+    if (assembly == Assembly::Primal) continue;
+    ASSERT_EQ(coupled.multipliers.size(), 1u);
+    const auto& multiplier = coupled.multipliers.front();
+    EXPECT_NEAR(multiplier.force(z), multiplier.part == "top" ? force : -force, 1e-12);
+  }
+}
+
 }  // namespace

@@ -3,6 +3,7 @@
 /// Estimated errors of coupled frequencies against true ones: chains of bars, a frame with a loop, rigid bodies.
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
 
@@ -64,6 +65,25 @@ TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
         ++counted;
       }
   EXPECT_GT(counted, 60);
+}
+
+/// Parts of one or two interior dofs without modes: the two Krylov vectors of a part are all that its basis lacks, and the one
+/// coupled mode with them is the whole model, so that the estimate is the true error.
+TEST(FrequencyEstimate, IsExactWhereTheKrylovVectorsAreAllThatIsLeftOut) {
+  for (const int interior : {1, 2}) {
+    std::vector<model::Substructure> parts{samples::bar("left", 1, interior + 1, 100.0, 0.2, {1}),
+                                           samples::bar("right", interior + 2, interior + 1, 140.0, 0.5, {2 * interior + 3})};
+    for (auto& part : parts) samples::classify(part, {interior + 2});
+    const auto synthesis = reduced(parts, 0);
+    ASSERT_EQ(synthesis.coupled.model.size(), 1);
+    const double truth = frequencies(synthesis.coupled.model, 1)[0] / frequencies(coupling::couple(parts), 1)[0] - 1.0;
+    EXPECT_GT(truth, 1e-3);
+    const auto estimate = estimate::estimateFrequencies(parts, synthesis, {1, 0}).front();
+    EXPECT_NEAR(estimate.error, truth, 1e-9 * truth);
+    EXPECT_NEAR(estimate.byPart.sum(), truth, 1e-9 * truth);
+    EXPECT_GT(estimate.byPart.minCoeff(), 0.05 * truth);
+    EXPECT_NEAR(2.0 * std::acos(-1.0) * estimate.frequency(), frequencies(synthesis.coupled.model, 1)[0], 1e-9 * estimate.frequency());
+  }
 }
 
 TEST(FrequencyEstimate, IsZeroWithAllModes) {

@@ -62,6 +62,35 @@ TEST(ModeComparison, ModalAssuranceIsOneForTheSameShapeAndZeroForOthers) {
   EXPECT_NEAR((mac - Matrix::Identity(2, 2)).norm(), 0.0, 1e-14);
 }
 
+/// MAC = |a' M b|^2 / (a' M a  b' M b): shapes at right angles are alike where the mass says so, and the other way round.
+TEST(ModeComparison, ModalAssuranceWeighsWithTheMass) {
+  Sparse M(2, 2);
+  M.insert(0, 0) = 1.0;
+  M.insert(1, 1) = 4.0;
+  const Eigen::MatrixXcd a = (Matrix(2, 1) << 1.0, 1.0).finished().cast<std::complex<double>>();
+  const Eigen::MatrixXcd b = (Matrix(2, 2) << 1.0, 4.0, -1.0, -1.0).finished().cast<std::complex<double>>();
+  const Matrix mac = estimate::modalAssurance(M, a, b);
+  EXPECT_NEAR(mac(0, 0), 9.0 / 25.0, 1e-15);  // (1 - 4)^2 / (5 * 5)
+  EXPECT_NEAR(mac(0, 1), 0.0, 1e-15);         // 4 - 4
+}
+
+/// Lightly damped bars of one interior dof without modes, a heavy mass where they meet: the truncated work is exact, so that the
+/// estimate misses only what is of second order in the error.
+TEST(ModeComparison, EstimateOfADampedModeIsTheErrorToFirstOrder) {
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 2, 100.0, 0.2, {1}), samples::bar("right", 3, 2, 140.0, 0.1, {5})};
+  for (auto& part : parts) {
+    samples::classify(part, {3});
+    part.model.damping.push_back({"damping", Sparse(1e-3 * part.model.stiffness.front().matrix), 0});
+    const int joint = part.interface.front();
+    part.model.mass.coeffRef(joint, joint) += 0.5;
+  }
+  const auto modes = estimate::compareDampedModes(coupling::couple(parts), parts, reduced(parts, 0), 1, 0.0);
+  ASSERT_EQ(modes.size(), 1u);
+  EXPECT_GT(modes[0].error, 1e-3);
+  EXPECT_LT(modes[0].error, 0.03);
+  EXPECT_NEAR(modes[0].estimate, modes[0].error, 10.0 * modes[0].error * modes[0].error);
+}
+
 TEST(ModeComparison, NamesADofThatIsInNoPart) {
   const auto parts = samples::loopFrame(6, false);
   auto full = coupling::couple(parts);

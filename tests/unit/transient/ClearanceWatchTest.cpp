@@ -86,6 +86,37 @@ TEST(ClearanceWatch, PointsFarFromTheWallSleep) {
   EXPECT_LT(calm.looks, 4000L * Cloud::points / 2);
 }
 
+/// Rows of one sign that all coordinates pull alike: the bound is the way the point really goes, so it is looked at when it touches
+/// and not long before.
+TEST(ClearanceWatch, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
+  constexpr int points = 3, width = 2, coordinates = 20;
+  std::vector<int> rowBegin{0}, column;
+  std::vector<double> value;
+  for (int row = 0; row < points * width; ++row) {
+    for (int j = 0; j < coordinates; ++j) {
+      column.push_back(j);
+      value.push_back(row % width == 0 ? 3.0 : 4.0);  // 5 m along (0.6, 0.8) per unit of each coordinate
+    }
+    rowBegin.push_back(static_cast<int>(column.size()));
+  }
+  const Sparse full = Matrix::Ones(coordinates, coordinates).sparseView();
+  const std::vector<int> group(coordinates, 0);
+  const linalg::BlockPattern pattern(linalg::partitionDofs({&full}, group, group), {&full});
+  ClearanceWatch watch(points, width, width, rowBegin, column, value, pattern);
+  const auto at = [](double way) { return Vector(Vector::Constant(coordinates, way / (5.0 * coordinates))); };
+  Vector q = at(0.0);
+  const double clearance[points] = {0.4, 0.5, 0.9};
+  watch.wake(q.data());
+  watch.settle(q.data(), clearance);
+  EXPECT_TRUE(watch.awake().empty());
+  q = at(0.39);
+  watch.wake(q.data());
+  EXPECT_TRUE(watch.awake().empty()) << "the nearest point still has 0.01 m";
+  q = at(0.4001);
+  watch.wake(q.data());
+  EXPECT_EQ(watch.awake(), (std::vector<int>{0, 1, 2})) << "the nearest point touches";
+}
+
 TEST(ClearanceWatch, CheapPointsStayAwake) {
   const std::vector<int> rowBegin{0, 1, 2}, column{0, 1};
   const std::vector<double> value{1.0, 1.0};
