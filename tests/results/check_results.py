@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run writes means what docs/file-formats.md says: check_results.py PROGRAM
+
+Every dataset has the shape and the unit of its row in the table, and every row is written by some run; velocities are rates of
+displacements, contact forces those of the law, tables and summary agree with the datasets, pictures are the motion in the global frame.
+The runs are tests/effects/scene.xml (a string) and tests/study/frame.xml with springs, stops and a slider (parts).
+"""
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+
+import h5py
+import numpy as np
+
+PROGRAM = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FAULTS = []
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def near(what, found, expected, tolerance):
+    """`found` and `expected` differ by at most `tolerance` times the largest expected size."""
+    found, expected = np.asarray(found, float), np.asarray(expected, float)
+    if found.shape != expected.shape:
+        expect(what, False, f"shapes {found.shape} and {expected.shape}")
+        return
+    size = np.abs(expected).max()
+    error = np.abs(found - expected).max() / size if size > 0 else np.abs(found).max()
+    expect(what, size > 0 and error <= tolerance, f"({error:.1e} of {size:.3g})")
+
+
+def run(deck, folder, *overrides):
+    command = [PROGRAM, "run", str(deck), "--output", folder]
+    for override in overrides:
+        command += ["--set", override]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}")
+    return pathlib.Path(folder)
+
+
+def documented(heading):
+    """Rows of the first table below a heading of docs/file-formats.md: pattern of the path -> (shape, unit)."""
+    text = (ROOT / "docs" / "file-formats.md").read_text(encoding="utf-8")
+    rows = {}
+    for line in text[text.index(heading):].split("\n| dataset |", 1)[1].splitlines()[2:]:
+        if not line.startswith("|"):
+            break
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        paths = re.findall(r"`([^`]+)`", cells[0])
+        columns = [[part.strip() for part in cell.split(";")] for cell in cells[1:3]]
+        for column in columns:
+            if len(column) == 1:
+                column *= len(paths)
+            assert len(column) == len(paths), f"a row of docs/file-formats.md has not one entry for each of {paths}"
+        for path, shape, unit in zip(paths, *columns):
+            rows[path] = (shape, unit)
+    return rows
+
+
+def matches(pattern, path):
+    """Words in capitals stand for any name: part_K, NAME."""
+    return re.fullmatch(re.sub(r"\b([A-Z]+)\b|(?<=_)[A-Z]\b", "[^/]+", re.escape(pattern)), path)
+
+
+def check_datasets(title, file, rows, sizes, written):
+    """Units and shapes of all datasets against the rows of the documentation."""
+    paths = []
+    file.visititems(lambda name, item: paths.append("/" + name) if isinstance(item, h5py.Dataset) else None)
+    for path in paths:
+        patterns = [pattern for pattern in rows if matches(pattern, path)]
+        if len(patterns) != 1:
+            expect(f"{title}: {path} has one row in docs/file-formats.md", False, patterns)
+            continue
+        written.add(patterns[0])
+        shape, unit = rows[patterns[0]]
+        dataset = file[path]
+        expect(f"{title}: unit of {path}", dataset.attrs["units"] == unit, f"({dataset.attrs['units']!r}, documented {unit!r})")
+        expect(f"{title}: {path} has a long name", len(dataset.attrs["long_name"]) > 3)
+        wanted = [int(sizes.get(word, word)) if word in sizes or word.isdigit() else None for word in shape.split(" x ")]
+        fits = len(wanted) == dataset.ndim and all(size in (None, found) for size, found in zip(wanted, dataset.shape))
+        expect(f"{title}: shape of {path}", fits, f"({dataset.shape}, documented {shape})")
+
+
+def table(path, header):
+    """Columns of a CSV file by name; the header with its units is `header`."""
+    with open(path, encoding="utf-8", newline="") as file:
+        lines = list(csv.reader(file))
+    expect(f"header of {path.name}", lines[0] == header, lines[0] if lines[0] != header else "")
+    columns = np.array(lines[1:], float).T
+    return {re.sub(r" \[.*\]", "", name): column for name, column in zip(lines[0], columns)}
+
+
+def rates(values, time):
+    """Central differences of the samples in between."""
+    return (values[2:] - values[:-2]) / (time[2:] - time[:-2]).reshape((-1,) + (1,) * (values.ndim - 1))
+
+
+def relative(found, expected):
+    return np.linalg.norm(found - expected) / np.linalg.norm(expected)
+
+
+def check_motion(title, file, speed_error, acceleration_error):
+    time = file["/transient/time"][:]
+    d, v, a = (file[f"/transient/{name}"][:] for name in ("displacement", "velocity", "acceleration"))
+    expect(f"{title}: there is motion", np.ptp(d, axis=0).max() > 1e-5)
+    error = relative(v[1:-1], rates(d, time))
+    expect(f"{title}: velocities are the rates of the displacements", error < speed_error, f"({error:.1e})")
+    error = relative(a[1:-1], rates(v, time))
+    expect(f"{title}: accelerations are the rates of the velocities", error < acceleration_error, f"({error:.1e})")
+
+
+def check_string(rows, written):
+    folder = run(ROOT / "tests" / "effects" / "scene.xml", "string", "Output/Fields={displacement, velocity, acceleration, normal_force}",
+                 "Output/Reduced Bases=true", "Output/XDMF=true", "Output/XDMF Interval=0.05", "Transient/Sampling Interval=0.001")
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    with h5py.File(folder / "results.h5") as file:
+        nodes = len(file["/model/s"])
+        samples = len(file["/transient/time"])
+        pictures = len(file["/xdmf/time"])
+        check_datasets("string", file, rows, {"n": nodes, "e": nodes - 1, "m": samples, "p": pictures}, written)
+        data = {}
+        file.visititems(lambda name, item: data.update({"/" + name: item[:]}) if isinstance(item, h5py.Dataset) else None)
+        check_motion("string", file, 0.03, 0.3)
+    near("samples stand at multiples of the interval", data["/transient/time"], 1e-3 * np.arange(301), 1e-12)
+    near("the rotary speed is that of the deck", data["/transient/speed"], 4 * np.pi * (1 - np.exp(-data["/transient/time"] / 0.1)), 1e-12)
+    near("the motion starts in the static state", data["/transient/displacement"][0], data["/static/displacement"], 1e-12)
+    check_geometry(data)
+    check_contact(data)
+    check_tables(folder, data)
+    check_summary(summary, data)
+    check_pictures(data)
+
+
+def check_geometry(data):
+    frames, position = data["/model/frame"], data["/model/position"]
+    near("nodal frames are orthonormal", np.einsum("nij,nik->njk", frames, frames), np.broadcast_to(np.eye(3), frames.shape), 1e-12)
+    chord = np.diff(position, axis=0) / np.diff(data["/model/s"])[:, None]
+    mean = 0.5 * (frames[:-1, :, 2] + frames[1:, :, 2])
+    near("the third axis of a frame points along the well", mean, chord, 5e-3)
+    expect("depth grows along Z", np.all(np.diff(position[:, 2]) > 0))
+    near("the path ends on the axis of the well", data["/path/position"], position, 1e-4)
+    # bore 0.109 m down to 10 m, 0.108 m below; outer radius 0.0635 m (pipe, to 18 m), 0.0795 m; gauge 0.107 m at the bit
+    s = data["/model/s"]
+    bore, body = np.where(s < 10, 0.109, 0.108), np.where(s < 18, 0.0635, 0.0795)
+    clearance, radius = bore - body, body
+    clearance[-1], radius = 0.001, np.append(body[:-1], 0.107)
+    near("clearances are those of bore and body", data["/model/clearance"], clearance, 1e-9)
+    near("lever arms are the radii of what touches", data["/model/contact_radius"], radius, 1e-9)
+
+
+def check_contact(data):
+    """F_n = (2 k/pi) atan(pi lambda G) G, G = r - clearance > 0 (the law Clamped at rest), with the stiffness of the interval."""
+    s, d = data["/model/s"], data["/static/displacement"]
+    penetration = np.hypot(d[:, 0], d[:, 1]) - data["/model/clearance"]
+    stiffness = np.where((s >= 12) & (s < 62), 1.2e7, 1e7)
+    law = np.where(penetration > 0, 2 * stiffness / np.pi * np.arctan(np.pi * 1e6 * penetration) * penetration, 0.0)
+    law[[0, -1]] = 0.0  # held ends
+    near("static normal forces follow the contact law", data["/static/normal_force"], law, 1e-9)
+    near("the motion starts with the static normal forces", data["/transient/normal_force"][0], data["/static/normal_force"], 1e-6)
+    expect("friction holds the string back", np.all(data["/static/tangential_force"] <= 0) and data["/static/tangential_force"].min() < -1)
+    near("friction torque is friction force times its lever arm", data["/static/friction_torque"],
+         data["/static/tangential_force"] * data["/model/contact_radius"], 1e-9)
+
+
+def check_tables(folder, data):
+    nodes = table(folder / "static_nodes.csv", ["node", "s [m]", "u [m]", "v [m]", "w [m]", "theta_z [rad]", "r [m]", "clearance [m]",
+                                                "normal_force [N]", "tangential_force [N]", "friction_torque [N m]"])
+    d = data["/static/displacement"]
+    expect("nodes count from 1", list(nodes["node"]) == list(range(1, len(d) + 1)))
+    for name, values in [("s", data["/model/s"]), ("u", d[:, 0]), ("v", d[:, 1]), ("w", d[:, 2]), ("theta_z", d[:, 5]),
+                         ("r", np.hypot(d[:, 0], d[:, 1])), ("clearance", data["/model/clearance"]),
+                         ("normal_force", data["/static/normal_force"]), ("tangential_force", data["/static/tangential_force"]),
+                         ("friction_torque", data["/static/friction_torque"])]:
+        near(f"static_nodes.csv: {name}", nodes[name], values, 1e-12)
+    elements = table(folder / "static_elements.csv", ["element", "s [m]", "axial_force [N]", "torque [N m]", "path_axial_force [N]", "path_torque [N m]"])
+    near("static_elements.csv: s", elements["s"], 0.5 * (data["/model/s"][1:] + data["/model/s"][:-1]), 1e-12)
+    for name, values in [("axial_force", data["/static/axial_force"]), ("torque", data["/static/torque"]), ("path_axial_force", data["/path/axial_force"])]:
+        near(f"static_elements.csv: {name}", elements[name], values, 1e-12)
+    motion = table(folder / "motion.csv", ["time [s]", "rotary_speed [rad/s]", "bit_speed [rad/s]", "bit_w [m]", "bit_theta_z [rad]"])
+    bit = data["/transient/displacement"][:, -1]
+    for name, values in [("time", data["/transient/time"]), ("rotary_speed", data["/transient/speed"]), ("bit_speed", bit_speed(data)),
+                         ("bit_w", bit[:, 2]), ("bit_theta_z", bit[:, 5])]:
+        near(f"motion.csv: {name}", motion[name], values, 1e-12)
+
+
+def bit_speed(data):
+    """Omega + dtheta_z/dt of the last node."""
+    return data["/transient/speed"] + data["/transient/velocity"][:, -1, 5]
+
+
+def check_summary(summary, data):
+    s, d = summary["static"], data["/static/displacement"]
+    normal, axial = data["/static/normal_force"], data["/static/axial_force"]
+    penetration = (np.hypot(d[:, 0], d[:, 1]) - data["/model/clearance"])[1:-1]
+    for key, value in [("top_axial_force", axial[0]), ("last_element_axial_force", axial[-1]), ("last_element_torque", data["/static/torque"][-1]),
+                       ("top_torque", data["/static/torque"][0]), ("max_normal_force", normal.max()), ("max_normal_force_node", np.argmax(normal) + 1),
+                       ("total_normal_force", normal.sum()), ("contact_nodes", np.sum(penetration > 0)), ("compressed_elements", np.sum(axial < 0))]:
+        near(f"summary: static.{key}", s[key], value, 1e-9)
+    t, rpm = summary["transient"], 30 / np.pi * bit_speed(data)
+    for key, value in [("min", rpm.min()), ("max", rpm.max()), ("mean", rpm.mean())]:
+        near(f"summary: transient.bit_speed_rpm.{key}", t["bit_speed_rpm"][key], value, 1e-9)
+    moving = data["/transient/displacement"][:, 1:-1]
+    deepest = (np.hypot(moving[:, :, 0], moving[:, :, 1]) - data["/model/clearance"][1:-1]).max()
+    near("summary: transient.max_penetration", t["max_penetration"], deepest, 1e-9)
+    near("summary: model.length", summary["model"]["length"], data["/model/s"][-1], 1e-12)
+
+
+def check_pictures(data):
+    """Vectors of the pictures are those of the samples turned by the nodal frames."""
+    at = np.searchsorted(data["/transient/time"], data["/xdmf/time"] - 1e-9)
+    frames = data["/model/frame"]
+    near("pictures: displacement in the global frame", data["/xdmf/displacement"],
+         np.einsum("nij,tnj->tni", frames, data["/transient/displacement"][at, :, :3]), 1e-9)
+    v = data["/transient/velocity"][at]
+    near("pictures: speed", data["/xdmf/speed"], np.linalg.norm(v[:, :, :3], axis=2), 1e-9)
+    near("pictures: spin", data["/xdmf/spin"], data["/transient/speed"][at, None] + v[:, :, 5], 1e-9)
+    near("pictures: normal force", data["/xdmf/normal_force"], data["/transient/normal_force"][at], 1e-9)
+    near("pictures: position", data["/xdmf/position"], data["/path/position"], 1e-12)
+
+
+def parameter(name, kind, value):
+    return xml.Element("Parameter", name=name, type=kind, value=value)
+
+
+def connector(name, *parameters):
+    entry = xml.Element("ParameterList", name=name)
+    entry.extend(parameters)
+    return entry
+
+
+def parts_deck():
+    """The frame with a spring, a stop, a sliding stop and a slider between its arm and the ground."""
+    source = ROOT / "tests" / "study" / "frame.xml"
+    scene = xml.parse(source)
+    root = scene.getroot()
+    root.remove(next(child for child in root if child.get("name") == "Study"))
+    for file in root.iter("Parameter"):
+        if file.get("name") == "File":
+            file.set("value", str((source.parent / file.get("value")).resolve()))
+    tip = parameter("First", "string", "arm:5")
+    stiff = [parameter("Gap", "double", "-1e-5"), parameter("Stiffness", "double", "1e5"), parameter("Smoothing", "double", "1e-6")]
+    coupling = xml.SubElement(root, "ParameterList", name="Coupling")
+    for kind, entry in [
+            ("Springs", connector("brace", tip, parameter("Component", "string", "w"), parameter("Stiffness", "double", "1e4"),
+                                  parameter("Damping", "double", "10"))),
+            ("Stops", connector("plug", tip, parameter("Component", "string", "v"), *stiff)),
+            ("Sliders", connector("brake", tip, parameter("Component", "string", "w"), parameter("Force", "double", "20")))]:
+        xml.SubElement(coupling, "ParameterList", name=kind).append(entry)
+    coupling[1].append(connector("bumper", tip, parameter("Direction", "Array(double)", "{1, 0, 0}"), *stiff, parameter("Friction", "double", "0.2")))
+    scene.write("parts.xml")
+    return "parts.xml"
+
+
+def check_parts(rows, written):
+    folder = run(parts_deck(), "parts", "Output/Fields={displacement, velocity, acceleration, normal_force}", "Transient/Sampling Interval=0.001")
+    with h5py.File(folder / "results.h5") as file:
+        time = file["/transient/time"][:]
+        names = [name.decode() if isinstance(name, bytes) else name for name in file["/model/components"][:]]
+        sizes = {"n": len(file["/model/part"]), "m": len(time), "c": len(names)}
+        check_datasets("parts", file, rows, sizes, written)
+        check_motion("parts", file, 0.03, 0.3)
+        arm = [n.decode() if isinstance(n, bytes) else n for n in file["/model/part_names"][:]].index("arm") + 1
+        tip = np.flatnonzero((file["/model/part"][:] == arm) & (file["/model/node"][:] == 5))[0]
+        d, v = (file[f"/transient/{name}"][:, tip, names.index("w")] for name in ("displacement", "velocity"))
+        near("parts: the spring force", np.ravel(file["/transient/brace/spring_force"][:]), -1e4 * d - 10 * v, 1e-9)
+        brake = np.ravel(file["/transient/brake/friction_force"][:])
+        expect("parts: the slider brakes", np.all(brake * v <= 0) and 10 < np.abs(brake).max() <= 20)
+        gap = np.ravel(file["/transient/plug/stop_gap"][:])
+        near("parts: the gap of a stop", gap, file["/transient/displacement"][:, tip, names.index("v")] - 1e-5, 1e-9)
+        expect("parts: stops push", np.ravel(file["/transient/plug/stop_force"][:])[gap < 0].min() > 0)
+        largest = np.abs(file["/transient/displacement"][:]).max(axis=1)
+    motion = table(folder / "motion.csv", ["time [s]"] + [f"max_{name} [m or rad]" for name in names])
+    for c, name in enumerate(names):
+        near(f"parts: motion.csv: max_{name}", motion[f"max_{name}"], largest[:, c], 1e-12)
+
+
+def main():
+    strings, parts = documented("## results.h5"), documented("**Results of a scene of parts.**")
+    written = {"string": set(), "parts": set()}
+    check_string(strings, written["string"])
+    check_parts(parts, written["parts"])
+    for title, rows in (("string", strings), ("parts", parts)):
+        expect(f"{title}: every documented dataset is written", set(rows) == written[title], sorted(set(rows) - written[title]) or "")
+    print(f"{len(FAULTS)} faults")
+    return 1 if FAULTS else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
