@@ -49,24 +49,33 @@ TEST(ElementForms, StiffnessIsTheStrainEnergy) {
              }));
 }
 
-/// A cantilever of one Timoshenko element under a tip force P: P l^3/(3 E I) + P l/(beta G S), and its slope P l^2/(2 E I).
+/// A cantilever of one Timoshenko element under a tip force P: P l^3/(3 E I) + P l/(beta G S), its slope P l^2/(2 E I), and the
+/// reactions P and P l at the clamped end, whichever of the two ends that is.
 TEST(ElementForms, ShearDeformsACantileverByItsOwnShare) {
   const Section s = Section::hollow(0.08, 0.03, Material{7900.0, 2.0e11, 0.3});
   const double l = 0.4, force = 1e3;
   const Matrix12 k = stiffness(s, l);
   const double bending = force * l * l * l / (3.0 * 2.0e11 * s.inertiaX());
   const double shear = force * l / (0.9 * 2.0e11 / 2.6 * s.area());
-  EXPECT_GT(shear, 0.05 * bending);
   const double slope = force * l * l / (2.0 * 2.0e11 * s.inertiaX());
-  Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
-  load(0) = force;
-  const Eigen::Matrix<double, 6, 1> u = k.bottomRightCorner<6, 6>().ldlt().solve(load);
-  EXPECT_NEAR(u(0), bending + shear, 1e-10 * bending);
-  EXPECT_NEAR(u(4), slope, 1e-10 * slope);
-  load << 0, force, 0, 0, 0, 0;
-  const Eigen::Matrix<double, 6, 1> v = k.bottomRightCorner<6, 6>().ldlt().solve(load);
-  EXPECT_NEAR(v(1), bending + shear, 1e-10 * bending);
-  EXPECT_NEAR(v(3), -slope, 1e-10 * slope);
+  EXPECT_GT(shear, 0.05 * bending);
+  for (const int tip : {0, 6}) {
+    const int clamp = 6 - tip;
+    const double way = tip == 6 ? 1.0 : -1.0;  // from the clamp to the tip along z
+    for (const int plane : {0, 1}) {           // u with theta_y, v with -theta_x
+      const int turn = plane == 0 ? 4 : 3;
+      const double sign = plane == 0 ? 1.0 : -1.0;
+      Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
+      load(plane) = force;
+      Vector12 d = Vector12::Zero();
+      d.segment<6>(tip) = k.block<6, 6>(tip, tip).ldlt().solve(load);
+      EXPECT_NEAR(d(tip + plane), bending + shear, 1e-10 * bending);
+      EXPECT_NEAR(d(tip + turn), sign * way * slope, 1e-10 * slope);
+      const Vector12 reaction = k * d;
+      EXPECT_NEAR(reaction(clamp + plane), -force, 1e-9 * force);
+      EXPECT_NEAR(reaction(clamp + turn), -sign * way * force * l, 1e-9 * force * l);
+    }
+  }
 }
 
 TEST(ElementForms, MassIsTheKineticEnergy) {
