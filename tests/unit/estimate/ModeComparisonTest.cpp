@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "coupling/Assembler.hpp"
+#include "coupling/PointLaws.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -89,6 +90,27 @@ TEST(ModeComparison, EstimateOfADampedModeIsTheErrorToFirstOrder) {
   EXPECT_GT(modes[0].error, 1e-3);
   EXPECT_LT(modes[0].error, 0.03);
   EXPECT_NEAR(modes[0].estimate, modes[0].error, 10.0 * modes[0].error * modes[0].error);
+}
+
+/// K + k at the point, C + c there, with the laws of the time asked for: a bar with a spring and dashpot under its end.
+TEST(ModeComparison, LinearisesPointLawsWithTheirDamping) {
+  auto part = samples::bar("bar", 1, 1, 100.0, 0.6, {1});
+  auto& m = part.model;
+  m.damping.push_back({"growing", Sparse(m.stiffness.front().matrix), m.lawIndex({"t", [](double t) { return t; }})});
+  coupling::SpringParameters spring;
+  spring.stiffness = 30.0;
+  spring.damping = 4.0;
+  model::PointSet set;
+  set.name = "spring";
+  set.law = coupling::springs({spring});
+  set.entities = {2};
+  set.rows = Matrix(Matrix::Ones(1, 1)).sparseView();
+  set.offset = Vector::Zero(1);
+  m.points.push_back(set);
+  const auto linear = estimate::linearise(m, 0.5);
+  EXPECT_NEAR(linear.mass.coeff(0, 0), 0.2, 1e-15);
+  EXPECT_NEAR(linear.stiffness.coeff(0, 0), 130.0, 1e-12);
+  EXPECT_NEAR(linear.damping.coeff(0, 0), 0.5 * 100.0 + 4.0, 1e-12);
 }
 
 TEST(ModeComparison, NamesADofThatIsInNoPart) {
