@@ -17,6 +17,8 @@ import xml.etree.ElementTree as xml
 import h5py
 import numpy as np
 
+import documented
+
 PROGRAM = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FAULTS = []
@@ -49,47 +51,10 @@ def run(deck, folder, *overrides):
     return pathlib.Path(folder)
 
 
-def documented(heading):
-    """Rows of the first table below a heading of docs/file-formats.md: pattern of the path -> (shape, unit)."""
-    text = (ROOT / "docs" / "file-formats.md").read_text(encoding="utf-8")
-    rows = {}
-    for line in text[text.index(heading):].split("\n| dataset |", 1)[1].splitlines()[2:]:
-        if not line.startswith("|"):
-            break
-        cells = [cell.strip() for cell in line.strip("|").split("|")]
-        paths = re.findall(r"`([^`]+)`", cells[0])
-        columns = [[part.strip() for part in cell.split(";")] for cell in cells[1:3]]
-        for column in columns:
-            if len(column) == 1:
-                column *= len(paths)
-            assert len(column) == len(paths), f"a row of docs/file-formats.md has not one entry for each of {paths}"
-        for path, shape, unit in zip(paths, *columns):
-            rows[path] = (shape, unit)
-    return rows
-
-
-def matches(pattern, path):
-    """Words in capitals stand for any name: part_K, NAME."""
-    return re.fullmatch(re.sub(r"\b([A-Z]+)\b|(?<=_)[A-Z]\b", "[^/]+", re.escape(pattern)), path)
-
-
 def check_datasets(title, file, rows, sizes, written):
-    """Units and shapes of all datasets against the rows of the documentation."""
-    paths = []
-    file.visititems(lambda name, item: paths.append("/" + name) if isinstance(item, h5py.Dataset) else None)
-    for path in paths:
-        patterns = [pattern for pattern in rows if matches(pattern, path)]
-        if len(patterns) != 1:
-            expect(f"{title}: {path} has one row in docs/file-formats.md", False, patterns)
-            continue
-        written.add(patterns[0])
-        shape, unit = rows[patterns[0]]
-        dataset = file[path]
-        expect(f"{title}: unit of {path}", dataset.attrs["units"] == unit, f"({dataset.attrs['units']!r}, documented {unit!r})")
-        expect(f"{title}: {path} has a long name", len(dataset.attrs["long_name"]) > 3)
-        wanted = [int(sizes.get(word, word)) if word in sizes or word.isdigit() else None for word in shape.split(" x ")]
-        fits = len(wanted) == dataset.ndim and all(size in (None, found) for size, found in zip(wanted, dataset.shape))
-        expect(f"{title}: shape of {path}", fits, f"({dataset.shape}, documented {shape})")
+    wrong, met = documented.faults(file, rows, sizes)
+    written |= met
+    expect(f"{title}: datasets have the units and shapes of docs/file-formats.md", not wrong and len(met) > 5, "; ".join(wrong))
 
 
 def table(path, header):
@@ -286,7 +251,7 @@ def check_parts(rows, written):
 
 
 def main():
-    strings, parts = documented("## results.h5"), documented("**Results of a scene of parts.**")
+    strings, parts = documented.rows("## results.h5"), documented.rows("**Results of a scene of parts.**")
     written = {"string": set(), "parts": set()}
     check_string(strings, written["string"])
     check_parts(parts, written["parts"])

@@ -16,6 +16,11 @@ import subprocess
 import sys
 import time
 
+import h5py
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "results"))
+import documented
+
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
 FAULTS = []
 
@@ -55,6 +60,9 @@ def whole_study():
     expect("a study with a method that fails ends with 0", done.returncode == 0, done.stderr[-300:])
     found, listed = rows("whole"), table("whole")
     expect("every run is a row, of summary.json and of study.csv", len(found) == 13 and list(found) == list(listed), f"({len(found)})")
+    with h5py.File("whole/study.h5") as file:
+        wrong, met = documented.faults(file, documented.rows("## Studies"))
+    expect("datasets have the units of docs/file-formats.md", not wrong and len(met) > 15, f"({len(met)} kinds) {'; '.join(wrong)}")
     failed = found["RK4, too coarse"]
     expect("the failed run has its reason and no numbers", failed["status"] == "failed" and "blew up" in failed["reason"] and failed["cpu_s"] is None)
     expect("its line in study.csv too", listed["RK4, too coarse"]["status"] == "failed" and listed["RK4, too coarse"]["dyn"] == "")
