@@ -162,6 +162,18 @@ TEST(SpeedLaw, TablePassesThroughItsEntriesWithoutOvershoot) {
   }
 }
 
+/// Between two rises the slope is their weighted harmonic mean (Fritsch and Butland 1984, Brodlie's weights), 0 at a level
+/// stretch, a summit and both ends.
+TEST(SpeedLaw, MonotoneTableHasTheSlopesOfItsFormula) {
+  const RotarySpeed r(table("Monotone cubic"));
+  const double before = 4.0 / 0.6, after = 1.0 / 0.7;  // rises on both sides of t = 1 s
+  const double w0 = 2.0 * 0.7 + 0.6, w1 = 0.7 + 2.0 * 0.6;
+  const double slope = (w0 + w1) / (w0 / before + w1 / after);
+  EXPECT_NEAR(r.acceleration(1.0), slope, 1e-9);
+  EXPECT_NEAR(r.acceleration(1.0 - 1e-9), slope, 1e-6);
+  for (const double t : {0.4, 1.7, 2.0}) EXPECT_NEAR(r.acceleration(t), 0.0, 1e-9) << t;
+}
+
 TEST(SpeedLaw, TableOfOneEntryIsConstant) {
   const RotarySpeed r(law("Table", [](auto& l) {
     l.set("Times", Teuchos::Array<double>(std::vector<double>{1.0}));

@@ -50,7 +50,7 @@ mud::MudProperties fluid() {
 /// The scene. Element axes lie along a well of 40 degrees inclination; the nodal axes are those of the elements turned about the
 /// tangent by 0.3 rad times the number of the node.
 struct Scene {
-  well::Well well{well::straight(20.0, 0.7, 0.4), 0.108, {{"casing", 0.0, 2.0, 0.15}}};
+  well::Well well{well::straight(20.0, 0.7, 0.4), 0.108, {{"casing", 0.0, 1.5, 0.15}, {"liner", 1.5, 3.0, 0.13}}};
   DrillString string;
   path::PathState path;
   std::vector<char> held = std::vector<char>(18, 0);
