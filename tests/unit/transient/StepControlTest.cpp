@@ -47,7 +47,9 @@ TEST(StepControl, halvesAsOftenAsAnErrorOfThirdOrderAsksFor) {
   EXPECT_TRUE(control.accepts(1e-6));
   EXPECT_FALSE(control.accepts(1.01e-6));
   EXPECT_EQ(control.shorter(2e-6, 3), 4);     // to an eighth, half of the tolerance being aimed at
+  EXPECT_EQ(control.shorter(3.9e-6, 3), 4);   // 4.9e-7 after one
   EXPECT_EQ(control.shorter(8e-6, 3), 5);     // 1e-6 after one, 1.25e-7 after two
+  EXPECT_EQ(control.shorter(31e-6, 3), 5);    // 4.8e-7 after two
   EXPECT_EQ(control.shorter(1.0, 3), 10);     // no deeper than it goes
   EXPECT_EQ(control.shorter(2e-6, 10), 11);   // nothing left
   EXPECT_EQ(control.shorter(std::nan(""), 3), 10);
