@@ -7,6 +7,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "estimate/PartResidual.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -34,6 +35,38 @@ TEST(ResidualFlexibility, IsThatOfTheModesLeftOut) {
   for (int k = 2; k < 5; ++k)
     expected += modes.eigenvectors().col(k) * modes.eigenvectors().col(k).transpose() / modes.eigenvalues()[k];
   EXPECT_LT((flexibility.apply(Matrix::Identity(5, 5)) - expected).norm(), 1e-12 * expected.norm());
+}
+
+/// w = -F r on the interior, r = M D'' + C D' + K D - f(t) with every term of its own size and the laws of its time.
+TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
+  auto part = samples::bar("bar", 1, 6, 600.0, 0.3);
+  samples::classify(part, {1, 7});
+  auto& m = part.model;
+  const Sparse K = m.stiffness.front().matrix;
+  const int growing = m.lawIndex({"t", [](double t) { return t; }});
+  m.damping.push_back({"growing", Sparse(0.02 * K), growing});
+  m.loads.push_back({"growing", Vector::LinSpaced(7, 1.0, 4.0).cwiseAbs2(), growing});
+  reduction::ReductionOptions options;
+  options.modes.kind = reduction::ModeRule::Kind::PerPart;
+  options.modes.counts = {2};
+  const auto reduced =
+      reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options).front();
+  Sparse map(4, 4);
+  map.setIdentity();
+  const estimate::PartResidual residual(part, reduced, map, {});
+  const Vector d = Vector::LinSpaced(7, 0.1, 0.5).cwiseAbs2(), v = Vector::LinSpaced(7, 3.0, -2.0).cwiseAbs2(),
+               a = Vector::LinSpaced(7, -40.0, 90.0).cwiseAbs2();
+  const double t = 1.5;
+  const Vector r = m.mass * a + t * 0.02 * (K * v) + K * d - t * m.loads.front().vector;
+  const estimate::ResidualFlexibility flexibility(part, *reduced.basis, K);
+  const auto& inner = flexibility.interior();
+  Vector interior(5);
+  for (int i = 0; i < 5; ++i) interior[i] = r[inner[static_cast<std::size_t>(i)]];
+  const Vector expected = -flexibility.apply(interior);
+  const Vector w = residual.truncated(t, {d, v, a});
+  for (int i = 0; i < 5; ++i) EXPECT_NEAR(w[inner[static_cast<std::size_t>(i)]], expected[i], 1e-12 * expected.norm()) << i;
+  for (const int kept : part.interface) EXPECT_EQ(w[kept], 0.0);
+  EXPECT_GT(expected.norm(), 1e-4);
 }
 
 }  // namespace
