@@ -123,7 +123,8 @@ TEST(ContactStability, spinReversal) {
 /// Starts that differ by some per cent: impacts come in another order, and what is asserted of all of them is no accident of one.
 constexpr double lifts[] = {1.0, 0.97, 1.03, 0.9};
 
-/// Contact frequencies of 2 to 22 rad per step, met as impacts: no energy is made, with strong numerical damping or with the default.
+/// Contact frequencies of 2 to 22 rad per step, met as impacts: no energy is made, with strong numerical damping or with the
+/// default.
 TEST(ContactStability, stiffWalls) {
   for (double stiffness : {1e8, 1e9, 1e10}) {
     Bores data;
@@ -154,8 +155,8 @@ TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
     }
 }
 
-/// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and too many for an impact: each rebound adds energy,
-/// and the run ends with what to change. Shorter steps are a result.
+/// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and too many for an impact: each
+/// rebound adds energy, and the run ends with what to change. Shorter steps are a result.
 TEST(ContactStability, energyThatIsMadeIsRefused) {
   for (double start : {0.005, 0.0051, 0.006}) {
     auto model = oscillator(5.0, 0.0, 5e3, start, 0.3);
@@ -208,8 +209,8 @@ TEST(ContactStability, everyLaw) {
   }
 }
 
-/// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step is wrong, and no run is taken for a result; one that
-/// is asked to go on solves all its steps.
+/// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step is wrong, and no run is taken
+/// for a result; one that is asked to go on solves all its steps.
 TEST(ContactStability, stepTenTimesTooLarge) {
   constexpr double step = 1e-2, end = 0.8;  // long enough for the local error to be measured however the steps fall
   for (double vr : {0.1, 1e-4})

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Tests that go through all decks leave a user's own aside.
-#include <gtest/gtest.h>
+#include "tests/support/TrackedDecks.hpp"
 
 #include <cstdlib>
 #include <fstream>
+#include <gtest/gtest.h>
 
-#include "tests/support/TrackedDecks.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
 namespace {
@@ -18,7 +18,8 @@ TEST(TrackedDecks, AreThoseGitKnowsAndWithoutGitAll) {
   const test::Scratch scratch;
   const std::string folder = scratch / "decks";
   std::filesystem::create_directories(folder + "/components");
-  for (const char* name : {"theirs.xml", "own.xml", "notes.txt", "components/pipe.xml", "gone.xml"}) std::ofstream(folder + "/" + name) << "<ParameterList/>";
+  for (const char* name : {"theirs.xml", "own.xml", "notes.txt", "components/pipe.xml", "gone.xml"})
+    std::ofstream(folder + "/" + name) << "<ParameterList/>";
   EXPECT_EQ(testing_::trackedDecks(folder), (Names{"gone.xml", "own.xml", "theirs.xml"})) << "git tracks nothing here";
   const std::string git = "git -C '" + folder + "' ";
   ASSERT_EQ(std::system((git + "init -q . && " + git + "add theirs.xml notes.txt components/pipe.xml gone.xml").c_str()), 0);
