@@ -25,8 +25,8 @@ A gold is a JSON file:
 is right only because it was so before: the argument says why there is nothing better.
 
 Keys are dotted paths into summary.json, numbers step into lists. A real number needs `relative` and/or `absolute` (the sum of both
-allowances holds), or `at_most`, which bounds its size; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
-on the first of `ranks` and rewrites the values (not those with `at_most`), never the tolerances.
+allowances holds), or `at_most`, which bounds its size, or `at_least`, which bounds the number; whole numbers, texts and booleans without tolerance must be equal. `--update` runs the deck once
+on the first of `ranks` and rewrites the values (not those with `at_most` or `at_least`), never the tolerances.
 """
 import argparse
 import copy
@@ -79,6 +79,8 @@ def compare(norm, found):
         return "", "equal", type(expected) is type(found) and expected == found
     if not math.isfinite(found):
         return "", "finite", False
+    if norm.get("at_least"):
+        return f"{expected - found:.3e}", "at least", found >= expected
     if norm.get("at_most"):
         return f"{abs(found) - expected:.3e}", "at most", abs(found) <= expected
     allowed = norm.get("relative", 0.0) * abs(expected) + norm.get("absolute", 0.0)
@@ -93,7 +95,7 @@ def faults_of(gold):
     for key, norm in norms.items():
         if "value" not in norm:
             yield f"{key} has no value yet: run with --update and look at what it wrote."
-        elif isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most"} & norm.keys()):
+        elif isinstance(norm["value"], float) and not ({"relative", "absolute", "at_most", "at_least"} & norm.keys()):
             yield f"{key} is a real number and states no tolerance."
         source, _, argument = arguments.get(key, "").partition(": ")
         if source not in SOURCES or not argument.strip():
@@ -127,7 +129,8 @@ def self_test():
         print(f"{'ok    ' if fine else 'FAILED'} {sentence or 'a good gold'}: {faults}")
     for norm, found, expected in (({"value": 2.0, "relative": 0.1}, 2.19, True), ({"value": 2.0, "relative": 0.1}, 2.21, False), ({"value": 2.0, "absolute": 0.1}, 1.89, False),
                                   ({"value": 2.0, "relative": 0.05, "absolute": 0.1}, 2.19, True), ({"value": 1.0, "at_most": True}, -1.1, False),
-                                  ({"value": 1.0, "at_most": True}, -0.9, True), ({"value": 1.0, "at_most": True}, math.nan, False), ({"value": 3}, 4, False),
+                                  ({"value": 1.0, "at_most": True}, -0.9, True), ({"value": 1.0, "at_most": True}, math.nan, False),
+                                  ({"value": -0.1, "at_least": True}, 0.5, True), ({"value": -0.1, "at_least": True}, -0.2, False), ({"value": 3}, 4, False),
                                   ({"value": True}, 1, False), ({"value": 3}, None, False)):
         fine = compare(norm, found)[2] is expected
         failures += not fine
@@ -138,7 +141,7 @@ def self_test():
 def update(options, gold):
     summary = run(options, gold, gold["ranks"][0], options.output)
     for key, norm in gold["norms"].items():
-        if not norm.get("at_most"):
+        if not (norm.get("at_most") or norm.get("at_least")):
             found = look_up(summary, key)
             if found != norm.get("value"):
                 print(f"{key}: {norm.get('value')} -> {found}")
