@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/Error.hpp"
-#include "common/Text.hpp"
 #include "coupling/ComponentAxes.hpp"
-#include "io/ResultsReader.hpp"
+
 
 namespace tooljoint::app {
 
@@ -56,7 +54,7 @@ void writePartsModel(const PartsDeck& deck, const model::SecondOrderModel& model
 }
 
 PartsRecorder::PartsRecorder(const PartsDeck& deck, const model::SecondOrderModel& model, io::ResultsFile& file)
-    : model_(model), file_(file), table_(columns(model.componentNames)) {
+    : model_(model), file_(file), table_(file, columns(model.componentNames)) {
   const auto nodes = model.recoveryNodes.size(), width = model.componentNames.size();
   time_ = &file.series("/transient/time", {}, "s", "Time of the samples");
   const auto& output = deck.output;
@@ -79,15 +77,14 @@ PartsRecorder::PartsRecorder(const PartsDeck& deck, const model::SecondOrderMode
 
 io::TimeSeries* PartsRecorder::add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit,
                                    const std::string& longName) {
-  auto* series = &file_.series(path, columns > 0 ? io::Shape{rows, columns} : io::Shape{rows}, unit, longName);
-  fields_.push_back({path, series});
-  return series;
+  return &file_.series(path, columns > 0 ? io::Shape{rows, columns} : io::Shape{rows}, unit, longName);
 }
 
-std::vector<std::string> PartsRecorder::paths() const {
-  std::vector<std::string> out;
-  for (const auto& field : fields_) out.push_back(field.path);
-  return out;
+void PartsRecorder::save(std::vector<double>& memory) const { memory.insert(memory.end(), {largest_, static_cast<double>(samples_)}); }
+
+void PartsRecorder::restore(const double*& memory) {
+  largest_ = *memory++;
+  samples_ = static_cast<long>(*memory++);
 }
 
 void PartsRecorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
@@ -115,27 +112,6 @@ void PartsRecorder::measure(double t, const double* displacement) {
   for (std::size_t c = 1; c < row.size(); ++c) largest_ = std::max(largest_, row[c]);
   table_.row(row);
   if (++samples_ % flushEvery == 0) file_.flush();
-}
-
-RecordedParts::RecordedParts(const std::string& resultsFile, const std::vector<std::string>& series) : paths(series) {
-  const io::ResultsReader reader(resultsFile);
-  time = reader.numbers("/transient/time");
-  for (const auto& path : paths) values.push_back(reader.numbers(path));
-}
-
-void PartsRecorder::replay(const RecordedParts& motion, std::size_t samples) {
-  if (motion.time.size() < samples || !displacementSeries_)
-    throw FileError(
-        "The results to go on from hold fewer samples than their checkpoint, or no displacements; keep \"displacement\" in "
-        "Output/Fields.");
-  for (std::size_t f = 0; f < fields_.size(); ++f)
-    if (motion.values[f].size() < samples * fields_[f].series->rowSize())
-      throw FileError("The results to go on from have another " + fields_[f].path + ".");
-  for (std::size_t i = 0; i < samples; ++i) {
-    measure(motion.time[i], motion.values[0].data() + i * fields_[0].series->rowSize());
-    for (std::size_t f = 0; f < fields_.size(); ++f)
-      fields_[f].series->append(motion.values[f].data() + i * fields_[f].series->rowSize());
-  }
 }
 
 }  // namespace tooljoint::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -8,6 +8,7 @@
 #include "app/PartsRecording.hpp"
 #include "app/Report.hpp"
 #include "app/ResultsWriter.hpp"
+#include "app/RunFiles.hpp"
 #include "app/RunSupport.hpp"
 #include "common/Error.hpp"
 #include "common/Log.hpp"
@@ -53,21 +54,10 @@ class PartsRun {
   PartsRun(const RunOptions& options, PartsDeck deck) : options_(options), deck_(std::move(deck)) {}
 
   void go() {
-    parallel::agree([&] {
-      folder_.emplace(resultsFolder(options_, deck_.output.folder));
-      if (!options_.restart.empty()) readRestart();
-      file_ = std::make_unique<io::ResultsFile>(
-          folder_->file("results.h5"),
-          provenance(deck_.deck),
-          io::ResultsOptions{deck_.output.compression});
-    });
-    try {
-      stages();
-      finish();
-    } catch (const Error& error) {
-      leave(error);
-      throw;
-    }
+    std::size_t width = 0;
+    for (const auto& part : deck_.scene.parts) width = std::max(width, part.model.componentNames.size());
+    files_.emplace(options_, deck_.deck, deck_.output, expectedBytes(deck_.list(), deck_.output, deck_.scene.nodes.size(), width));
+    files_->complete([this] { stages(); }, [] {});
   }
 
  private:
@@ -79,15 +69,15 @@ class PartsRun {
     log::info(describeParts(deck_, whole_));
     for (const auto& remark : whole_.remarks) log::warn(remark);
     warnOfOmitted();
-    summarise(deck_, whole_, summary_);
+    summarise(deck_, whole_, files_->summary());
     const Vector rest = restOf(whole_);
     parallel::agree([&] {
-      writePartsModel(deck_, whole_.model, *file_);
-      file_->write("/static/displacement", rest, {whole_.model.recoveryNodes.size(), whole_.model.componentNames.size()},
+      writePartsModel(deck_, whole_.model, files_->results());
+      files_->results().write("/static/displacement", rest, {whole_.model.recoveryNodes.size(), whole_.model.componentNames.size()},
                    "m, rad", "Displacements at the start, in the common frame");
-      file_->flush();
+      files_->results().flush();
     });
-    if (deck_.settings.atRest) summary_.set("static.converged", true);
+    if (deck_.settings.atRest) files_->summary().set("static.converged", true);
     if (deck_.reduces()) reduce();
     if (!deck_.moves()) return;
     const auto& model = deck_.reduces() ? outcome_.synthesis.coupled.model : whole_.model;
@@ -113,16 +103,16 @@ class PartsRun {
     log::info(describeReduction(reduced, whole_.model.size(), dofs, wall));
     log::info(describeCoupling(outcome_.synthesis.coupled));
     if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, deck_.scene.parts));
-    summarise(reduced, list.get<std::string>("Basis"), dofs, wall, summary_);
-    summarise(outcome_.synthesis.coupled, summary_);
-    summarise(outcome_, deck_.scene.parts, summary_);
+    summarise(reduced, list.get<std::string>("Basis"), dofs, wall, files_->summary());
+    summarise(outcome_.synthesis.coupled, files_->summary());
+    summarise(outcome_, deck_.scene.parts, files_->summary());
     estimatesMotion_ = estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
     parallel::agree([&] {
-      if (deck_.output.csv) stageBasisTable(reduced, *folder_);
-      if (deck_.output.reducedBases) writeBases(reduced, *file_);
+      if (deck_.output.csv) stageBasisTable(reduced, files_->folder());
+      if (deck_.output.reducedBases) writeBases(reduced, files_->results());
     });
     exportParts(deck_.scene.contents, reduced, deck_.output.exportFormat,
-                (std::filesystem::path(folder_->folder()) / "parts").string());
+                (std::filesystem::path(files_->folder().folder()) / "parts").string());
   }
 
   estimate::MotionEstimate probe(const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
@@ -131,111 +121,37 @@ class PartsRun {
   }
 
   void integrate(const model::SecondOrderModel& model) {
-    recorder_ = std::make_unique<PartsRecorder>(deck_, model, *file_);
-    transient::RunHooks hooks;
-    std::optional<transient::Checkpoint> resume;
-    if (restartFile_) {
-      resume = transient::Checkpoint::read((std::filesystem::path(options_.restart) / kCheckpoint).string());
-      recorder_->replay(*restartFile_, static_cast<std::size_t>(resume->samples));
-      hooks.resume = &*resume;
-    }
-    hooks.keep = [this](const transient::Checkpoint& checkpoint) {
-      file_->flush();
-      if (parallel::rank() == 0) checkpoint.write(checkpointFile());
-    };
-    const bool estimates = estimatesMotion_ && !restartFile_;
-    if (estimatesMotion_ && restartFile_)
+    recorder_ = std::make_unique<PartsRecorder>(deck_, model, files_->results());
+    const bool estimates = estimatesMotion_ && !files_->goesOn();
+    if (estimatesMotion_ && files_->goesOn())
       log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
-    const auto report =
-        estimates ? integrateEstimating(model, hooks) : transient::integrate(model, transientList(), *recorder_, hooks);
+    const auto report = estimates ? integrateEstimating(model) : files_->integrate(model, transientList(), *recorder_, *recorder_);
     summariseMotion(report);
-    if (report.interrupted)
-      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " +
-                             folder_->folder() + "; go on with: tooljoint run " + options_.deck + " --restart " +
-                             folder_->folder());
-    if (deck_.output.csv) recorder_->stageTable(*folder_);
+    files_->requireComplete(report);
+    if (deck_.output.csv) recorder_->stageTable(files_->folder());
   }
 
-  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model, const transient::RunHooks& hooks) {
+  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     estimate::MotionEstimator estimator(deck_.scene.parts, outcome_.synthesis, restOf(whole_), motionOptions(whole_.model));
     Both both(*recorder_, estimator);
-    const auto report = transient::integrate(model, transientList(), both, hooks);
+    const auto report = files_->integrate(model, transientList(), *recorder_, both);
     const auto error = estimator.result();
     log::info(describeMotionError(error));
-    summarise(error, summary_);
+    summarise(error, files_->summary());
     return report;
   }
 
   void summariseMotion(const transient::TransientReport& report) {
-    summarise(report, deck_.reduces(), summary_);
-    summary_.set("transient.max_displacement", recorder_->largestDisplacement());
+    summarise(report, deck_.reduces(), files_->summary());
+    files_->summary().set("transient.max_displacement", recorder_->largestDisplacement());
     char text[100];
     std::snprintf(text, sizeof text, "            largest displacement %.4g", recorder_->largestDisplacement());
     log::info(describeSteps(report) + text);
   }
 
-  void finish() {
-    stamp("finished", "");
-    parallel::agree([&] {
-      file_->finish();
-      summary_.set("files", folder_->files());
-      summary_.stage(folder_->file("summary.json"));
-      folder_->publish();
-      if (parallel::rank() == 0) std::filesystem::remove(checkpointFile());
-    });
-    log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
-  }
-
-  /// The run ends early: what is there stays readable, and the summary says what happened.
-  void leave(const Error& error) {
-    stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
-    try {
-      file_->close();
-      summary_.set("files", folder_->files());
-      summary_.stage(folder_->file("summary.json"));
-      folder_->publishUnfinished();
-    } catch (const Error& second) {
-      log::warn(std::string("The results so far could not be kept: ") + second.what());
-    }
-  }
-
-  void stamp(const std::string& status, const std::string& message) {
-    summary_.set("status", status);
-    if (!message.empty()) summary_.set("message", message);
-    summary_.set("wall_s", since(start_));
-    summary_.set("peak_memory_mb", peakMemory());
-    summary_.set("warnings", log::warnings());
-  }
-
-  /// The old samples are read whole before the new run writes a file of the same name.
-  void readRestart() {
-    const auto folder = std::filesystem::path(options_.restart);
-    if (!std::filesystem::exists(folder / kCheckpoint))
-      throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint +
-                      ". --restart goes on from the folder of an interrupted run.");
-    for (const char* name : {"results.h5.part", "results.h5"}) {
-      const auto file = (folder / name).string();
-      if (restartFile_ || !std::filesystem::exists(file)) continue;
-      std::vector<std::string> series;
-      for (const char* field : {"displacement", "velocity", "acceleration"})
-        if (deck_.output.hasField(field)) series.push_back(std::string("/transient/") + field);
-      if (deck_.output.hasField("normal_force") && !deck_.scene.coupling.connections.connectors.empty())
-        throw FileError(
-            "A run with point laws between parts goes on only without \"normal_force\" in Output/Fields; start it anew.");
-      restartFile_ = std::make_unique<RecordedParts>(file, series);
-    }
-    if (!restartFile_) throw FileError("\"" + options_.restart + "\" holds no results to go on from.");
-  }
-
-  std::string checkpointFile() const { return (std::filesystem::path(folder_->folder()) / kCheckpoint).string(); }
-
   const RunOptions& options_;
   PartsDeck deck_;
-  Clock::time_point start_ = Clock::now();
-  std::optional<io::OutputFolder> folder_;
-  std::unique_ptr<io::ResultsFile> file_;
-  std::unique_ptr<RecordedParts> restartFile_;
-  io::Summary summary_;
+  std::optional<RunFiles> files_;
   coupling::Coupling whole_;
   estimate::Outcome outcome_;
   bool estimatesMotion_ = false;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/Error.hpp"
-#include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::app {
@@ -32,7 +30,7 @@ MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, con
       model_(model),
       recovery_(model.recovery),
       file_(file),
-      table_({{"time", "s"}, {"rotary_speed", "rad/s"}, {"bit_speed", "rad/s"}, {"bit_w", "m"}, {"bit_theta_z", "rad"}}) {
+      table_(file, {{"time", "s"}, {"rotary_speed", "rad/s"}, {"bit_speed", "rad/s"}, {"bit_w", "m"}, {"bit_theta_z", "rad"}}) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
   const auto& output = scene.output;
   time_ = &file.series("/transient/time", {}, "s", "Time of the samples");
@@ -74,14 +72,6 @@ void MotionRecorder::sample(double t, const Vector& q, const Vector& qDot, const
   recovery_.multiply(qDot, velocity_);
   if (accelerationSeries_) recovery_.multiply(qDDot, acceleration_);
   recordContact(t, q, qDot);
-  store(t);
-  if (t >= nextFlush_) {
-    file_.flush();
-    nextFlush_ += flushInterval_;
-  }
-}
-
-void MotionRecorder::store(double t) {
   measure(t);
   time_->append(t);
   speed_->append(scene_.rotary.speed(t));
@@ -89,45 +79,40 @@ void MotionRecorder::store(double t) {
   if (velocitySeries_) velocitySeries_->append(velocity_.data());
   if (accelerationSeries_) accelerationSeries_->append(acceleration_.data());
   if (forceSeries_) forceSeries_->append(normalForce_.data());
-  if (xdmf_ && xdmf_->due(t)) {
-    io::XdmfFrame frame;
-    frame.time = t;
-    frame.displacement = displacement_.data();
-    frame.velocity = velocity_.data();
-    frame.normalForce = contacts_.empty() ? nullptr : normalForce_.data();
-    frame.rotarySpeed = scene_.rotary.speed(t);
-    xdmf_->append(frame);
+  if (xdmf_ && xdmf_->due(t)) xdmf_->append(frame(t));
+  if (t >= nextFlush_) file_.flush();
+  while (t >= nextFlush_) nextFlush_ += flushInterval_;
+}
+
+io::XdmfFrame MotionRecorder::frame(double t) const {
+  io::XdmfFrame out;
+  out.time = t;
+  out.displacement = displacement_.data();
+  out.velocity = velocity_.data();
+  out.normalForce = contacts_.empty() ? nullptr : normalForce_.data();
+  out.rotarySpeed = scene_.rotary.speed(t);
+  return out;
+}
+
+void MotionRecorder::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {static_cast<double>(figures_.samples), figures_.minBitSpeed, figures_.maxBitSpeed, figures_.sumBitSpeed,
+                               figures_.maxPenetration, static_cast<double>(figures_.missed.size())});
+  memory.insert(memory.end(), figures_.missed.begin(), figures_.missed.end());
+  if (xdmf_) xdmf_->save(memory);
+}
+
+void MotionRecorder::restore(const double*& memory) {
+  figures_.samples = static_cast<long>(*memory++);
+  for (double* figure : {&figures_.minBitSpeed, &figures_.maxBitSpeed, &figures_.sumBitSpeed, &figures_.maxPenetration}) *figure = *memory++;
+  figures_.missed.resize(static_cast<std::size_t>(*memory++));
+  for (int& node : figures_.missed) {
+    node = static_cast<int>(*memory++);
+    watched_[static_cast<std::size_t>(node - 1)] = 1;
   }
+  // only which fields a picture has matters here
+  displacement_ = velocity_ = Vector::Zero(1);
+  if (xdmf_) xdmf_->restore(memory, frame(0.0));
 }
-
-RecordedMotion::RecordedMotion(const std::string& resultsFile) {
-  const io::ResultsReader reader(resultsFile);
-  const auto optional = [&](const std::string& path) { return reader.has(path) ? reader.numbers(path) : std::vector<double>(); };
-  time = reader.numbers("/transient/time");
-  displacement = reader.numbers("/transient/displacement");
-  velocity = reader.numbers("/transient/velocity");
-  acceleration = optional("/transient/acceleration");
-  normalForce = optional("/transient/normal_force");
-}
-
-void MotionRecorder::replay(const RecordedMotion& motion, std::size_t samples) {
-  const auto nodes = static_cast<std::size_t>(scene_.string.nodeCount());
-  if (motion.time.size() < samples || motion.displacement.size() < samples * nodes * 6 || motion.velocity.size() < samples * nodes * 6)
-    throw FileError("The results to go on from hold fewer samples than their checkpoint, or belong to another string.");
-  const auto row = [](const std::vector<double>& all, std::size_t sample, std::size_t width, Vector& to) {
-    if (all.size() >= (sample + 1) * width) to = Eigen::Map<const Vector>(all.data() + sample * width, static_cast<Eigen::Index>(width));
-  };
-  acceleration_ = Vector::Zero(static_cast<Eigen::Index>(6 * nodes));
-  for (std::size_t i = 0; i < samples; ++i) {
-    row(motion.displacement, i, 6 * nodes, displacement_);
-    row(motion.velocity, i, 6 * nodes, velocity_);
-    row(motion.acceleration, i, 6 * nodes, acceleration_);
-    row(motion.normalForce, i, nodes, normalForce_);
-    store(motion.time[i]);
-  }
-}
-
-void MotionRecorder::stageTable(io::OutputFolder& folder) const { table_.stage(folder.file("motion.csv")); }
 
 void MotionRecorder::stagePictures(io::OutputFolder& folder) const {
   io::stageText(folder.file("results.xdmf"), xdmf_->text("results.h5"));

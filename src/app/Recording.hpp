@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/Recorder.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "io/Csv.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Xdmf.hpp"
@@ -29,25 +29,18 @@ struct MotionFigures {
   double meanBitSpeed() const { return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples); }
 };
 
-/// The samples of an earlier run, read from its results file.
-struct RecordedMotion {
-  /// Throws FileError when the file lacks what a run records to be gone on with (displacement and velocity).
-  explicit RecordedMotion(const std::string& resultsFile);
-  std::vector<double> time, displacement, velocity, acceleration, normalForce;  ///< row-major; empty where not recorded
-};
-
 /// Recovers every sample, D = offset + Phi q, and writes the fields the deck's Output list asks for into /transient.
-class MotionRecorder : public transient::SampleSink {
+class MotionRecorder : public Recorder {
  public:
   /// The arguments must outlive the recorder. Nothing is recovered that is neither written nor counted.
   MotionRecorder(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model, io::ResultsFile& file);
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
-  /// Takes over the first `samples` samples of an earlier run of the same scene. FileError when it has fewer.
-  void replay(const RecordedMotion& motion, std::size_t samples);
+  void save(std::vector<double>& memory) const override;
+  void restore(const double*& memory) override;
   const MotionFigures& figures() const { return figures_; }
   /// motion.csv: time, rotary speed, bit speed, axial and angular position of the bit.
-  void stageTable(io::OutputFolder& folder) const;
+  void stageTable(io::OutputFolder& folder) const { table_.stage(folder); }
   /// results.xdmf beside results.h5.
   void stagePictures(io::OutputFolder& folder) const;
   /// Null when the deck asks for no pictures.
@@ -61,7 +54,7 @@ class MotionRecorder : public transient::SampleSink {
     linalg::GroupedRows rows;
     Vector d, v, channels;
   };
-  void store(double t);
+  io::XdmfFrame frame(double t) const;
   void recordContact(double t, const Vector& q, const Vector& qDot);
   void measure(double t);
 
@@ -80,7 +73,7 @@ class MotionRecorder : public transient::SampleSink {
   io::TimeSeries* forceSeries_ = nullptr;
   std::unique_ptr<io::XdmfRecorder> xdmf_;
   io::ResultsFile& file_;
-  io::Csv table_;
+  MotionTable table_;
   double nextFlush_ = 0.0;
   double flushInterval_ = 0.0;
 };

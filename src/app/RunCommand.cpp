@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <chrono>
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "app/Recording.hpp"
 #include "app/Report.hpp"
 #include "app/ResultsWriter.hpp"
+#include "app/RunFiles.hpp"
 #include "app/RunSupport.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
@@ -18,7 +18,6 @@
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "estimate/AdaptiveReduction.hpp"
-#include "io/ResultsReader.hpp"
 #include "parts/ReducedPart.hpp"
 
 namespace tooljoint::app {
@@ -31,22 +30,10 @@ class Run {
   Run(const RunOptions& options, Scene scene) : options_(options), scene_(std::move(scene)) {}
 
   void go() {
-    const auto folderName = resultsFolder(options_, scene_.output.folder);
-    if (!options_.restart.empty()) readRestart();
-    parallel::agree([&] {
-      folder_.emplace(folderName);
-      folder_->requireSpace(expectedBytes());
-      file_ = std::make_unique<io::ResultsFile>(folder_->file("results.h5"), provenance(scene_.deck),
-                                                io::ResultsOptions{scene_.output.compression});
-    });
-    summarise(scene_, summary_);
-    try {
-      stages();
-      finish();
-    } catch (const Error& error) {
-      leave(error);
-      throw;
-    }
+    constexpr std::size_t width = 6;  // dofs of a node
+    files_.emplace(options_, scene_.deck, scene_.output, expectedBytes(scene_.list(), scene_.output, static_cast<std::size_t>(scene_.string.nodeCount()), width));
+    summarise(scene_, files_->summary());
+    files_->complete([this] { stages(); }, [this] { tables(); });
   }
 
  private:
@@ -55,13 +42,13 @@ class Run {
     log::info(describeScene(scene_));
     stage_ = solveStatic(scene_);
     log::info(describeStatic(stage_));
-    summarise(stage_, summary_);
+    summarise(stage_, files_->summary());
     parallel::agree([&] {
-      writeModel(scene_, stage_, *file_);
-      writePath(stage_, *file_);
-      writeStatic(scene_, stage_, *file_);
-      if (scene_.output.csv) stageStaticTables(scene_, stage_, *folder_);
-      file_->flush();
+      writeModel(scene_, stage_, files_->results());
+      writePath(stage_, files_->results());
+      writeStatic(scene_, stage_, files_->results());
+      if (scene_.output.csv) stageStaticTables(scene_, stage_, files_->folder());
+      files_->results().flush();
     });
     judgeTorqueBalance(scene_, stage_);
     if (!scene_.moves()) return;
@@ -89,16 +76,16 @@ class Run {
     log::info(describeCoupling(outcome_.synthesis.coupled));
     for (const auto& remark : outcome_.synthesis.coupled.remarks) log::warn(remark);
     if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
-    summarise(reduced, list.get<std::string>("Basis"), dofs, wall, summary_);
+    summarise(reduced, list.get<std::string>("Basis"), dofs, wall, files_->summary());
     predictCost();
-    summarise(outcome_.synthesis.coupled, summary_);
-    summarise(outcome_, parts_, summary_);
+    summarise(outcome_.synthesis.coupled, files_->summary());
+    summarise(outcome_, parts_, files_->summary());
     exportReducedParts();
     estimatesMotion_ = estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
     if (!estimatesMotion_) parts_.clear();
     parallel::agree([&] {
-      if (scene_.output.csv) stageBasisTable(reduced, *folder_);
-      if (scene_.output.reducedBases) writeBases(reduced, *file_);
+      if (scene_.output.csv) stageBasisTable(reduced, files_->folder());
+      if (scene_.output.reducedBases) writeBases(reduced, files_->results());
     });
   }
 
@@ -107,15 +94,14 @@ class Run {
     const auto reduced =
         transient::stepCost(outcome_.synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")));
     log::info(describeCost(full, reduced));
-    summary_.set("reduction.cost_ratio", reduced.total() / full.total());
+    files_->summary().set("reduction.cost_ratio", reduced.total() / full.total());
   }
 
-  void exportReducedParts() const {
+  void exportReducedParts() {
     if (scene_.output.exportFormat == io::ExportFormat::None) return;
     std::vector<parts::PartContent> originals;
     for (const auto& part : parts_) originals.push_back(parts::contentOf(part));
-    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat,
-                (std::filesystem::path(folder_->folder()) / "parts").string());
+    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat, (std::filesystem::path(files_->folder().folder()) / "parts").string());
   }
 
   /// The motion of a candidate of the reduction, for its error only.
@@ -125,42 +111,27 @@ class Run {
                                  limit);
   }
 
-  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model, const transient::RunHooks& hooks) {
+  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     estimate::MotionEstimator estimator(parts_, outcome_.synthesis, stage_.state.displacement);
     Both both(*recorder_, estimator);
-    const auto report = transient::integrate(model, scene_.list().sublist("Transient"), both, hooks);
+    const auto report = files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, both);
     const auto error = estimator.result();
     log::info(describeMotionError(error));
-    summarise(error, summary_);
+    summarise(error, files_->summary());
     return report;
   }
 
   void integrate(const model::SecondOrderModel& model) {
-    recorder_ = std::make_unique<MotionRecorder>(scene_, stage_, model, *file_);
-    transient::RunHooks hooks;
-    std::optional<transient::Checkpoint> resume;
-    if (restart_) {
-      resume = transient::Checkpoint::read((std::filesystem::path(options_.restart) / kCheckpoint).string());
-      recorder_->replay(*restart_, static_cast<std::size_t>(resume->samples));
-      hooks.resume = &*resume;
-    }
-    hooks.keep = [this](const transient::Checkpoint& checkpoint) {
-      file_->flush();
-      if (parallel::rank() == 0) checkpoint.write(checkpointFile());
-    };
-    if (estimatesMotion_ && restart_)
+    recorder_ = std::make_unique<MotionRecorder>(scene_, stage_, model, files_->results());
+    if (estimatesMotion_ && files_->goesOn())
       log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
-    const auto report = estimatesMotion_ && !restart_
-                            ? integrateEstimating(model, hooks)
-                            : transient::integrate(model, scene_.list().sublist("Transient"), *recorder_, hooks);
-    summarise(report, recorder_->figures(), scene_.reduces(), summary_);
-    if (report.interrupted)
-      throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " +
-                             folder_->folder() + "; go on with: tooljoint run " + options_.deck + " --restart " +
-                             folder_->folder());
+    const auto report = estimatesMotion_ && !files_->goesOn() ? integrateEstimating(model)
+                                                              : files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, *recorder_);
+    summarise(report, recorder_->figures(), scene_.reduces(), files_->summary());
+    files_->requireComplete(report);
     log::info(describeTransient(report, recorder_->figures()));
     warnOfMissedNodes();
-    if (scene_.output.csv) recorder_->stageTable(*folder_);
+    if (scene_.output.csv) recorder_->stageTable(files_->folder());
   }
 
   void warnOfMissedNodes() const {
@@ -171,72 +142,13 @@ class Run {
               std::to_string(missed.front()) + " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
   }
 
-  void finish() {
-    stamp("finished", "");
-    parallel::agree([&] {
-      if (recorder_ && recorder_->pictures()) recorder_->stagePictures(*folder_);
-      file_->finish();
-      summary_.set("files", folder_->files());
-      summary_.stage(folder_->file("summary.json"));
-      folder_->publish();
-      if (parallel::rank() == 0) std::filesystem::remove(checkpointFile());
-    });
-    log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
-  }
-
-  /// The run ends early: what is there stays readable, and the summary says what happened.
-  void leave(const Error& error) {
-    stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
-    try {
-      file_->close();
-      summary_.set("files", folder_->files());
-      summary_.stage(folder_->file("summary.json"));
-      folder_->publishUnfinished();
-    } catch (const Error& second) {
-      log::warn(std::string("The results so far could not be kept: ") + second.what());
-    }
-  }
-
-  void stamp(const std::string& status, const std::string& message) {
-    summary_.set("status", status);
-    if (!message.empty()) summary_.set("message", message);
-    summary_.set("wall_s", since(start_));
-    summary_.set("peak_memory_mb", peakMemory());
-    summary_.set("warnings", log::warnings());
-  }
-
-  void readRestart() {
-    const auto folder = std::filesystem::path(options_.restart);
-    parallel::agree([&] {
-      if (!std::filesystem::exists(folder / kCheckpoint))
-        throw FileError("\"" + options_.restart + "\" holds no " + kCheckpoint +
-                        ". --restart goes on from the folder of an interrupted run.");
-      // The old samples are read whole before the new run writes a file of the same name.
-      for (const char* name : {"results.h5.part", "results.h5"})
-        if (!restart_ && std::filesystem::exists(folder / name))
-          restart_ = std::make_unique<RecordedMotion>((folder / name).string());
-      if (!restart_) throw FileError("\"" + options_.restart + "\" holds no results to go on from.");
-    });
-  }
-
-  std::string checkpointFile() const { return (std::filesystem::path(folder_->folder()) / kCheckpoint).string(); }
-
-  /// Rough size of the results: 8 bytes for every recorded number.
-  double expectedBytes() const {
-    if (!scene_.moves()) return 1e6;
-    const auto& list = scene_.list().sublist("Transient");
-    const double samples =
-        (list.get<double>("End Time") - list.get<double>("Start Time")) / list.get<double>("Sampling Interval");
-    return 1e6 + 8.0 * samples * scene_.string.nodeCount() * (6.0 * static_cast<double>(scene_.output.fields.size()));
+  void tables() {
+    if (recorder_ && recorder_->pictures()) recorder_->stagePictures(files_->folder());
   }
 
   const RunOptions& options_;
   Scene scene_;
-  Clock::time_point start_ = Clock::now();
-  std::optional<io::OutputFolder> folder_;
-  std::unique_ptr<io::ResultsFile> file_;
-  std::unique_ptr<RecordedMotion> restart_;
-  io::Summary summary_;
+  std::optional<RunFiles> files_;
   StaticStage stage_;
   std::vector<model::Substructure> parts_;  ///< kept while the motion is estimated
   estimate::Outcome outcome_;

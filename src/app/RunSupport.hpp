@@ -13,9 +13,6 @@ namespace tooljoint::app {
 
 using Clock = std::chrono::steady_clock;
 
-/// Name of the state to go on from, in the results folder.
-inline constexpr const char* kCheckpoint = "checkpoint.bin";
-
 /// Wall time [s].
 double since(Clock::time_point start);
 

@@ -26,6 +26,7 @@ void installInterruptHandlers() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // write() then fails with EFBIG
 }
 
 bool interruptRequested() { return requested_ != 0; }

@@ -6,7 +6,8 @@
 
 namespace tooljoint {
 
-/// Install handlers for SIGINT and SIGTERM; call it after MPI_Init. A second SIGINT ends the program at once.
+/// Install handlers for SIGINT and SIGTERM; call it after MPI_Init. A second SIGINT ends the program at once. A file that outgrows the
+/// limit of the process (SIGXFSZ) is an error of the write, like a full disk.
 void installInterruptHandlers();
 
 /// True once a signal has come. Local to this rank.

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -77,6 +78,16 @@ bool reserve(hid_t file) {
   }
   if (error != 0) noted() = std::strerror(error);
   return error == 0;
+}
+
+bool fits(hid_t file, std::size_t bytes) {
+  constexpr hsize_t structure = 1U << 18U;  ///< more than headers and indices grow by between two calls
+  rlimit limit{};
+  hsize_t end = 0;
+  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || H5Fget_filesize(file, &end) < 0) return true;
+  if (end + bytes + structure <= limit.rlim_cur) return true;
+  noted() = std::strerror(EFBIG);
+  return false;
 }
 
 void letGo(hid_t file) {

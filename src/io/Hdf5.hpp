@@ -3,6 +3,7 @@
 /// RAII and error texts over the HDF5 C API, shared by writer and reader. Not for other rooms: include ResultsFile.hpp.
 #pragma once
 
+#include <cstddef>
 #include <hdf5.h>
 #include <string>
 #include <utility>
@@ -43,6 +44,10 @@ std::string lastReason();
 /// Make the disk hold a place for everything the file will have once flushed; false, with the reason noted, when it has no
 /// room. A flush that fails half-way leaves HDF5 1.10 unable to close the file, so it must not be tried then.
 bool reserve(hid_t file);
+
+/// Whether a file that grows by so many bytes stays within the largest size of a file of this process (RLIMIT_FSIZE); false, with the reason
+/// noted. Ask before HDF5 allocates: what it holds must fit even into the memory of letGo(), to which the limit applies too.
+bool fits(hid_t file, std::size_t bytes);
 
 /// Close a file that can no longer be written. HDF5 would try to write what it still holds, fail, keep the file open and crash
 /// at the end of the process; so its descriptor is first turned to anonymous memory, and the file stays as last flushed.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "common/Error.hpp"
+#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "io/Summary.hpp"
@@ -20,13 +22,13 @@
 namespace tooljoint::io {
 namespace {
 
-const char* const summaryName = "summary.json";
+std::string megabytes(double bytes) { return formatNumber(std::ceil(bytes / 1048576.0)) + " MB"; }
 
-std::string megabytes(double bytes) { return formatNumber(static_cast<int>(bytes / 1048576.0) + 1) + " MB"; }
+bool isPlain(const std::string& name) { return !name.empty() && name.find('/') == std::string::npos; }
 
 }  // namespace
 
-OutputFolder::OutputFolder(const std::string& folder) : folder_(folder), active_(parallel::rank() == 0) {
+OutputFolder::OutputFolder(const std::string& folder, OldCheckpoint old) : folder_(folder), active_(parallel::rank() == 0) {
   if (!active_) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -45,13 +47,14 @@ OutputFolder::OutputFolder(const std::string& folder) : folder_(folder), active_
       throw FileError("Another run is writing into the output folder " + folder_ +
                       ". Wait for it or name another one with --output.");
     prove();
+    const PreviousRun previous = readPreviousRun(folder_ + "/" + summaryName);
+    finished_ = previous.status == "finished";
+    previousFiles_ = previous.files;
+    if (old == OldCheckpoint::SetAside) setAside();
   } catch (...) {
     ::close(lock_);
     throw;
   }
-  const PreviousRun previous = readPreviousRun(folder_ + "/" + summaryName);
-  finished_ = previous.status == "finished";
-  previousFiles_ = previous.files;
 }
 
 OutputFolder::~OutputFolder() {
@@ -69,6 +72,30 @@ void OutputFolder::prove() const {
   ::unlink((probe + ".part").c_str());
 }
 
+/// A checkpoint and its samples stay together. Finished results of a run before are not of the interrupted one, and stay.
+void OutputFolder::setAside() {
+  namespace fs = std::filesystem;
+  const fs::path here(folder_);
+  if (!fs::exists(here / checkpointName)) return;
+  std::vector<std::string> names{checkpointName, checkpointSamplesName, std::string(resultsName) + ".part"};
+  if (!finished_) {
+    names.insert(names.end(), previousFiles_.begin(), previousFiles_.end());
+    names.insert(names.end(), {resultsName, summaryName});
+    previousFiles_.clear();
+  }
+  fs::path aside = here / "interrupted";
+  for (int number = 2; fs::exists(aside); ++number) aside = here / ("interrupted_" + std::to_string(number));
+  std::error_code error;
+  fs::create_directory(aside, error);
+  for (const auto& name : names)
+    if (!error && isPlain(name) && fs::exists(here / name)) fs::rename(here / name, aside / name, error);
+  if (error)
+    throw FileError("The output folder " + folder_ + " holds the checkpoint of an interrupted run, which cannot be moved to " + aside.string() + ": " +
+                    error.message() + ". Name another folder with --output.");
+  log::warn("The output folder " + folder_ + " held the checkpoint of an interrupted run. It is now in " + aside.string() +
+            "; that run goes on with --restart " + aside.string() + ".");
+}
+
 void OutputFolder::requireSpace(double bytes) const {
   if (!active_) return;
   std::error_code error;
@@ -80,7 +107,7 @@ void OutputFolder::requireSpace(double bytes) const {
 }
 
 std::string OutputFolder::file(const std::string& name) {
-  if (name.empty() || name.find('/') != std::string::npos) {
+  if (!isPlain(name)) {
     throw Error(ExitCode::Internal, "\"" + name + "\" is no name for a file in the output folder.");
   }
   const std::string path = folder_ + "/" + name;
@@ -110,8 +137,7 @@ void OutputFolder::publish() {
   if (!active_) return;
   renameAll();
   for (const auto& name : previousFiles_) {
-    const bool plain = !name.empty() && name.find('/') == std::string::npos;
-    if (plain && std::find(names_.begin(), names_.end(), name) == names_.end()) ::unlink((folder_ + "/" + name).c_str());
+    if (isPlain(name) && std::find(names_.begin(), names_.end(), name) == names_.end()) ::unlink((folder_ + "/" + name).c_str());
   }
   finished_ = true;
 }

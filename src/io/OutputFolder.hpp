@@ -9,12 +9,25 @@
 
 namespace tooljoint::io {
 
+inline constexpr const char* summaryName = "summary.json";
+inline constexpr const char* resultsName = "results.h5";
+/// The state an interrupted run goes on from.
+inline constexpr const char* checkpointName = "checkpoint.bin";
+/// The samples before that state, from the start of the run that goes on until its own file holds them.
+inline constexpr const char* checkpointSamplesName = "checkpoint.h5";
+
+/// What happens to the checkpoint of an interrupted run that the folder holds.
+enum class OldCheckpoint {
+  SetAside,  ///< it moves with its samples and tables into a folder of its own, "interrupted", and a warning says so
+  GoOn,      ///< this run goes on from it
+};
+
 /// Rank 0 does all the work, the other ranks only know the names (wrap calls in parallel::agree to end alike).
 class OutputFolder {
  public:
   /// Make the folder if need be, lock it against a second run, and prove that a file can be written there: call before
   /// anything is computed. FileError with the system's reason.
-  explicit OutputFolder(const std::string& folder);
+  explicit OutputFolder(const std::string& folder, OldCheckpoint old = OldCheckpoint::SetAside);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -42,6 +55,7 @@ class OutputFolder {
 
  private:
   void prove() const;
+  void setAside();
   void renameAll();
 
   std::string folder_;

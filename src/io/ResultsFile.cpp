@@ -14,6 +14,7 @@
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "io/Hdf5.hpp"
+#include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::io {
@@ -109,7 +110,8 @@ void TimeSeries::writeBuffer() {
     block.push_back(e);
   }
   const auto rank = static_cast<int>(extent.size());
-  bool good = H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_);
+  bool good = hdf5::fits(file_.file_, std::max(count, chunkRows_) * rowSize_ * sizeof(double));
+  good = good && H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_);
   const Handle onDisk(H5Dget_space(dataset_), H5Sclose);
   const Handle inMemory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
   good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) >= 0;
@@ -210,6 +212,7 @@ void ResultsFile::writeValues(const std::string& path, std::int64_t type, const 
     wrongUse("The result " + path + " has " + std::to_string(count) + " values, but its shape asks for " +
              std::to_string(product(shape)) + ".");
   }
+  if (file_ >= 0 && !hdf5::fits(file_, count * sizeof(double))) fail("making " + path);
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(
       shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
@@ -293,7 +296,31 @@ TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape, 
   H5Pset_chunk_cache(access.get(), 0, 0, 0.0);
   result.dataset_ = createDataset({path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), access.get(), unit, longName});
   result.buffer_.reserve(result.chunkRows_ * result.rowSize_);
+  const std::size_t carried = earlierRows_.count(path) > 0 ? earlierRows_.at(path) : 0;
+  for (std::size_t first = 0; first < carried; first += result.chunkRows_) {
+    const std::size_t count = std::min(result.chunkRows_, carried - first);
+    const auto rows = earlier_->rows(path, first, count);
+    if (rows.size() != count * result.rowSize_) throw FileError("The results to go on from have another " + path + ".");
+    for (std::size_t i = 0; i < count; ++i) result.append(rows.data() + i * result.rowSize_);
+  }
   return result;
+}
+
+void ResultsFile::continueFrom(const std::string& file, const std::map<std::string, std::uint64_t>& rows) {
+  if (!active_) return;
+  earlier_ = std::make_unique<ResultsReader>(file);
+  earlierRows_ = rows;
+}
+
+std::vector<double> ResultsFile::carried(const std::string& path) const {
+  const auto found = earlierRows_.find(path);
+  return found == earlierRows_.end() ? std::vector<double>() : earlier_->rows(path, 0, found->second);
+}
+
+std::map<std::string, std::uint64_t> ResultsFile::rows() const {
+  std::map<std::string, std::uint64_t> counts;
+  for (const auto& s : series_) counts[s->path_] = s->rows_;
+  return counts;
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct ResultsOptions {
 };
 
 class ResultsFile;
+class ResultsReader;
 
 /// A dataset that grows by one row per sample. Rows are buffered up to a chunk.
 class TimeSeries {
@@ -100,6 +102,14 @@ class ResultsFile {
   /// A new growing dataset, samples x rowShape. The reference lives as long as this file.
   TimeSeries& series(const std::string& path, const Shape& rowShape, const std::string& unit, const std::string& longName);
 
+  /// Series made from now on begin with rows of an earlier results file, so many as `rows` says for each path. FileError when they
+  /// cannot be read.
+  void continueFrom(const std::string& file, const std::map<std::string, std::uint64_t>& rows);
+  /// The rows that a series of this path begins with, row-major.
+  std::vector<double> carried(const std::string& path) const;
+  /// Rows of each series so far, by path.
+  std::map<std::string, std::uint64_t> rows() const;
+
   /// Attribute of a group or dataset that exists ("/" for the file); replaces one of that name.
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
@@ -130,6 +140,8 @@ class ResultsFile {
   bool failed_ = false;  ///< a write failed: what is buffered is given up
   std::int64_t file_ = -1;
   std::vector<std::unique_ptr<TimeSeries>> series_;
+  std::unique_ptr<ResultsReader> earlier_;  ///< what series continue, if anything
+  std::map<std::string, std::uint64_t> earlierRows_;
 };
 
 }  // namespace tooljoint::io

@@ -134,6 +134,17 @@ void XdmfRecorder::addSeries(const XdmfFrame& first) {
     normalForce_ = &file_.series("/xdmf/normal_force", {nodes}, "N", "Normal contact force on the nodes");
 }
 
+void XdmfRecorder::save(std::vector<double>& memory) const {
+  memory.push_back(static_cast<double>(times_.size()));
+  memory.insert(memory.end(), times_.begin(), times_.end());
+}
+
+void XdmfRecorder::restore(const double*& memory, const XdmfFrame& frame) {
+  times_.resize(static_cast<std::size_t>(*memory++));
+  for (double& time : times_) time = *memory++;
+  if (!times_.empty()) addSeries(frame);
+}
+
 void XdmfRecorder::append(const XdmfFrame& frame) {
   if (!due(frame.time)) return;
   if (time_ == nullptr) addSeries(frame);

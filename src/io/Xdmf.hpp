@@ -44,6 +44,11 @@ class XdmfRecorder {
 
   std::size_t pictures() const { return times_.size(); }
 
+  /// Append / take back the times of the pictures, for a results file whose series continue those of another; `frame` has the fields of a
+  /// picture, no numbers.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory, const XdmfFrame& frame);
+
   /// Text of the XDMF file for a results file of this name beside it ("results.h5").
   std::string text(const std::string& resultsName) const;
 

@@ -22,19 +22,6 @@
 namespace tooljoint::study {
 namespace {
 
-std::string valueText(const Teuchos::ParameterEntry& entry) {
-  const auto& any = entry.getAny(false);
-  if (any.type() == typeid(double)) return formatNumber(Teuchos::any_cast<double>(any));
-  if (any.type() == typeid(Teuchos::Array<double>)) {
-    std::string text;
-    for (double value : Teuchos::any_cast<Teuchos::Array<double>>(any)) text += formatNumber(value) + ",";
-    return text;
-  }
-  std::ostringstream out;
-  out << any;
-  return out.str();
-}
-
 /// Size and time of a file, for "has this been built anew?".
 std::string fileStamp(const std::string& path) {
   struct stat info = {};
@@ -49,6 +36,19 @@ int addLibrary(dl_phdr_info* info, std::size_t, void* data) {
 }
 
 }  // namespace
+
+std::string valueText(const Teuchos::ParameterEntry& entry) {
+  const auto& any = entry.getAny(false);
+  if (any.type() == typeid(double)) return formatNumber(Teuchos::any_cast<double>(any));
+  if (any.type() == typeid(Teuchos::Array<double>)) {
+    std::string text;
+    for (double value : Teuchos::any_cast<Teuchos::Array<double>>(any)) text += formatNumber(value) + ",";
+    return text;
+  }
+  std::ostringstream out;
+  out << any;
+  return out.str();
+}
 
 std::string canonicalText(const Teuchos::ParameterList& list) {
   std::map<std::string, std::string> lines;

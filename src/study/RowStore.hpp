@@ -12,6 +12,9 @@
 
 namespace tooljoint::study {
 
+/// The value of a parameter as text, numbers in full.
+std::string valueText(const Teuchos::ParameterEntry& entry);
+
 /// A list as text that depends on names and values alone, not on their order; numbers in full.
 std::string canonicalText(const Teuchos::ParameterList& list);
 

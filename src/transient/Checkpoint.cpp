@@ -1,135 +1,132 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/Checkpoint.hpp"
 
-#include <cmath>
-#include <cstdint>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/map.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/vector.hpp>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
 #include "common/Error.hpp"
+#include "common/Sha256.hpp"
+#include "io/TextFile.hpp"
 
 namespace tooljoint::transient {
+
+template <class Archive>
+void save(Archive& archive, const State& state) {
+  archive(state.t);
+  for (const Vector* x : {&state.q, &state.v, &state.a}) archive(std::vector<double>(x->begin(), x->end()));
+}
+
+template <class Archive>
+void load(Archive& archive, State& state) {
+  archive(state.t);
+  for (Vector* x : {&state.q, &state.v, &state.a}) {
+    std::vector<double> values;
+    archive(values);
+    *x = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+  }
+}
+
+template <class Archive>
+void serialize(Archive& archive, Counters& c) {
+  // long has another size on other machines
+  for (long* count : {&c.steps, &c.rejected, &c.halved, &c.newtonIterations, &c.unconvergedSteps, &c.factorisations, &c.rightHandSides}) {
+    auto portable = static_cast<std::int64_t>(*count);
+    archive(portable);
+    *count = static_cast<long>(portable);
+  }
+  archive(c.minStep, c.maxStep);
+}
+
 namespace {
 
-constexpr char family[] = "Tooljoint checkpoint ";
-/// Counts up whenever Counters or anything that save() writes changes.
-constexpr char version[] = "5";
+constexpr char magic[] = "Tooljoint checkpoint";
+constexpr std::size_t magicLength = sizeof magic - 1;
+/// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves changes.
+constexpr std::uint32_t layout = 6;
+constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
+constexpr std::size_t headerLength = magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;
 
-class Writer {
- public:
-  explicit Writer(const std::string& file) : out_(file, std::ios::binary) {}
-  template <class T>
-  void one(const T& x) {
-    out_.write(reinterpret_cast<const char*>(&x), sizeof x);
-  }
-  void text(const std::string& s) {
-    one(static_cast<std::uint64_t>(s.size()));
-    out_.write(s.data(), static_cast<std::streamsize>(s.size()));
-  }
-  void numbers(const double* x, std::size_t n) {
-    one(static_cast<std::uint64_t>(n));
-    out_.write(reinterpret_cast<const char*>(x), static_cast<std::streamsize>(n * sizeof(double)));
-  }
-  bool good() { return static_cast<bool>(out_.flush()); }
+/// Numbers of the header have their lowest byte first.
+template <class Number>
+std::string littleEndian(Number number) {
+  std::string bytes;
+  for (std::size_t i = 0; i < sizeof number; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
+  return bytes;
+}
 
- private:
-  std::ofstream out_;
-};
+template <class Number>
+Number fromLittleEndian(const std::string& bytes, std::size_t at) {
+  Number number = 0;
+  for (std::size_t i = 0; i < sizeof number; ++i) number |= static_cast<Number>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  return number;
+}
 
-class Reader {
- public:
-  explicit Reader(const std::string& file) : in_(file, std::ios::binary) {}
-  template <class T>
-  T one() {
-    T x{};
-    in_.read(reinterpret_cast<char*>(&x), sizeof x);
-    return x;
-  }
-  std::size_t length() {
-    const auto n = one<std::uint64_t>();
-    if (!in_ || n > (std::uint64_t{1} << 32)) in_.setstate(std::ios::failbit);
-    return in_ ? static_cast<std::size_t>(n) : 0;
-  }
-  std::string text() {
-    std::string s(length(), ' ');
-    in_.read(s.data(), static_cast<std::streamsize>(s.size()));
-    return s;
-  }
-  std::vector<double> numbers() {
-    std::vector<double> x(length());
-    in_.read(reinterpret_cast<char*>(x.data()), static_cast<std::streamsize>(x.size() * sizeof(double)));
-    return x;
-  }
-  Vector vector() {
-    const auto x = numbers();
-    return Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
-  }
-  bool good() const { return static_cast<bool>(in_); }
+template <class Archive, class Point>
+void transfer(Archive& archive, Point& point) {
+  archive(point.run, point.program, point.integrator, point.model, point.state, point.counters, point.contactEvaluations, point.samples,
+          point.runawaySamples, point.memory, point.recorder, point.rows);
+}
 
- private:
-  std::ifstream in_;
-};
+[[noreturn]] void refuseLayout(const std::string& file, const std::string& found) {
+  throw FileError("The checkpoint \"" + file + "\" has the layout " + found + " of another version of the program; this one reads layout " +
+                  std::to_string(layout) + ". Go on with the program that wrote it, or run the deck from the start.");
+}
+
+/// The part of the file behind the header, proved to be what was written.
+std::string verifiedBody(const std::string& bytes, const std::string& file) {
+  const auto damaged = [&file](const std::string& what) {
+    throw FileError("The checkpoint \"" + file + "\" is damaged: " + what + ". Restore it from a copy, or run the deck from the start.");
+  };
+  if (bytes.compare(0, magicLength, magic) != 0) {
+    // layouts up to 5 begin with the length of a text "Tooljoint checkpoint N"
+    const std::size_t text = sizeof(std::uint64_t), number = text + magicLength + 1;
+    if (bytes.compare(std::min(text, bytes.size()), magicLength, magic) == 0 && bytes.size() > number) refuseLayout(file, bytes.substr(number, 1));
+    throw FileError("\"" + file + "\" is not a checkpoint.");
+  }
+  if (bytes.size() < headerLength) damaged("it is cut short within its header");
+  const auto found = fromLittleEndian<std::uint32_t>(bytes, magicLength);
+  if (found != layout) refuseLayout(file, std::to_string(found));
+  const auto length = fromLittleEndian<std::uint64_t>(bytes, magicLength + sizeof layout);
+  std::string body = bytes.substr(headerLength);
+  if (body.size() != length)
+    damaged("its header promises " + std::to_string(length) + " bytes, " + std::to_string(body.size()) + " follow");
+  if (sha256(body) != bytes.substr(headerLength - digestLength, digestLength)) damaged("its SHA-256 does not match its content");
+  return body;
+}
 
 }  // namespace
 
-void Checkpoint::write(const std::string& file) const {
-  const std::string part = file + ".part";
-  Writer out(part);
-  out.text(std::string(family) + version);
-  out.text(integrator);
-  out.one(fingerprint);
-  out.one(state.t);
-  for (const Vector* x : {&state.q, &state.v, &state.a}) out.numbers(x->data(), static_cast<std::size_t>(x->size()));
-  out.one(counters);
-  out.one(contactEvaluations);
-  out.one(samples);
-  out.numbers(memory.data(), memory.size());
-  if (!out.good() || std::rename(part.c_str(), file.c_str()) != 0)
-    throw FileError("Cannot write the checkpoint \"" + file + "\": is the folder writable and the disk not full?");
+std::string Checkpoint::encode() const {
+  std::ostringstream out;
+  {
+    cereal::PortableBinaryOutputArchive archive(out);
+    transfer(archive, *this);
+  }
+  const std::string body = out.str();
+  return magic + littleEndian(layout) + littleEndian(static_cast<std::uint64_t>(body.size())) + sha256(body) + body;
 }
 
-Checkpoint Checkpoint::read(const std::string& file) {
-  Reader in(file);
-  if (!in.good()) throw FileError("Cannot open the checkpoint \"" + file + "\".");
-  const std::string magic = in.text();
-  if (magic.rfind(family, 0) != 0) throw FileError("\"" + file + "\" is not a checkpoint.");
-  const std::string written = magic.substr(sizeof family - 1);
-  if (written != version)
-    throw FileError("The checkpoint \"" + file + "\" has the layout " + written + " of another version of the program; this one reads layout " +
-                    version + ". Go on with the program that wrote it, or run the deck from the start.");
+Checkpoint Checkpoint::decode(const std::string& bytes, const std::string& file) {
+  std::istringstream in(verifiedBody(bytes, file));
   Checkpoint point;
-  point.integrator = in.text();
-  point.fingerprint = in.one<double>();
-  point.state.t = in.one<double>();
-  for (Vector* x : {&point.state.q, &point.state.v, &point.state.a}) *x = in.vector();
-  point.counters = in.one<Counters>();
-  point.contactEvaluations = in.one<long>();
-  point.samples = in.one<long>();
-  point.memory = in.numbers();
-  if (!in.good()) throw FileError("The checkpoint \"" + file + "\" is cut short.");
+  cereal::PortableBinaryInputArchive archive(in);
+  transfer(archive, point);
   return point;
 }
 
-double fingerprint(const CompiledModel& model) {
-  double sum = model.size();
-  const auto add = [&sum](const auto& values) {
-    double weight = 1;
-    for (double x : values) sum += weight * x, weight = weight < 1e3 ? weight * 1.0009765625 : 1.0;
-  };
-  const auto& source = model.source();
-  const auto addSparse = [&](const Sparse& m) {
-    Vector values(m.nonZeros());
-    Eigen::Index k = 0;
-    for (int i = 0; i < m.outerSize(); ++i)
-      for (Sparse::InnerIterator it(m, i); it; ++it) values[k++] = it.value();
-    add(values);
-  };
-  addSparse(source.mass);
-  for (const auto& term : source.damping) addSparse(term.matrix);
-  for (const auto& term : source.stiffness) addSparse(term.matrix);
-  for (const auto& term : source.loads) add(term.vector);
-  for (const auto& set : source.points) add(set.offset);
-  return sum;
+void Checkpoint::write(const std::string& file) const {
+  try {
+    io::writeText(file, encode());
+  } catch (const FileError&) {
+    std::remove((file + ".part").c_str());  // what it takes may be what the results lack
+    throw;
+  }
 }
+
+Checkpoint Checkpoint::read(const std::string& file) { return decode(io::readText(file), file); }
 
 }  // namespace tooljoint::transient

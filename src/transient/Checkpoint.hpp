@@ -3,6 +3,8 @@
 /// Everything a run needs to go on as if it had never stopped: same steps, same factors, same numbers.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,21 +13,30 @@
 
 namespace tooljoint::transient {
 
+/// A state of a run and the identity of the run. The file is a header (magic, layout, length and SHA-256 of the body) and a body
+/// in the portable binary format of cereal; docs/file-formats.md describes it.
 struct Checkpoint {
-  std::string integrator;
-  double fingerprint = 0;  ///< of the model: a checkpoint goes on only with the model it came from
+  std::string run;         ///< what the run computes, a line "PATH = VALUE" per input; empty when the caller says nothing
+  std::string program;     ///< version and commit of the program that wrote it
+  std::string integrator;  ///< its name in the deck
+  std::string model;       ///< modelIdentity() of the model and the options
   State state;             ///< in positions of the compiled model
   Counters counters;
   long contactEvaluations = 0;
-  long samples = 0;            ///< samples handed out so far
-  std::vector<double> memory;  ///< of the integrator, the point batches and the ledger
+  long samples = 0;                         ///< samples handed out so far
+  int runawaySamples = 0;                   ///< samples in a row with more energy made than given
+  std::vector<double> memory;               ///< of the model, the integrator, the point batches and the ledger
+  std::vector<double> recorder;             ///< of the sink of the samples, set by whoever keeps the checkpoint
+  std::map<std::string, std::uint64_t> rows;  ///< rows of each time series of the results, likewise
 
-  /// Write to / read from a file (numbers in the byte order of this machine). Throw FileError; the file is complete or not there.
+  /// The file as bytes.
+  std::string encode() const;
+  /// Verifies all bytes before it uses one. `file` is what errors call them. Throws FileError.
+  static Checkpoint decode(const std::string& bytes, const std::string& file);
+
+  /// Write to / read from a file. Throw FileError; the file is complete, on the disk, or not there.
   void write(const std::string& file) const;
   static Checkpoint read(const std::string& file);
 };
-
-/// A number that differs for different models: a weighted sum over their entries.
-double fingerprint(const CompiledModel& model);
 
 }  // namespace tooljoint::transient

@@ -154,6 +154,11 @@ void MatrixSum::comeBack(const Snapshot& snapshot) {
   if (formed_ && !still) form();
 }
 
+void MatrixSum::setFormed(bool formed) {
+  if (formed && !formed_ && !constant_ && !terms_.empty()) form();
+  formed_ = formed;
+}
+
 /// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
 void MatrixSum::form() const {
   const std::size_t n = sum_.size();
@@ -280,6 +285,15 @@ void CompiledModel::comeBack(const Snapshot& snapshot) {
   lawValues_ = snapshot.lawValues, lastLoadLaws_ = snapshot.loadLaws, load_ = snapshot.load;
   damping_.comeBack(snapshot.damping);
   stiffness_.comeBack(snapshot.stiffness);
+}
+
+void CompiledModel::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {time_, damping_.isFormed() ? 1.0 : 0.0, stiffness_.isFormed() ? 1.0 : 0.0});
+}
+
+void CompiledModel::restore(const double*& memory) {
+  setTime(*memory++);
+  for (MatrixSum* sum : {&damping_, &stiffness_}) sum->setFormed(*memory++ != 0.0);
 }
 
 void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {

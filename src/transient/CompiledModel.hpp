@@ -42,6 +42,8 @@ class MatrixSum {
   };
   void remember(Snapshot& snapshot) const { snapshot.last = last_, snapshot.formed = formed_; }
   void comeBack(const Snapshot& snapshot);
+  bool isFormed() const { return formed_; }
+  void setFormed(bool formed);
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
   void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const;
   /// y += A(t) x, rows of these blocks.
@@ -104,6 +106,9 @@ class CompiledModel {
   void remember(Snapshot& snapshot) const;
   /// Products and loads are then bit by bit those of the time of remember().
   void comeBack(const Snapshot& snapshot);
+  /// The same for a restart: append / take back the time, and which sums are formed. The matrix stamp is not one of before.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
   /// Changes whenever C(t) or K(t) changed.
   long matrixStamp() const { return stamp_; }
   /// F(t).

@@ -59,6 +59,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
 /// Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as displacements.
 void ImplicitStep::scale(const StepScheme& scheme, double t) {
   model_->setTime(t);
+  scaleTime_ = t;
   model_->diagonal(scheme.acceleration, scheme.velocity, 1.0, weight_.data());
   const double smallest = 1e-12 * weight_.cwiseAbs().maxCoeff();
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
@@ -369,7 +370,7 @@ int ImplicitStep::worstPosition() const { return transient::worstPosition(residu
 void ImplicitStep::save(std::vector<double>& memory) const {
   for (const StepScheme* each : {&scheme_, &factorScheme_})
     memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
-  memory.insert(memory.end(), {factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
+  memory.insert(memory.end(), {scaleTime_, factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
   memory.insert(memory.end(), weight_.begin(), weight_.end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
   relaxation_.save(memory);
@@ -380,6 +381,7 @@ void ImplicitStep::restore(const double*& memory) {
   for (StepScheme* each : {&scheme, &factorScheme_})
     for (double* value : {&each->h, &each->velocity, &each->acceleration, &each->filter, &each->phase, &each->impact})
       *value = *memory++;
+  scaleTime_ = *memory++;
   const bool factored = *memory++ != 0.0;
   factorTime_ = *memory++;
   const bool current = *memory++ != 0.0;
@@ -387,7 +389,8 @@ void ImplicitStep::restore(const double*& memory) {
   debt_ = *memory++;
   usual_ = *memory++;
   const double now = model_->time();
-  if (scheme.h > 0) scale(scheme, now);
+  if (scheme.h > 0) scale(scheme, scaleTime_);
+  model_->setTime(now);
   scheme_ = scheme;
   for (double& x : weight_) x = *memory++;
   if (scheme.h > 0) relaxation_.setWeights(weight_);

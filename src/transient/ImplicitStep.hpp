@@ -98,6 +98,7 @@ class ImplicitStep {
   bool factored_ = false;
   StepScheme factorScheme_;  ///< scheme, time and matrix stamp the factor belongs to
   double factorTime_ = 0;
+  double scaleTime_ = 0;  ///< of the scale of the rows
   long factorStamp_ = -1;
   std::vector<double> factorLaws_;  ///< law values at that time
   bool fresh_ = false;              ///< the tangent in the factor is that of the current iterate

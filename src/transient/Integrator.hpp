@@ -83,6 +83,12 @@ class Integrator {
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
 
+  /// False when a part of what the next steps depend on cannot be saved. A run then goes on from where forgetHistory() was called only.
+  virtual bool goesOnFromAnywhere() const { return true; }
+  /// Called at each checkpoint, before save(): what cannot be saved is given up by the run that writes the checkpoint too, so that
+  /// both take the same steps from there.
+  virtual void forgetHistory() {}
+
   const Counters& counters() const { return counters_; }
   Counters& counters() { return counters_; }
 

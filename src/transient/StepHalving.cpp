@@ -114,8 +114,10 @@ void StepHalving::restore(const double*& memory) {
   errors_.resize(static_cast<std::size_t>(*memory++));
   for (double& error : errors_) error = *memory++;
   plan();
+  const double* points = memory;
   for (auto& batch : points_) batch.restore(memory);
   withModel(halves_->model(), [&] { halves_->restore(memory); });
+  for (auto& batch : points_) batch.restore(points);  // the scheme has set scales of its own
 }
 
 }  // namespace tooljoint::transient

@@ -104,14 +104,15 @@ class Sundials final : public Integrator {
     y_.setZero(form_.size());
     yDot_.setZero(form_.size());
     stepper_ = makeStepper();
-    stepper_->restart(state.t, state.q.data(), state.v.data(), window.end, options_.firstStep);
+    firstStep_ = options_.firstStep;
+    stepper_->restart(state.t, state.q.data(), state.v.data(), window.end, firstStep_);
     complete(state);
     count();
   }
 
   /// To the next sample, or to the end of the step under way if that comes first.
   void advance(const State& from, State& to) override {
-    if (restored_) goOn(from);
+    if (beginsAnew_) beginAnew(from);
     if (!(stepper_->time() > from.t)) step(from);
     const double reached = stepper_->time();
     const double sample = nextSample(from.t);
@@ -121,10 +122,18 @@ class Sundials final : public Integrator {
     count();
   }
 
-  void save(std::vector<double>& memory) const override { memory.push_back(stepper_->nextStep()); }
+  void save(std::vector<double>& memory) const override { memory.push_back(firstStep_); }
   void restore(const double*& memory) override {
-    resumedStep_ = *memory++;
-    restored_ = true;
+    firstStep_ = *memory++;
+    beginsAnew_ = true;
+  }
+
+  /// SUNDIALS does not hand out its history (Nordsieck array, errors and steps before, age of the Newton matrix), and takes none.
+  bool goesOnFromAnywhere() const override { return false; }
+  void forgetHistory() override {
+    // BDF begins again at first order: a step of its own choice
+    firstStep_ = name_ == arkode ? stepper_->nextStep() : 0.0;
+    beginsAnew_ = true;
   }
 
  private:
@@ -139,11 +148,11 @@ class Sundials final : public Integrator {
 #endif
   }
 
-  /// A restart takes the step of the checkpoint, but not what the method remembers of earlier steps.
-  void goOn(const State& from) {
-    restored_ = false;
-    // BDF begins again at first order: a step of its own choice
-    stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, name_ == arkode ? resumedStep_ : 0.0);
+  /// From a checkpoint, with its step but without what the method remembers of earlier ones. The rest of a step that reached
+  /// beyond the checkpoint is given up.
+  void beginAnew(const State& from) {
+    beginsAnew_ = false;
+    stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, firstStep_);
     seen_ = {};
     evaluations_ = form_.evaluations();
     factorisations_ = form_.factorisations();
@@ -239,8 +248,8 @@ class Sundials final : public Integrator {
   Vector y_, yDot_;
   SundialsCounts seen_;
   long evaluations_ = 0, factorisations_ = 0;
-  double resumedStep_ = 0;
-  bool restored_ = false;
+  double firstStep_ = 0;     ///< of the next start; 0: chosen by SUNDIALS
+  bool beginsAnew_ = false;  ///< before the next step
 };
 
 #ifdef TOOLJOINT_HAS_SUNDIALS

@@ -12,6 +12,8 @@
 #include "common/Interrupt.hpp"
 #include "common/Log.hpp"
 #include "common/Progress.hpp"
+#include "common/Version.hpp"
+#include "transient/ModelIdentity.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -154,31 +156,47 @@ class Run {
     checkFinite(model_, *integrator_, state_, state_);
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
     sampler_.first(state_);
+    if (hooks_.keep && !integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
   }
 
   void resume(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator + "\", the deck asks for \"" +
                       options_.integrator + "\". Restart with the same deck.");
-    if (point.state.q.size() != model_.size() || point.fingerprint != fingerprint(model_))
-      throw DeckError("The checkpoint belongs to another model than this deck describes. Restart with the same deck.");
+    if (point.state.q.size() != model_.size() || point.model != identity())
+      throw DeckError("The checkpoint belongs to another model, or to other steps, than this deck describes. Restart with the same deck.");
     state_ = point.state;
-    evaluationsBefore_ = point.contactEvaluations;
+    runawaySamples_ = point.runawaySamples;
     const double* memory = point.memory.data();
+    model_.restore(memory);
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
-    integrator_->counters() = point.counters;  // what was done again to get here is not counted twice
+    if (memory != point.memory.data() + point.memory.size())
+      throw FileError("The checkpoint holds another amount of memory than this program reads. Go on with the program that wrote it.");
+    memory = point.memory.data();
+    model_.restore(memory);  // the others have taken it to other times
+    // what was done again to get here is not counted twice
+    integrator_->counters() = point.counters;
+    evaluationsBefore_ = point.contactEvaluations - contactEvaluations(model_);
   }
 
-  Checkpoint checkpoint() const {
+  const std::string& identity() {
+    if (identity_.empty()) identity_ = modelIdentity(model_.source(), options_);
+    return identity_;
+  }
+
+  Checkpoint checkpoint() {
     Checkpoint point;
+    point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
-    point.fingerprint = fingerprint(model_);
+    point.model = identity();
     point.state = state_;
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();
+    point.runawaySamples = runawaySamples_;
+    model_.save(point.memory);
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
     if (options_.ledger) ledger_.save(point.memory);
@@ -189,11 +207,10 @@ class Run {
   bool loop() {
     std::unique_ptr<Progress> bar;
     if (options_.progress) bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
-    double nextCheckpoint = options_.checkpointInterval > 0 && hooks_.keep ? state_.t + options_.checkpointInterval
-                                                                           : 2 * std::abs(options_.end) + 1e300;
+    long intervals = checkpointIntervals(state_.t);
     while (state_.t < options_.end) {
       if (hooks_.stop ? hooks_.stop() : interruptRequested()) {
-        if (hooks_.keep) hooks_.keep(checkpoint());
+        if (hooks_.keep && integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
         return true;
       }
       integrator_->advance(state_, next_);
@@ -203,9 +220,10 @@ class Run {
       sampler_.step(state_, next_);
       if (options_.ledger && sampler_.count() > before && ledger_.isDue()) watchEnergy();
       std::swap(state_, next_);
-      if (state_.t >= nextCheckpoint && state_.t < options_.end) {
-        hooks_.keep(checkpoint());
-        nextCheckpoint += options_.checkpointInterval;
+      if (state_.t < options_.end && checkpointIntervals(state_.t) > intervals) {
+        intervals = checkpointIntervals(state_.t);
+        integrator_->forgetHistory();
+        if (hooks_.keep) hooks_.keep(checkpoint());
       }
       if (bar && bar->due(state_.t)) bar->update(state_.t, suffix());
     }
@@ -213,6 +231,12 @@ class Run {
     if (options_.ledger && ledger_.runaway(model_, state_)) runaway();
     integrator_->finish();
     return false;
+  }
+
+  /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its checkpoint.
+  long checkpointIntervals(double t) const {
+    if (!(options_.checkpointInterval > 0)) return 0;
+    return static_cast<long>(std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
   }
 
   /// A start far off balance may overshoot and is damped again: energy made out of nothing counts when it stays.
@@ -248,6 +272,7 @@ class Run {
   State state_, next_;
   long evaluationsBefore_ = 0;
   int runawaySamples_ = 0;
+  std::string identity_;
 };
 
 /// A force that joins parts, with -flexibility for stiffness and a mass: an eigenvalue omega^2 < 0.

@@ -47,7 +47,9 @@ struct TransientReport {
 struct RunHooks {
   std::string title = "transient";              ///< in front of the progress bar
   const Checkpoint* resume = nullptr;           ///< go on from here instead of the initial state
-  std::function<void(const Checkpoint&)> keep;  ///< called at every checkpoint and at an interrupt
+  /// Called at every checkpoint and at an interrupt; for an integrator that cannot go on from anywhere at the start instead of at an
+  /// interrupt. Checkpoints come at multiples of the interval whether or not this is given: some integrators begin anew there.
+  std::function<void(const Checkpoint&)> keep;
   std::function<bool()> stop;                   ///< looked at each step; default: the interrupt flag
 };
 

@@ -22,7 +22,8 @@ deck::ListSpec parameters() {
       .boolean("Energy Ledger", true,
                "Keep account of kinetic, strain and contact energy, of the work of all loads and of every dissipation.")
       .real("Checkpoint Interval", "s", 1.0, deck::Range::nonNegative(),
-            "Simulated time between two states saved for a restart; 0 saves one only when the run is interrupted.");
+            "Simulated time between two states saved for a restart; 0 saves one only when the run is interrupted. The integrators of SUNDIALS begin "
+            "anew at each of them and go on only from there.");
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);
     own.merge(entry.parameters);

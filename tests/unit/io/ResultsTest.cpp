@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "io/ResultsReader.hpp"
 #include "io/Summary.hpp"
 #include "io/TextFile.hpp"
+#include "io/Xdmf.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
 namespace {
@@ -102,6 +104,122 @@ TEST_F(Io, AFailedRunLeavesFinishedResultsAlone) {
   }
   EXPECT_EQ(io::readText(at("run/table.csv")), "good");
   EXPECT_EQ(io::readPreviousRun(at("run/summary.json")).status, "finished");
+}
+
+TEST_F(Io, ResultsLargerThanTheDiskAreRefusedBeforeTheyAreComputed) {
+  const io::OutputFolder folder(at("run"));
+  EXPECT_NO_THROW(folder.requireSpace(1.0));
+  for (const double bytes : {1e18, 1e30}) {
+    try {
+      folder.requireSpace(bytes);
+      ADD_FAILURE() << bytes;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("MB, but the results need about " + std::string(bytes > 1e20 ? "9.5" : "953674316407 MB")), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// Text of a file in the scratch folder.
+void put(const std::string& path, const std::string& text) {
+  fs::create_directories(fs::path(path).parent_path());
+  io::writeText(path, text);
+}
+
+TEST_F(Io, TheCheckpointOfAnotherRunIsSetAsideWithAllThatBelongsToIt) {
+  for (int i = 0; i < 2; ++i) {
+    for (const char* name : {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"}) put(at(std::string("run/") + name), std::to_string(i));
+    put(at("run/summary.json"), R"({"status": "interrupted", "files": ["motion.csv", "results.h5", "summary.json", "../other.txt"]})");
+    put(at("other.txt"), "not of the run");
+    put(at("run/notes.txt"), "the user's own");
+    const io::OutputFolder folder(at("run"));
+    const std::string aside = at(i == 0 ? "run/interrupted" : "run/interrupted_2");
+    for (const char* name : {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"}) {
+      EXPECT_FALSE(fs::exists(at(std::string("run/") + name))) << name;
+      EXPECT_EQ(io::readText(aside + "/" + name), std::to_string(i)) << name;
+    }
+    EXPECT_TRUE(fs::exists(aside + "/summary.json"));
+    EXPECT_TRUE(fs::exists(at("other.txt")));
+    EXPECT_TRUE(fs::exists(at("run/notes.txt")));
+  }
+}
+
+TEST_F(Io, FinishedResultsStayWhereTheyAreWhenACheckpointIsSetAside) {
+  put(at("run/summary.json"), R"({"status": "finished", "files": ["results.h5", "summary.json"]})");
+  put(at("run/results.h5"), "finished");
+  put(at("run/results.h5.part"), "interrupted");
+  put(at("run/checkpoint.bin"), "interrupted");
+  const io::OutputFolder folder(at("run"));
+  EXPECT_TRUE(folder.hasFinishedResults());
+  EXPECT_EQ(io::readText(at("run/results.h5")), "finished");
+  EXPECT_EQ(io::readText(at("run/interrupted/results.h5.part")), "interrupted");
+  EXPECT_TRUE(fs::exists(at("run/interrupted/checkpoint.bin")));
+  EXPECT_FALSE(fs::exists(at("run/interrupted/summary.json")));
+}
+
+TEST_F(Io, ARunThatGoesOnFindsItsCheckpointInPlace) {
+  put(at("run/checkpoint.bin"), "mine");
+  const io::OutputFolder folder(at("run"), io::OldCheckpoint::GoOn);
+  EXPECT_EQ(io::readText(at("run/checkpoint.bin")), "mine");
+}
+
+TEST_F(Io, SeriesContinueThoseOfAnotherFile) {
+  const auto row = [](double x) { return std::vector<double>{x, -x}; };
+  {
+    io::ResultsFile file(at("first.h5"), provenance_);
+    auto& series = file.series("/a", {2}, "m", "A");
+    for (int i = 0; i < 5000; ++i) series.append(row(0.5 * i).data());
+    EXPECT_EQ(file.rows(), (std::map<std::string, std::uint64_t>{{"/a", 5000}}));
+    file.finish();
+  }
+  {
+    io::ResultsFile file(at("second.h5"), provenance_);
+    file.continueFrom(at("first.h5"), {{"/a", 4321}});
+    EXPECT_EQ(file.carried("/a").size(), 2 * 4321u);
+    EXPECT_TRUE(file.carried("/b").empty());
+    auto& series = file.series("/a", {2}, "m", "A");
+    EXPECT_EQ(series.rows(), 4321u);
+    EXPECT_EQ(file.series("/b", {}, "m", "B").rows(), 0u);
+    series.append(row(-1).data());
+    file.finish();
+  }
+  const io::ResultsReader reader(at("second.h5"));
+  EXPECT_EQ(reader.shape("/a"), (std::vector<std::size_t>{4322, 2}));
+  EXPECT_EQ(reader.rows("/a", 4320, 2), (std::vector<double>{2160, -2160, -1, 1}));
+  EXPECT_EQ(reader.rows("/a", 0, 1), row(0));
+}
+
+TEST_F(Io, PicturesContinueWithTheirTimes) {
+  io::XdmfScene scene;
+  scene.positions.assign(1, Vector3::Zero());
+  scene.frames.assign(1, Matrix3::Identity());
+  const std::vector<double> motion(6, 0.1);
+  io::XdmfFrame frame;
+  frame.displacement = frame.velocity = motion.data();
+  const auto pictures = [&](const std::string& name, const std::vector<double>& times, const std::vector<double>* before, std::vector<double>& memory) {
+    io::ResultsFile file(at(name), provenance_);
+    if (before != nullptr) file.continueFrom(at("first.h5"), {{"/xdmf/time", 2}, {"/xdmf/displacement", 2}, {"/xdmf/speed", 2}, {"/xdmf/spin", 2}});
+    io::XdmfRecorder recorder(file, scene, 0.1);
+    if (before != nullptr) {
+      const double* at = before->data();
+      recorder.restore(at, frame);
+      EXPECT_EQ(at, before->data() + before->size());
+    }
+    for (double t : times) {
+      frame.time = t;
+      recorder.append(frame);
+    }
+    recorder.save(memory);
+    file.finish();
+    return recorder.text("results.h5");
+  };
+  std::vector<double> memory, ignored;
+  pictures("first.h5", {0.0, 0.05, 0.1, 0.15}, nullptr, memory);
+  const auto later = pictures("second.h5", {0.19, 0.2, 0.25}, &memory, ignored);
+  EXPECT_EQ(later, pictures("whole.h5", {0.0, 0.05, 0.1, 0.15, 0.19, 0.2, 0.25}, nullptr, ignored));
+  EXPECT_EQ(io::ResultsReader(at("second.h5")).numbers("/xdmf/time"), (std::vector<double>{0.0, 0.1, 0.2}));
+  // none due after the restart: those of before are there all the same
+  pictures("third.h5", {0.15}, &memory, ignored);
+  EXPECT_EQ(io::ResultsReader(at("third.h5")).numbers("/xdmf/time"), (std::vector<double>{0.0, 0.1}));
 }
 
 TEST_F(Io, TheSummaryKnowsItsKeys) {

@@ -74,6 +74,41 @@ Walk walk(double size, int steps) {
   return result;
 }
 
+/// A watch that takes over the memory of another wakes the same points from there on.
+TEST(ClearanceWatch, goesOnFromItsMemory) {
+  const Cloud cloud(3);
+  auto watch = cloud.watch();
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Vector q = Vector::Zero(Cloud::coordinates);
+  std::vector<double> measured(Cloud::points, 0.0);
+  const auto look = [&](ClearanceWatch& one) {
+    one.wake(q.data());
+    for (int p : one.awake()) measured[static_cast<std::size_t>(p)] = cloud.clearance(p, q);
+    one.settle(q.data(), measured.data());
+  };
+  std::size_t asleep = 0;
+  for (int step = 0; step < 40; ++step) {
+    for (int j = 0; j < Cloud::coordinates; ++j) q[j] += 0.003 * normal(random);
+    look(watch);
+    std::vector<double> memory, again;
+    watch.save(memory);
+    auto other = cloud.watch();
+    const double* at = memory.data();
+    other.restore(at);
+    EXPECT_EQ(at, memory.data() + memory.size());
+    EXPECT_EQ(other.awake(), watch.awake());
+    other.save(again);
+    EXPECT_EQ(again, memory);
+    asleep += Cloud::points - watch.awake().size();
+    look(other);
+    auto copy = watch;
+    look(copy);
+    EXPECT_EQ(other.awake(), copy.awake());
+  }
+  EXPECT_GT(asleep, 100u);
+}
+
 TEST(ClearanceWatch, NoPointTouchesInItsSleep) {
   const Walk wild = walk(0.01, 4000);
   EXPECT_GT(wild.touches, 10) << "the walk must reach the wall";

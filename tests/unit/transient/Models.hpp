@@ -151,4 +151,23 @@ inline TransientOptions options(const std::string& integrator, double end, doubl
   return o;
 }
 
+/// Balls with contact, plus a load and a damping that change with time, so that everything a run remembers matters.
+inline model::SecondOrderModel eventful() {
+  auto model = droppedBalls(6, 1e6, 2e3, 7e11, 2e4);
+  const int law = model.lawIndex({"swell", [](double t) { return 1 + 0.5 * std::sin(40 * t); }});
+  model.damping.push_back({"swelling", (3.0 * Matrix::Identity(6, 6)).sparseView(), law});
+  model.loads.push_back({"shaking", Vector::LinSpaced(6, -30, 60), law});
+  return model;
+}
+
+/// A way to step that is no name of an integrator alone.
+inline constexpr const char* controlledAlpha = "Generalized-alpha with Step Tolerance";
+
+/// Options of an integrator, or of controlledAlpha, good for eventful().
+inline TransientOptions wayToStep(const std::string& way, double end) {
+  auto o = options(way == controlledAlpha ? "Generalized-alpha" : way, end, way == "RK4" ? 5e-5 : 0, 0.005);
+  if (way == controlledAlpha) o.own.set("Step Tolerance", 1e-5);
+  return o;
+}
+
 }  // namespace tooljoint::transient::testing

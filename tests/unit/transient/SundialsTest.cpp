@@ -197,31 +197,6 @@ TEST_P(Sundials, toleranceBelowRoundingIsRefused) {
   EXPECT_NE(text.find("Transient/" + GetParam() + "/Relative Tolerance"), std::string::npos) << text;
 }
 
-TEST_P(Sundials, aRestartGoesOnToTheTolerance) {
-  const auto model = droppedBalls(4, 1e5, 200, 1e10, 1e3);
-  Keep whole, first, second;
-  const auto reference = run(model, GetParam(), 0.2, 0.005, tolerance(1e-8), whole);
-  Checkpoint kept;
-  RunHooks hooks, again;
-  long calls = 0;
-  hooks.stop = [&] { return ++calls > reference.counters.steps / 2; };
-  hooks.keep = [&](const Checkpoint& c) { kept = c; };
-  EXPECT_TRUE(run(model, GetParam(), 0.2, 0.005, tolerance(1e-8), first, hooks).interrupted);
-  again.resume = &kept;
-  const auto report = run(model, GetParam(), 0.2, 0.005, tolerance(1e-8), second, again);
-  ASSERT_EQ(first.time.size() + second.time.size(), whole.time.size());
-  EXPECT_GT(second.time.size(), 5u);
-  for (std::size_t i = 0; i < second.time.size(); ++i) {
-    EXPECT_EQ(second.time[i], whole.time[first.time.size() + i]);
-    EXPECT_LT((second.q[i] - whole.q[first.time.size() + i]).cwiseAbs().maxCoeff(), 6e-7);
-  }
-  // Counts go on; the second start costs some small steps.
-  EXPECT_GT(report.counters.steps, kept.counters.steps);
-  EXPECT_NEAR(static_cast<double>(report.counters.steps), static_cast<double>(reference.counters.steps),
-              0.3 * static_cast<double>(reference.counters.steps));
-  EXPECT_GT(report.counters.newtonIterations, kept.counters.newtonIterations);
-}
-
 TEST_P(Sundials, moreNewtonIterationsSaveSteps) {
   // On walls from soft to hard, to coarse and fine tolerances: steps that had to be shortened because Newton was not done.
   const auto shortened = [&](int iterations) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The run around an integrator: samples, reports, errors, interrupts, checkpoints, energy, allocation.
+/// The run around an integrator: samples, reports, errors, interrupts, energy, allocation.
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
@@ -214,7 +211,7 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
   }
 }
 
-// Interrupt and restart
+// Interrupt
 // ----------------------------------------------------------------------------------------------------------------
 
 TEST(Transient, anInterruptStopsCleanly) {
@@ -226,140 +223,6 @@ TEST(Transient, anInterruptStopsCleanly) {
   EXPECT_TRUE(report.interrupted);
   EXPECT_EQ(report.end, 0.0);
   EXPECT_EQ(samples.time.size(), 1u);
-}
-
-/// Balls with contact, plus a load and a damping that change with time, so that everything a run remembers matters.
-model::SecondOrderModel eventful() {
-  auto model = droppedBalls(6, 1e6, 2e3, 7e11, 2e4);
-  const int law = model.lawIndex({"swell", [](double t) { return 1 + 0.5 * std::sin(40 * t); }});
-  model.damping.push_back({"swelling", (3.0 * Matrix::Identity(6, 6)).sparseView(), law});
-  model.loads.push_back({"shaking", Vector::LinSpaced(6, -30, 60), law});
-  return model;
-}
-
-/// With steps that follow their error, too.
-std::vector<std::string> allWaysToStep() {
-  auto ways = allIntegrators;
-  ways.push_back("Generalized-alpha with Step Tolerance");
-  return ways;
-}
-
-TransientOptions wayToStep(const std::string& way, double end) {
-  const bool controlled = way == "Generalized-alpha with Step Tolerance";
-  auto o = options(controlled ? "Generalized-alpha" : way, end, way == "RK4" ? 5e-5 : 0, 0.005);
-  if (controlled) o.own.set("Step Tolerance", 1e-5);
-  return o;
-}
-
-class Restart : public ::testing::TestWithParam<std::string> {};
-
-TEST_P(Restart, goesOnWithTheSameNumbers) {
-  const auto model = eventful();
-  const auto o = wayToStep(GetParam(), 0.3);
-  Keep whole;
-  const auto reference = integrate(model, o, whole);
-
-  Keep first, second;
-  Checkpoint kept;
-  RunHooks hooks;
-  long calls = 0;
-  hooks.stop = [&] { return ++calls > reference.counters.steps / 2 + 3; };
-  hooks.keep = [&](const Checkpoint& c) { kept = c; };
-  const auto stopped = integrate(model, o, first, hooks);
-  EXPECT_TRUE(stopped.interrupted);
-  EXPECT_GT(stopped.end, 0.005);
-  EXPECT_LT(stopped.end, 0.28);
-
-  const auto file = (std::filesystem::temp_directory_path() / ("checkpoint_" + std::to_string(::getpid()))).string();
-  kept.write(file);
-  const Checkpoint read = Checkpoint::read(file);
-  std::filesystem::remove(file);
-  RunHooks again;
-  again.resume = &read;
-  const auto report = integrate(model, o, second, again);
-  EXPECT_EQ(first.time.size() + second.time.size(), whole.time.size());
-  for (std::size_t i = 0; i < second.time.size(); ++i) {
-    const std::size_t k = first.time.size() + i;
-    EXPECT_EQ(second.time[i], whole.time[k]);
-    EXPECT_EQ(second.q[i], whole.q[k]) << "sample " << k;
-    EXPECT_EQ(second.v[i], whole.v[k]);
-    EXPECT_EQ(second.a[i], whole.a[k]);
-  }
-  EXPECT_EQ(report.counters.steps, reference.counters.steps);
-  EXPECT_EQ(report.counters.newtonIterations, reference.counters.newtonIterations);
-  EXPECT_EQ(report.counters.rejected, reference.counters.rejected);
-  EXPECT_EQ(report.counters.halved, reference.counters.halved);
-  EXPECT_EQ(report.counters.factorisations, reference.counters.factorisations);
-  EXPECT_EQ(report.counters.minStep, reference.counters.minStep);
-  EXPECT_EQ(report.samples, reference.samples);
-  EXPECT_EQ(reference.stepErrors.halving > 0.0, GetParam() == "Generalized-alpha");
-  EXPECT_EQ(report.stepErrors.local, reference.stepErrors.local);
-  EXPECT_EQ(report.stepErrors.halving, reference.stepErrors.halving);
-  EXPECT_EQ(report.energy.numerical(), reference.energy.numerical());
-  EXPECT_EQ(report.energy.exchanged, reference.energy.exchanged);
-}
-INSTANTIATE_TEST_SUITE_P(Transient, Restart, ::testing::ValuesIn(allWaysToStep()));
-
-TEST(Checkpoints, comeAtTheirInterval) {
-  const auto model = eventful();
-  auto o = options("Generalized-alpha", 0.3, 1e-3, 0.005);
-  o.checkpointInterval = 0.1;
-  std::vector<double> times;
-  RunHooks hooks;
-  hooks.keep = [&](const Checkpoint& c) { times.push_back(c.state.t); };
-  Keep samples;
-  integrate(model, o, samples, hooks);
-  ASSERT_EQ(times.size(), 2u);  // none at the end
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(times[static_cast<std::size_t>(i)], 0.1 * (i + 1), 1.1e-3);
-  times.clear();
-  o.checkpointInterval = 0;
-  integrate(model, o, samples, hooks);
-  EXPECT_TRUE(times.empty());
-}
-
-TEST(Checkpoints, belongToOneModelAndOneIntegrator) {
-  auto model = eventful();
-  Checkpoint kept;
-  RunHooks hooks;
-  hooks.stop = [&, calls = 0]() mutable { return ++calls > 5; };
-  hooks.keep = [&](const Checkpoint& c) { kept = c; };
-  Keep samples;
-  integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, hooks);
-  RunHooks again;
-  again.resume = &kept;
-  EXPECT_NE(failure([&] {
-              integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again);
-            }).find("written by the integrator \"RK4\""),
-            std::string::npos);
-  model.stiffness.own()[0].matrix.coeffRef(0, 0) *= 1 + 1e-9;
-  EXPECT_NE(failure([&] { integrate(model, options("RK4", 0.3, 1e-4, 0.005), samples, again); }).find("another model"),
-            std::string::npos);
-}
-
-TEST(Checkpoints, filesThatAreNoneAreRefused) {
-  const auto folder = std::filesystem::temp_directory_path();
-  const auto file = (folder / ("none_" + std::to_string(::getpid()))).string();
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("Cannot open"), std::string::npos);
-  std::ofstream(file) << "something else entirely, and long enough to be read as numbers";
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("not a checkpoint"), std::string::npos);
-  {
-    std::ofstream old(file, std::ios::binary);
-    const std::string magic = "Tooljoint checkpoint 1";
-    const std::uint64_t length = magic.size();
-    old.write(reinterpret_cast<const char*>(&length), sizeof length);
-    old << magic << std::string(200, '\0');
-  }
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("has the layout 1 of another version of the program; this one reads layout 5"),
-            std::string::npos);
-  Checkpoint point;
-  point.integrator = "RK4";
-  point.state.resize(100);
-  point.memory.assign(50, 1.0);
-  point.write(file);
-  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 64);
-  EXPECT_NE(failure([&] { Checkpoint::read(file); }).find("cut short"), std::string::npos);
-  std::filesystem::remove(file);
-  EXPECT_NE(failure([&] { point.write("/nowhere/at/all"); }).find("Cannot write"), std::string::npos);
 }
 
 // Cost
@@ -378,7 +241,9 @@ class AllocationProbe final : public SampleSink {
 
 TEST(Cost, theStepLoopAllocatesNothing) {
   auto model = eventful();
-  for (const auto& integrator : allWaysToStep()) {
+  auto ways = allIntegrators;
+  ways.push_back(controlledAlpha);
+  for (const auto& integrator : ways) {
     AllocationProbe probe;
     auto o = wayToStep(integrator, 0.2);
     const auto report = integrate(model, o, probe);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/ModelIdentity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "common/Sha256.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Intervals of the window at whose ends laws of time are looked at.
+constexpr int lawIntervals = 32;
+/// How far beyond its clearance a point is moved, and how fast it moves there, to see its force [m], [m/s].
+constexpr double probeDepth = 1e-3, probeSpeed = 0.1;
+
+/// Collects bytes; the length stands before each array, so that different data never make the same bytes.
+class Bytes {
+ public:
+  void add(double x) { append(&x, 1); }
+  void add(std::int64_t x) { append(&x, 1); }
+  void add(const std::string& text) {
+    add(static_cast<std::int64_t>(text.size()));
+    bytes_ += text;
+  }
+  void add(const Vector& x) {
+    add(static_cast<std::int64_t>(x.size()));
+    append(x.data(), static_cast<std::size_t>(x.size()));
+  }
+  void add(const std::vector<double>& x) {
+    add(static_cast<std::int64_t>(x.size()));
+    append(x.data(), x.size());
+  }
+  void add(const Sparse& matrix) {
+    add(static_cast<std::int64_t>(matrix.rows()));
+    add(static_cast<std::int64_t>(matrix.cols()));
+    for (int i = 0; i < matrix.outerSize(); ++i)
+      for (Sparse::InnerIterator it(matrix, i); it; ++it) {
+        add(static_cast<std::int64_t>(it.row()));
+        add(static_cast<std::int64_t>(it.col()));
+        add(it.value());
+      }
+  }
+  std::string digest() const { return sha256(bytes_); }
+
+ private:
+  template <class Value>
+  void append(const Value* values, std::size_t count) {
+    bytes_.append(reinterpret_cast<const char*>(values), count * sizeof(Value));
+  }
+  std::string bytes_;
+};
+
+void addDofs(const model::SecondOrderModel& model, Bytes& bytes) {
+  for (const auto& name : model.componentNames) bytes.add(name);
+  for (const auto& dof : model.dofs) bytes.add(model::describe(dof, model.componentNames));
+}
+
+void addLaws(const model::SecondOrderModel& model, const TransientOptions& options, Bytes& bytes) {
+  for (const auto& law : model.laws) {
+    bytes.add(law.name);
+    for (int i = 0; i <= lawIntervals; ++i) bytes.add(law.value(options.start + (options.end - options.start) * i / lawIntervals));
+  }
+}
+
+/// Forces at the start, and with every point moved just beyond its clearance, each way along each coordinate that decides about it.
+void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t, Bytes& bytes) {
+  const auto& law = *set.law;
+  const int width = law.width();
+  std::vector<int> all;
+  for (int p = 0; p < law.size(); ++p) all.push_back(p);
+  bytes.add(set.name);
+  for (auto entity : set.entities) bytes.add(entity);
+  bytes.add(set.rows);
+  bytes.add(set.offset);
+  const Vector start = set.offset + set.rows * model.initialDisplacement;
+  Vector clearance = Vector::Zero(law.size()), force = Vector::Zero(start.size()), velocity = set.rows * model.initialVelocity;
+  law.evaluate(t, all, start.data(), velocity.data(), force.data());
+  law.clearanceLeft(all, start.data(), clearance.data());
+  bytes.add(force);
+  bytes.add(clearance);
+  for (int c = 0; c < width; ++c)
+    for (const double way : {1.0, -1.0}) {
+      Vector d = start, v = Vector::Zero(start.size());
+      for (int p = 0; p < law.size(); ++p) {
+        const double gap = std::isfinite(clearance[p]) ? std::max(0.0, clearance[p]) : 0.0;
+        d[p * width + c] += way * (gap + probeDepth);
+        for (int k = 0; k < width; ++k) v[p * width + k] = way * probeSpeed * (k + 1);
+      }
+      force.setZero();
+      law.evaluate(t, all, d.data(), v.data(), force.data());
+      bytes.add(force);
+    }
+}
+
+/// In the order of the names.
+void addList(const Teuchos::ParameterList& list, Bytes& bytes) {
+  std::map<std::string, std::string> values;
+  for (auto it = list.begin(); it != list.end(); ++it) {
+    std::ostringstream text;
+    text.precision(17);
+    text << list.entry(it).getAny(false);
+    values[list.name(it)] = text.str();
+  }
+  for (const auto& [name, value] : values) {
+    bytes.add(name);
+    bytes.add(value);
+  }
+}
+
+void addOptions(const TransientOptions& options, Bytes& bytes) {
+  bytes.add(options.integrator);
+  for (double x : {options.start, options.end, options.step, options.sampling}) bytes.add(x);
+  bytes.add(static_cast<std::int64_t>(options.ledger));
+  const auto& integrator = IntegratorRegistry::instance().find(options.integrator);
+  const bool anywhere = integrator.make(options.own)->goesOnFromAnywhere();
+  bytes.add(anywhere ? 0.0 : options.checkpointInterval);
+  addList(withDefaults(options.own, integrator.parameters), bytes);
+}
+
+}  // namespace
+
+std::string modelIdentity(const model::SecondOrderModel& model, const TransientOptions& options) {
+  Bytes bytes;
+  addDofs(model, bytes);
+  addLaws(model, options, bytes);
+  bytes.add(model.mass.sparse());
+  for (const auto* terms : {&model.damping, &model.stiffness}) {
+    bytes.add(static_cast<std::int64_t>(terms->size()));
+    for (const auto& term : *terms) {
+      bytes.add(static_cast<std::int64_t>(term.law));
+      bytes.add(term.matrix.sparse());
+    }
+  }
+  for (const auto& term : model.loads) {
+    bytes.add(static_cast<std::int64_t>(term.law));
+    bytes.add(term.vector);
+  }
+  for (const auto& set : model.points) addPoints(set, model, options.start, bytes);
+  bytes.add(model.initialDisplacement);
+  bytes.add(model.initialVelocity);
+  addOptions(options, bytes);
+  return bytes.digest();
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,304 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs that are stopped and go on: check_restart.py PROGRAM MPIEXEC PART [without-sundials]
+
+PART is "integrators" (every integrator, full and reduced models, strings and imported parts: stopped by SIGTERM, gone on with, killed, gone on
+with) or "folders" (full disks, other ranks, two runs in one folder, damaged and foreign files). A run that was stopped ends with the samples,
+tables, pictures and figures of the one that was not, bit by bit.
+"""
+import fcntl
+import json
+import os
+import pathlib
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+
+PROGRAM, MPIEXEC, PART = sys.argv[1:4]
+ROOT = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
+STRING, FRAME = str(ROOT / "tests" / "effects" / "scene.xml"), str(ROOT / "xml" / "frame.xml")
+INTEGRATORS = ["RK4", "RK4 adaptive", "Generalized-alpha", "Step Tolerance"]
+if "without-sundials" not in sys.argv[4:]:
+    INTEGRATORS += ["SUNDIALS ARKODE", "SUNDIALS CVODE"]
+FULL = ["--without", "Reduction", "--without", "Substructures"]
+OWN = {"wall_s", "cpu_s", "real_time_factor"}  # seconds of a run are its own
+FAULTS = []
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def command(*arguments, ranks=1):
+    return ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
+
+
+def run(*arguments, ranks=1, largest=None):
+    limit = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest))) if largest else None
+    return subprocess.run(command(*arguments, ranks=ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit)
+
+
+def fresh(*folders):
+    for folder in folders:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def stamp(folder):
+    file = pathlib.Path(folder, "checkpoint.bin")
+    return file.stat().st_mtime_ns if file.exists() else 0
+
+
+def stop(signum, folder, *arguments, ranks=1):
+    """Starts a run and sends it a signal as soon as it has written a checkpoint; its exit code."""
+    before = stamp(folder)
+    process = subprocess.Popen(command(*arguments, ranks=ranks), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and stamp(folder) == before:
+        time.sleep(0.002)
+    if process.poll() is None:
+        process.send_signal(signum)
+    code = process.wait(timeout=60)
+    lock = os.open(folder, os.O_RDONLY)  # ranks may outlive their mpiexec for a moment
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            break
+        except BlockingIOError:
+            time.sleep(0.05)
+    os.close(lock)
+    return code
+
+
+def numbers(folder):
+    with h5py.File(pathlib.Path(folder, "results.h5")) as file:
+        found = {}
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def differences(whole, other, tolerance=0.0):
+    """Names of what is not the same in two results folders."""
+    a, b = numbers(whole), numbers(other)
+    names = sorted(a.keys() ^ b.keys())
+    for name in sorted(a.keys() & b.keys()):
+        same = a[name].shape == b[name].shape
+        if same and tolerance > 0 and a[name].dtype.kind == "f":
+            same = np.abs(a[name] - b[name]).max(initial=0.0) <= tolerance * max(np.abs(a[name]).max(initial=0.0), 1e-300)
+        elif same:
+            same = np.array_equal(a[name], b[name])
+        if not same:
+            names.append(name)
+    if tolerance == 0:
+        for name in ("motion.csv", "results.xdmf"):
+            files = [pathlib.Path(folder, name) for folder in (whole, other)]
+            if files[0].exists() != files[1].exists() or (files[0].exists() and files[0].read_bytes() != files[1].read_bytes()):
+                names.append(name)
+        figures = [json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))["transient"] for folder in (whole, other)]
+        names += [f"summary.json transient.{key}: {figures[0][key]} and {figures[1][key]}" for key in figures[0] if key not in OWN and figures[0][key] != figures[1][key]]
+    return names
+
+
+def left(folder):
+    return sorted(path.name for path in pathlib.Path(folder).iterdir() if path.name.startswith("checkpoint") or path.name.endswith(".part"))
+
+
+def settings(integrator, end, interval):
+    name = "Generalized-alpha" if integrator == "Step Tolerance" else integrator
+    out = ["--set", f"Transient/Integrator={name}", "--set", f"Transient/End Time={end}", "--set", f"Transient/Checkpoint Interval={interval}", "--set", "Transient/Progress=false"]
+    if integrator == "Step Tolerance":
+        out += ["--set", "Transient/Generalized-alpha/Step Tolerance=1e-6", "--set", "Transient/Step=0.005"]
+    if integrator == "RK4":
+        out += ["--set", "Transient/Step=1e-5"]
+    if integrator == "Generalized-alpha":
+        out += ["--set", "Transient/Step=0.001", "--set", "Transient/Generalized-alpha/Accept Coarse Steps=true"]
+    return out
+
+
+def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0):
+    """Stopped by SIGTERM, gone on with and killed, gone on with: the numbers of a run that was not."""
+    fresh("whole", "halted")
+    whole = run("run", deck, "--output", "whole", *options)
+    if whole.returncode != 0:
+        return expect(f"{title}: the whole run", False, whole.stderr[-400:])
+    for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
+        fresh("halted")
+        codes = [stop(signal.SIGTERM, "halted", "run", deck, "--output", "halted", *options, ranks=ranks[0])]
+        if stamp("halted") > 0:
+            codes.append(stop(signal.SIGKILL, "halted", "run", deck, "--restart", "halted", *options, ranks=ranks[1]))
+        if stamp("halted") > 0:
+            break
+    done = run("run", deck, "--restart", "halted", *options, ranks=ranks[2])
+    if done.returncode != 0:
+        return expect(f"{title}: stopped {codes}, goes on", False, done.stderr[-400:])
+    wrong = differences("whole", "halted", tolerance)
+    expect(f"{title}: stopped {codes}, the same numbers", len(codes) == 2 and 0 not in codes and not wrong, "; ".join(wrong[:6]))
+    return expect(f"{title}: nothing of the checkpoint is left", left("halted") == [], str(left("halted")))
+
+
+def integrators():
+    string = {"RK4": (0.15, 0.02), "RK4 adaptive": (0.02, 0.002), "Generalized-alpha": (15, 0.5), "Step Tolerance": (10, 0.5), "SUNDIALS ARKODE": (0.3, 0.02), "SUNDIALS CVODE": (0.3, 0.02)}
+    frame = {"RK4": (0.1, 0.01), "RK4 adaptive": (0.1, 0.01), "Generalized-alpha": (10, 1), "Step Tolerance": (20, 1), "SUNDIALS ARKODE": (2, 0.1), "SUNDIALS CVODE": (2, 0.1)}
+    for integrator in INTEGRATORS:
+        for model, without in (("reduced", []), ("full", FULL)):
+            interrupted_twice(f"{integrator}, {model} string", STRING, [*settings(integrator, *string[integrator]), *without])
+            interrupted_twice(f"{integrator}, {model} frame", FRAME, [*settings(integrator, *frame[integrator]), *without[:2]])
+
+
+LONG = settings("Generalized-alpha", 15, 0.5)
+
+
+def full_disk():
+    for title, deck in (("string", STRING), ("frame", FRAME)):
+        fresh("whole", "full")
+        run("run", deck, "--output", "whole", *LONG)
+        half = int(0.6 * pathlib.Path("whole/results.h5").stat().st_size)
+        done = run("run", deck, "--output", "full", *LONG, largest=half)
+        expect(f"{title}: a full disk ends with 5 and a sentence", done.returncode == 5 and "File too large" in done.stderr, f"{done.returncode} {done.stderr[-300:]}")
+        expect(f"{title}: and leaves a checkpoint", stamp("full") > 0)
+        done = run("run", deck, "--restart", "full", *LONG, largest=half)
+        expect(f"{title}: as full as before, the same end", done.returncode == 5, f"{done.returncode} {done.stderr[-300:]}")
+        done = run("run", deck, "--restart", "full", *LONG)
+        wrong = differences("whole", "full") if done.returncode == 0 else [done.stderr[-300:]]
+        expect(f"{title}: with room again it goes on to the same numbers", not wrong, "; ".join(wrong[:6]))
+
+
+def other_ranks():
+    for title, deck in (("string", STRING), ("frame", FRAME)):
+        interrupted_twice(f"{title} on 1, 2 and 1 ranks", deck, LONG, ranks=(1, 2, 1))
+        interrupted_twice(f"{title} on 2, 1 and 2 ranks", deck, LONG, ranks=(2, 1, 2))
+
+
+def two_runs_in_one_folder():
+    """Another run in the folder of an interrupted one, failing or not, leaves the pair of checkpoint and samples whole."""
+    other = {STRING: ["--set", "Contact/Stiffness=2e7"], FRAME: ["--set", "Parts/Loads/shaker/Value=600"]}
+    for title, deck in (("string", STRING), ("frame", FRAME)):
+        fresh("whole", "shared", "spare")
+        run("run", deck, "--output", "whole", *LONG)
+        size = pathlib.Path("whole/results.h5").stat().st_size
+        code = stop(signal.SIGTERM, "shared", "run", deck, "--output", "shared", *LONG)
+        expect(f"{title}: run A is interrupted", code == 130, str(code))
+        shutil.copytree("shared", "spare")
+        failing = run("run", deck, "--output", "shared", *LONG, *other[deck], largest=int(0.8 * size))
+        expect(f"{title}: run B fails later", failing.returncode == 5, str(failing.returncode))
+        expect(f"{title}: and says where A is now", "shared/interrupted; that run goes on with --restart shared/interrupted" in failing.stdout + failing.stderr, failing.stderr[-300:])
+        joined = run("run", deck, "--restart", "shared", *LONG)
+        expect(f"{title}: A does not go on from B", joined.returncode == 2 and "belongs to another run" in joined.stderr, f"{joined.returncode} {joined.stderr[-300:]}")
+        done = run("run", deck, "--restart", "shared/interrupted", *LONG)
+        wrong = differences("whole", "shared/interrupted") if done.returncode == 0 else [done.stderr[-300:]]
+        expect(f"{title}: A goes on from where it is now", not wrong, "; ".join(wrong[:6]))
+        # the samples of B beside the checkpoint of A, and none at all
+        for name in ("results.h5", "results.h5.part"):
+            pathlib.Path("spare", name).unlink(missing_ok=True)
+        none = run("run", deck, "--restart", "spare", *LONG)
+        expect(f"{title}: a checkpoint without samples is refused", none.returncode == 5 and "not the samples before it" in none.stderr, f"{none.returncode} {none.stderr[-300:]}")
+        shutil.copy("shared/results.h5", "spare/results.h5.part")
+        foreign = run("run", deck, "--restart", "spare", *LONG)
+        expect(f"{title}: so are the samples of B", foreign.returncode == 5 and "belongs to another run" in foreign.stderr, f"{foreign.returncode} {foreign.stderr[-300:]}")
+
+
+def restart_killed_early():
+    """A restart that is killed, or fails, before its own first checkpoint leaves what it went on from."""
+    fresh("whole", "early")
+    run("run", STRING, "--output", "whole", *LONG)
+    stop(signal.SIGKILL, "early", "run", STRING, "--output", "early", *LONG)
+    for _ in range(2):
+        process = subprocess.Popen(command("run", STRING, "--restart", "early", *LONG), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not pathlib.Path("early/checkpoint.h5").exists():
+            time.sleep(0.001)
+        process.kill()
+        process.wait()
+    done = run("run", STRING, "--restart", "early", *LONG)
+    wrong = differences("whole", "early") if done.returncode == 0 else [done.stderr[-300:]]
+    expect("after restarts that came to nothing it still goes on to the same numbers", not wrong, "; ".join(wrong[:6]))
+
+
+def elsewhere():
+    """--output beside --restart: the interrupted run stays as it is."""
+    fresh("whole", "from", "to")
+    run("run", STRING, "--output", "whole", *LONG)
+    stop(signal.SIGTERM, "from", "run", STRING, "--output", "from", *LONG)
+    before = {path.name: path.read_bytes() for path in pathlib.Path("from").iterdir()}
+    done = run("run", STRING, "--restart", "from", "--output", "to", *LONG)
+    wrong = differences("whole", "to") if done.returncode == 0 else [done.stderr[-300:]]
+    expect("a restart into another folder ends with the same numbers", not wrong, "; ".join(wrong[:6]))
+    expect("and changes nothing in the first", before == {path.name: path.read_bytes() for path in pathlib.Path("from").iterdir()})
+
+
+def other_decks():
+    """A checkpoint goes on with its own run only, and the message names what differs."""
+    fresh("deck", "kept")
+    shutil.copytree(ROOT / "xml" / "frame", "deck/frame")
+    shutil.copy(FRAME, "deck/frame.xml")
+    stop(signal.SIGTERM, "kept", "run", "deck/frame.xml", "--output", "kept", *LONG)
+    before = {path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir()}
+    changes = {
+        "Transient/End Time was 15 and is 16": ["--set", "Transient/End Time=16"],
+        "Parts/Loads/wind/Value was 2000 and is 2001": ["--set", "Parts/Loads/wind/Value=2001"],
+        "Reduction/Cut-off Frequency was 400 and is 300": ["--set", "Reduction/Cut-off Frequency=300"],
+        "Reduction was list and is not given": ["--without", "Reduction"],
+        "Output/Fields was": ["--set", "Output/Fields={displacement}"],
+    }
+    for ranks in (1, 2):
+        for sentence, change in changes.items():
+            done = run("run", "deck/frame.xml", "--restart", "kept", *LONG, *change, ranks=ranks)
+            expect(f"refused on {ranks} rank(s): {sentence}", done.returncode == 2 and done.stderr.count(sentence) == 1, f"{done.returncode} {done.stderr[-400:]}")
+    matrix = next(pathlib.Path("deck/frame/beam").glob("*.mtx"))
+    matrix.write_text(matrix.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    done = run("run", "deck/frame.xml", "--restart", "kept", *LONG)
+    expect("refused: a part file has changed", done.returncode == 2 and f"Parts/Imported/middle beam/File/{matrix.name} has changed" in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
+    shutil.copytree(ROOT / "xml" / "frame", "deck/frame", dirs_exist_ok=True)
+    after = {path.name: path.read_bytes() for path in pathlib.Path("kept").iterdir()}
+    expect("what is refused changes nothing in the folder", before == after)
+    whole = (pathlib.Path("kept") / "checkpoint.bin").read_bytes()
+    middle = len(whole) // 2
+    for what, damaged in (("a bit", whole[:middle] + bytes([whole[middle] ^ 16]) + whole[middle + 1:]), ("a byte more", whole + b"\0"), ("a byte less", whole[:-1])):
+        (pathlib.Path("kept") / "checkpoint.bin").write_bytes(damaged)
+        for ranks in (1, 2):
+            done = run("run", "deck/frame.xml", "--restart", "kept", *LONG, ranks=ranks)
+            expect(f"refused on {ranks} rank(s): {what} of the checkpoint", done.returncode == 5 and done.stderr.count("is damaged") == 1, f"{done.returncode} {done.stderr[-400:]}")
+    (pathlib.Path("kept") / "checkpoint.bin").write_bytes(whole)
+    done = run("run", "deck/frame.xml", "--restart", "kept", *LONG, "--set", "Transient/Checkpoint Interval=0.5", "--set", "Output/Compression=3")
+    expect("what changes no number may change", done.returncode == 0, done.stderr[-400:])
+    done = run("run", "deck/frame.xml", "--restart", "kept", *LONG)
+    expect("a finished run holds no checkpoint", done.returncode == 5 and "holds no checkpoint.bin" in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
+
+
+def other_contents():
+    """Files of a string: survey and library."""
+    fresh("contents", "kept")
+    pathlib.Path("contents").mkdir()
+    for name in ("survey.csv",):
+        pathlib.Path("contents", name).write_text("depth [m],inclination [deg],azimuth [deg]\n0,40,10\n60,60,10\n", encoding="utf-8")
+    well = ["--set", "Well/Trajectory=Survey", "--set", "Well/Survey/File=survey.csv", "--without", "Well/Arc"]
+    shutil.copy(STRING, "contents/scene.xml")
+    code = stop(signal.SIGTERM, "kept", "run", "contents/scene.xml", "--output", "kept", *LONG, *well)
+    expect("a string along a survey is interrupted", code == 130, str(code))
+    pathlib.Path("contents", "survey.csv").write_text("depth [m],inclination [deg],azimuth [deg]\n0,40,10\n60,60.001,10\n", encoding="utf-8")
+    done = run("run", "contents/scene.xml", "--restart", "kept", *LONG, *well)
+    expect("refused: the survey has changed", done.returncode == 2 and "the content of the file of Well/Survey/File has changed" in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
+
+
+def results_larger_than_the_disk():
+    for title, deck in (("string", STRING), ("frame", FRAME)):
+        fresh("room")
+        for ranks in (1, 2):
+            done = run("run", deck, "--output", "room", "--set", "Transient/End Time=1e9", ranks=ranks)
+            expect(f"{title}: results larger than the disk are refused, {ranks} rank(s)", done.returncode == 5 and done.stderr.count("has room for") == 1, f"{done.returncode} {done.stderr[-300:]}")
+
+
+if __name__ == "__main__":
+    if PART == "integrators":
+        integrators()
+    else:
+        for part in (results_larger_than_the_disk, full_disk, other_ranks, two_runs_in_one_folder, restart_killed_early, elsewhere, other_decks, other_contents):
+            part()
+    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
+    sys.exit(1 if FAULTS else 0)
