@@ -7,6 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "model/Friction.hpp"
 
 namespace tooljoint::coupling {
 
@@ -66,7 +67,9 @@ class Springs final : public Batch<SpringParameters, Springs> {
     }
     return sum;
   }
-  std::vector<Channel> channels() const override { return {{"spring_force", "N", "Force of the spring and dashpot along their coordinate"}}; }
+  std::vector<Channel> channels() const override {
+    return {{"spring_force", "N", "Force of the spring and dashpot along their coordinate"}};
+  }
   void record(double, const double* d, const double* v, double* out) const override {
     for (int p = 0; p < size(); ++p) out[p] = force(p, d[p], v[p]);
   }
@@ -100,7 +103,7 @@ Normal normal(const StopParameters& s, double d, double v) {
 }
 
 /// Coordinates (separation, tangential displacements); friction only with tangents.
-class Stops final : public Batch<StopParameters, Stops> {
+class Stops final : public Batch<StopParameters, Stops>, public model::Frictional {
  public:
   Stops(std::vector<StopParameters> points, int tangents) : Batch(std::move(points)), tangents_(tangents) {}
   int width() const override { return 1 + tangents_; }
@@ -141,6 +144,13 @@ class Stops final : public Batch<StopParameters, Stops> {
           C[t * w + u] = -s.friction * n.force * ((t == u ? 1.0 : 0.0) - direction * velocity[u] / slip) / slip;
       }
     }
+  }
+
+  std::shared_ptr<const model::PointLaw> withoutFriction() const override {
+    auto smooth = points_;
+    bool rough = false;
+    for (auto& s : smooth) rough = rough || std::exchange(s.friction, 0.0) > 0.0;
+    return rough ? std::make_shared<Stops>(std::move(smooth), tangents_) : nullptr;
   }
 
   int reach() const override { return 1; }
@@ -257,7 +267,8 @@ std::shared_ptr<const model::PointLaw> stops(const std::vector<StopParameters>& 
 
 std::shared_ptr<const model::PointLaw> slidingStops(const std::vector<StopParameters>& points, int tangents) {
   check(points);
-  if (tangents < 1 || tangents > 2) throw ModelError("A sliding stop has one or two tangential coordinates; " + std::to_string(tangents) + " were asked for.");
+  if (tangents < 1 || tangents > 2)
+    throw ModelError("A sliding stop has one or two tangential coordinates; " + std::to_string(tangents) + " were asked for.");
   return std::make_shared<Stops>(points, tangents);
 }
 

@@ -32,7 +32,7 @@ constexpr Eigen::Index numbers = sizeof(Share) / sizeof(double);
 
 std::vector<Share> shares(const model::Substructure& part, const reduction::BasisResult& basis, const Matrix& shapes,
                           const Vector& eigenvalues) {
-  const Sparse K = linearisedStiffness(part.model);
+  const Sparse K = coupling::undampedStiffness(part.model);
   const ResidualFlexibility flexibility(part, basis, K);
   const Matrix inertia = part.model.mass * shapes;
   const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
@@ -60,8 +60,8 @@ void exchange(std::vector<Share>& values, Eigen::Index count, int owner) {
   if (count > 0) std::memcpy(static_cast<void*>(values.data()), raw.data(), sizeof(Share) * values.size());
 }
 
-/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole: Rayleigh-Ritz on the mode and the Krylov
-/// vectors of all parts. The left side minus the right one falls from plus to minus there.
+/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole: Rayleigh-Ritz on the mode and the
+/// Krylov vectors of all parts. The left side minus the right one falls from plus to minus there.
 double improvedEigenvalue(double lambda, double mass, const std::vector<ResidualFlexibility::Step>& steps) {
   double pole = std::numeric_limits<double>::infinity();
   double first = 0;
@@ -98,14 +98,12 @@ double smallestEigenvalue(const Sparse& K, const Sparse& M) {
 }
 
 /// z' K z per mode of the point laws that join parts, which no part has in its own stiffness.
-Vector workOfConnectors(const std::vector<model::Substructure>& parts, const model::SecondOrderModel& coupled, const Matrix& modes) {
+Vector workOfConnectors(const std::vector<model::Substructure>& parts, const model::SecondOrderModel& coupled,
+                        const Matrix& modes) {
   std::size_t own = 0;
   for (const auto& part : parts) own += part.model.points.size();
   if (own >= coupled.points.size()) return Vector::Zero(modes.cols());
-  model::SecondOrderModel joints;
-  joints.mass = Sparse(coupled.size(), coupled.size());
-  joints.points.assign(coupled.points.begin() + static_cast<std::ptrdiff_t>(own), coupled.points.end());
-  const Sparse K = reduction::symmetricPart(joints.pointStiffness(0.0, coupled.initialDisplacement, coupled.initialVelocity));
+  const Sparse K = coupling::normalStiffness(coupled, own);
   return modes.cwiseProduct(Matrix(K * modes)).colwise().sum().transpose();
 }
 
@@ -135,16 +133,11 @@ void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<
 
 double FrequencyEstimate::frequency() const { return std::copysign(std::sqrt(std::abs(eigenvalue)) / twoPi, eigenvalue); }
 
-Sparse linearisedStiffness(const model::SecondOrderModel& model) {
-  return reduction::symmetricPart(model.stiffnessAt(0.0) +
-                                  model.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity));
-}
-
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
                                                    const coupling::Synthesis& synthesis, const FrequencyWindow& window) {
   requireRitz(synthesis);
   const auto& coupled = synthesis.coupled.model;
-  const Sparse K = linearisedStiffness(coupled);
+  const Sparse K = coupling::undampedStiffness(coupled);
   const Sparse M = reduction::symmetricPart(coupled.mass);
   const auto pairs = window.belowHz > 0 ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
                                         : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));

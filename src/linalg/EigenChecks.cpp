@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "common/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
 
@@ -123,9 +124,6 @@ void applyConventions(EigenPairs& modes, const Sparse& M) {
   modes = std::move(sorted);
 }
 
-namespace {
-
-/// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; massless dofs take part by their stiffness.
 Vector unitMassScale(const Sparse& K, const Sparse& M) {
   const Vector k = K.diagonal().cwiseAbs(), m = M.diagonal().cwiseAbs();
   double stiffest = 0.0;  // largest K_ii / M_ii
@@ -139,7 +137,32 @@ Vector unitMassScale(const Sparse& K, const Sparse& M) {
   return scale;
 }
 
-}  // namespace
+Vector binaryMassScale(const Sparse& K, const Sparse& M) {
+  return unitMassScale(K, M).unaryExpr([](double x) { return std::exp2(std::round(std::log2(x))); });
+}
+
+double roundingOf(const Sparse& K) {
+  constexpr int operations = 8;  // of assembly and rotation, for an entry
+  int fullest = 0;
+  for (int i = 0; i < K.outerSize(); ++i) {
+    int entries = 0;
+    for (Sparse::InnerIterator it(K, i); it; ++it) ++entries;
+    fullest = std::max(fullest, entries);
+  }
+  return (fullest + operations) * epsilon;
+}
+
+bool isRounding(double value, const Vector& phi, const Sparse& K) {
+  return areRounding(Vector::Constant(1, value), phi, K).front() != 0;
+}
+
+std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K) {
+  const Matrix size = shapes.cwiseAbs();
+  const Vector bound = roundingOf(K) * size.cwiseProduct(Matrix(K.cwiseAbs() * size)).colwise().sum().transpose();
+  std::vector<char> small(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j) small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j];
+  return small;
+}
 
 void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double tolerance, double orthogonality) {
   // |D (K - lambda M) phi| against |D| (|K| + |lambda| |M|) |phi| with D = diag(M)^(-1/2)
@@ -150,7 +173,8 @@ void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double
   const Sparse absK = d.asDiagonal() * K.cwiseAbs(), absM = d.asDiagonal() * M.cwiseAbs();
   const Matrix KSize = absK * size, MSize = absM * size, dSize = d.cwiseInverse().asDiagonal() * size;
   // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a diagonal K has |K||phi| = 0.
-  const double rounding = 64.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : Sparse(absK * d.asDiagonal()).coeffs().maxCoeff());
+  const double rounding =
+      64.0 * epsilon / tolerance * (K.nonZeros() == 0 ? 0.0 : Sparse(absK * d.asDiagonal()).coeffs().maxCoeff());
   modes.residuals.resize(modes.values.size());
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
     const double defect = R.col(j).norm();  // nothing at all where there is no stiffness
@@ -186,6 +210,7 @@ void truncate(EigenPairs& modes, int count) {
 
 int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound) {
   if (K.rows() == 0) return 0;
+  const Stage stage("inertia counts");
   const Sparse A = equilibrated(Sparse(K - bound * M));
   Inertia best = inertiaOf(A);
   for (std::uint64_t seed = 1; seed <= 8 && best.error > 1e-13; ++seed) {

@@ -3,6 +3,8 @@
 /// What all eigensolvers share: checks of the input, conventions and recomputed errors of the result.
 #pragma once
 
+#include <vector>
+
 #include "linalg/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
@@ -12,6 +14,22 @@ Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& n
 
 /// ModelError naming the dof when the symmetric M is not positive definite.
 void requirePositiveDefinite(const Sparse& M, const DofNamer& name);
+
+/// 1 / sqrt(M_ii), which makes translations, rotations and modal coordinates comparable; dofs without mass take part by their
+/// stiffness.
+Vector unitMassScale(const Sparse& K, const Sparse& M);
+
+/// unitMassScale to the nearest powers of two: scaling by them rounds nothing.
+Vector binaryMassScale(const Sparse& K, const Sparse& M);
+
+/// What rounding may leave of phi'K phi, as a fraction of |phi|'|K||phi|: eps for every entry of the fullest row and for the few
+/// operations that made the entry (N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.5).
+double roundingOf(const Sparse& K);
+
+/// phi'K phi = value is zero but for rounding: |value| <= roundingOf(K) |phi|'|K||phi|. Rigid-body motions are.
+bool isRounding(double value, const Vector& phi, const Sparse& K);
+/// The same for the columns of `shapes`.
+std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K);
 
 /// Largest K_ii / M_ii, a lower bound of the largest eigenvalue of a positive definite pencil.
 double eigenvalueScale(const Sparse& K, const Sparse& M);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -28,7 +29,8 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   const Vector diagonal = M.diagonal();
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     if (diagonal[i] > 0) massive.push_back(i);
-    if (diagonal[i] < 0) throw ModelError("The mass of " + nameOf(name, static_cast<int>(i)) + " is negative: " + formatNumber(diagonal[i]) + ".");
+    if (diagonal[i] < 0)
+      throw ModelError("The mass of " + nameOf(name, static_cast<int>(i)) + " is negative: " + formatNumber(diagonal[i]) + ".");
   }
   const auto n = static_cast<Eigen::Index>(massive.size());
   const Matrix dense = M;
@@ -45,7 +47,8 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   if (values[0] < -1e-9 * values[n - 1]) {
     Eigen::Index worst = 0;
     spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
-    throw ModelError("The mass matrix is indefinite, most of all in " + nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) + ".");
+    throw ModelError("The mass matrix is indefinite, most of all in " +
+                     nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) + ".");
   }
   Matrix W = Matrix::Zero(M.rows(), n - first);
   for (Eigen::Index i = 0; i < n; ++i)
@@ -70,7 +73,9 @@ double middle(const Sparse& K, const Sparse& M) {
 EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sigma, int count) {
   const Eigen::PartialPivLU<Matrix> factor(K - sigma * Matrix(M));
   if (!(factor.rcond() > 1e-18))
-    throw ModelError("Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a constraint stands in the model twice.");
+    throw ModelError(
+        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a constraint stands in the model "
+        "twice.");
   Matrix answer = factor.solve(W);
   answer += factor.solve(W - (K * answer - sigma * (M * answer)));
   Matrix H = W.transpose() * answer;
@@ -99,7 +104,11 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
 
 EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
   if (K.rows() != M.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
-  const Sparse k = symmetricPart(K, "stiffness", options.name), m = symmetricPart(M, "mass", options.name);
+  // Forces, displacements and modal amplitudes are coordinates side by side: rows and columns are scaled to unit mass (or to the
+  // stiffness of the others), by powers of two, so that "singular" means what it says.
+  const Sparse stiffness = symmetricPart(K, "stiffness", options.name), mass = symmetricPart(M, "mass", options.name);
+  const Vector scale = binaryMassScale(stiffness, mass);
+  const Sparse k = scale.asDiagonal() * stiffness * scale.asDiagonal(), m = scale.asDiagonal() * mass * scale.asDiagonal();
   const Matrix W = root(m, options.name), dense = k;
   if (W.cols() == 0) {  // no mass: no finite modes
     EigenPairs none;
@@ -114,9 +123,19 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const 
     if (wanted > 0) modes = shifted(dense, m, W, -wanted, count);
   }
   modes.method = "dense, singular mass";
-  applyConventions(modes, m);
-  recomputeErrors(modes, k, m, options.tolerance, options.orthogonality);
+  modes.vectors = (scale.asDiagonal() * modes.vectors).eval();
+  applyConventions(modes, mass);
+  recomputeErrors(modes, stiffness, mass, options.tolerance, options.orthogonality);
   return modes;
+}
+
+bool hasSingularMass(const Sparse& M) {
+  const Vector diagonal = M.diagonal();
+  if (!(diagonal.array() > 0).all()) return true;
+  const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * M * scale.asDiagonal();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);
+  return factor.info() != Eigen::Success || (M.rows() > 0 && factor.vectorD().minCoeff() <= massless);
 }
 
 bool hasMasslessDofs(const Sparse& M) { return (M.diagonal().array() == 0.0).any(); }

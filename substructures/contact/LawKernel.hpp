@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "common/Census.hpp"
+#include "model/Friction.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "substructures/contact/FrictionCurve.hpp"
 
@@ -68,7 +69,7 @@ struct WallKinematics {
 };
 
 template <class Kernel>
-class BoreholeContactOf final : public BoreholeContact {
+class BoreholeContactOf final : public BoreholeContact, public model::Frictional {
  public:
   BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed)
       : BoreholeContact(std::move(points)), original_(kernel), kernel_(std::move(kernel)), speed_(std::move(speed)) {
@@ -158,6 +159,14 @@ class BoreholeContactOf final : public BoreholeContact {
       out[2 * n + p] = -traction;
       out[3 * n + p] = -traction * radius;
     }
+  }
+
+  std::shared_ptr<const model::PointLaw> withoutFriction() const override {
+    if (frictionless_) return nullptr;
+    ContactPoints smooth = points_;
+    std::fill(smooth.muStatic.begin(), smooth.muStatic.end(), 0.0);
+    std::fill(smooth.muDynamic.begin(), smooth.muDynamic.end(), 0.0);
+    return std::make_shared<BoreholeContactOf>(std::move(smooth), original_, speed_);
   }
 
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {

@@ -9,6 +9,7 @@
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "coupling/Assembler.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -18,7 +19,9 @@ namespace {
 using namespace tooljoint;
 
 Vector frequencies(const model::SecondOrderModel& model, int count) {
-  return linalg::lowestModes(estimate::linearisedStiffness(model), reduction::symmetricPart(model.mass), count).values.cwiseAbs().cwiseSqrt();
+  return linalg::lowestModes(coupling::undampedStiffness(model), reduction::symmetricPart(model.mass), count)
+      .values.cwiseAbs()
+      .cwiseSqrt();
 }
 
 /// Largest difference between this rank's values and those of rank 0.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <functional>
 #include <gtest/gtest.h>
 
+#include "model/Friction.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
 using namespace tooljoint::contact;
@@ -58,6 +60,33 @@ TEST_P(Tangents, AgreeWithDifferencesInsideOnAndBeyondTheWall) {
         expectTangents(*contact, State(point.clearance + penetration, angle),
                        std::string(GetParam()) + " mu " + std::to_string(mu) + " G " + std::to_string(penetration) + " at " +
                            std::to_string(angle));
+  }
+}
+
+// The tangent of a sliding contact is not symmetric, and its symmetric part is indefinite; without friction it is symmetric and
+// never negative, and the normal stiffness is the same.
+TEST_P(Tangents, WithoutFrictionAreSymmetricAndNotNegative) {
+  const auto contact = law(GetParam())->inMotion(batch({steelOnRock(), steelOnRock()}), speed);
+  const auto smooth = tooljoint::model::withoutFriction(contact);
+  ASSERT_NE(smooth, contact);
+  EXPECT_EQ(smooth->size(), 2);
+  EXPECT_EQ(tooljoint::model::withoutFriction(smooth), smooth) << "nothing is left to leave out";
+  for (const double angle : {0.0, 1.1, -2.0}) {
+    State state(steelOnRock().clearance + 3e-4, angle), two = state;
+    two.d.insert(two.d.end(), state.d.begin(), state.d.end());
+    two.v.assign(6, 0.0);
+    const Answer rough = answer(*contact, 0.5, two.d, two.v), plain = answer(*smooth, 0.5, two.d, two.v);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> k(plain.dfdd.data() + 9), r(rough.dfdd.data() + 9);
+    const Eigen::Matrix3d K = -k, R = -0.5 * (r + r.transpose());
+    EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
+    const auto least = [](const Eigen::Matrix3d& A) {
+      return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(A).eigenvalues().minCoeff();
+    };
+    EXPECT_GT(least(K), -1e-9 * K.cwiseAbs().maxCoeff());
+    EXPECT_LT(least(R), -1e-3 * R.cwiseAbs().maxCoeff()) << "with friction";
+    const Eigen::Vector3d n(std::cos(angle), std::sin(angle), 0.0);
+    EXPECT_NEAR(n.dot(K * n), n.dot(R * n), 1e-9 * K.cwiseAbs().maxCoeff()) << "normal stiffness";
+    EXPECT_EQ(plain.f[5], 0.0) << "no torque";
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Estimated errors of coupled frequencies against true ones: chains of bars, a frame with a loop, rigid bodies.
+#include "estimate/FrequencyEstimate.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/Assembler.hpp"
-#include "estimate/FrequencyEstimate.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "linalg/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -25,8 +27,8 @@ coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int m
 
 /// Three bars in a row, clamped at the left.
 std::vector<model::Substructure> bars() {
-  std::vector<model::Substructure> parts{samples::bar("left", 1, 20, 100.0, 0.2, {1}), samples::bar("middle", 21, 20, 140.0, 0.25),
-                                         samples::bar("right", 41, 20, 90.0, 0.2)};
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 20, 100.0, 0.2, {1}),
+                                         samples::bar("middle", 21, 20, 140.0, 0.25), samples::bar("right", 41, 20, 90.0, 0.2)};
   samples::classify(parts[0], {21});
   samples::classify(parts[1], {21, 41});
   samples::classify(parts[2], {41});
@@ -34,7 +36,7 @@ std::vector<model::Substructure> bars() {
 }
 
 Vector frequencies(const model::SecondOrderModel& model, int count) {
-  const Sparse K = estimate::linearisedStiffness(model);
+  const Sparse K = coupling::undampedStiffness(model);
   return linalg::lowestModes(K, reduction::symmetricPart(model.mass), count).values.cwiseMax(0.0).cwiseSqrt();
 }
 
@@ -49,7 +51,8 @@ std::vector<double> effectivities(const std::vector<model::Substructure>& parts,
   for (int j = 0; j < count; ++j) {
     const double truth = coupled[j] / full[j] - 1.0;
     const auto& e = estimates[static_cast<std::size_t>(j)];
-    std::printf("modes %2d, frequency %2d: true %.2e, estimated %.2e%s\n", modes, j + 1, truth, e.error, e.definite ? "" : " (a mode is missing below)");
+    std::printf("modes %2d, frequency %2d: true %.2e, estimated %.2e%s\n", modes, j + 1, truth, e.error,
+                e.definite ? "" : " (a mode is missing below)");
     if (truth > 1e-11 && e.definite) ratios.push_back(e.error / truth);
   }
   return ratios;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Estimated against true errors over the scenes of xml/, and tolerances that are met there.
+#include "tests/support/Scenes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +13,8 @@
 #include "app/PartsDeck.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
+#include "common/Error.hpp"
+#include "coupling/CoupledModes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/Scenes.hpp"
@@ -42,7 +46,11 @@ struct Case {
   model::SecondOrderModel full;
 
   Case(const std::string& name, const std::vector<std::string>& more = {})
-      : file(folder() + name), overrides(more), scene(app::readScene(file, more)), stage(app::settle(scene)), full(app::fullModel(stage)) {}
+      : file(folder() + name),
+        overrides(more),
+        scene(app::readScene(file, more)),
+        stage(app::settle(scene)),
+        full(app::fullModel(stage)) {}
 
   /// The scene with another Reduction list.
   app::Scene with(const std::vector<std::string>& reduction) const {
@@ -62,7 +70,9 @@ std::vector<double> ratios(const Case& c, const std::string& choice, int count) 
   for (const auto& mode : estimate::compareModes(c.full, parts, outcome.synthesis, count))
     if (mode.error > 1e-9 && mode.mac > 0.9) all.push_back(mode.estimate / mode.error);
   const auto [low, high] = std::minmax_element(all.begin(), all.end());
-  if (!all.empty()) std::printf("%-28s %zu of %d frequencies: estimate over error %.3f to %.3f\n", choice.c_str(), all.size(), count, *low, *high);
+  if (!all.empty())
+    std::printf("%-28s %zu of %d frequencies: estimate over error %.3f to %.3f\n", choice.c_str(), all.size(), count, *low,
+                *high);
   return all;
 }
 
@@ -93,15 +103,16 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
       const auto parts = app::cut(scene, c.stage);
       const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
       // By number, not by shape: the i-th coupled frequency is the i-th full one.
-      const Vector full = linalg::lowestModes(estimate::linearisedStiffness(c.full), reduction::symmetricPart(c.full.mass), 20).values;
+      const Vector full =
+          linalg::lowestModes(coupling::undampedStiffness(c.full), reduction::symmetricPart(c.full.mass), 20).values;
       double worst = 0;
       for (int i = 0; i < 20; ++i)
         worst = std::max(worst, std::abs(outcome.frequencies[static_cast<std::size_t>(i)].frequency() * 6.28318530717958647692 /
                                              reduction::signedOmega(full[i]) -
                                          1.0));
-      std::printf("%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate %.1e\n", file.c_str(), tolerance,
-                  outcome.rounds.back().modes, outcome.rounds.size(), outcome.synthesis.coupled.model.size(), c.full.size(), worst,
-                  outcome.rounds.back().frequencyError);
+      std::printf("%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate %.1e\n", file.c_str(),
+                  tolerance, outcome.rounds.back().modes, outcome.rounds.size(), outcome.synthesis.coupled.model.size(),
+                  c.full.size(), worst, outcome.rounds.back().frequencyError);
       EXPECT_LE(worst, tolerance) << file;
     }
   }
@@ -158,8 +169,8 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
     const auto report = transient::integrate(outcome.synthesis.coupled.model, scene.list().sublist("Transient"), watched);
     const double truth = dyn(watched.columns(), reference, rest);
     const auto estimate = watched.result();
-    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff, truth, estimate.error, estimate.error / truth,
-                estimate.wall, report.wall);
+    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff, truth, estimate.error,
+                estimate.error / truth, estimate.wall, report.wall);
     EXPECT_GT(estimate.error, truth / 3.0) << cutOff;
     if (estimate.error > 0.05) continue;
     EXPECT_LT(estimate.error, truth * 3.0) << cutOff;
@@ -176,13 +187,14 @@ double chosen(const Case& c, const std::vector<Vector>& reference, double tolera
   const auto scene = c.with({choice});
   const auto& transient = scene.list().sublist("Transient");
   const auto parts = app::cut(scene, c.stage);
-  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, rest);
-    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(transient), limit);
-  });
+  const auto outcome = estimate::synthesise(
+      parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+        estimate::MotionEstimator estimator(parts, synthesis, rest);
+        return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(transient), limit);
+      });
   const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
-  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
-              outcome.rounds.back().motionError, truth);
+  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes,
+              outcome.rounds.size(), outcome.rounds.back().motionError, truth);
   return truth;
 }
 
