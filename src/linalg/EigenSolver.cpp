@@ -11,6 +11,7 @@
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
+#include "common/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/EigenChecks.hpp"
 #include "linalg/FunctionOperator.hpp"
@@ -199,6 +200,7 @@ EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& optio
 EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count, int& extra, int attempt,
                         const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
+  const Stage stage("Krylov-Schur iteration");
   EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2), attempt, options);
   const auto gap = lastGap(modes.values, count, floor);
   const int keep = options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
@@ -221,7 +223,10 @@ EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, doubl
 
 EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
   const double shift = shiftBelowSpectrum(pencil, options);
-  const DirectSolver factors(Sparse(pencil.K - shift * pencil.M), options.name);
+  const DirectSolver factors = [&] {
+    const Stage stage("factorisation for modes");
+    return DirectSolver(Sparse(pencil.K - shift * pencil.M), options.name);
+  }();
   std::string reason;
   int extra = 4;
   constexpr int attempts = 4;

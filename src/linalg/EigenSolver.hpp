@@ -3,6 +3,7 @@
 /// Lowest modes of symmetric pencils K phi = lambda M phi, rank-local and the same in every run.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -67,8 +68,17 @@ struct QuadraticModes {
 /// (ModelError). ConvergenceError when the QR iteration fails or a residual exceeds 1e-8.
 QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K);
 
-/// The `count` modes of smallest |s|, one of each conjugate pair (Im s >= 0), by |s|: Anasazi BlockKrylovSchur on the inverse of the
-/// linearised problem at zero, or near it for a free body; small ones dense. The same vectors, residuals and errors as dampedModes.
-QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count, const DofNamer& name = {});
+/// What rounding leaves of phi^H K phi.
+using EnergyRounding = std::function<double(const Eigen::VectorXcd& phi)>;
+
+/// The `count` modes of smallest |s|, one of each conjugate pair (Im s >= 0), by |s|, fewer when there are fewer finite ones: M
+/// may be singular. Where C = 0, K is symmetric and M is positive definite, those of lowestModes. Else a block Arnoldi space of
+/// the inverse of the linearised problem near zero (GrowingKrylov; small ones whole), which is searched again for further copies
+/// of repeated values. A mode whose s is zero but for rounding has s = 0 and is listed once, though it is a double value where
+/// nothing damps it. \param rounding by default isRounding's bound for K; a reduced model has that of its parts Vectors as
+/// dampedModes; residuals those of the matrices scaled to unit masses. ConvergenceError when a value is not accurate to 1e-9,
+/// beside what the rounding of K does to it, or is not found. ModelError: sizes, K + sigma C + sigma^2 M is singular.
+QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count, const DofNamer& name = {},
+                                 const EnergyRounding& rounding = {});
 
 }  // namespace tooljoint::linalg
