@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/Error.hpp"
+#include "common/StageTimes.hpp"
 #include "common/Text.hpp"
 #include "linalg/DirectSolver.hpp"
 #include "linalg/EigenSolver.hpp"
@@ -33,7 +34,9 @@ int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenva
 }
 
 void checkRank(const BasisResult& basis, BasisReport& report) {
-  const Matrix Phi = Matrix(basis.vectors).leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
+  const Stage stage("check of the rank");
+  const Matrix Phi =
+      Matrix(basis.vectors).leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
   if (Phi.cols() == 0) {
     report.rank = 0;
     report.conditioning = 1;
@@ -57,7 +60,8 @@ std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, con
   free.retained.clear();
   std::vector<std::vector<int>> floating;
   for (const auto& link : partition(free).links)
-    if (std::none_of(basis.boundary.begin(), basis.boundary.end(), [&](int i) { return std::binary_search(link.begin(), link.end(), i); }))
+    if (std::none_of(basis.boundary.begin(), basis.boundary.end(),
+                     [&](int i) { return std::binary_search(link.begin(), link.end(), i); }))
       floating.push_back(link);
   return floating;
 }
@@ -66,6 +70,7 @@ std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, con
 /// constraint mode, and let a free part stand). Links that touch no kept dof do not move and are left out.
 void checkStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
                   BasisReport& report) {
+  const Stage stage("check of the statics");
   const Partition& p = basis.partition;
   const int kept = static_cast<int>(p.kept.size());
   if (kept == 0) return;
@@ -115,10 +120,13 @@ void checkStatics(const model::Substructure& part, const BasisResult& basis, con
   }
 }
 
-/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on springs s, g = f - s u_b, with the rest a held against g:
+/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on springs s, g = f - s u_b, with the
+/// rest a held against g:
 ///
 ///     [k_aa  k_ag - B_a'; s B_a  1 + s B_g] (a, g) = (0, f),   u_b = B_a a + B_g g
-void checkDualStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report) {
+void checkDualStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
+                      BasisReport& report) {
+  const Stage stage("check of the statics");
   const Eigen::Index forces = basis.forces(), others = basis.vectors.cols() - forces;
   Sparse K = constantStiffness(part.model);
   double spring = 0;
@@ -145,7 +153,8 @@ void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
   for (Eigen::Index i = 0; i < others; ++i)
     if (system.row(i).cwiseAbs().maxCoeff() == 0) system(i, i) = 1;
   const std::set<Eigen::Index> loaded{0, forces / 3, 2 * forces / 3, forces - 1};
-  const linalg::DirectSolver solver(K, [&](int i) { return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames); });
+  const linalg::DirectSolver solver(
+      K, [&](int i) { return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames); });
   const Eigen::FullPivLU<Matrix> factor(system);
   report.staticDefect = 0;
   for (Eigen::Index j : loaded) {
@@ -159,6 +168,7 @@ void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
 
 void checkFrequencies(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
                       BasisReport& report) {
+  const Stage stage("check of the frequencies");
   // Without forces on the interface: their coordinates are zero then.
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
@@ -173,8 +183,8 @@ void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
     const linalg::EigenPairs pairs = linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
     if (pairs.count() < size)
-      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) + " of " + std::to_string(size) +
-                               " coordinates: implicit integrators only");
+      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) + " of " +
+                               std::to_string(size) + " coordinates: implicit integrators only");
     else
       report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * pairs.vectors, pairs.values);

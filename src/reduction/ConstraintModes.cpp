@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/StageTimes.hpp"
 #include "linalg/DirectSolver.hpp"
 
 namespace tooljoint::reduction {
@@ -23,6 +24,7 @@ double largest(const Sparse& A) {
 }  // namespace
 
 ConstraintModes constraintModes(const model::Substructure& part, const Partition& p, const Sparse& K) {
+  const Stage stage("constraint modes");
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   ConstraintModes result;
   result.residuals = Vector::Zero(static_cast<Eigen::Index>(p.kept.size()));

@@ -52,11 +52,13 @@ class CraigBampton : public Basis {
       BasisRow row;
       row.kind = "fixed-interface";
       row.name = "mode " + std::to_string(k + 1);
-      row.eigenvalue = mode.eigenvalue;
+      row.eigenvalue = mode.shown();
       row.residual = mode.residual;
       row.kept = k < normal.kept;
-      row.why = row.kept ? (mode.eigenvalue < 0.0 ? "asked for; the part is buckled between its kept dofs" : "asked for")
-                         : "above the cut";
+      row.why = !row.kept        ? "above the cut"
+                : mode.floating  ? "asked for; rigid-body motion"
+                : mode.buckled() ? "asked for; the part is buckled between its kept dofs"
+                                 : "asked for";
       basis.rows.push_back(row);
       basis.candidates[k] = mode.eigenvalue;
       if (!row.kept) continue;

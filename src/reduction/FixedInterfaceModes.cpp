@@ -6,6 +6,8 @@
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
+#include "common/StageTimes.hpp"
+#include "linalg/EigenChecks.hpp"
 #include "linalg/SemidefiniteModes.hpp"
 
 namespace tooljoint::reduction {
@@ -21,8 +23,8 @@ struct Link {
   int computed = 0;
 };
 
-/// Modes asked of one link. Two more than wanted show whether the cut would part a pair. Dofs without mass follow statically: the finite modes and
-/// the constraint modes hold every motion of the others.
+/// Modes asked of one link. Two more than wanted show whether the cut would part a pair. Dofs without mass follow statically: the
+/// finite modes and the constraint modes hold every motion of the others.
 linalg::EigenPairs solve(Link& link, const ModeRequest& request, int count) {
   linalg::EigenOptions options = request.eigen ? *request.eigen : linalg::EigenOptions();
   options.name = link.name;
@@ -39,8 +41,10 @@ linalg::EigenPairs solve(Link& link, const ModeRequest& request, int count) {
 
 void append(FixedInterfaceModes& result, Link& link, int index, const linalg::EigenPairs& pairs) {
   link.computed = static_cast<int>(pairs.values.size());
+  const auto floating = linalg::areRounding(pairs.values, pairs.vectors, link.K);
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
-    result.modes.push_back({pairs.values[k], index, pairs.vectors.col(k), pairs.residuals[k]});
+    result.modes.push_back(
+        {pairs.values[k], index, pairs.vectors.col(k), pairs.residuals[k], floating[static_cast<std::size_t>(k)] != 0});
   result.orthogonality = std::max(result.orthogonality, pairs.orthogonality);
   std::string method = pairs.method.substr(0, pairs.method.find_first_of(",("));  // without shift and block sizes
   while (!method.empty() && method.back() == ' ') method.pop_back();
@@ -78,6 +82,7 @@ void remark(FixedInterfaceModes& result, const ModeRequest& request, int interio
 
 FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const Partition& p, const Sparse& symmetricK,
                                         const ModeRequest& request, const std::string& kind) {
+  const Stage stage("modes of the parts");
   FixedInterfaceModes result;
   const int interior = static_cast<int>(p.interior.size());
   std::vector<Link> links;

@@ -17,6 +17,10 @@ struct FixedInterfaceMode {
   int link = 0;           ///< index into Partition::links
   Vector shape;           ///< dofs of the link, M_II-normalised
   double residual = 0;    ///< relative, recomputed
+  bool floating = false;  ///< a rigid-body motion: omega^2 is zero but for rounding, whatever its sign
+  bool buckled() const { return eigenvalue < 0.0 && !floating; }
+  /// omega^2 for tables.
+  double shown() const { return floating ? 0.0 : eigenvalue; }
 };
 
 struct FixedInterfaceModes {

@@ -20,6 +20,7 @@ struct FreeInterfaceMode {
   Vector shape;           ///< dofs of the link, M-normalised
   double residual = 0;    ///< relative, recomputed
   bool rigid = false;     ///< moves without elastic energy, and no skew stiffness acts on it
+  bool floating = false;  ///< moves without elastic energy: omega^2 is zero but for rounding
 };
 
 struct FreeInterfaceModes {
@@ -38,10 +39,10 @@ struct FreeInterfaceModes {
   Matrix columns(int count, int size) const;
 };
 
-/// omega^2 M phi = sym(K) phi with no dof held: the modes are real; skew parts of K and the damping act on them through the projection.
-/// A mode is rigid when |phi' K phi| <= 1e-12 |phi|' |K| |phi| and K phi and K' phi are rounding (1e-7 of |K| |phi|); all rigid-body modes are kept whatever
-/// the request says. Throws ModelError (mass not positive definite) or ConvergenceError of the eigensolver, naming the part.
-/// \param K constantStiffness of the part
+/// omega^2 M phi = sym(K) phi with no dof held: the modes are real; skew parts of K and the damping act on them through the
+/// projection. A mode is rigid when |phi' K phi| <= 1e-12 |phi|' |K| |phi| and K phi and K' phi are rounding (1e-7 of |K| |phi|);
+/// all rigid-body modes are kept whatever the request says. Throws ModelError (mass not positive definite) or ConvergenceError of
+/// the eigensolver, naming the part. \param K constantStiffness of the part
 FreeInterfaceModes freeInterfaceModes(const model::Substructure& part, const Sparse& K, const ModeRequest& request);
 
 /// Rows, candidates, method and remarks of `basis` for these modes; `why` is said of those that are kept.

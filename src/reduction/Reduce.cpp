@@ -11,6 +11,8 @@
 #include "common/Error.hpp"
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
+#include "common/StageTimes.hpp"
+#include "linalg/EigenChecks.hpp"
 #include "reduction/BasisChecks.hpp"
 #include "reduction/Distribution.hpp"
 #include "reduction/InterfaceCriteria.hpp"
@@ -27,10 +29,27 @@ constexpr double twoPi = 6.28318530717958647692;
 /// Modes looked at first when the interface decides how many are kept.
 constexpr int firstCandidates = 12;
 
+/// Modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
+int buckledModes(const model::Substructure& part, const BasisResult& basis) {
+  const auto modes = basis.eigenvalues.size();
+  if ((basis.eigenvalues.array() < 0).count() == 0) return 0;
+  const Eigen::Index first = basis.vectors.cols() - basis.forces() - modes;
+  const Matrix shapes = Matrix(basis.vectors).middleCols(first, modes);
+  const Matrix inertia = part.model.mass * shapes;
+  const Vector energies = basis.eigenvalues.cwiseProduct(shapes.cwiseProduct(inertia).colwise().sum().transpose());
+  const auto rounding = linalg::areRounding(energies, shapes, symmetricPart(constantStiffness(part.model)));
+  int buckled = 0;
+  for (Eigen::Index k = 0; k < modes; ++k) buckled += basis.eigenvalues[k] < 0 && !rounding[static_cast<std::size_t>(k)] ? 1 : 0;
+  return buckled;
+}
+
 ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options) {
   ReducedCore core;
   core.basis = basis;
-  core.matrices = projectMatrices(part, basis);
+  {
+    const Stage stage("projection");
+    core.matrices = projectMatrices(part, basis);
+  }
   BasisReport& report = core.report;
   report.part = part.name;
   report.basis = options.basis;
@@ -39,7 +58,7 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   report.retained = static_cast<int>(basis.partition.retained.size());
   report.interior = static_cast<int>(basis.partition.interior.size()) - basis.forces();
   report.modes = basis.modes();
-  report.negativeModes = static_cast<int>((basis.eigenvalues.array() < 0).count());
+  report.negativeModes = buckledModes(part, basis);
   std::vector<BasisRow> rows = std::move(core.basis.rows);
   core.basis.rows.clear();
   report.orthogonality = basis.orthogonality;
@@ -97,8 +116,10 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         request.count = firstCandidates;
         break;
       case ModeRule::Kind::Tolerance:
-        throw DeckError("\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not part by part: `tooljoint run` and "
-                        "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a cut-off frequency.");
+        throw DeckError(
+            "\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not part by part: `tooljoint run` "
+            "and "
+            "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a cut-off frequency.");
     }
   }
   return requests;
@@ -124,8 +145,10 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
     const auto& m = parts[p].model;
     const auto fits = [&](const Vector& x) { return x.size() == m.size() && std::isfinite(x.sum()); };
     bool good = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.points.empty() &&
-                (parts[p].reference.size() == 0 || fits(parts[p].reference)) && fits(m.initialDisplacement) && fits(m.initialVelocity);
-    for (const auto& load : m.loads) good = good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
+                (parts[p].reference.size() == 0 || fits(parts[p].reference)) && fits(m.initialDisplacement) &&
+                fits(m.initialVelocity);
+    for (const auto& load : m.loads)
+      good = good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
     if (!good) checkPart(parts[p]);
   }
 }
@@ -213,9 +236,10 @@ class Team {
       forOwned([&](std::size_t p) {
         for (;;) {
           if (!bases_[p].orthonormal || !bases_[p].removable)
-            throw DeckError("The basis \"" + options_.basis +
-                            "\" has no modes with fixed interface for an interface criterion to choose from. Give \"Modes\", or take "
-                            "the basis \"Craig-Bampton\".");
+            throw DeckError(
+                "The basis \"" + options_.basis +
+                "\" has no modes with fixed interface for an interface criterion to choose from. Give \"Modes\", or take "
+                "the basis \"Craig-Bampton\".");
           const Vector shares = interfaceShares(parts_[p], bases_[p], rule.kind);
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
           const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();
@@ -243,7 +267,9 @@ class Team {
   void build(const std::vector<char>& wanted) {
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
-        if (wanted[p]) bases_[p] = requests_[p].kind == ModeRequest::Kind::Whole ? wholePart(parts_[p]) : basis_.build(parts_[p], requests_[p]);
+        if (wanted[p])
+          bases_[p] =
+              requests_[p].kind == ModeRequest::Kind::Whole ? wholePart(parts_[p]) : basis_.build(parts_[p], requests_[p]);
       });
     });
   }
@@ -257,7 +283,8 @@ class Team {
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         const auto t = static_cast<std::size_t>(twin_[p]);
         spectra[p] = first(p) ? bases_[p].candidates : spectra[t];
-        int state[2] = {bases_[t].complete ? 1 : 0, bases_[t].removable ? bases_[t].modes() : static_cast<int>(bases_[t].candidates.size())};
+        int state[2] = {bases_[t].complete ? 1 : 0,
+                        bases_[t].removable ? bases_[t].modes() : static_cast<int>(bases_[t].candidates.size())};
         if (first(p)) {
           parallel::broadcast(spectra[p], owner_[p]);
           parallel::broadcast(state[0], owner_[p]);
@@ -311,8 +338,8 @@ class Team {
   const ReductionOptions& options_;
   ReductionCache& cache_;
   std::vector<ModeRequest> requests_;
-  std::vector<int> twin_;   ///< first identical part
-  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin or an earlier round
+  std::vector<int> twin_;                     ///< first identical part
+  std::vector<int> owner_;                    ///< rank, -1 for parts taken over from a twin or an earlier round
   std::map<std::size_t, BasisResult> bases_;  ///< of the parts this rank owns
   std::vector<std::shared_ptr<const ReducedCore>> cores_;
 };
