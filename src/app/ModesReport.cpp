@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <filesystem>
 
 #include "common/Error.hpp"
 #include "common/Log.hpp"
 #include "common/Parallel.hpp"
+#include "common/StageTimes.hpp"
 #include "common/Text.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/ModeComparison.hpp"
-#include "estimate/PartResidual.hpp"
 #include "io/Csv.hpp"
+#include "linalg/EigenSolver.hpp"
+#include "reduction/Partition.hpp"
 
 namespace tooljoint::app {
 
@@ -31,11 +34,36 @@ void writeInto(const std::string& folder, const std::string& name, const io::Csv
   });
 }
 
-/// True, and said so, when a dof has no mass: the quadratic eigenproblem is solved with the inverse of M.
-bool massless(const model::SecondOrderModel& full) {
-  const bool none = full.size() > 0 && full.mass.diagonal().minCoeff() <= 0.0;
-  if (none) log::info("Damped modes are not listed: they need a mass at every dof, and the model has dofs without one.");
-  return none;
+const char* const undampedHeading =
+    "Undamped modes about the static state: symmetric part of the stiffness, friction left out, closed contacts linear. A "
+    "negative frequency stands for "
+    "omega^2 < 0 of that part and 0 for a rigid-body mode; whether the state is stable is for the damped modes to say";
+
+std::string dampedHeading(double t) {
+  return "Damped modes with the matrices of t = " + formatNumber(t) +
+         " s (damping, gyroscopic, circulatory, friction), by |s|; s = Re s + i Im s, damping = -Re s / |s|";
+}
+
+/// Growth rates below this fraction of |s| are within the accuracy of s.
+constexpr double noGrowth = 1e-8;
+
+/// What the damped modes say of the stability of the state.
+std::string verdict(const std::vector<std::complex<double>>& values) {
+  std::size_t growing = 0;
+  double fastest = 0;
+  for (const auto& s : values)
+    if (s.real() > noGrowth * std::abs(s)) {
+      ++growing;
+      fastest = std::max(fastest, s.real());
+    }
+  if (growing == 0) return "None of the " + std::to_string(values.size()) + " damped modes listed grows.";
+  return std::to_string(growing) + " of the " + std::to_string(values.size()) + " damped modes listed " +
+         (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" + formatNumber(fastest) + " t): the state is unstable.";
+}
+
+void reportTimes() {
+  const std::string times = stageTimes();
+  if (!times.empty()) log::info("times       " + times);
 }
 
 void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
@@ -48,15 +76,19 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
                  {"mac", ""},
                  {"error", ""},
                  {"estimate", ""},
-                 {"definite", ""}});
+                 {"definite", ""},
+                 {"full_im", "Hz"},
+                 {"coupled_im", "Hz"}});
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto& m = modes[i];
     std::vector<std::string> cells;
-    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(),
-                          m.mac, m.error})
+    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(),
+                          m.coupledDamping(), m.mac, m.error})
       cells.push_back(formatNumber(number));
     cells.push_back(m.estimated ? formatNumber(m.estimate) : "");
     cells.push_back(m.definite ? "1" : "0");
+    cells.push_back(formatNumber(m.fullImHz()));
+    cells.push_back(formatNumber(m.coupledImHz()));
     table.row(cells);
   }
   writeInto(folder, name, table);
@@ -65,33 +97,37 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
 }  // namespace
 
 void listFullModes(const model::SecondOrderModel& full, const RunOptions& options, double t) {
-  const int count = options.modeCount;
-  const Vector values = coupling::lowestModes(full, std::min(count, full.size())).values;
-  log::info("Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent):");
+  const int count = std::min(options.modeCount, full.size());
+  const auto pairs = coupling::lowestModes(full, count);
+  const auto values = estimate::undampedValues(coupling::undampedStiffness(full), reduction::symmetricPart(full.mass),
+                                               pairs.values, pairs.vectors);
+  log::info(std::string(undampedHeading) + ":");
   log::info("  mode       full [Hz]");
+  io::Csv table({{"mode", ""}, {"full", "Hz"}});
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), reduction::signedOmega(values(i)) / kTwoPi);
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), values(i).imag() / kTwoPi);
     log::info(line);
+    table.row({static_cast<double>(i + 1), values(i).imag() / kTwoPi});
   }
-  if (!options.output.empty()) {
-    io::Csv table({{"mode", ""}, {"full", "Hz"}});
-    for (Eigen::Index i = 0; i < values.size(); ++i)
-      table.row({static_cast<double>(i + 1), reduction::signedOmega(values(i)) / kTwoPi});
-    writeInto(options.output, "modes.csv", table);
-  }
-  if (massless(full)) return;
+  if (!options.output.empty()) writeInto(options.output, "modes.csv", table);
   const auto m = estimate::linearise(full, t);
-  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, std::min(count, full.size()));
-  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory):");
-  log::info("  mode       full [Hz]       damping");
+  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count);
+  log::info(dampedHeading(t) + ":");
+  log::info("  mode  full |s| [Hz]  full Im s [Hz]       damping");
+  io::Csv dampedTable({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"full_im", "Hz"}});
   for (Eigen::Index i = 0; i < damped.values.size(); ++i) {
     const auto s = damped.values[i];
-    char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g  %12.4e", static_cast<long>(i + 1), std::abs(s) / kTwoPi,
-                  -s.real() / std::max(std::abs(s), 1e-300));
+    const double size = std::abs(s), ratio = size > 0 ? 0.0 - s.real() / size : 0.0;
+    char line[96];
+    std::snprintf(line, sizeof line, "  %4ld %14.8g  %14.8g  %12.4e", static_cast<long>(i + 1), size / kTwoPi, s.imag() / kTwoPi,
+                  ratio);
     log::info(line);
+    dampedTable.row({static_cast<double>(i + 1), size / kTwoPi, ratio, s.imag() / kTwoPi});
   }
+  log::info(verdict({damped.values.begin(), damped.values.end()}));
+  reportTimes();
+  if (!options.output.empty()) writeInto(options.output, "damped_modes.csv", dampedTable);
 }
 
 void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
@@ -101,20 +137,18 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
   if (synthesis.coupled.interfaceModes >= 0)
     log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");
-  log::info(
-      "Eigenfrequencies about the static state (undamped, symmetric part, closed contacts linear, negative = divergent); the "
-      "coupled mode of "
-      "the same shape, its true relative error and the one estimated without the full model:");
+  log::info(std::string(undampedHeading) +
+            ". Beside each full mode the coupled mode of the same shape (repeated modes: of the same subspace), " +
+            "its true relative error and the one estimated without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
-  if (massless(full)) return;
-  if (!estimate::isRitz(synthesis)) {
-    log::info("Damped modes are not listed: they need a mass at every coordinate, and the coupled model has coordinates without one.");
-    return;
-  }
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
-  log::info("Damped modes with the matrices of t = " + formatNumber(t) + " s (gyroscopic, circulatory), errors of s:");
+  log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
+  std::vector<std::complex<double>> values;
+  for (const auto& mode : damped) values.push_back(mode.full);
+  log::info(verdict(values));
+  reportTimes();
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }
 

@@ -43,16 +43,19 @@ std::vector<Eigen::Index> measuredRows(const Measures& measures, const model::Se
   for (auto node : measures.nodes) {
     const auto it = place.find(node);
     if (it == place.end())
-      throw ModelError("Node " + std::to_string(node) + " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
+      throw ModelError("Node " + std::to_string(node) +
+                       " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
     for (int c : measures.components) rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
   }
   return rows;
 }
 
-/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if there is one, and measures how long that takes.
+/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if there is one, and measures how
+/// long that takes.
 class HistoryRecorder : public transient::SampleSink {
  public:
-  HistoryRecorder(const Measures& measures, const model::SecondOrderModel& model, bool record, estimate::MotionEstimator* estimator)
+  HistoryRecorder(const Measures& measures, const model::SecondOrderModel& model, bool record,
+                  estimate::MotionEstimator* estimator)
       : measures_(measures), model_(model), rows_(measuredRows(measures, model)), record_(record), estimator_(estimator) {
     history_.nodes = measures.nodes.size();
     history_.components = measures.components.size();
@@ -143,8 +146,8 @@ void reduce(const StudyScene& scene, PreparedModel& prepared) {
   prepared.setupWall = parallel::maximum(watch.wall());
 }
 
-Execution integrate(const StudyScene& scene, const Measures& measures, const model::SecondOrderModel& model, const ExecutionOptions& options,
-                    estimate::MotionEstimator* estimator) {
+Execution integrate(const StudyScene& scene, const Measures& measures, const model::SecondOrderModel& model,
+                    const ExecutionOptions& options, estimate::MotionEstimator* estimator) {
   auto transientOptions = transient::readOptions(scene.list().sublist("Transient"));
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
@@ -166,11 +169,12 @@ Execution integrate(const StudyScene& scene, const Measures& measures, const mod
     wall = execution.report.wall - recorder.wall();
     setupCpu = watch.cpu() - execution.report.cpu;
     setupWall = watch.wall() - execution.report.wall;
-    if (execution.report.interrupted && !late) throw InterruptedError("Interrupted at " + formatNumber(execution.report.end) + " s.");
+    if (execution.report.interrupted && !late)
+      throw InterruptedError("Interrupted at " + formatNumber(execution.report.end) + " s.");
   });
   if (parallel::maximum(late ? 1.0 : 0.0) > 0.0)
-    throw TimeLimitError("It was given up at " + formatNumber(execution.report.end) + " s, after " + formatNumber(*options.timeLimit) +
-                         " s of CPU time (Study/Time Limit).");
+    throw TimeLimitError("It was given up at " + formatNumber(execution.report.end) + " s, after " +
+                         formatNumber(*options.timeLimit) + " s of CPU time (Study/Time Limit).");
   execution.cpu = parallel::sum(cpu);
   execution.wall = parallel::maximum(wall);
   execution.setupCpu = parallel::sum(setupCpu);
@@ -195,7 +199,8 @@ PreparedModel StudyRunner::prepare(StudyScene& scene, int frequencies) {
     if (frequencies > 0) prepared.modeErrors = compare(scene, prepared, frequencies);
   } catch (const Error& error) {
     if (error.code() != ExitCode::ModelNotBuilt && error.code() != ExitCode::NotConverged) throw;
-    prepared.notCompared = std::string("The frequencies could not be compared. ") + error.what();  // the model may move all the same
+    prepared.notCompared =
+        std::string("The frequencies could not be compared. ") + error.what();  // the model may move all the same
   }
   return prepared;
 }
@@ -206,12 +211,13 @@ study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedMo
   const auto key = study::canonicalText(lists);
   if (fullModes_.count(key) == 0) {
     FullModes fresh{scene.full(), {}};
-    fresh.modes = coupling::lowestModes(fresh.whole.model, std::min(frequencies, fresh.whole.model.size()));
+    fresh.modes = estimate::modesToCompare(fresh.whole.model, frequencies);
     fullModes_.emplace(key, std::move(fresh));
   }
   const auto& known = fullModes_.at(key);
   study::ModeErrors errors;
-  for (const auto& m : estimate::compareModes(known.whole.model, known.modes, prepared.planned.parts, prepared.outcome.synthesis, known.whole.maps)) {
+  for (const auto& m : estimate::compareModes(known.whole.model, known.modes, frequencies, prepared.planned.parts,
+                                              prepared.outcome.synthesis, known.whole.maps)) {
     errors.full.push_back(m.fullHz());
     errors.coupled.push_back(m.coupledHz());
     errors.mac.push_back(m.mac);
@@ -224,8 +230,10 @@ study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedMo
 
 Execution StudyRunner::move(const StudyScene& scene, const PreparedModel& prepared, const ExecutionOptions& options) const {
   const auto measures = scene.measures();
-  if (options.perturbation > 0.0) return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation), options, nullptr);
-  const bool estimates = prepared.reduced && options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion;
+  if (options.perturbation > 0.0)
+    return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation), options, nullptr);
+  const bool estimates =
+      prepared.reduced && options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion;
   if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
   estimate::MotionEstimator estimator(prepared.planned.parts, prepared.outcome.synthesis, scene.rest(), estimated(measures));
   auto execution = integrate(scene, measures, prepared.model(), options, &estimator);

@@ -13,6 +13,7 @@
 #include "estimate/FrequencyEstimate.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
+#include "linalg/EigenChecks.hpp"
 
 namespace tooljoint::estimate {
 
@@ -22,7 +23,8 @@ using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 constexpr double twoPi = 6.28318530717958647692;
-/// Coupled modes computed beyond the full ones, among which a shape is looked for.
+/// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled modes beyond the full ones, among
+/// which a shape is looked for: the rigid-body motions of one body.
 constexpr int moreModes = 6;
 
 /// -sum R' (df/dv) R of the point laws about the initial state.
@@ -52,15 +54,6 @@ ComplexMatrix localShapes(const coupling::Synthesis& synthesis, std::size_t p, c
   return synthesis.coupled.maps[p].cast<Complex>() * shapes;
 }
 
-/// The coupled mode with the largest MAC for every full mode.
-void match(const Matrix& mac, std::vector<ModeComparison>& modes) {
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    Eigen::Index best = 0;
-    modes[i].mac = mac.row(static_cast<Eigen::Index>(i)).maxCoeff(&best);
-    modes[i].coupledMode = static_cast<int>(best);
-  }
-}
-
 ComplexVector times(const Sparse& A, const ComplexVector& x) {
   const Matrix parts = (Matrix(x.size(), 2) << x.real(), x.imag()).finished();
   const Matrix y = A * parts;
@@ -72,8 +65,10 @@ ComplexVector answer(const ResidualFlexibility& flexibility, const ComplexVector
   return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
 }
 
-/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic flexibility, summed as a geometric series.
-Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass, const ComplexVector& l, const ComplexVector& r, Complex s) {
+/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic flexibility, summed as a geometric
+/// series.
+Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass, const ComplexVector& l, const ComplexVector& r,
+                      Complex s) {
   const ComplexVector first = answer(flexibility, r);
   const Complex still = l.cwiseProduct(first).sum();
   const Complex next = -s * s * l.cwiseProduct(answer(flexibility, times(mass, first))).sum();
@@ -126,6 +121,10 @@ ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& righ
       if (!taken[static_cast<std::size_t>(i)] &&
           (best < 0 || std::abs(modes.values[i] - right.values[j]) < std::abs(modes.values[best] - right.values[j])))
         best = i;
+    if (best < 0) {  // repeated zeros may be told apart on one side only; they have no relative error
+      left.col(j).setZero();
+      continue;
+    }
     taken[static_cast<std::size_t>(best)] = 1;
     left.col(j) = modes.vectors.col(best);
   }
@@ -136,6 +135,8 @@ ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& righ
 
 double ModeComparison::fullHz() const { return (full.imag() < 0 ? -1.0 : 1.0) * std::abs(full) / twoPi; }
 double ModeComparison::coupledHz() const { return (coupled.imag() < 0 ? -1.0 : 1.0) * std::abs(coupled) / twoPi; }
+double ModeComparison::fullImHz() const { return full.imag() / twoPi; }
+double ModeComparison::coupledImHz() const { return coupled.imag() / twoPi; }
 
 Linearised linearise(const model::SecondOrderModel& model, double t) {
   return {reduction::symmetricPart(model.mass), model.dampingAt(t) + pointDamping(model, t),
@@ -145,7 +146,8 @@ Linearised linearise(const model::SecondOrderModel& model, double t) {
 namespace {
 
 /// z of the full model with D_p = maps[p] z in least squares: (sum_p m_p' m_p) z = sum_p m_p' D_p.
-ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const ComplexMatrix& shapes, const std::vector<Sparse>& maps) {
+ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const ComplexMatrix& shapes,
+                     const std::vector<Sparse>& maps) {
   Eigen::SparseMatrix<double> normal(size, size);
   ComplexMatrix right = ComplexMatrix::Zero(size, shapes.cols());
   for (std::size_t p = 0; p < maps.size(); ++p) {
@@ -156,7 +158,8 @@ ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const Compl
     right.imag() += transposed * D.imag();
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
-  if (solver.info() != Eigen::Success) throw ModelError("A dof of the full model is in no part, so full and coupled modes cannot be compared.");
+  if (solver.info() != Eigen::Success)
+    throw ModelError("A dof of the full model is in no part, so full and coupled modes cannot be compared.");
   ComplexMatrix z(size, shapes.cols());
   z.real() = solver.solve(Matrix(right.real()));
   z.imag() = solver.solve(Matrix(right.imag()));
@@ -184,43 +187,54 @@ ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<mod
   }
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!found[i])
-      throw ModelError("The " + model::describe(full.dofs[i], full.componentNames) + " is in no part, so full and coupled modes cannot be compared.");
+      throw ModelError("The " + model::describe(full.dofs[i], full.componentNames) +
+                       " is in no part, so full and coupled modes cannot be compared.");
   return out;
 }
 
-Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatrix& b) {
-  const Eigen::SparseMatrix<Complex, Eigen::RowMajor> mass = M.cast<Complex>();
-  const ComplexMatrix Mb = mass * b;
-  const ComplexMatrix Ma = mass * a;
-  Matrix mac = (a.adjoint() * Mb).cwiseAbs2();
-  for (Eigen::Index i = 0; i < a.cols(); ++i) mac.row(i) /= std::max(a.col(i).dot(Ma.col(i)).real(), 1e-300);
-  for (Eigen::Index j = 0; j < b.cols(); ++j) mac.col(j) /= std::max(b.col(j).dot(Mb.col(j)).real(), 1e-300);
-  return mac;
+linalg::EigenPairs modesToCompare(const model::SecondOrderModel& full, int count) {
+  return coupling::lowestModes(full, std::min(count + moreModes, full.size()));
+}
+
+ComplexVector undampedValues(const Sparse& K, const Sparse& M, const Vector& eigenvalues, const Matrix& shapes) {
+  ComplexVector values(eigenvalues.size());
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const Vector phi = shapes.col(j);
+    const bool rigid = linalg::isRounding(eigenvalues[j] * phi.dot(M * phi), phi, K);
+    values[j] = Complex(0, rigid ? 0.0 : reduction::signedOmega(eigenvalues[j]));
+  }
+  return values;
 }
 
 std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
                                          const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps) {
-  return compareModes(full, coupling::lowestModes(full, std::min(count, full.size())), parts, synthesis, maps);
+  return compareModes(full, modesToCompare(full, count), count, parts, synthesis, maps);
 }
 
-std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const linalg::EigenPairs& exact,
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const linalg::EigenPairs& exact, int count,
                                          const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
                                          const std::vector<Sparse>& maps) {
-  const Sparse mass = reduction::symmetricPart(full.mass);
+  const Sparse mass = reduction::symmetricPart(full.mass), stiffness = coupling::undampedStiffness(full);
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(exact.count() + moreModes, coupled.size());
-  const auto pairs = coupling::lowestModes(coupled, looked);
+  const auto pairs = coupling::lowestPhysicalModes(coupled, looked);
   const bool estimated = isRitz(synthesis);
   const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0}) : std::vector<FrequencyEstimate>();
-  std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
-  match(modalAssurance(mass, exact.vectors.cast<Complex>(), recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps)), modes);
-  const auto root = [](double eigenvalue) { return Complex(0, reduction::signedOmega(eigenvalue)); };
+  const ComplexMatrix shapes = recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps);
+  const ComplexVector values = undampedValues(stiffness, mass, exact.values, exact.vectors);
+  const ComplexVector coupledValues = undampedValues(stiffness, mass, pairs.values, shapes.real());
+  const auto matches = matchModes(mass, values, exact.vectors.cast<Complex>(), shapes);
+  std::vector<ModeComparison> modes(static_cast<std::size_t>(std::min<Eigen::Index>(count, values.size())));
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
-    mode.full = root(exact.values[static_cast<Eigen::Index>(i)]);
-    mode.coupled = root(pairs.values[mode.coupledMode]);
+    mode.full = values[static_cast<Eigen::Index>(i)];
+    mode.coupledMode = matches[i].partner;
+    mode.mac = matches[i].mac;
+    mode.estimated = estimated && mode.coupledMode >= 0;
+    mode.error = 1.0;
+    if (mode.coupledMode < 0) continue;
+    mode.coupled = coupledValues[mode.coupledMode];
     mode.error = mode.full == 0.0 ? 0.0 : mode.coupled.imag() / mode.full.imag() - 1.0;
-    mode.estimated = estimated;
     if (!estimated) continue;
     const auto& e = estimates[static_cast<std::size_t>(mode.coupledMode)];
     mode.estimate = e.error;
@@ -229,39 +243,98 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
   return modes;
 }
 
+namespace {
+
+/// What rounding leaves of the energy of a coupled shape: that of the parts it was projected from.
+linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis) {
+  std::vector<Sparse> absolute, shapes;
+  std::vector<double> fractions;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Sparse K = reduction::constantStiffness(parts[p].model);
+    absolute.push_back(K.cwiseAbs());
+    fractions.push_back(linalg::roundingOf(K));
+    shapes.push_back(synthesis.parts[p].basis->vectors * synthesis.coupled.maps[p]);
+  }
+  return [absolute, shapes, fractions](const ComplexVector& y) {
+    double sum = 0;
+    for (std::size_t p = 0; p < shapes.size(); ++p) {
+      const Vector size = times(shapes[p], y).cwiseAbs();
+      sum += fractions[p] * size.dot(absolute[p] * size);
+    }
+    return sum;
+  };
+}
+
+/// The damped modes of smallest |s| that are not spurious.
+linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model, const Linearised& m, int count,
+                                           const linalg::EnergyRounding& rounding) {
+  for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
+    auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked, {}, rounding);
+    const auto spurious = coupling::spuriousShapes(model, modes.vectors);
+    Eigen::Index kept = 0;
+    for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+      if (spurious[static_cast<std::size_t>(j)]) continue;
+      modes.values[kept] = modes.values[j];
+      modes.vectors.col(kept) = ComplexVector(modes.vectors.col(j));
+      modes.residuals[kept++] = modes.residuals[j];
+    }
+    const bool enough = kept >= count || looked == model.size() || modes.values.size() < looked;
+    kept = std::min<Eigen::Index>(kept, count);
+    modes.values.conservativeResize(kept);
+    modes.vectors.conservativeResize(Eigen::NoChange, kept);
+    modes.residuals.conservativeResize(kept);
+    if (enough) return modes;
+  }
+}
+
+}  // namespace
+
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
                                                const coupling::Synthesis& synthesis, int count, double t,
                                                const std::vector<Sparse>& maps) {
   const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
-  const auto exact = linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness, std::min(count, full.size()));
-  const int looked = std::min(count + moreModes, synthesis.coupled.model.size());
-  const auto coupled = linalg::lowestDampedModes(small.mass, small.damping, small.stiffness, looked);
-  const ComplexVector errors = dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t);
-  std::vector<ModeComparison> modes(static_cast<std::size_t>(exact.values.size()));
-  match(modalAssurance(whole.mass, exact.vectors, recover(full, parts, synthesis, coupled.vectors, maps)), modes);
+  const auto exact =
+      linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness, std::min(count + moreModes, full.size()));
+  const auto coupled =
+      physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes, roundingOfParts(parts, synthesis));
+  const bool estimated = isRitz(synthesis);
+  const ComplexVector errors =
+      estimated ? dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t) : ComplexVector();
+  const auto matches =
+      matchModes(whole.mass, exact.values, exact.vectors, recover(full, parts, synthesis, coupled.vectors, maps));
+  std::vector<ModeComparison> modes(static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
     mode.full = exact.values[static_cast<Eigen::Index>(i)];
+    mode.coupledMode = matches[i].partner;
+    mode.mac = matches[i].mac;
+    mode.estimated = estimated && mode.coupledMode >= 0;
+    mode.error = 1.0;
+    if (mode.coupledMode < 0) continue;
     mode.coupled = coupled.values[mode.coupledMode];
     mode.error = mode.full == 0.0 ? 0.0 : std::abs(mode.coupled - mode.full) / std::abs(mode.full);
-    mode.estimate = mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
+    if (estimated) mode.estimate = mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
   }
   return modes;
 }
 
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped) {
-  std::string text = damped ? "  mode       full [Hz]    coupled [Hz]   damping full / coupled         MAC       error    estimate\n"
+  std::string text = damped ? "  mode  full |s| [Hz]  full Im s [Hz]   coupled |s| [Hz]  coupled Im s [Hz]   damping full / "
+                              "coupled         MAC       error    estimate\n"
                             : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
-    char line[200], estimate[16] = "         -";
+    char line[240], estimate[16] = "         -";
     if (m.estimated) std::snprintf(estimate, sizeof estimate, "%10.2e", m.estimate);
-    if (damped)
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %10.2e\n", i + 1, m.fullHz(), m.coupledHz(),
-                    m.fullDamping(), m.coupledDamping(), m.mac, m.error, m.estimate);
+    if (m.coupledMode < 0)
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  no coupled mode is left for it\n", i + 1, m.fullHz());
+    else if (damped)
+      std::snprintf(line, sizeof line, "  %4zu %14.8g  %14.8g     %14.8g     %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %s\n", i + 1,
+                    m.fullHz(), m.fullImHz(), m.coupledHz(), m.coupledImHz(), m.fullDamping(), m.coupledDamping(), m.mac, m.error,
+                    estimate);
     else
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac, m.error,
-                    estimate, m.definite ? "" : "  (a part lacks a mode below)");
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac,
+                    m.error, estimate, m.definite ? "" : "  (a part lacks a mode below)");
     text += line;
   }
   return text;

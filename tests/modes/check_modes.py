@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""`tooljoint modes` on structures nobody tuned it for: check_modes.py PROGRAM
+
+Free and pinned beams (closed forms), frames and solids with repeated frequencies, undamped, lightly, proportionally and strongly damped, and rotors:
+values against scipy's dense solver of the companion form, counts and times against what the documentation promises.
+"""
+import csv
+import pathlib
+import resource
+import subprocess
+import sys
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import eig, eigh
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import structures as st  # noqa: E402
+
+PROGRAM = sys.argv[1]
+FAULTS = []
+TWO_PI = 2 * np.pi
+E, RHO = st.STEEL["E"], st.STEEL["rho"]
+SECONDS = 3.0  # CPU time of the whole command for 600 dofs
+
+
+def expect(what, condition, shown=""):
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def modes(name, structure, count=12, reduction=None, parts=None, joints=()):
+    """Rows of modes.csv and damped_modes.csv, text, CPU seconds."""
+    if structure is not None:
+        structure.write(f"{name}.h5")
+        parts = {"part": f"{name}.h5"}
+    st.deck(f"{name}.xml", parts, joints, reduction)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    done = subprocess.run([PROGRAM, "modes", f"{name}.xml", "--count", str(count), "--output", f"{name}_out"], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, timeout=600)
+    cpu = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    expect(f"{name}: exit code 0", done.returncode == 0, f"{cpu:.1f} s" if done.returncode == 0 else done.stdout[-600:])
+    table = lambda file: [{k.split(" ")[0]: float(v) if v else np.nan for k, v in row.items()} for row in csv.DictReader(open(file, encoding="utf-8"))]
+    if done.returncode != 0:
+        return None, None, done.stdout, cpu
+    return table(f"{name}_out/modes.csv"), table(f"{name}_out/damped_modes.csv"), done.stdout, cpu
+
+
+def column(rows, key):
+    return np.array([row[key] for row in rows])
+
+
+def values(rows, which="full"):
+    """s [1/s] of damped_modes.csv."""
+    size, imaginary, ratio = (TWO_PI * column(rows, which), TWO_PI * column(rows, which + "_im"), column(rows, which + "_damping"))
+    return -ratio * size + 1j * imaginary
+
+
+def companion(structure, count):
+    """The `count` values of smallest |s| with Im s >= 0, of the dense companion form (QZ-free: M is regular)."""
+    M, C, K = (A.toarray() for A in (structure.M, structure.C, structure.K))
+    n = len(M)
+    scale = np.sqrt(np.abs(np.diag(K)) / np.diag(M)).max()  # balances the blocks
+    d = 1 / np.sqrt(np.diag(M))
+    M, C, K = (d[:, None] * A * d for A in (M, C, K))
+    A = np.block([[np.zeros((n, n)), scale * np.eye(n)], [-np.linalg.solve(M, K) / scale, -np.linalg.solve(M, C)]])
+    s = eig(A, right=False)
+    s = s[s.imag >= -1e-9 * np.abs(s)]
+    return s[np.argsort(np.abs(s))][:count]
+
+
+def same(found, exact, tolerance):
+    """Largest relative distance after each value has been given the nearest one that is left."""
+    left, worst = list(exact), 0.0
+    for s in found:
+        nearest = min(range(len(left)), key=lambda i: abs(left[i] - s))
+        worst = max(worst, abs(left.pop(nearest) - s) / max(abs(s), 1e-300))
+    return worst <= tolerance, f"{worst:.1e}"
+
+
+def undamped():
+    # free-free and pinned Euler-Bernoulli beams; consistent elements converge as h^4 from above
+    rows, damped, _, _ = modes("free_beam", st.beam(40, direction=(1, 2, 3)))
+    if rows:
+        wave = np.sqrt(E * 0.05**2 / 4 / RHO) / 10.0**2 / TWO_PI
+        exact = np.repeat(np.array([4.73004074, 7.85320462, 10.9956078]) ** 2 * wave, 2)
+        expect("free beam: six rigid-body modes are zero", np.all(column(rows, "full")[:6] == 0))
+        expect("free beam: pairs of the closed form", np.abs(column(rows, "full")[6:12] / exact - 1).max() < 1e-4)
+        expect("free beam: six damped rigid-body modes", np.all(column(damped, "full")[:6] == 0) and np.abs(column(damped, "full")[6:12] / exact - 1).max() < 1e-4)
+    beam = st.pinned_beam(100)
+    rows, damped, text, cpu = modes("pinned_beam", beam, 10)
+    if rows:
+        exact = np.repeat((np.pi * np.arange(1, 6)) ** 2 * np.sqrt(E * 0.05**2 / 4 / RHO) / 10.0**2 / TWO_PI, 2)
+        expect("pinned beam: pairs of the closed form", np.abs(column(rows, "full") / exact - 1).max() < 1e-5)
+        expect("pinned beam: damped modes are the undamped ones", np.abs(column(damped, "full_im") / column(rows, "full") - 1).max() < 1e-9 and
+               np.all(column(damped, "full_damping") == 0))
+        expect("pinned beam: time", cpu < SECONDS, f"{cpu:.1f} s for {beam.M.shape[0]} dofs")
+    for name, structure in (("free_solid", st.solid(3, 3, 9, (0.3, 0.3, 2.0))), ("free_frame", st.frame(1, 4, fixed=False)), ("frame", st.frame(2, 7))):
+        rows, damped, text, cpu = modes(name, structure, 16)
+        if not rows:
+            continue
+        exact = np.sqrt(np.abs(eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True, subset_by_index=[0, 15]))) / TWO_PI
+        zeros = int((exact < 1e-4 * exact[-1]).sum())
+        expect(f"{name}: {zeros} rigid-body modes are zero", int((column(rows, "full") == 0).sum()) == zeros)
+        expect(f"{name}: frequencies", np.abs(column(rows, "full")[zeros:] / exact[zeros:] - 1).max() < 1e-7)
+        expect(f"{name}: damped list", np.abs(column(damped, "full_im")[zeros:] / exact[zeros:] - 1).max() < 1e-7)
+        expect(f"{name}: time", cpu < SECONDS, f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
+
+
+def proportional(structure, alpha, beta, count):
+    """Values of C = alpha M + beta K from the undamped ones, a double zero listed once."""
+    omega2 = np.maximum(eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True), 0)
+    c = alpha + beta * omega2
+    root = np.sqrt((c**2 / 4 - omega2).astype(complex))
+    s = np.concatenate([-c / 2 + root, -c / 2 - root])
+    s = s[s.imag >= 0]
+    return s[np.argsort(np.abs(s))][:count]
+
+
+def damped():
+    for name, structure in (("pinned", st.pinned_beam(30)), ("frame", st.frame(2, 7)), ("solid", st.solid(3, 3, 12, (0.3, 0.3, 2.0)).held(
+            [(node, c) for node in range(1, 17) for c in (1, 2, 3)]))):
+        first = np.sqrt(eigh(structure.K.toarray(), structure.M.toarray(), eigvals_only=True, subset_by_index=[0, 0])[0])
+        for kind, alpha, beta, tolerance in (("light", 1e-3 * first, 1e-5 / first, 1e-8), ("proportional", 0.1 * first, 0.02 / first, 1e-8),
+                                             ("overdamped", 5 * first, 0.0, 1e-8), ("critical", 2 * first, 0.0, 1e-4)):
+            structure.C = alpha * structure.M + beta * structure.K
+            _, rows, _, cpu = modes(f"{name}_{kind}", structure, 12)
+            if rows:
+                expect(f"{name}, {kind}: values", *same(values(rows), proportional(structure, alpha, beta, 40), tolerance))
+                expect(f"{name}, {kind}: the lowest ones", abs(values(rows)[-1]) <= abs(proportional(structure, alpha, beta, 14 if kind == "critical" else 12)[-1]) * (1 + 1e-6))  # double values split either way
+                expect(f"{name}, {kind}: time", cpu < SECONDS, f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
+    # 600 dofs with a range of four decades between the lowest frequency and the stiffest element
+    structure = st.pinned_beam(100)
+    structure.C = 0.01 * structure.M + 1e-5 * structure.K
+    _, rows, _, cpu = modes("fine_beam", structure, 12)
+    if rows:
+        omega2 = np.repeat((np.pi * np.arange(1, 7) / 10) ** 4 * E * 0.05**2 / 4 / RHO, 2)
+        exact = -(0.01 + 1e-5 * omega2) / 2 + 1j * np.sqrt(omega2 - (0.01 + 1e-5 * omega2) ** 2 / 4)
+        expect("fine beam: values of the closed form", *same(values(rows), exact, 1e-5))
+        expect("fine beam: time", cpu < SECONDS, f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
+    # dashpots at two nodes: not proportional
+    structure = st.frame(1, 8)
+    c = np.zeros(structure.M.shape[0])
+    c[[0, 1, 50, 51, 52]] = 2e3
+    structure.C = sparse.diags(c).tocsr()
+    _, rows, _, _ = modes("dashpots", structure, 12)
+    if rows:
+        expect("dashpots: values of the companion form", *same(values(rows), companion(structure, 30), 1e-7))
+
+
+def gyroscopic():
+    # pinned spinning shaft: omega = sqrt((g/2m)^2 + omega_0^2) -+ g/2m, g/m = rho I_p Omega (k pi / L)^2 / (rho A)
+    radius, length = 0.4, 10.0
+    for speed in (50.0, 5000.0):
+        shaft = st.pinned_beam(100, radius=radius, speed=speed)
+        _, rows, _, cpu = modes(f"shaft_{speed:.0f}", shaft, 8)
+        if rows:
+            k = np.pi * np.arange(1, 30) / length
+            omega0 = k**2 * radius / 2 * np.sqrt(E / RHO)
+            half = radius**2 / 2 * speed * k**2 / 2
+            whirl = np.concatenate([np.sqrt(half**2 + omega0**2) - half, np.sqrt(half**2 + omega0**2) + half])
+            axial = np.concatenate([np.pi * (np.arange(1, 20) - 0.5) / length * np.sqrt(E / RHO), np.pi * (np.arange(1, 20) - 0.5) / length * np.sqrt(E / 2.6 / RHO)])
+            exact = 1j * np.sort(np.concatenate([whirl, axial]))
+            expect(f"shaft at {speed:.0f} rad/s: closed form", *same(values(rows), exact[:20], 2e-3))
+            expect(f"shaft at {speed:.0f} rad/s: nothing is damped", np.abs(column(rows, "full_damping")).max() < 1e-10)
+            expect(f"shaft at {speed:.0f} rad/s: time", cpu < SECONDS, f"{cpu:.1f} s for {shaft.M.shape[0]} dofs")
+    free = st.beam(30, radius=radius, speed=2000.0)
+    _, rows, _, _ = modes("free_rotor", free, 14)
+    if rows:
+        exact = companion(free, 60)
+        found = values(rows)
+        floor = 1e-4 * np.abs(found).max()
+        expect("free rotor: values of the companion form", *same(found[np.abs(found) > floor], exact[np.abs(exact) > floor], 1e-7))
+
+
+def reduced():
+    """Two halves of a free beam and of a tower: every coupled mode once, rigid-body modes zero, no basis fails."""
+    half = st.beam(20, length=5.0, direction=(1, 2, 3))
+    half.write("half.h5", {"left": [1], "right": [21]})
+    parts, joints = {"a": "half.h5", "b": "half.h5"}, ["a:right = b:left"]
+    for basis in ("Craig-Bampton", "Rubin", "Craig-Chang", "MacNeal", "Dual Craig-Bampton", "Dual Craig-Bampton+"):
+        own = '<ParameterList name="Dual Craig-Bampton"><Parameter name="Residual Mass" type="bool" value="true"/></ParameterList>'
+        text = (f'<Parameter name="Basis" type="string" value="{basis.rstrip("+")}"/><Parameter name="Modes" type="int" value="14"/>' +
+                (own if basis.endswith("+") else ""))
+        name = "halves_" + basis.replace(" ", "_").replace("+", "_mass")
+        rows, lists, output, _ = modes(name, None, 12, text, parts, joints)
+        if not rows:
+            continue
+        for kind, table in (("undamped", rows), ("damped", lists)):
+            partner = column(table, "coupled_mode")
+            expect(f"{name}, {kind}: no coupled mode twice", len(set(partner)) == len(partner))
+            expect(f"{name}, {kind}: rigid-body modes are zero", np.all(column(table, "full")[:6] == 0) and np.all(column(table, "coupled")[:6] == 0))
+            expect(f"{name}, {kind}: subspaces agree", column(table, "mac").min() > 0.99, f"{column(table, 'mac').min():.4f}")
+            expect(f"{name}, {kind}: errors", np.abs(column(table, "error")).max() < 0.02, f"{np.abs(column(table, 'error')).max():.1e}")
+        expect(f"{name}: nothing is called buckled", "buckled" not in output and "buckles" not in output)
+
+
+WELL = """<ParameterList name="well">
+  <ParameterList name="Well">
+    <Parameter name="Trajectory" type="string" value="Arc"/>
+    <ParameterList name="Arc">
+      <Parameter name="Kick-off Depth" type="double" value="60"/>
+      <Parameter name="Radius" type="double" value="150"/>
+      <Parameter name="End Inclination" type="string" value="60 deg"/>
+      <Parameter name="Tangent Length" type="double" value="200"/>
+    </ParameterList>
+    <Parameter name="Bore Radius" type="double" value="0.108"/>
+  </ParameterList>
+  <ParameterList name="Drillstring"><ParameterList name="Components">
+    <ParameterList name="body"><Parameter name="Length" type="double" value="9"/><Parameter name="Elements" type="int" value="2"/>
+      <Parameter name="Outer Radius" type="double" value="0.0635"/><Parameter name="Inner Radius" type="double" value="0.0543"/></ParameterList>
+    <ParameterList name="joint"><Parameter name="Length" type="double" value="0.5"/><Parameter name="Elements" type="int" value="1"/>
+      <Parameter name="Outer Radius" type="double" value="0.084"/><Parameter name="Inner Radius" type="double" value="0.0413"/></ParameterList>
+    <ParameterList name="stand"><Parameter name="Parts" type="Array(string)" value="{body, joint}"/></ParameterList></ParameterList>
+    <Parameter name="Assembly" type="Array(string)" value="{40*stand}"/>
+  </ParameterList>
+  <ParameterList name="Contact">
+    <Parameter name="Stiffness" type="double" value="1e7"/><Parameter name="Damping" type="double" value="1e4"/>
+    <ParameterList name="Friction"><Parameter name="Static" type="double" value="0.25"/><Parameter name="Dynamic" type="double" value="0.25"/></ParameterList>
+  </ParameterList>
+  <ParameterList name="Loads">
+    <Parameter name="Gravity" type="double" value="9.81"/>
+    <Parameter name="Weight On Bit" type="string" value="10 kN"/>
+    <Parameter name="Torque On Bit" type="string" value="1 kN m"/>
+  </ParameterList>
+  <ParameterList name="Rotary Speed"><Parameter name="Law" type="string" value="Constant"/>
+    <ParameterList name="Constant"><Parameter name="Speed" type="string" value="120 rpm"/></ParameterList></ParameterList>
+</ParameterList>
+"""
+
+
+def sliding_string():
+    """A turning string that lies on the wall with friction: the symmetric part without friction has no negative value."""
+    pathlib.Path("well.xml").write_text(WELL, encoding="utf-8")
+    done = subprocess.run([PROGRAM, "modes", "well.xml", "--count", "12", "--output", "well_out"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, check=False, timeout=600)
+    expect("sliding string: exit code 0", done.returncode == 0, "" if done.returncode == 0 else done.stdout[-600:])
+    if done.returncode == 0:
+        found = [float(row["full [Hz]"]) for row in csv.DictReader(open("well_out/modes.csv", encoding="utf-8"))]
+        expect("sliding string: undamped modes are positive", min(found) > 0, f"{min(found):.4g} Hz")
+        expect("sliding string: they say that friction is left out", "friction left out" in done.stdout)
+        expect("sliding string: stability is judged by the damped modes", "damped modes listed" in done.stdout)
+
+
+undamped()
+damped()
+sliding_string()
+gyroscopic()
+reduced()
+print(f"{len(FAULTS)} faults" if FAULTS else "all good")
+sys.exit(1 if FAULTS else 0)
