@@ -250,7 +250,9 @@ TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
     const auto s2 = modes.values[j] * modes.values[j];
     EXPECT_LT((pairs.values.array() + s2.real()).abs().minCoeff(), 1e-9 * std::abs(s2)) << j;
     EXPECT_TRUE(modes.values[j].real() == 0.0 || modes.values[j].imag() == 0.0);
-    if (j > 0) EXPECT_GE(std::abs(modes.values[j]), std::abs(modes.values[j - 1]));
+    if (j > 0) {
+      EXPECT_GE(std::abs(modes.values[j]), std::abs(modes.values[j - 1]));
+    }
   }
 }
 
