@@ -141,7 +141,7 @@ int run(int argc, char** argv) {
   compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
 
   auto* docCommand = program.add_subcommand("doc", "print the parameter manual");
-  docCommand->add_option("TOPIC", topic, "a list of the deck, e.g. Contact");
+  docCommand->add_option("TOPIC", topic, "a list of the deck, e.g. Contact, or units");
   docCommand->add_option("--format", format, "md or json")->check(CLI::IsMember({"md", "json"}));
   docCommand->callback([&] { command = [&] { say(std::cout, app::manual(topic, format)); }; });
 

@@ -101,9 +101,19 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
   return result;
 }
 
+std::string excerpt(std::string_view text, std::size_t most) {
+  constexpr std::string_view dots = "...";
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most - std::min(most, dots.size());
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // never within a character of UTF-8
+  return std::string(text.substr(0, end)).append(dots);
+}
+
+std::string inQuotes(std::string_view text) { return "\"" + excerpt(text) + "\""; }
+
 std::string quotedList(const std::vector<std::string>& parts) {
   std::string result;
-  for (const std::string& part : parts) result += (result.empty() ? "\"" : ", \"") + part + "\"";
+  for (const std::string& part : parts) result += (result.empty() ? "" : ", ") + inQuotes(part);
   return result;
 }
 

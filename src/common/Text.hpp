@@ -27,7 +27,16 @@ std::string lower(std::string_view text);
 std::vector<std::string> split(std::string_view text, char separator);
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
 
-/// `"a", "b", "c"`
+/// Characters of a value that messages quote at most.
+constexpr std::size_t longestQuote = 200;
+
+/// The text, cut to `most` bytes with "..." at its end where it is longer.
+std::string excerpt(std::string_view text, std::size_t most = longestQuote);
+
+/// `"text"`, shortened by excerpt().
+std::string inQuotes(std::string_view text);
+
+/// `"a", "b", "c"`, each shortened by excerpt().
 std::string quotedList(const std::vector<std::string>& parts);
 
 }  // namespace tooljoint

@@ -96,7 +96,7 @@ Deck Deck::readNamed(const std::string& path, const std::string& name, const Lis
   try {
     return read(resolve(name), library);
   } catch (const FileError& fault) {
-    throw DeckError(error(path, std::string("names a file that cannot be read: ") + fault.what()));
+    throw DeckError(error(path, std::string("names a file, but ") + fault.what()));
   }
 }
 

@@ -16,6 +16,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const std::string unitsTopic = "Units";
+
+const std::string unitsIntroduction =
+    "Units of quantities written with one, as in `type=\"string\" value=\"5 in\"`, and in the header of a survey. They combine: "
+    "`kg/m3`, `lb/gal`, `bbl/min`, `N s/m`, `ft lbf`, `ft-lbf`, `ft.lbf`, `deg/30m`, `W/(m s)`. `t`, `lb` and `klb` are masses, "
+    "and "
+    "where a force or torque is asked for the weight of that mass under standard gravity, 9.80665 m/s2. `sg` is the density "
+    "referred to 1000 kg/m3.";
+
 /// A list with its path; the root's path is its name.
 struct Located {
   const ListSpec* list;
@@ -80,12 +89,13 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   std::vector<std::string> candidates = names;
+  candidates.push_back(unitsTopic);
   for (const Located& item : all) {
     for (const ParameterSpec& parameter : item.list->parameters()) candidates.push_back(parameter.name);
   }
   const std::string near = closest(topic, candidates);
   throw UsageError("The manual has no topic \"" + topic + "\"." + (near.empty() ? "" : " Did you mean \"" + near + "\"?") +
-                   " Topics are the lists " + quotedList(names) + " and the names of parameters.");
+                   " Topics are the lists " + quotedList(names) + ", the names of parameters, and \"" + unitsTopic + "\".");
 }
 
 /// Text of a table cell: "|" and line ends would break the table, "<" would start HTML.
@@ -246,18 +256,29 @@ std::string manualJson(const ListSpec& root, const std::string& topic) { return 
 
 std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic) { return printJson(collect(roots), topic); }
 
-std::string unitsMarkdown() {
-  std::vector<std::string> quantities;
-  std::map<std::string, std::string> rows;
+std::string unitsMarkdown(int headingLevel) {
+  std::string text = std::string(static_cast<std::size_t>(headingLevel), '#') + " " + unitsTopic + "\n\n" + unitsIntroduction +
+                     "\n\n| Quantity | Unit | Also written | Value in SI |\n|---|---|---|---|\n";
   for (const UnitSymbol& symbol : unitSymbols()) {
-    std::string& row = rows[symbol.quantity];
-    if (row.empty()) quantities.push_back(symbol.quantity);
-    row += (row.empty() ? "`" : ", `") + symbol.symbol + "`";
+    std::vector<std::string> also;
+    for (const std::string& synonym : symbol.synonyms) also.push_back("`" + synonym + "`");
+    text += "| " + symbol.quantity + " | `" + symbol.symbol + "` | " + join(also, ", ") + " | " +
+            formatNumber(symbol.unit.factor) + " " + symbol.si + " |\n";
   }
-  std::string text = "| Quantity | Units |\n|---|---|\n";
-  for (const std::string& quantity : quantities) text += "| " + quantity + " | " + rows[quantity] + " |\n";
   return text;
 }
+
+std::string unitsJson() {
+  Json quantities = Json::array();
+  for (const UnitSymbol& symbol : unitSymbols()) {
+    if (quantities.empty() || quantities.back()["quantity"] != symbol.quantity)
+      quantities.push_back({{"quantity", symbol.quantity}, {"si", symbol.si}, {"units", Json::array()}});
+    quantities.back()["units"].push_back({{"unit", symbol.symbol}, {"also", symbol.synonyms}, {"factor", symbol.unit.factor}});
+  }
+  return quantities.dump(2) + "\n";
+}
+
+bool isUnitsTopic(const std::string& topic) { return lower(trim(topic)) == lower(unitsTopic); }
 
 std::vector<std::string> topics(const ListSpec& root) {
   std::vector<std::string> result;

@@ -26,8 +26,11 @@ std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string
 std::string manualJson(const ListSpec& root, const std::string& topic = "");
 std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic = "");
 
-/// The table of units that quantities may be given in, as Markdown.
-std::string unitsMarkdown();
+/// The topic "Units": every symbol a quantity may be given in, by quantity, with its other spellings and its value in SI.
+bool isUnitsTopic(const std::string& topic);
+std::string unitsMarkdown(int headingLevel = 2);
+/// [{"quantity", "si", "units": [{"unit", "also": [...], "factor"}]}], 1 unit = factor si.
+std::string unitsJson();
 
 /// Topics a person may ask for: the paths of all lists, in the order of the manual.
 std::vector<std::string> topics(const ListSpec& root);

@@ -21,68 +21,95 @@ constexpr double poundForce = pound * gravity;
 constexpr double gallon = 231.0 * inch * inch * inch;  // US gallon, 231 cubic inches
 constexpr double rotation = 2.0 * pi;
 
-constexpr Dimension none{0, 0, 0, 0, 0};
-constexpr Dimension length{1, 0, 0, 0, 0};
-constexpr Dimension mass{0, 1, 0, 0, 0};
-constexpr Dimension time{0, 0, 1, 0, 0};
-constexpr Dimension angle{0, 0, 0, 1, 0};
-constexpr Dimension force{1, 1, -2, 0, 0};
-constexpr Dimension torque{2, 1, -2, 0, 0};
-constexpr Dimension pressure{-1, 1, -2, 0, 0};
-constexpr Dimension power{2, 1, -3, 0, 0};
-constexpr Dimension density{-3, 1, 0, 0, 0};
-constexpr Dimension volume{3, 0, 0, 0, 0};
-constexpr Dimension flow{3, 0, -1, 0, 0};
-constexpr Dimension viscosity{2, 0, -1, 0, 0};
-constexpr Dimension dynamicViscosity{-1, 1, -1, 0, 0};
-constexpr Dimension rotarySpeed{0, 0, -1, 1, 0};
-constexpr Dimension frequency{0, 0, -1, 0, 1};
+constexpr double barrel = 42.0 * gallon;
+constexpr double waterDensity = 1000.0;  // kg/m3, what specific gravities of drilling fluids refer to
 
-/// What the table is made of, kept apart from the compound units that people look for in a manual.
+constexpr Dimension none{0, 0, 0, 0, 0};
+
+/// A measured quantity, its SI unit and its dimension.
+struct Quantity {
+  const char* name;
+  const char* si;
+  Dimension dimension;
+};
+
+constexpr Quantity length{"length", "m", {1, 0, 0, 0, 0}};
+constexpr Quantity mass{"mass", "kg", {0, 1, 0, 0, 0}};
+constexpr Quantity time{"time", "s", {0, 0, 1, 0, 0}};
+constexpr Quantity angle{"angle", "rad", {0, 0, 0, 1, 0}};
+constexpr Quantity force{"force", "N", {1, 1, -2, 0, 0}};
+constexpr Quantity torque{"torque", "N m", {2, 1, -2, 0, 0}};
+constexpr Quantity pressure{"pressure", "Pa", {-1, 1, -2, 0, 0}};
+constexpr Quantity power{"power", "W", {2, 1, -3, 0, 0}};
+constexpr Quantity density{"density", "kg/m3", {-3, 1, 0, 0, 0}};
+constexpr Quantity volume{"volume", "m3", {3, 0, 0, 0, 0}};
+constexpr Quantity flow{"volume flow", "m3/s", {3, 0, -1, 0, 0}};
+constexpr Quantity viscosity{"kinematic viscosity", "m2/s", {2, 0, -1, 0, 0}};
+constexpr Quantity dynamicViscosity{"dynamic viscosity", "Pa s", {-1, 1, -1, 0, 0}};
+constexpr Quantity rotarySpeed{"rotary speed", "rad/s", {0, 0, -1, 1, 0}};
+constexpr Quantity frequency{"frequency", "Hz", {0, 0, -1, 0, 1}};
+
+/// What the table is made of, kept apart from the compound units that people look for in a manual. Quantities stand together.
+/// Inch, foot, pound, gallon and standard gravity are exact by definition (NIST SP 811, appendix B).
 std::vector<UnitSymbol> makeSymbols() {
-  return {
-      {"m", "length", {1.0, length}},
-      {"mm", "length", {1e-3, length}},
-      {"cm", "length", {1e-2, length}},
-      {"km", "length", {1e3, length}},
-      {"ft", "length", {foot, length}},
-      {"in", "length", {inch, length}},
-      {"kg", "mass", {1.0, mass}},
-      {"g", "mass", {1e-3, mass}},
-      {"t", "mass", {1e3, mass}},
-      {"lbm", "mass", {pound, mass}},
-      {"s", "time", {1.0, time}},
-      {"ms", "time", {1e-3, time}},
-      {"min", "time", {60.0, time}},
-      {"h", "time", {3600.0, time}},
-      {"rad", "angle", {1.0, angle}},
-      {"deg", "angle", {pi / 180.0, angle}},
-      {"rev", "angle", {rotation, angle}},
-      {"N", "force", {1.0, force}},
-      {"kN", "force", {1e3, force}},
-      {"MN", "force", {1e6, force}},
-      {"lbf", "force", {poundForce, force}},
-      {"klbf", "force", {1e3 * poundForce, force}},
-      {"Nm", "torque", {1.0, torque}},
-      {"kNm", "torque", {1e3, torque}},
-      {"Pa", "pressure", {1.0, pressure}},
-      {"kPa", "pressure", {1e3, pressure}},
-      {"MPa", "pressure", {1e6, pressure}},
-      {"GPa", "pressure", {1e9, pressure}},
-      {"bar", "pressure", {1e5, pressure}},
-      {"psi", "pressure", {poundForce / (inch * inch), pressure}},
-      {"W", "power", {1.0, power}},
-      {"kW", "power", {1e3, power}},
-      {"ppg", "density", {pound / gallon, density}},
-      {"rpm", "rotary speed", {rotation / 60.0, rotarySpeed}},
-      {"Hz", "frequency", {1.0, frequency}},
-      {"kHz", "frequency", {1e3, frequency}},
-      {"l", "volume", {1e-3, volume}},
-      {"gal", "volume", {gallon, volume}},
-      {"gpm", "volume flow", {gallon / 60.0, flow}},
-      {"cSt", "kinematic viscosity", {1e-6, viscosity}},
-      {"cP", "dynamic viscosity", {1e-3, dynamicViscosity}},
+  std::vector<UnitSymbol> table;
+  const auto add = [&table](const Quantity& quantity, const char* symbol, double factor, std::vector<std::string> synonyms = {}) {
+    table.push_back({symbol, std::move(synonyms), quantity.name, quantity.si, {factor, quantity.dimension}});
   };
+  add(length, "m", 1.0, {"meter", "meters", "metre", "metres"});
+  add(length, "mm", 1e-3);
+  add(length, "cm", 1e-2);
+  add(length, "km", 1e3);
+  add(length, "ft", foot, {"foot", "feet"});
+  add(length, "in", inch, {"inch", "inches"});
+  add(length, "kft", 1e3 * foot);
+  add(mass, "kg", 1.0);
+  add(mass, "g", 1e-3);
+  add(mass, "t", 1e3, {"tonne", "tonnes"});
+  add(mass, "lbm", pound);
+  add(mass, "lb", pound, {"lbs"});
+  add(mass, "klb", 1e3 * pound, {"klbs"});
+  add(time, "s", 1.0, {"sec", "second", "seconds"});
+  add(time, "ms", 1e-3);
+  add(time, "min", 60.0, {"minute", "minutes"});
+  add(time, "h", 3600.0, {"hr", "hour", "hours"});
+  add(angle, "rad", 1.0, {"radian", "radians"});
+  add(angle, "deg", pi / 180.0, {"\u00b0", "degree", "degrees"});
+  add(angle, "rev", rotation);
+  add(force, "N", 1.0, {"newton"});
+  add(force, "daN", 10.0);
+  add(force, "kN", 1e3);
+  add(force, "MN", 1e6);
+  add(force, "lbf", poundForce);
+  add(force, "klbf", 1e3 * poundForce, {"kip", "kips"});
+  add(force, "tf", 1e3 * gravity);
+  add(force, "t", 1e3 * gravity, {"tonne", "tonnes"});
+  add(force, "lb", poundForce, {"lbs"});
+  add(force, "klb", 1e3 * poundForce, {"klbs"});
+  add(torque, "Nm", 1.0);
+  add(torque, "kNm", 1e3);
+  add(pressure, "Pa", 1.0, {"pascal"});
+  add(pressure, "kPa", 1e3);
+  add(pressure, "MPa", 1e6);
+  add(pressure, "GPa", 1e9);
+  add(pressure, "bar", 1e5);
+  add(pressure, "psi", poundForce / (inch * inch));
+  add(power, "W", 1.0);
+  add(power, "kW", 1e3);
+  add(density, "ppg", pound / gallon);
+  add(density, "pcf", pound / (foot * foot * foot));
+  add(density, "sg", waterDensity);
+  add(rotarySpeed, "rpm", rotation / 60.0);
+  add(frequency, "Hz", 1.0);
+  add(frequency, "kHz", 1e3);
+  add(volume, "l", 1e-3, {"liter", "liters", "litre", "litres"});
+  add(volume, "gal", gallon);
+  add(volume, "bbl", barrel);
+  add(flow, "gpm", gallon / 60.0);
+  add(flow, "lpm", 1e-3 / 60.0);
+  add(viscosity, "cSt", 1e-6);
+  add(dynamicViscosity, "cP", 1e-3);
+  return table;
 }
 
 Unit multiply(const Unit& a, const Unit& b, int power_) {
@@ -100,29 +127,37 @@ double scaled(double number, double factor) {
   return whole ? number / inverse : number * factor;
 }
 
-bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+/// Letters, and the bytes of characters that are not ASCII (the degree sign).
+bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80; }
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// The symbol for a unit a person has spelled out or written another way; "" when there is no good guess.
+bool isNamed(const UnitSymbol& symbol, const std::string& name) {
+  const auto& also = symbol.synonyms;
+  return symbol.symbol == name || std::find(also.begin(), also.end(), name) != also.end();
+}
+
+/// The table's entry of this name; of a symbol of mass and force the one that `reading` wants. Null when there is none.
+const UnitSymbol* findSymbol(const std::string& name, Reading reading) {
+  const UnitSymbol* found = nullptr;
+  for (const UnitSymbol& symbol : unitSymbols())
+    if (isNamed(symbol, name) && (found == nullptr || reading == Reading::Force)) found = &symbol;
+  return found;
+}
+
+/// The symbol for a unit a person has written another way; "" when there is no good guess.
 std::string meantUnit(const std::string& name) {
-  static const std::map<std::string, std::string> spelled = {
-      {"inch", "in"},  {"inches", "in"}, {"foot", "ft"},    {"feet", "ft"},     {"meter", "m"},     {"metre", "m"},
-      {"meters", "m"}, {"metres", "m"},  {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},  {"radians", "rad"},
-      {"sec", "s"},    {"second", "s"},  {"seconds", "s"},  {"minute", "min"},  {"minutes", "min"}, {"hr", "h"},
-      {"hour", "h"},   {"hours", "h"},   {"lb", "lbf"},     {"lbs", "lbf"},     {"kip", "klbf"},    {"kips", "klbf"},
-      {"klb", "klbf"}, {"newton", "N"},  {"pascal", "Pa"},  {"liter", "l"},     {"litre", "l"},     {"liters", "l"},
-      {"litres", "l"}, {"tonne", "t"}};
-  const auto it = spelled.find(lower(name));
-  if (it != spelled.end()) return it->second;
   std::vector<std::string> known;
-  for (const UnitSymbol& symbol : unitSymbols()) known.push_back(symbol.symbol);
+  for (const UnitSymbol& symbol : unitSymbols()) {
+    known.push_back(symbol.symbol);
+    known.insert(known.end(), symbol.synonyms.begin(), symbol.synonyms.end());
+  }
   return closest(name, known);
 }
 
 /// Recursive descent over the grammar of the header: product of factors, "/" applies to the one factor after it.
 class UnitParser {
  public:
-  explicit UnitParser(std::string_view text) : text_(text) {}
+  UnitParser(std::string_view text, Reading reading) : text_(text), reading_(reading) {}
 
   std::optional<Unit> parse() {
     std::optional<Unit> unit = product();
@@ -144,7 +179,12 @@ class UnitParser {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
   }
 
-  /// product := factor { ("*" | blank) factor | "/" factor }
+  /// "-" or "." between two symbols: "ft-lbf", "N.m"
+  bool joins(std::size_t at) const {
+    return at + 1 < text_.size() && (text_[at] == '-' || text_[at] == '.') && isLetter(text_[at + 1]);
+  }
+
+  /// product := factor { ("*" | "-" | "." | blank) factor | "/" factor }
   std::optional<Unit> product() {
     std::optional<Unit> result = factor();
     bool divided = false;
@@ -152,7 +192,7 @@ class UnitParser {
       skipBlanks();
       if (at_ >= text_.size() || text_[at_] == ')') return result;
       const bool divide = text_[at_] == '/';
-      if (divide || text_[at_] == '*') ++at_;
+      if (divide || text_[at_] == '*' || joins(at_)) ++at_;
       if (divided && !divide)
         return fail("the unit \"" + trim(text_) + "\" is ambiguous: write parentheses around what it divides by");
       const std::optional<Unit> next = factor();
@@ -201,9 +241,7 @@ class UnitParser {
     const std::size_t begin = at_;
     while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
     const std::string name(text_.substr(begin, at_ - begin));
-    const auto& symbols = unitSymbols();
-    const auto it = std::find_if(symbols.begin(), symbols.end(), [&](const UnitSymbol& s) { return s.symbol == name; });
-    if (it != symbols.end()) return power(it->unit);
+    if (const UnitSymbol* known = findSymbol(name, reading_)) return power(known->unit);
     if (name.empty()) return fail("\"" + trim(text_.substr(begin)) + "\" is not a unit");
     const std::string near = meantUnit(name);
     return fail("\"" + name + "\" is not a known unit" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
@@ -212,6 +250,7 @@ class UnitParser {
   /// exponent := ["^"] ["-"] digit
   std::optional<Unit> power(const Unit& base) {
     std::size_t at = at_;
+    if (joins(at)) return base;
     const bool caret = at < text_.size() && text_[at] == '^';
     if (caret) ++at;
     const bool minus = at < text_.size() && text_[at] == '-';
@@ -227,6 +266,7 @@ class UnitParser {
   }
 
   std::string_view text_;
+  Reading reading_;
   std::size_t at_ = 0;
   int depth_ = 0;
   std::string fault_;
@@ -239,9 +279,9 @@ const std::vector<UnitSymbol>& unitSymbols() {
   return symbols;
 }
 
-std::optional<Unit> parseUnit(std::string_view text, std::string* fault) {
+std::optional<Unit> parseUnit(std::string_view text, std::string* fault, Reading reading) {
   if (trim(text).empty()) return Unit{1.0, none};
-  UnitParser parser(text);
+  UnitParser parser(text, reading);
   const std::optional<Unit> unit = parser.parse();
   if (!unit && fault != nullptr) *fault = parser.fault();
   return unit;
@@ -249,18 +289,19 @@ std::optional<Unit> parseUnit(std::string_view text, std::string* fault) {
 
 std::vector<std::string> unitsLike(const std::string& si) {
   static const std::vector<std::string> compounds = {
-      "m/s",    "ft/s", "m/h",   "ft/h",  "m/s2", "m2",      "mm2",  "in2", "kg/m3", "g/cm3", "kg/m",    "lbm/ft",    "N/m",
-      "kN/m",   "MN/m", "N s/m", "N m",   "kN m", "ft lbf",  "kg m", "1/m", "rad/m", "deg/m", "deg/30m", "rad/s",     "deg/s",
-      "rad/s2", "1/s",  "m3/s",  "l/min", "m2/s", "N m/rad", "Pa s", "m4",  "mm4",   "in4",   "kg m2",   "N m s/rad", "m3"};
+      "m/s",    "ft/s",    "m/h",     "ft/h",    "m/s2",    "m2",    "mm2",   "in2",       "kg/m3", "g/cm3", "kg/m",
+      "lbm/ft", "lb/gal",  "bbl/min", "kft lbf", "N/m",     "kN/m",  "MN/m",  "N s/m",     "N m",   "kN m",  "ft lbf",
+      "kg m",   "1/m",     "rad/m",   "deg/m",   "deg/30m", "rad/s", "deg/s", "rad/s2",    "1/s",   "m3/s",  "l/min",
+      "m2/s",   "N m/rad", "Pa s",    "m4",      "mm4",     "in4",   "kg m2", "N m s/rad", "m3"};
   std::vector<std::string> result;
   const std::optional<Unit> wanted = parseUnit(si);
   if (!wanted) return result;
-  const auto offer = [&](const std::string& candidate) {
-    const std::optional<Unit> unit = parseUnit(candidate);
-    if (unit && unit->dimension == wanted->dimension) result.push_back(candidate);
-  };
-  for (const UnitSymbol& symbol : unitSymbols()) offer(symbol.symbol);
-  for (const std::string& compound : compounds) offer(compound);
+  for (const UnitSymbol& symbol : unitSymbols())
+    if (symbol.unit.dimension == wanted->dimension) result.push_back(symbol.symbol);
+  for (const std::string& compound : compounds) {
+    const std::optional<Unit> unit = parseUnit(compound);
+    if (unit && unit->dimension == wanted->dimension) result.push_back(compound);
+  }
   if (std::find(result.begin(), result.end(), si) == result.end()) result.insert(result.begin(), si);
   return result;
 }
@@ -294,7 +335,9 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
     return std::nullopt;
   }
   std::string why;
-  const std::optional<Unit> unit = parseUnit(rest, &why);
+  std::optional<Unit> unit = parseUnit(rest, &why);
+  const std::optional<Unit> weight = parseUnit(rest, nullptr, Reading::Force);
+  if (weight && weight->dimension == wanted->dimension) unit = weight;
   if (!unit) {
     fault = "has a unit that is not understood: " + why + "; expected is " + expected;
     return std::nullopt;

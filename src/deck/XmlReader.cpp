@@ -2,19 +2,16 @@
 #include "deck/XmlReader.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <libxml/SAX2.h>
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <libxml/tree.h>
 #include <map>
 #include <memory>
-#include <sys/stat.h>
 
 #include "common/Error.hpp"
+#include "common/InputFile.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::deck {
@@ -290,22 +287,9 @@ void raise(std::vector<Finding> findings, const std::string& file) {
 }
 
 std::string readTextFile(const std::string& file) {
-  struct stat status = {};
-  if (stat(file.c_str(), &status) != 0) {
-    throw FileError(file + ": the file cannot be opened: " + std::strerror(errno) + ".");
-  }
-  if (S_ISDIR(status.st_mode)) throw FileError(file + ": is a folder; a deck is an XML file.");
-  if (!S_ISREG(status.st_mode)) throw FileError(file + ": is no regular file; a deck is an XML file.");
-  if (static_cast<unsigned long long>(status.st_size) > largestDeck) {
-    throw DeckError(file + ": is larger than 64 MB, which cannot be a deck.");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file + ": the file cannot be opened: " + std::strerror(errno) + ".");
-  std::string text(static_cast<std::size_t>(status.st_size), '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) throw FileError(file + ": reading failed: " + std::strerror(errno) + ".");
-  return text;
+  InputFile input(file);
+  if (input.size() > largestDeck) throw DeckError(file + ": is larger than 64 MB, which cannot be a deck.");
+  return input.all(largestDeck);
 }
 
 RawList readXml(const std::string& text, const std::string& file) {

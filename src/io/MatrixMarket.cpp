@@ -4,15 +4,16 @@
 #include <Teuchos_MatrixMarket_Banner.hpp>
 #include <Teuchos_MatrixMarket_CoordDataReader.hpp>
 #include <Teuchos_MatrixMarket_SymmetrizingAdder.hpp>
-#include <cerrno>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
+#include <filesystem>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <vector>
 
+#include "common/InputFile.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::io {
@@ -20,6 +21,10 @@ namespace tooljoint::io {
 namespace {
 
 namespace market = Teuchos::MatrixMarket;
+
+constexpr std::size_t longestLine = 1024;  // NISTIR 5935
+constexpr long shortestEntry = 6;          // "1 1 1\n"
+constexpr long shortestNumber = 2;         // "1\n"
 
 /// Where Teuchos puts the entries: checked against the sizes.
 struct Entries {
@@ -58,9 +63,7 @@ bool isNumber(const std::string& text) {
 /// One file from its banner to its last line.
 class File {
  public:
-  explicit File(const std::string& path) : path_(path), in_(path) {
-    if (!in_) throw MatrixFileError("The matrix file " + path + " cannot be read: " + std::strerror(errno) + ".");
-  }
+  explicit File(const std::string& path) : path_(path), in_(path) {}
 
   Sparse read() {
     readBanner();
@@ -69,6 +72,7 @@ class File {
     entries_ = Teuchos::rcp(new Entries);
     entries_->rows = static_cast<int>(sizes[0]);
     entries_->columns = static_cast<int>(sizes[1]);
+    requireRoom(array ? sizes[0] * (symmetric() ? sizes[0] - 1 : 2 * sizes[1]) / 2 : sizes[2], array ? shortestNumber : shortestEntry);
     if (banner_->symmType() != "general" && sizes[0] != sizes[1])
       fail("is " + size() + " and " + banner_->symmType() + "; only a square matrix can be that");
     if (array)
@@ -94,18 +98,17 @@ class File {
 
   /// The next line that is no comment and not empty.
   bool next() {
-    while (std::getline(in_, text_)) {
+    while (in_.line(text_, longestLine)) {
       ++line_;
       text_ = trim(text_);
       if (!text_.empty() && text_[0] != '%') return true;
     }
-    if (in_.bad()) fail("cannot be read further");
     return false;
   }
 
   void readBanner() {
     ++line_;
-    if (!std::getline(in_, text_)) fail("is empty; it should begin with the line \"%%MatrixMarket matrix coordinate real general\"");
+    if (!in_.line(text_, longestLine)) fail("is empty; it should begin with the line \"%%MatrixMarket matrix coordinate real general\"");
     try {
       banner_.emplace(trim(text_));
     } catch (const std::exception&) {
@@ -125,9 +128,17 @@ class File {
       std::string rest;
       if (words >> rest) sizes.clear();
     }
-    const bool good = sizes.size() == count && sizes[0] >= 1 && sizes[1] >= 1 && sizes.back() >= 0 && sizes[0] <= 1 << 28 && sizes[1] <= 1 << 28;
-    if (!good) fail(std::string("should give the sizes here, ") + (count == 2 ? "\"rows columns\"" : "\"rows columns entries\"") + ": found \"" + text_ + "\"");
+    const bool good = sizes.size() == count && sizes[0] >= 1 && sizes[1] >= 1 && sizes.back() >= 0 && sizes[0] <= largestDimension && sizes[1] <= largestDimension;
+    if (!good) fail(std::string("should give the sizes here, ") + (count == 2 ? "\"rows columns\"" : "\"rows columns entries\"") + ", with at most " + std::to_string(largestDimension) +
+                    " rows and columns: found \"" + text_ + "\"");
     return sizes;
+  }
+
+  /// A file that is too short for what it announces is refused before anything is stored.
+  void requireRoom(long announced, long bytesEach) const {
+    const auto possible = static_cast<long>(in_.size()) / bytesEach + 1;
+    if (announced > possible || announced > std::numeric_limits<int>::max())
+      fail("announces " + std::to_string(announced) + " entries, for which the file of " + std::to_string(in_.size()) + " bytes is too short");
   }
 
   void readCoordinates(long count) {
@@ -173,7 +184,7 @@ class File {
   }
 
   std::string path_;
-  std::ifstream in_;
+  InputFile in_;
   std::string text_;
   long line_ = 0;
   std::optional<market::Banner> banner_;
@@ -182,9 +193,27 @@ class File {
 
 }  // namespace
 
-Sparse readMatrixMarket(const std::string& path) { return File(path).read(); }
+Sparse readMatrixMarket(const std::string& path) {
+  try {
+    return File(path).read();
+  } catch (const FileError& fault) {
+    throw MatrixFileError(std::string("The matrix file ") + fault.what());
+  }
+}
 
-Matrix readMatrixMarketDense(const std::string& path) { return Matrix(readMatrixMarket(path)); }
+Matrix readMatrixMarketDense(const std::string& path) {
+  const Sparse matrix = readMatrixMarket(path);
+  requireDense(path, matrix, std::filesystem::file_size(path));
+  return Matrix(matrix);
+}
+
+void requireDense(const std::string& who, const Sparse& matrix, std::uint64_t fileSize) {
+  const auto numbers = static_cast<std::uint64_t>(matrix.rows()) * static_cast<std::uint64_t>(matrix.cols());
+  if (numbers > std::max(smallDense, fileSize))
+    throw MatrixFileError(who + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
+                          ", too large for a matrix that is needed with all its zeros: " + std::to_string(smallDense) +
+                          " numbers, or as many as the file has bytes, are the most.");
+}
 
 std::string matrixMarketText(const Sparse& matrix) {
   std::string text = "%%MatrixMarket matrix coordinate real general\n" + std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " +

@@ -4,6 +4,7 @@
 /// lines are read by Teuchos. Every rank reads for itself: use parallel::agree where all must end alike.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "common/Error.hpp"
@@ -18,12 +19,20 @@ struct MatrixFileError : DeckError {
   int column;  ///< likewise
 };
 
+/// Most rows, and most columns, of a matrix.
+constexpr long largestDimension = 1L << 24U;
+/// Numbers that a matrix may always have when it is needed with all its zeros (128 MB); a larger one only if its file has as many bytes.
+constexpr std::uint64_t smallDense = 1ULL << 24U;
+
 /// rows x columns of a coordinate or array file of real or integer numbers, general, symmetric or skew-symmetric (one triangle is given and
 /// the other one made of it). Entries given twice are added. MatrixFileError naming file and line: missing file, another kind of file, sizes
-/// that do not fit the entries, both triangles of a symmetric matrix, a number that is not finite.
+/// that do not fit the entries or the length of the file (found before anything is stored), a line of more than 1024 characters, both triangles of a symmetric matrix, a number that is not finite.
 Sparse readMatrixMarket(const std::string& path);
-/// The same as a dense matrix; a column is a vector.
+/// The same as a dense matrix; a column is a vector. MatrixFileError for one that is too large, see requireDense.
 Matrix readMatrixMarketDense(const std::string& path);
+/// Throws MatrixFileError, beginning with `who`, when the dense form of a matrix from a file of `fileSize` bytes has more numbers than smallDense and than
+/// the file has bytes.
+void requireDense(const std::string& who, const Sparse& matrix, std::uint64_t fileSize);
 
 /// Text of a general coordinate file, entries by rows; the numbers read back as the same doubles.
 std::string matrixMarketText(const Sparse& matrix);

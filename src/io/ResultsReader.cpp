@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "common/Error.hpp"
+#include "common/InputFile.hpp"
+#include "common/Text.hpp"
 #include "io/Hdf5.hpp"
 
 namespace tooljoint::io {
@@ -11,6 +13,11 @@ namespace tooljoint::io {
 using hdf5::Handle;
 
 namespace {
+
+constexpr double largestDataset = 2147483648.0;  // values: 16 GB of numbers
+constexpr double smallDataset = 8388608.0;       // bytes that a dataset may always announce
+constexpr hsize_t largestTexts = 1U << 30U;      // bytes; many texts may refer to the same stored one
+constexpr double bestCompression = 1032.0;       // bytes that a byte of deflate can stand for (zlib: technical details)
 
 Handle openDataset(hid_t file, const std::string& path) { return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose}; }
 
@@ -22,15 +29,35 @@ std::vector<std::size_t> extents(hid_t dataset) {
   return {extent.begin(), extent.end()};
 }
 
-std::size_t product(const std::vector<std::size_t>& shape) {
-  std::size_t count = 1;
-  for (std::size_t extent : shape) count *= extent;
+/// Product of the extents, infinite where it is too large for an integer.
+double product(const std::vector<std::size_t>& shape) {
+  double count = 1.0;
+  for (std::size_t extent : shape) count *= static_cast<double>(extent);
   return count;
+}
+
+/// Does a dataset keep its values in other files, which may be anything?
+bool isElsewhere(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation.get()) != 0 || H5Pget_layout(creation.get()) == H5D_VIRTUAL;
+}
+
+/// Bytes of a file that HDF5 has open.
+double fileSize(hid_t file) {
+  hsize_t size = 0;
+  H5Fget_filesize(file, &size);
+  return static_cast<double>(size);
 }
 
 herr_t visit(hid_t /*file*/, const char* name, const H5O_info_t* info, void* data) {
   if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
   return 0;
+}
+
+/// Does an attribute hold exactly one value?
+bool isSingle(const Handle& attribute) {
+  const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+  return H5Sget_simple_extent_npoints(space.get()) == 1;
 }
 
 /// Is the class of a dataset's or attribute's type one of two?
@@ -43,6 +70,8 @@ bool isClass(const Handle& type, H5T_class_t a, H5T_class_t b) {
 
 ResultsReader::ResultsReader(const std::string& path) : path_(path) {
   hdf5::silence();
+  const std::string reason = whyUnreadable(path);
+  if (!reason.empty()) throw FileError("The results file " + path + " cannot be read: " + reason + ".");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file_ < 0) throw FileError("The results file " + path + " cannot be read: " + hdf5::lastReason() + ".");
 }
@@ -53,6 +82,19 @@ ResultsReader::~ResultsReader() {
 
 void ResultsReader::fail(const std::string& what) const {
   throw FileError("The results file " + path_ + " has no " + what + ".");
+}
+
+std::size_t ResultsReader::count(const std::string& path, std::int64_t dataset) const {
+  if (isElsewhere(dataset)) throw FileError("The results file " + path_ + " has the values of " + path + " in other files; they must stand in itself.");
+  const double values = product(extents(dataset));
+  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const double bytes = values * static_cast<double>(H5Tget_size(type.get()));
+  const double stored = std::min(static_cast<double>(H5Dget_storage_size(dataset)), fileSize(file_));
+  const bool small = bytes <= smallDataset;
+  if (values > largestDataset || !(small || bytes <= bestCompression * stored))
+    throw FileError("The results file " + path_ + " announces " + formatNumber(values) + " values in " + path + ", for which it stores " +
+                    formatNumber(stored) + " bytes: it is damaged, or no file of this program.");
+  return static_cast<std::size_t>(values);
 }
 
 bool ResultsReader::has(const std::string& path) const { return hdf5::hasLink(file_, path); }
@@ -72,7 +114,7 @@ std::vector<std::size_t> ResultsReader::shape(const std::string& path) const {
 std::vector<double> ResultsReader::numbers(const std::string& path) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);
-  std::vector<double> values(product(extents(dataset.get())));
+  std::vector<double> values(count(path, dataset.get()));
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   if (!isClass(type, H5T_FLOAT, H5T_INTEGER) ||
       (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
@@ -92,6 +134,7 @@ std::vector<double> ResultsReader::rows(const std::string& path, std::size_t fir
   std::vector<hsize_t> block(whole.begin(), whole.end());
   start[0] = first;
   block[0] = count;
+  this->count(path, dataset.get());
   std::size_t size = count;
   for (std::size_t i = 1; i < whole.size(); ++i) size *= whole[i];
   std::vector<double> values(size);
@@ -108,7 +151,7 @@ std::vector<double> ResultsReader::rows(const std::string& path, std::size_t fir
 std::vector<int> ResultsReader::integers(const std::string& path) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);
-  std::vector<int> values(product(extents(dataset.get())));
+  std::vector<int> values(count(path, dataset.get()));
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   if (!isClass(type, H5T_INTEGER, H5T_INTEGER) ||
       (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
@@ -120,9 +163,13 @@ std::vector<int> ResultsReader::integers(const std::string& path) const {
 std::vector<std::string> ResultsReader::texts(const std::string& path) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);
-  std::vector<char*> raw(product(extents(dataset.get())), nullptr);
+  std::vector<char*> raw(count(path, dataset.get()), nullptr);
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   const Handle text = hdf5::textType();
+  const Handle all(H5Dget_space(dataset.get()), H5Sclose);
+  hsize_t bytes = 0;
+  if (H5Tis_variable_str(type.get()) > 0 && H5Dvlen_get_buf_size(dataset.get(), type.get(), all.get(), &bytes) >= 0 && bytes > largestTexts)
+    fail("texts of less than 1 GB in " + path);
   if (!isClass(type, H5T_STRING, H5T_STRING) ||
       (!raw.empty() && H5Dread(dataset.get(), text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)) {
     fail("readable texts in " + path);
@@ -143,7 +190,7 @@ std::string ResultsReader::textAttribute(const std::string& object, const std::s
   if (!attribute.valid()) fail("attribute " + name + " of " + object);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   char* raw = nullptr;
-  if (!isClass(type, H5T_STRING, H5T_STRING) || H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {
+  if (!isClass(type, H5T_STRING, H5T_STRING) || !isSingle(attribute) || H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {
     fail("text in the attribute " + name + " of " + object);
   }
   std::string value = raw != nullptr ? raw : "";
@@ -156,7 +203,7 @@ double ResultsReader::numberAttribute(const std::string& object, const std::stri
   if (!attribute.valid()) fail("attribute " + name + " of " + object);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   double value = 0.0;
-  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
+  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || !isSingle(attribute) || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
     fail("number in the attribute " + name + " of " + object);
   }
   return value;

@@ -38,6 +38,9 @@ class ResultsReader {
   double numberAttribute(const std::string& object, const std::string& name) const;
 
  private:
+  /// Number of values of an open dataset. FileError when they stand in other files, or are more than what is stored can hold: nothing is allocated
+  /// for what a file only announces.
+  std::size_t count(const std::string& path, std::int64_t dataset) const;
   [[noreturn]] void fail(const std::string& what) const;
   std::string path_;
   std::int64_t file_ = -1;

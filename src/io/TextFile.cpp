@@ -5,11 +5,10 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <fstream>
-#include <sstream>
 #include <unistd.h>
 
 #include "common/Error.hpp"
+#include "common/InputFile.hpp"
 #include "common/Parallel.hpp"
 
 namespace tooljoint::io {
@@ -57,11 +56,7 @@ void writeText(const std::string& path, const std::string& text) {
 }
 
 std::string readText(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  if (!in) throw FileError("The file " + path + " cannot be read: " + std::strerror(errno) + ".");
-  return text.str();
+  return readInput(path, largestText);
 }
 
 }  // namespace tooljoint::io

@@ -3,6 +3,7 @@
 /// Writing whole text files so that a file under its own name is always complete.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace tooljoint::io {
@@ -16,7 +17,10 @@ void publishStaged(const std::string& path);
 /// Both: `path` either keeps its old content or has the new one whole.
 void writeText(const std::string& path, const std::string& text);
 
-/// Content of a file; FileError when it cannot be read.
+/// Largest text that is read whole [bytes].
+constexpr std::uint64_t largestText = 1ULL << 32U;
+
+/// Content of a file; FileError when it cannot be read, is no regular file or longer than largestText.
 std::string readText(const std::string& path);
 
 }  // namespace tooljoint::io

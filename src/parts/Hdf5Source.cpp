@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
 #include "io/ResultsReader.hpp"
@@ -17,8 +18,8 @@ namespace {
 class Hdf5Source : public PartSource {
  public:
   explicit Hdf5Source(const std::string& path) : file_(path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) throw DeckError(path + " cannot be read: there is no such file.");
+    const std::string reason = whyUnreadable(path);
+    if (!reason.empty()) throw DeckError(path + " cannot be read: " + reason + ".");
     read([&] { reader_ = std::make_unique<io::ResultsReader>(path); });
     for (const auto& name : reader_->datasets()) datasets_.insert(name.substr(1));
   }
@@ -84,7 +85,11 @@ class Hdf5Source : public PartSource {
   }
 
   Matrix table(const std::string& path) const override {
-    if (isGroup(path)) return Matrix(coordinates(path));
+    if (isGroup(path)) {
+      const Sparse matrix = coordinates(path);
+      io::requireDense(file_ + ": \"" + path + "\"", matrix, std::filesystem::file_size(file_));
+      return Matrix(matrix);
+    }
     need(path);
     const auto shape = shapeOf(path);
     if (shape.empty() || shape.size() > 2) fail(path, "should be a matrix or a vector");
@@ -169,6 +174,9 @@ class Hdf5Source : public PartSource {
     if (datasets_.count(path + "/shape") > 0) {
       const auto shape = numbers(path + "/shape");
       if (shape.size() != 2) fail(path + "/shape", "should be two numbers");
+      for (double extent : shape)
+        if (!(extent >= 1 && extent <= static_cast<double>(io::largestDimension)) || extent != std::floor(extent))
+          fail(path + "/shape", "holds " + formatNumber(extent) + ", expected rows and columns from 1 to " + std::to_string(io::largestDimension));
       height = shape[0];
       width = shape[1];
     } else if (datasets_.count("dofs") > 0) {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
 #include "parts/PartSource.hpp"
@@ -15,16 +15,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Largest JSON file of a part; larger matrices stand in files of their own [bytes].
+constexpr std::uint64_t largestJson = 1ULL << 28U;
+
 /// A JSON file whose matrices stand in Matrix Market files beside it, or as lists of rows in itself.
 class JsonSource : public PartSource {
  public:
   explicit JsonSource(const std::string& path) : file_(path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) file_ = (std::filesystem::path(path) / "part.json").string();
-    std::ifstream in(file_);
-    if (!in) throw DeckError(file_ + " cannot be read: there is no such file.");
     try {
-      root_ = Json::parse(in);
+      root_ = Json::parse(readInput(file_, largestJson));
+    } catch (const FileError& fault) {
+      throw DeckError(fault.what());
     } catch (const Json::exception& fault) {
       throw DeckError(file_ + " is no JSON: " + fault.what() + ".");
     }
@@ -69,7 +72,10 @@ class JsonSource : public PartSource {
 
   Sparse matrix(const std::string& path) const override { return matrixOf(path, at(path)); }
 
-  Matrix table(const std::string& path) const override { return Matrix(matrixOf(path, at(path))); }
+  Matrix table(const std::string& path) const override {
+    const Json& value = at(path);
+    return value.is_string() ? io::readMatrixMarketDense(beside(value)) : Matrix(matrixOf(path, value));
+  }
 
   std::vector<NamedTerm> terms(const std::string& path) const override {
     const Json& value = at(path);
@@ -130,13 +136,15 @@ class JsonSource : public PartSource {
     return name + (value.is_string() ? " (" + value.get<std::string>() + ")" : "");
   }
 
+  /// A file the JSON names, relative to its folder unless absolute.
+  std::string beside(const Json& value) const {
+    const std::filesystem::path name = value.get<std::string>();
+    return name.is_absolute() ? name.string() : (std::filesystem::path(file_).parent_path() / name).string();
+  }
+
   /// The name of a Matrix Market file, a list of rows, or a list of numbers (one column).
   Sparse matrixOf(const std::string& path, const Json& value) const {
-    if (value.is_string()) {
-      const std::filesystem::path name = value.get<std::string>();
-      return io::readMatrixMarket(name.is_absolute() ? name.string()
-                                                     : (std::filesystem::path(file_).parent_path() / name).string());
-    }
+    if (value.is_string()) return io::readMatrixMarket(beside(value));
     if (!value.is_array() || value.empty()) fail(path, "should be the name of a Matrix Market file or a list of rows");
     const auto columns = value[0].is_array() ? value[0].size() : 1;
     Triplets entries;

@@ -34,6 +34,12 @@ class Trajectory {
   virtual WellPoint at(double s) const = 0;
   /// Increasing depths [m] where the curvature jumps (survey stations, the kick-off point); none for a smooth curve.
   virtual std::vector<double> breaks() const { return {}; }
+  /// What a person should know of the file it came from: what was read how, and what was not read. One sentence each.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+  void addRemark(const std::string& remark) { remarks_.push_back(remark); }
+
+ private:
+  std::vector<std::string> remarks_;
 };
 
 /// Trajectories by name. A variant gets its own sublist and the folder that file names are relative to.
@@ -70,9 +76,24 @@ struct Station {
 /// degrees; throws DeckError otherwise.
 std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& stations);
 
-/// Stations from a CSV file: measured depth, inclination, azimuth, by default in m and degrees. A header line names the
-/// columns in any order, with units in brackets: `MD [ft], Inc [deg], Azi [deg]`; without a header the order is as above.
-/// Lines starting with # are comments. Throws DeckError with one line "file:line: sentence" per fault.
+/// Stations of a file, and what was read how.
+struct SurveyTable {
+  std::vector<Station> stations;
+  std::vector<std::string> remarks;  ///< columns, rows and comments that were not read; another separator than the comma
+};
+
+/// Stations from a table (see splitDelimited): measured depth, inclination, azimuth, by default in m and degrees. A header
+/// names the columns in any order, with units in brackets or in a row of their own below it:
+///
+///     MD [ft], Inc [deg], Azi [deg]          MD;Inclination;Azimuth
+///                                            m;°;°
+///
+/// Without a header the order is as above. Any unit of length or angle of deck/Units.hpp may stand there. Decimal commas are read
+/// where cells are separated by something else, but not beside decimal points. Lines starting with # are comments. Throws
+/// DeckError with one line "file:line: sentence" per fault.
+SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit = "m", const std::string& angleUnit = "deg");
+
+/// The stations of readSurveyTable alone.
 std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit = "m",
                                 const std::string& angleUnit = "deg");
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "common/DelimitedText.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint {
+namespace {
+
+/// Without a byte-order mark, and with degree signs of UTF-8.
+std::string normalised(const std::string& text) {
+  constexpr char utf8Lead = '\xC2', degree = '\xB0';
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = text.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0; i < text.size(); ++i) {
+    if (text[i] == degree && (i == 0 || (static_cast<unsigned char>(text[i - 1]) & 0x80U) == 0)) result += utf8Lead;
+    result += text[i];
+  }
+  return result;
+}
+
+char separatorOf(const std::string& line) {
+  bool quoted = false, tab = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ';' && !quoted) return ';';
+    tab = tab || (c == '\t' && !quoted);
+  }
+  return tab ? '\t' : ',';
+}
+
+std::vector<std::string> cellsOf(const std::string& line, char separator) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];
+    } else if (c == '"' && (quoted || trim(cells.back()).empty())) {
+      quoted = !quoted;
+    } else if (c == separator && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  for (std::string& cell : cells) cell = trim(cell);
+  return cells;
+}
+
+}  // namespace
+
+DelimitedText splitDelimited(const std::string& text) {
+  if (text.find('\0') != std::string::npos)
+    throw DeckError("holds bytes of zero, as UTF-16 or a binary file does. Save it as text in UTF-8.");
+  DelimitedText result;
+  bool decided = false;
+  int number = 0;
+  for (const std::string& line : split(normalised(text), '\n')) {
+    ++number;
+    const std::string content = trim(line);
+    if (content.empty()) continue;
+    if (content[0] == '#') {
+      ++result.comments;
+      continue;
+    }
+    if (!decided) result.separator = separatorOf(line);
+    decided = true;
+    DelimitedRow row{number, cellsOf(line, result.separator)};
+    const bool empty = std::all_of(row.cells.begin(), row.cells.end(), [](const std::string& cell) { return cell.empty(); });
+    if (empty)
+      ++result.emptyRows;
+    else
+      result.rows.push_back(std::move(row));
+  }
+  return result;
+}
+
+std::optional<CellNumber> cellNumber(const std::string& cell) {
+  CellNumber number;
+  std::string text = cell.size() > 1 && cell[0] == '+' && cell[1] != '-' ? cell.substr(1) : cell;
+  const auto comma = text.find(',');
+  number.comma = comma != std::string::npos;
+  number.point = text.find('.') != std::string::npos;
+  if (number.comma && number.point) return std::nullopt;
+  if (number.comma) text[comma] = '.';
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number.value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value)) return std::nullopt;
+  return number;
+}
+
+}  // namespace tooljoint
