@@ -23,8 +23,10 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
 }  // namespace
 
 std::string describeScene(const Scene& scene) {
-  return format("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs", scene.string.nodeCount(),
+  std::string text = format("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs", scene.string.nodeCount(),
                 scene.string.elementCount(), scene.string.length(), scene.well.length(), scene.freeDofs());
+  for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
+  return text;
 }
 
 std::string describeStatic(const StaticStage& stage) {

@@ -43,4 +43,12 @@ ComponentAxes componentAxes(const model::ComponentNames& names) {
 
 ComponentKind kindOf(const std::string& name) { return meaning(name).first; }
 
+std::function<std::string(const std::string&)> unitByKind(const std::string& translation, const std::string& rotation, const std::string& absent) {
+  return [translation, rotation, absent](const std::string& component) {
+    if (component.empty()) return absent;
+    const ComponentKind kind = kindOf(component);
+    return kind == ComponentKind::Translation ? translation : kind == ComponentKind::Rotation ? rotation : std::string();
+  };
+}
+
 }  // namespace tooljoint::coupling

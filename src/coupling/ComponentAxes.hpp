@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 
 #include "model/DofLabel.hpp"
@@ -22,5 +23,9 @@ enum class ComponentKind { Translation, Rotation, Unknown };
 /// alone in a plane (about the third axis); "_", "-", "." and case do not matter.
 ComponentAxes componentAxes(const model::ComponentNames& names);
 ComponentKind kindOf(const std::string& name);
+
+/// Chooses between the unit of a translation and that of a rotation by the name of a component: for deck::ListSpec::unitBy. A name of
+/// neither kind has none; `absent` is the unit without a name.
+std::function<std::string(const std::string&)> unitByKind(const std::string& translation, const std::string& rotation, const std::string& absent = "");
 
 }  // namespace tooljoint::coupling

@@ -10,6 +10,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "coupling/ComponentAxes.hpp"
 
 namespace tooljoint::coupling {
 
@@ -79,9 +80,12 @@ deck::ListSpec& ends(deck::ListSpec& entry) {
 deck::ListSpec springSpec() {
   deck::ListSpec entry("Spring", "A spring with a dashpot beside it; the name is free.");
   ends(entry)
-      .real("Stiffness", "N/m", 0.0, Range::nonNegative(), "Stiffness; N m/rad along a rotation.")
-      .real("Cubic Stiffness", "N/m3", 0.0, Range::nonNegative(), "Factor of the cube of the separation.")
-      .real("Damping", "N s/m", 0.0, Range::nonNegative(), "Damping; N m s/rad along a rotation.");
+      .real("Stiffness", "N/m or N m/rad", 0.0, Range::nonNegative(), "Stiffness, along a translation or about a rotation.")
+      .unitBy("Component", unitByKind("N/m", "N m/rad", "N/m"))
+      .real("Cubic Stiffness", "N/m3 or N m/rad3", 0.0, Range::nonNegative(), "Factor of the cube of the separation.")
+      .unitBy("Component", unitByKind("N/m3", "N m/rad3", "N/m3"))
+      .real("Damping", "N s/m or N m s/rad", 0.0, Range::nonNegative(), "Damping, along a translation or about a rotation.")
+      .unitBy("Component", unitByKind("N s/m", "N m s/rad", "N s/m"));
   return deck::ListSpec("Springs", "Springs and dashpots between parts or to the ground.").namedLists(entry);
 }
 
@@ -100,7 +104,8 @@ deck::ListSpec stopSpec() {
 deck::ListSpec sliderSpec() {
   deck::ListSpec entry("Slider", "Coulomb friction of constant size; the name is free.");
   ends(entry)
-      .real("Force", "N", deck::Required{}, Range::positive(), "Sliding force; N m along a rotation.")
+      .real("Force", "N or N m", deck::Required{}, Range::positive(), "Sliding force, or moment about a rotation.")
+      .unitBy("Component", unitByKind("N", "N m", "N"))
       .real("Slip Velocity", "m/s", 1e-3, Range::positive(), "Regularisation velocity.");
   return deck::ListSpec("Sliders", "Dry friction between parts or to the ground.").namedLists(entry);
 }

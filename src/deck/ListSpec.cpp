@@ -96,42 +96,57 @@ void inspect(const ListSpec& list, const std::string& path, std::vector<std::str
 }  // namespace
 
 ListSpec& ListSpec::real(std::string name, std::string unit, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Real, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::Real, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc), {}, {}, {}});
+  return *this;
+}
+
+ListSpec& ListSpec::radius(const std::string& name, Default value, Range range, const std::string& doc) {
+  const std::string ending = "Radius";
+  const std::string diameter = name.substr(0, name.size() - ending.size()) + "Diameter";
+  real(name, "m", std::move(value), range, doc);
+  real(diameter, "m", Optional{}, range, "Twice the " + name + "; give one of the two.");
+  parameters_.back().radius = name;
+  return *this;
+}
+
+ListSpec& ListSpec::unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf) {
+  parameters_.back().unitFrom = std::move(parameter);
+  parameters_.back().unitOf = std::move(unitOf);
   return *this;
 }
 
 ListSpec& ListSpec::integer(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Integer, "", std::move(value), range, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::Integer, "", std::move(value), range, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::boolean(std::string name, Default value, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::text(std::string name, Default value, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::choice(std::string name, Default value, std::vector<std::string> choices, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Choice, "", std::move(value), {}, std::move(choices), std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::Choice, "", std::move(value), {}, std::move(choices), std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::realArray(std::string name, std::string unit, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::RealArray, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::RealArray, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::integerArray(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::IntegerArray, "", std::move(value), range, {}, std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::IntegerArray, "", std::move(value), range, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::textArray(std::string name, Default value, std::vector<std::string> choices, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::TextArray, "", std::move(value), {}, std::move(choices), std::move(doc)});
+  parameters_.push_back({std::move(name), Kind::TextArray, "", std::move(value), {}, std::move(choices), std::move(doc), {}, {}, {}});
   return *this;
 }
 
@@ -187,6 +202,11 @@ ListSpec ListSpec::named(std::string name) const {
 
 const ParameterSpec* ListSpec::findParameter(const std::string& name) const {
   const auto it = std::find_if(parameters_.begin(), parameters_.end(), [&](const ParameterSpec& p) { return p.name == name; });
+  return it == parameters_.end() ? nullptr : &*it;
+}
+
+const ParameterSpec* ListSpec::diameterOf(const std::string& radius) const {
+  const auto it = std::find_if(parameters_.begin(), parameters_.end(), [&](const ParameterSpec& p) { return p.radius == radius; });
   return it == parameters_.end() ? nullptr : &*it;
 }
 

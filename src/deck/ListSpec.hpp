@@ -4,6 +4,7 @@
 /// The strict reader, the manual (`tooljoint doc`) and the templates all walk these objects, so they cannot drift apart.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -41,6 +42,9 @@ struct ParameterSpec {
   Range range;                       ///< numbers, and every entry of number arrays
   std::vector<std::string> choices;  ///< Choice, and every entry of a TextArray when not empty
   std::string doc;                   ///< one sentence
+  std::string radius;                ///< of a diameter: the parameter it is twice of; that one alone stands in the tree
+  std::string unitFrom;              ///< parameter of the same list that decides the unit; `unit` names all of them then
+  std::function<std::string(const std::string&)> unitOf;  ///< SI unit for the text of `unitFrom`, "" when that is absent
 };
 
 /// Builder and description of a list. Order of declaration is the order of the manual.
@@ -50,6 +54,11 @@ class ListSpec {
   ListSpec(std::string name, std::string doc) : name_(std::move(name)), doc_(std::move(doc)) {}
 
   ListSpec& real(std::string name, std::string unit, Default value, Range range, std::string doc);
+  /// A length `name` = "... Radius" and beside it "... Diameter", twice as long. A deck gives one of them; the tree always holds the
+  /// radius. A required radius may be given by its diameter.
+  ListSpec& radius(const std::string& name, Default value, Range range, const std::string& doc);
+  /// The unit of the parameter declared last depends on the text of another one: N for a force, N m for a torque.
+  ListSpec& unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf);
   ListSpec& integer(std::string name, Default value, Range range, std::string doc);
   ListSpec& boolean(std::string name, Default value, std::string doc);
   ListSpec& text(std::string name, Default value, std::string doc);
@@ -79,6 +88,8 @@ class ListSpec {
   bool required() const { return required_; }
   bool passesThrough() const { return passThrough_; }
   const ParameterSpec* findParameter(const std::string& name) const;
+  /// The diameter that may stand for this radius; null when there is none.
+  const ParameterSpec* diameterOf(const std::string& radius) const;
   const ListSpec* findList(const std::string& name) const;  ///< declared sublist, or the pattern if there is one
 
   /// Faults of the description itself, for developers: names declared twice, defaults of another type, outside the range or not

@@ -96,7 +96,8 @@ class Writer {
   /// `path`: of the list, with "/" at its end; "" of the root.
   void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth, bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
-    for (const ParameterSpec& parameter : list.parameters()) writeParameter(parameter, path, depth + 1, active);
+    for (const ParameterSpec& parameter : list.parameters())
+      if (parameter.radius.empty()) writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
       line(depth + 1, remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") + sublist.doc()));
       const std::string below = path + sublist.name() + "/";
@@ -112,11 +113,13 @@ class Writer {
     element(depth, "</ParameterList>", active);
   }
 
-  void writeParameter(const ParameterSpec& parameter, const std::string& path, int depth, bool active) {
+  /// `diameter`: what may be given instead of a radius, or null.
+  void writeParameter(const ParameterSpec& parameter, const ParameterSpec* diameter, const std::string& path, int depth, bool active) {
     const bool required = std::holds_alternative<Required>(parameter.value);
     const bool stands = required || example(path + parameter.name) != nullptr;
     std::string note = describe(parameter);
     if (required) note += "; required";
+    if (diameter != nullptr) note += "; or give " + diameter->name;
     if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
     line(depth, remark(note));
     const std::string value = escaped(valueOf(parameter, path));

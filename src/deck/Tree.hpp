@@ -49,6 +49,10 @@ class RawList {
     const auto it = parameterIndex_.find(wanted);
     return it == parameterIndex_.end() ? nullptr : &parameters_[it->second];
   }
+  const RawParameter* findParameter(const std::string& wanted) const {
+    const auto it = parameterIndex_.find(wanted);
+    return it == parameterIndex_.end() ? nullptr : &parameters_[it->second];
+  }
   RawList* findList(const std::string& wanted) {
     const auto it = listIndex_.find(wanted);
     return it == listIndex_.end() ? nullptr : &lists_[it->second];

@@ -49,7 +49,9 @@ std::string rewritten(Kind kind, const RawParameter& given) {
 /// Checks one parameter against its description: a clause that says what is wrong, or the value in SI.
 class ParameterCheck {
  public:
-  ParameterCheck(const ParameterSpec& spec, const RawParameter& given) : spec_(spec), given_(given) {}
+  /// `unit` is the SI unit of the value, which may depend on another parameter.
+  ParameterCheck(const ParameterSpec& spec, const RawParameter& given, std::string unit)
+      : spec_(spec), given_(given), unit_(std::move(unit)) {}
 
   /// The value to store; nothing when fault() says why not.
   std::optional<Value> run() {
@@ -63,7 +65,7 @@ class ParameterCheck {
   const std::string& fault() const { return fault_; }
 
  private:
-  std::string quoted() const { return ": value=\"" + given_.text + "\" "; }
+  std::string quoted() const { return ": value=" + inQuotes(given_.text) + " "; }
 
   std::optional<Value> converted() {
     if (given_.type == typeName(spec_.kind)) return given_.value;
@@ -80,7 +82,7 @@ class ParameterCheck {
 
   std::optional<Value> fromUnit(const std::string& text) {
     std::string why;
-    const std::optional<double> value = toSi(text, spec_.unit, why);
+    const std::optional<double> value = toSi(text, unit_, why);
     if (value) return Value(*value);
     fault_ = quoted() + why + ".";
     return std::nullopt;
@@ -90,9 +92,9 @@ class ParameterCheck {
     std::vector<double> values;
     for (const std::string& entry : std::get<std::vector<std::string>>(given_.value)) {
       std::string why;
-      const std::optional<double> value = toSi(entry, spec_.unit, why);
+      const std::optional<double> value = toSi(entry, unit_, why);
       if (!value) {
-        fault_ = ": the entry \"" + entry + "\" (number " + std::to_string(values.size() + 1) + ") " + why + ".";
+        fault_ = ": the entry " + inQuotes(entry) + " (number " + std::to_string(values.size() + 1) + ") " + why + ".";
         return std::nullopt;
       }
       values.push_back(*value);
@@ -121,7 +123,7 @@ class ParameterCheck {
     if (contains(spec_.range, number)) return true;
     const bool convertedUnit = given_.type == "string";
     fault_ = entry == 0 ? quoted() : ": entry number " + std::to_string(entry) + ", " + formatNumber(number) + ", ";
-    fault_ += (convertedUnit ? "(" + formatNumber(number) + " " + spec_.unit + ") " : std::string()) +
+    fault_ += (convertedUnit ? "(" + formatNumber(number) + " " + unit_ + ") " : std::string()) +
               "is out of range: it must be " + describe(spec_.range) + ". " + introduce(spec_);
     return false;
   }
@@ -135,7 +137,7 @@ class ParameterCheck {
       if (std::find(spec_.choices.begin(), spec_.choices.end(), text) != spec_.choices.end()) continue;
       const std::string near = closest(text, spec_.choices);
       const bool alone = spec_.kind == Kind::Choice;
-      fault_ = alone ? quoted() : ": the entry \"" + text + "\" ";
+      fault_ = alone ? quoted() : ": the entry " + inQuotes(text) + " ";
       fault_ += "is not one of " + quotedList(spec_.choices) + "." + (near.empty() ? "" : " Did you mean \"" + near + "\"?");
       return false;
     }
@@ -144,6 +146,7 @@ class ParameterCheck {
 
   const ParameterSpec& spec_;
   const RawParameter& given_;
+  std::string unit_;
   std::string fault_;
 };
 
@@ -160,7 +163,9 @@ class Validation {
     const std::string below = key.empty() ? "" : key + "/";
     for (const RawParameter& parameter : given.parameters()) {
       places_[below + parameter.name] = parameter.place;
-      fillParameter(parameter, spec, path, out);
+      const ParameterSpec* known = spec == nullptr ? nullptr : spec->findParameter(parameter.name);
+      if (known != nullptr && !known->radius.empty()) places_.emplace(below + known->radius, parameter.place);
+      fillParameter(parameter, given, spec, path, out);
     }
     for (const RawList& sublist : given.lists()) {
       const ListSpec* next = spec == nullptr ? nullptr : spec->findList(sublist.name);
@@ -177,7 +182,15 @@ class Validation {
  private:
   void add(const Place& place, const std::string& text) { findings_.push_back({place, text}); }
 
-  void fillParameter(const RawParameter& given, const ListSpec* spec, const std::string& path, Teuchos::ParameterList& out) {
+  /// SI unit of a parameter in the list it stands in.
+  static std::string unitOf(const ParameterSpec& parameter, const RawList& list) {
+    if (!parameter.unitOf) return parameter.unit;
+    const RawParameter* decides = list.findParameter(parameter.unitFrom);
+    return parameter.unitOf(decides == nullptr ? "" : decides->text);
+  }
+
+  void fillParameter(const RawParameter& given, const RawList& list, const ListSpec* spec, const std::string& path,
+                     Teuchos::ParameterList& out) {
     if (spec == nullptr) {
       setValue(out, given.name, given.value);
       return;
@@ -187,12 +200,16 @@ class Validation {
       add(given.place, unknownParameter(root_, *spec, path, given.name));
       return;
     }
-    ParameterCheck check(*parameter, given);
+    ParameterCheck check(*parameter, given, unitOf(*parameter, list));
     const std::optional<Value> value = check.run();
-    if (value) {
-      setValue(out, given.name, *value);
-    } else {
+    if (!value) {
       add(given.place, path + "/" + given.name + check.fault());
+    } else if (parameter->radius.empty()) {
+      setValue(out, given.name, *value);
+    } else if (list.holdsParameter(parameter->radius)) {
+      add(given.place, path + "/" + given.name + " and " + parameter->radius + " are both given: give one of them.");
+    } else {
+      out.set(parameter->radius, std::get<double>(*value) / 2.0);
     }
   }
 
@@ -200,9 +217,12 @@ class Validation {
   void complete(const RawList& given, const ListSpec& spec, const std::string& path, Teuchos::ParameterList& out) {
     for (const ParameterSpec& parameter : spec.parameters()) {
       if (given.holdsParameter(parameter.name) || given.holdsList(parameter.name)) continue;
+      const ParameterSpec* diameter = spec.diameterOf(parameter.name);
+      if (diameter != nullptr && given.holdsParameter(diameter->name)) continue;
       if (std::holds_alternative<Required>(parameter.value)) {
         add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=\"" + parameter.name +
-                             "\" type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>. " + introduce(parameter));
+                             "\" type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>" +
+                             (diameter == nullptr ? "" : ", or give " + diameter->name) + ". " + introduce(parameter));
       }
       setDefault(out, parameter);
     }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "common/Error.hpp"
+#include "coupling/ComponentAxes.hpp"
 #include "parts/TimeLaw.hpp"
 
 namespace tooljoint::parts {
@@ -40,7 +41,8 @@ ListSpec loadParameters() {
       .text("Part", Required{}, "Name of the part.")
       .integer("Node", Required{}, Range::atLeast(1), "Node, as the file of the part numbers it.")
       .text("Component", Required{}, "Component of the node.")
-      .real("Value", "", Required{}, Range::any(), "Force in N, or moment in N m.")
+      .real("Value", "N or N m", Required{}, Range::any(), "Force, or moment about a rotation component; a plain number for a component of neither kind.")
+      .unitBy("Component", coupling::unitByKind("N", "N m"))
       .text("Law", std::string("1"), "Law of time that multiplies it: \"1\", or one of the list Laws.");
 }
 
@@ -49,8 +51,10 @@ ListSpec startParameters() {
       .text("Part", Required{}, "Name of the part.")
       .integer("Node", Required{}, Range::atLeast(1), "Node, as the file of the part numbers it.")
       .text("Component", Required{}, "Component of the node.")
-      .real("Displacement", "", 0.0, Range::any(), "Initial displacement, m or rad.")
-      .real("Velocity", "", 0.0, Range::any(), "Initial velocity, m/s or rad/s.");
+      .real("Displacement", "m or rad", 0.0, Range::any(), "Initial displacement.")
+      .unitBy("Component", coupling::unitByKind("m", "rad"))
+      .real("Velocity", "m/s or rad/s", 0.0, Range::any(), "Initial velocity.")
+      .unitBy("Component", coupling::unitByKind("m/s", "rad/s"));
 }
 
 std::vector<std::string> texts(const ParameterList& list, const std::string& name) {

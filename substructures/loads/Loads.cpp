@@ -51,7 +51,8 @@ deck::ListSpec forceParameters() {
       .real("Position", "m", deck::Optional{}, Range::nonNegative(), "Measured depth of the node it acts on; give this or Node.")
       .choice("Component", deck::Required{}, componentNames(),
               "Direction in the nodal frame: z along the well, positive down the hole.")
-      .real("Value", "", deck::Required{}, Range::any(), "Force in N, or torque in N m about a rotation component.")
+      .real("Value", "N or N m", deck::Required{}, Range::any(), "Force, or torque about a rotation component.")
+      .unitBy("Component", [](const std::string& component) { return component.rfind("theta", 0) == 0 ? "N m" : "N"; })
       .real("Frequency", "Hz", 0.0, Range::nonNegative(),
             "Frequency of a harmonic load Value cos(2 pi Frequency t + Phase); 0 for a steady one.")
       .real("Phase", "rad", 0.0, Range::any(), "Phase of a harmonic load; has no effect on a steady one.")

@@ -28,9 +28,9 @@ deck::ListSpec materialSpec() {
 void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Length", "m", length, Range::positive(), "Length along the axis.");
   spec.integer("Elements", Optional{}, Range::between(1, 10000), "Number of beam elements it is cut into; 1 when absent.");
-  spec.real("Outer Radius", "m", Optional{}, Range::positive(),
+  spec.radius("Outer Radius", Optional{}, Range::positive(),
             "Outer radius of the body; of a general section for contact and mud only.");
-  spec.real("Inner Radius", "m", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
+  spec.radius("Inner Radius", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
   spec.boolean("Shear Deformation", Optional{}, "Whether a circular section deforms in shear (Timoshenko); true when absent.");
   spec.real("Area", "m2", Optional{}, Range::positive(), "Area of a general section, which has no shear deformation.");
   spec.real("Inertia X", "m4", Optional{}, Range::positive(), "Second moment about x of a general section.");
@@ -118,7 +118,7 @@ class ComponentReader {
     if (given == 0) {
       if (!list.isParameter("Outer Radius"))
         fail(path,
-             "The section is missing: give Outer Radius and Inner Radius, or Area, Inertia X, Inertia Y and Torsion Constant.");
+             "The section is missing: give Outer Radius (or Outer Diameter) and Inner Radius (or Inner Diameter), or Area, Inertia X, Inertia Y and Torsion Constant.");
       const double outer = list.get<double>("Outer Radius");
       if (!(inner < outer))
         fail(path + "/Inner Radius",
@@ -152,7 +152,7 @@ class ComponentReader {
   void readGauge(const std::string& name, const ParameterList& list, Component& component) const {
     const bool position = list.isParameter("Gauge Position");
     if (position != list.isParameter("Gauge Radius"))
-      fail(name, std::string("A gauge needs both Gauge Position and Gauge Radius; ") +
+      fail(name, std::string("A gauge needs both Gauge Position and Gauge Radius (or Gauge Diameter); ") +
                      (position ? "Gauge Radius" : "Gauge Position") + " is missing.");
     if (!position) return;
     component.gaugePosition = list.get<double>("Gauge Position");
@@ -193,7 +193,7 @@ deck::ListSpec componentParameters() {
                  "Components it is made of from its top to its bottom, as in {pipe body, 2*joint half}.");
   spec.real("Gauge Position", "m", Optional{}, Range::nonNegative(),
             "Distance of a gauge (stabiliser blades, bit) from the top of the component; a node must stand there.");
-  spec.real("Gauge Radius", "m", Optional{}, Range::positive(),
+  spec.radius("Gauge Radius", Optional{}, Range::positive(),
             "Radius of the gauge; it replaces the outer radius in contact at that node.");
   return spec;
 }

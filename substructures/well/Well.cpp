@@ -55,7 +55,7 @@ deck::ListSpec parameters() {
   const auto& registry = TrajectoryRegistry::instance();
   spec.choice("Trajectory", deck::Required{}, registry.names(),
               "Shape of the centre line; its parameters stand in the sublist of that name.");
-  spec.real("Bore Radius", "m", deck::Required{}, deck::Range::positive(),
+  spec.radius("Bore Radius", deck::Required{}, deck::Range::positive(),
             "Radius of the hole outside the intervals of the list Bore.");
   for (const auto& [name, entry] : registry.entries()) spec.list(entry.parameters);
   spec.list(
@@ -63,7 +63,7 @@ deck::ListSpec parameters() {
           .namedLists(deck::ListSpec("Interval", "A stretch of the hole.")
                           .real("From", "m", deck::Required{}, deck::Range::nonNegative(), "Measured depth of its upper end.")
                           .real("To", "m", deck::Required{}, deck::Range::positive(), "Measured depth of its lower end.")
-                          .real("Radius", "m", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
+                          .radius("Radius", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
   return spec;
 }
 
