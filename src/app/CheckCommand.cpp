@@ -109,15 +109,12 @@ void listWork(const Scene& scene) {
   const double duration = list.get<double>("End Time") - list.get<double>("Start Time");
   const double samples = std::floor(duration / list.get<double>("Sampling Interval")) + 1.0;
   std::string what = list.get<std::string>("Integrator") + " over " + formatNumber(duration) + " s";
-  if (list.isParameter("Step")) what += ", about " + formatNumber(std::ceil(duration / list.get<double>("Step"))) + " steps";
+  if (list.isParameter("Step")) what += ", about " + countText(std::ceil(duration / list.get<double>("Step"))) + " steps";
   item(true, "transient", what);
-  const double recorded =
-      8.0 * samples * scene.string.nodeCount() *
-      (6.0 * (scene.output.hasField("displacement") + scene.output.hasField("velocity") + scene.output.hasField("acceleration")) +
-       scene.output.hasField("normal_force"));
-  char size[64];
-  std::snprintf(size, sizeof size, "%.0f samples, about %.3g MB", samples, recorded / 1e6);
-  item(true, "results.h5", size);
+  const double recorded = 8.0 * samples * scene.string.nodeCount() *
+                          (6.0 * (scene.output.hasField("displacement") + scene.output.hasField("velocity") + scene.output.hasField("acceleration")) +
+                           scene.output.hasField("normal_force"));
+  item(true, "results.h5", countText(samples) + " samples, about " + countText(std::ceil(recorded / 1e6)) + " MB");
 }
 
 /// Settles and reduces the scene to know both models.
@@ -147,6 +144,7 @@ void check(const RunOptions& options) {
     return;
   }
   const auto scene = readScene(options.deck, options.overrides);
+  if (!freeDirections(scene).empty()) settle(scene);  // only the static state tells whether the string floats
   log::info(scene.deck.file() + " is a valid deck.");
   log::info(describeScene(scene));
   warnOfPrestress(scene);

@@ -62,6 +62,7 @@ void listWork(const PartsDeck& deck) {
 void checkParts(const RunOptions& options) {
   const auto deck = readPartsDeck(options);
   const auto whole = deck.whole();
+  checkStart(deck);
   log::info(deck.deck.file() + " is a valid deck.");
   log::info(describeParts(deck, whole));
   for (const auto& remark : whole.remarks) log::info(remark);

@@ -6,9 +6,12 @@
 #include <set>
 
 #include "app/NoxSolver.hpp"
+#include "app/PartsExport.hpp"
+#include "app/ReductionRules.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
+#include "reduction/LoadVectors.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "study/StudyParameters.hpp"
@@ -78,27 +81,10 @@ void crossCheck(const PartsDeck& deck) {
   if (deck.deck.gives("Output/XDMF Interval")) add("Output/XDMF Interval", "has no effect in a scene of parts. Leave it out.");
   if (deck.output.exportFormat != io::ExportFormat::None && !deck.reduces())
     add("Output/Export Parts", "has no effect without a Reduction list. Add one, or leave it out.");
-  const bool dual = deck.plan.assembly == coupling::Assembly::Dual;
-  if (dual && !deck.reduces())
-    add("Coupling/Assembly",
-        "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
-  if (dual && deck.moves() && transient::isExplicit(list.sublist("Transient")))
-    add("Coupling/Assembly",
-        "is \"Dual\", whose multipliers have no mass, but the integrator needs a mass everywhere. Take \"Primal\", or an "
-        "implicit integrator.");
-  if (deck.reduces()) {
-    const auto& reduction = list.sublist("Reduction");
-    const auto estimated = reduction.get<std::string>("Error Estimate");
-    if (!deck.moves() && reduction.isParameter("Motion Tolerance"))
-      add("Reduction/Motion Tolerance",
-          "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
-    if (!deck.moves() && (estimated == "Transient" || estimated == "Both"))
-      add("Reduction/Error Estimate",
-          "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
-    if (dual && reduction.get<std::string>("Interface Reduction") != "None")
-      add("Reduction/Interface Reduction",
-          "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
-  }
+  std::vector<std::string> names;
+  for (const auto& part : deck.settings.imported) names.push_back(part.name);
+  if (deck.output.exportFormat != io::ExportFormat::None) exportedFiles(names, deck.output.exportFormat);
+  for (const auto& fault : reductionFaults(list, deck.plan.assembly, static_cast<int>(deck.settings.imported.size()))) add(fault.path, fault.sentence);
   requireNoFaults(faults);
 }
 
@@ -112,6 +98,12 @@ void locating(const deck::Deck& deck, const Work& work) {
   } catch (const ModelError& fault) {
     throw ModelError(located(deck, fault));
   }
+}
+
+/// Points that get load vectors are those of point laws.
+void requireLoadVectorNodes(const PartsDeck& deck) {
+  const auto options = reduction::readLoadVectors(deck.list().sublist("Reduction"));
+  reduction::requirePointNodes(deck.scene.parts, options);
 }
 
 /// What the basis will read.
@@ -145,7 +137,9 @@ PartsDeck readPartsLists(const RunOptions& options) {
 void PartsDeck::build() {
   locating(deck, [&] {
     scene = parts::buildScene(settings, plan, [&](const std::string& name) { return deck.resolve(name); });
-    if (reduces()) requireInput(*this);
+    if (!reduces()) return;
+    requireInput(*this);
+    requireLoadVectorNodes(*this);
   });
 }
 
@@ -178,6 +172,18 @@ PartsDeck readPartsDeck(const RunOptions& options) {
   requireMass(out.deck, out.scene, out.whole().model);
   out.start();
   return out;
+}
+
+void checkStart(const PartsDeck& deck) {
+  if (!deck.reduces() || !deck.moves()) return;
+  const auto& list = deck.list().sublist("Reduction");
+  if (!reduction::makeBasis(list.get<std::string>("Basis"), list)->traits().interfaceForces) return;
+  const bool starts = std::any_of(deck.scene.parts.begin(), deck.scene.parts.end(), [](const model::Substructure& part) {
+    const auto& m = part.model;
+    const Vector rest = part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
+    return !m.initialVelocity.isZero(0.0) || m.initialDisplacement != rest;
+  });
+  if (starts) estimate::synthesise(deck.scene.parts, list, estimate::MotionProbe(), deck.scene.coupling);
 }
 
 std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole) {

@@ -52,6 +52,10 @@ PartsDeck readPartsLists(const RunOptions& options);
 /// Throws ModelError naming a dof without mass where the deck's integrator divides by it.
 void requireMass(const deck::Deck& deck, const parts::PartsScene& scene, const model::SecondOrderModel& full);
 
+/// A basis with interface forces leaves interface dofs to its modes, which may not start where the neighbours do: only the reduction can tell. Reduces the
+/// parts of such a deck when they do not start at rest, and throws what a run would. Collective.
+void checkStart(const PartsDeck& deck);
+
 /// "parts       5 parts from 2 files, 40 nodes, 117 dofs, 105 when joined".
 std::string describeParts(const PartsDeck& deck, const coupling::Coupling& whole);
 

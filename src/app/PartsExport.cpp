@@ -24,18 +24,25 @@ std::string fileName(std::string name) {
 
 }  // namespace
 
+std::vector<std::string> exportedFiles(const std::vector<std::string>& parts, io::ExportFormat format) {
+  std::set<std::string> names;
+  std::vector<std::string> files;
+  for (const auto& part : parts) {
+    const std::string name = fileName(part);
+    if (!names.insert(name).second)
+      throw DeckError("Two parts would be exported into the file " + inQuotes(name) +
+                      ": their names differ only in characters that file names cannot hold. Rename one.");
+    files.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
+  }
+  return files;
+}
+
 void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced,
                  io::ExportFormat format, const std::string& folder) {
   if (format == io::ExportFormat::None) return;
-  std::set<std::string> names;
-  std::vector<std::string> written;
-  for (const auto& part : reduced) {
-    std::string name = fileName(part.name);
-    if (!names.insert(name).second)
-      throw DeckError("Two parts would be exported into the file \"" + name +
-                      "\": their names differ only in characters that file names cannot hold. Rename one.");
-    written.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
-  }
+  std::vector<std::string> names;
+  for (const auto& part : reduced) names.push_back(part.name);
+  const auto written = exportedFiles(names, format);
   parallel::agree([&] {
     if (parallel::rank() == 0) {
       std::error_code failed;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "app/PartsExport.hpp"
+#include "app/ReductionRules.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
@@ -84,12 +86,6 @@ Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const 
   return deck.isSublist(spec.name()) ? deck.sublist(spec.name()) : deck::defaults(spec);
 }
 
-bool stepsExplicitly(const Teuchos::ParameterList& transient) {
-  const auto& integrator = transient::IntegratorRegistry::instance().find(transient.get<std::string>("Integrator"));
-  const auto own = deck::variantList(transient, transient.get<std::string>("Integrator"), integrator.parameters);
-  return integrator.make(own)->isExplicit();
-}
-
 /// What the list Coupling asks of the others.
 void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -108,18 +104,6 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
                  "which is estimated only where parts are joined by "
                  "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the \"Motion Tolerance\".");
   }
-  if (plan.assembly != coupling::Assembly::Dual) return;
-  if (!scene.reduces())
-    faults.add(
-        "Coupling/Assembly",
-        "is \"Dual\", which has no effect without a Reduction list: the full model is primal. Add one, or take \"Primal\".");
-  if (scene.moves() && stepsExplicitly(list.sublist("Transient")))
-    faults.add("Coupling/Assembly", "is \"Dual\", whose multipliers have no mass, but the integrator \"" +
-                                        list.sublist("Transient").get<std::string>("Integrator") +
-                                        "\" needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
-  if (scene.reduces() && list.sublist("Reduction").get<std::string>("Interface Reduction") != "None")
-    faults.add("Reduction/Interface Reduction",
-               "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take \"Primal\", or \"None\".");
 }
 
 /// What only several lists together can tell.
@@ -135,18 +119,18 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Output/Export Parts", "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
   if (scene.coupling) crossCheckCoupling(scene, faults);
   if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
-    faults.add("Reduction",
-               "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
-  if (scene.reduces() && !scene.moves()) {
-    const auto& reduction = list.sublist("Reduction");
-    if (reduction.isParameter("Motion Tolerance"))
-      faults.add("Reduction/Motion Tolerance",
-                 "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency Tolerance\".");
-    const auto estimated = reduction.get<std::string>("Error Estimate");
-    if (estimated == "Transient" || estimated == "Both")
-      faults.add("Reduction/Error Estimate",
-                 "asks for the error of the motion, and the scene has no Transient list. Add one, or take \"Frequencies\".");
-  }
+    faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
+  const auto assembly = scene.coupling ? scene.coupling->assembly : coupling::Assembly::Primal;
+  std::vector<std::string> parts;
+  if (scene.reduces() && faults.none())
+    for (const auto& part : string_::cutParts(scene.string, scene.partition)) parts.push_back(part.name);
+  if (scene.output.exportFormat != io::ExportFormat::None) faults.attempt([&] { exportedFiles(parts, scene.output.exportFormat); });
+  for (const auto& fault : reductionFaults(list, assembly, static_cast<int>(parts.size()))) faults.add(fault.path, fault.sentence);
+  if (scene.reduces() && list.sublist("Reduction").isParameter("Load Vector Nodes"))
+    for (const int node : list.sublist("Reduction").get<Teuchos::Array<int>>("Load Vector Nodes"))
+      if (std::count(scene.contactPoints.node.begin(), scene.contactPoints.node.end(), node) == 0)
+        faults.add("Reduction/Load Vector Nodes", "names node " + std::to_string(node) + ", which cannot touch the wall and so has no point law. Name nodes with "
+                                                  "contact, or leave the list out for all of them.");
   if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
     faults.add("Contact/Friction",
                "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
@@ -232,9 +216,8 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   if (list.isSublist("Transient")) faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
   if (list.isSublist("Coupling")) faults.attempt([&] { coupling = coupling::readCoupling(list.sublist("Coupling")); });
   if (list.isSublist("Study")) faults.attempt([&] { study::readStudy(list.sublist("Study")); });
-  const bool explicitSteps = list.isSublist("Transient") && stepsExplicitly(list.sublist("Transient"));
-  faults.attempt(
-      [&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
+  const bool explicitSteps = list.isSublist("Transient") && transient::isExplicit(list.sublist("Transient"));
+  faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
   faults.raise();
 
   Scene scene{deck, *well, *string, supports, {}, mud, contact, {}, rotary, loads, damping, path, statics, partition, output};

@@ -109,7 +109,7 @@ void requireHeld(const Scene& scene, const string_::StringModel& equations) {
   }
 }
 
-/// Free in every node of a string: what that lets it do, and what would hold it.
+/// Free in every node of a string: what that lets it do.
 struct FreeMotion {
   int component;
   const char* does;
@@ -120,19 +120,26 @@ constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns a
 /// sliding, but by far too little for the weight. Said when that string has no static equilibrium: exit code of a model that
 /// floats, not of a solver that failed.
 void explainFailure(const Scene& scene, const ConvergenceError& error) {
-  for (const auto& motion : freeMotions) {
-    bool heldSomewhere = false;
-    for (int node = 0; node < scene.string.nodeCount(); ++node)
-      heldSomewhere = heldSomewhere || scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
-    if (heldSomewhere) continue;
-    const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion.component)];
-    throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) +
-                     " nodes, so that it " + motion.does + ", which walls and bending cannot hold. Hold " + dof +
-                     " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
-  }
+  const auto free = freeDirections(scene);
+  if (free.empty()) return;
+  const auto motion = std::find_if(std::begin(freeMotions), std::end(freeMotions), [&](const FreeMotion& one) { return one.component == free.front(); });
+  const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion->component)];
+  throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
+                   ", which walls and bending cannot hold. Hold " + dof + " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
 }
 
 }  // namespace
+
+std::vector<int> freeDirections(const Scene& scene) {
+  std::vector<int> free;
+  for (const auto& motion : freeMotions) {
+    bool held = false;
+    for (int node = 0; node < scene.string.nodeCount(); ++node)
+      held = held || scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
+    if (!held) free.push_back(motion.component);
+  }
+  return free;
+}
 
 StaticStage solveStatic(const Scene& scene) {
   StaticStage stage;

@@ -109,7 +109,7 @@ class Planner {
     for (const auto& item : run.overrides) {
       const auto place = (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
       if (line.rfind(place, 0) != 0) continue;
-      fault(item.source, "says \"" + item.text + "\": " + line.substr(place.size()));
+      fault(item.source, "says " + inQuotes(item.text) + ": " + line.substr(place.size()));
       return;
     }
     fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
@@ -123,7 +123,7 @@ class Planner {
       if (run.kind == study::RunKind::Method) labels.push_back(run.label);
     if (std::find(labels.begin(), labels.end(), wanted) != labels.end()) return;
     const auto near = closest(wanted, labels);
-    fault("Study/Baseline", "names no run: there is no \"" + wanted + "\"." + (near.empty() ? "" : " Did you mean \"" + near + "\"?") + " The runs are " +
+    fault("Study/Baseline", "names no run: there is no " + inQuotes(wanted) + "." + (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?") + " The runs are " +
                                 quotedList(labels) + ".");
   }
 
@@ -150,7 +150,7 @@ class Planner {
       const auto& first = plan_.runs[it->second].plan;
       run.twin = it->second;
       if (!fresh && (!method || first.source == source))
-        fault(source, "makes the run \"" + run.plan.label + "\", which is the same as \"" + first.label + "\". Change something, or leave it out.");
+        fault(source, "makes the run " + inQuotes(run.plan.label) + ", which is the same as " + inQuotes(first.label) + ". Change something, or leave it out.");
     }
   }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace tooljoint {
@@ -47,11 +48,14 @@ std::string closest(std::string_view name, const std::vector<std::string>& candi
   std::size_t bestDistance = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : candidates) {
     const std::string theirs = normalised(candidate);
-    std::size_t distance = 2 * editDistance(mine, theirs);
+    const std::size_t longer = std::max(mine.size(), theirs.size()), shorter = std::min(mine.size(), theirs.size());
+    const std::size_t allowed = 2 * std::max<std::size_t>(1, longer / 3);
+    // The distance is the difference of the lengths at least: texts that differ too much there need no table.
+    std::size_t distance = 2 * (longer - shorter);
+    if (distance <= allowed) distance = 2 * editDistance(mine, theirs);
     // A whole word of the candidate (or one that begins it) is a good guess too: "Young" for "Young Modulus".
     const bool begins = mine.size() >= 3 && theirs.compare(0, mine.size(), mine) == 0;
     const bool extends = theirs.size() >= 3 && mine.compare(0, theirs.size(), theirs) == 0;
-    const std::size_t allowed = 2 * std::max<std::size_t>(1, std::max(mine.size(), theirs.size()) / 3);
     if (begins || extends) distance = std::min(distance, allowed);
     if (distance <= allowed && distance < bestDistance) {
       best = candidate;
@@ -70,6 +74,12 @@ std::string formatNumber(double value) {
 }
 
 std::string formatNumber(int value) { return std::to_string(value); }
+
+std::string countText(double count) {
+  std::array<char, 64> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), count < 1e6 ? "%.0f" : "%.3g", count);
+  return buffer.data();
+}
 
 std::string trim(std::string_view text) {
   const auto isBlank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };

@@ -21,6 +21,9 @@ std::string closest(std::string_view name, const std::vector<std::string>& candi
 std::string formatNumber(double value);
 std::string formatNumber(int value);
 
+/// A count with three digits, "1.2e+09"; smaller than 1e6 whole.
+std::string countText(double count);
+
 /// Without leading and trailing white space.
 std::string trim(std::string_view text);
 std::string lower(std::string_view text);

@@ -124,7 +124,7 @@ PartNode parseNode(const std::string& text, const std::string& path) {
   const std::string number = trim(colon == std::string::npos ? text : text.substr(colon + 1));
   if (colon != std::string::npos) node.part = trim(text.substr(0, colon));
   if (!integer(number, node.node) || (colon != std::string::npos && node.part.empty()))
-    refuse(path, "is \"" + text + "\", but a node is written PART:NODE with the number of the node, \"left column:4\" for instance, or NODE alone.");
+    refuse(path, "is " + inQuotes(text) + ", but a node is written PART:NODE with the number of the node, \"left column:4\" for instance, or NODE alone.");
   return node;
 }
 
@@ -132,7 +132,7 @@ PartNode parseNode(const std::string& text, const std::string& path) {
 PartDof parseDof(const std::string& text, const std::string& path) {
   const auto colon = text.rfind(':');
   if (colon == std::string::npos || trim(text.substr(colon + 1)).empty())
-    refuse(path, "holds \"" + text + "\", but a dof is written PART:NODE:COMPONENT, \"left column:4:u\" for instance.");
+    refuse(path, "holds " + inQuotes(text) + ", but a dof is written PART:NODE:COMPONENT, \"left column:4:u\" for instance.");
   const PartNode node = parseNode(text.substr(0, colon), path);
   return {node.part, node.node, trim(text.substr(colon + 1))};
 }
@@ -294,7 +294,7 @@ class NameCheck {
     std::vector<std::string> known;
     for (const auto& one : parts_) known.push_back(one.name);
     const auto meant = closest(name, known);
-    add(path, "names part \"" + name + "\", but there is no such part." + (meant.empty() ? " The parts are " + quotedList(known) + "." : " Did you mean \"" + meant + "\"?"));
+    add(path, "names part " + inQuotes(name) + ", but there is no such part." + (meant.empty() ? " The parts are " + quotedList(known) + "." : " Did you mean " + inQuotes(meant) + "?"));
   }
   void node(const std::string& path, const PartNode& n) {
     part(path, n.part);
@@ -302,13 +302,13 @@ class NameCheck {
       if (std::none_of(parts_.begin(), parts_.end(), [&](const auto& one) { return has(one, n.node); })) add(path, "names node " + std::to_string(n.node) + ", but no part has such a node.");
     } else if (const auto* found = findPart(n.part); found != nullptr && !has(*found, n.node)) {
       const auto [low, high] = std::minmax_element(found->nodes.begin(), found->nodes.end());
-      add(path, "names node " + std::to_string(n.node) + " of part \"" + n.part + "\", but the part has no such node. Its nodes lie between " + std::to_string(*low) + " and " +
+      add(path, "names node " + std::to_string(n.node) + " of part " + inQuotes(n.part) + ", but the part has no such node. Its nodes lie between " + std::to_string(*low) + " and " +
                     std::to_string(*high) + ".");
     }
   }
   void component(const std::string& path, const std::string& name) {
     if (name.empty() || std::find(names_.begin(), names_.end(), name) != names_.end()) return;
-    add(path, "names the component \"" + name + "\", but the components of a node are " + quotedList(names_) + ".");
+    add(path, "names the component " + inQuotes(name) + ", but the components of a node are " + quotedList(names_) + ".");
   }
   void raise() const {
     if (!faults_.empty()) throw DeckError(join(faults_, "\n"));

@@ -84,6 +84,11 @@ class Applier {
         findings_.push_back({item.place, "the path has an empty name."});
         return;
       }
+      if (item.path[i].size() > longestQuote) {
+        findings_.push_back({item.place, "the path has a name of " + std::to_string(item.path[i].size()) + " characters; the longest one has " +
+                                             std::to_string(longestQuote) + "."});
+        return;
+      }
       if (i + 1 == item.path.size()) break;
       if (item.removes && !list->holdsList(item.path[i])) {
         missing(item, path, item.path[i], *list, spec);
@@ -155,7 +160,7 @@ class Applier {
     if (!value) {
       const bool unitless = spec != nullptr && type == "double" && parseUnit(tailOf(item.value)).has_value();
       if (unitless && !tailOf(item.value).empty()) fault = "is not a number: this parameter has no unit";
-      findings_.push_back({item.place, path + "/" + name + ": value=\"" + item.value + "\" " + fault + "."});
+      findings_.push_back({item.place, path + "/" + name + ": value=" + inQuotes(item.value) + " " + fault + "."});
       return;
     }
     RawParameter fresh{name, type, item.value, *value, item.place};

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/Text.hpp"
 #include "deck/Value.hpp"
 
 namespace tooljoint::deck {
@@ -23,7 +24,7 @@ struct Place {
   }
   /// "deck.xml:42", or "--set Transient/Step=1"
   std::string text(const std::string& file) const {
-    if (overrideNumber > 0) return (overrideText[0] == '!' ? "--without " + overrideText.substr(1) : "--set " + overrideText);
+    if (overrideNumber > 0) return overrideText[0] == '!' ? "--without " + excerpt(overrideText.substr(1)) : "--set " + excerpt(overrideText);
     return line > 0 ? file + ":" + std::to_string(line) : file;
   }
 };

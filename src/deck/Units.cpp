@@ -163,7 +163,7 @@ class UnitParser {
     std::optional<Unit> unit = product();
     skipBlanks();
     if (unit && at_ < text_.size())
-      return fail("\"" + std::string(text_.substr(at_)) + "\" is not understood in the unit \"" + trim(text_) + "\"");
+      return fail(inQuotes(std::string(text_.substr(at_))) + " is not understood in the unit " + inQuotes(trim(text_)));
     return unit;
   }
 
@@ -194,7 +194,7 @@ class UnitParser {
       const bool divide = text_[at_] == '/';
       if (divide || text_[at_] == '*' || joins(at_)) ++at_;
       if (divided && !divide)
-        return fail("the unit \"" + trim(text_) + "\" is ambiguous: write parentheses around what it divides by");
+        return fail("the unit " + inQuotes(trim(text_)) + " is ambiguous: write parentheses around what it divides by");
       const std::optional<Unit> next = factor();
       if (!next) return next;
       result = multiply(*result, *next, divide ? -1 : 1);
@@ -206,7 +206,7 @@ class UnitParser {
   /// factor := "(" product ")" | whole number [symbol] | symbol [exponent]
   std::optional<Unit> factor() {
     skipBlanks();
-    if (at_ >= text_.size()) return fail("the unit \"" + trim(text_) + "\" ends too early");
+    if (at_ >= text_.size()) return fail("the unit " + inQuotes(trim(text_)) + " ends too early");
     if (text_[at_] == '(') return group();
     if (isDigit(text_[at_])) return number();
     return symbol();
@@ -217,7 +217,7 @@ class UnitParser {
     ++at_;
     std::optional<Unit> inner = product();
     if (!inner) return inner;
-    if (at_ >= text_.size() || text_[at_] != ')') return fail("a \")\" is missing in the unit \"" + trim(text_) + "\"");
+    if (at_ >= text_.size() || text_[at_] != ')') return fail("a \")\" is missing in the unit " + inQuotes(trim(text_)));
     ++at_;
     --depth_;
     return power(*inner);
@@ -227,7 +227,7 @@ class UnitParser {
   std::optional<Unit> number() {
     int value = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc() || value == 0) return fail("the number in the unit \"" + trim(text_) + "\" is not usable");
+    if (error != std::errc() || value == 0) return fail("the number in the unit " + inQuotes(trim(text_)) + " is not usable");
     at_ = static_cast<std::size_t>(end - text_.data());
     Unit result;
     result.factor = value;
@@ -242,9 +242,9 @@ class UnitParser {
     while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
     const std::string name(text_.substr(begin, at_ - begin));
     if (const UnitSymbol* known = findSymbol(name, reading_)) return power(known->unit);
-    if (name.empty()) return fail("\"" + trim(text_.substr(begin)) + "\" is not a unit");
+    if (name.empty()) return fail(inQuotes(trim(text_.substr(begin))) + " is not a unit");
     const std::string near = meantUnit(name);
-    return fail("\"" + name + "\" is not a known unit" + (near.empty() ? "" : " (did you mean \"" + near + "\"?)"));
+    return fail(inQuotes(name) + " is not a known unit" + (near.empty() ? "" : " (did you mean " + inQuotes(near) + "?)"));
   }
 
   /// exponent := ["^"] ["-"] digit
@@ -256,12 +256,12 @@ class UnitParser {
     const bool minus = at < text_.size() && text_[at] == '-';
     if (minus) ++at;
     if (at >= text_.size() || !isDigit(text_[at])) {
-      if (caret || minus) return fail("an exponent is missing in the unit \"" + trim(text_) + "\"");
+      if (caret || minus) return fail("an exponent is missing in the unit " + inQuotes(trim(text_)));
       return base;
     }
     const int exponent = text_[at] - '0';
     at_ = at + 1;
-    if (at_ < text_.size() && isDigit(text_[at_])) return fail("an exponent in the unit \"" + trim(text_) + "\" is too large");
+    if (at_ < text_.size() && isDigit(text_[at_])) return fail("an exponent in the unit " + inQuotes(trim(text_)) + " is too large");
     return multiply(Unit{}, base, minus ? -exponent : exponent);
   }
 
@@ -343,7 +343,7 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
     return std::nullopt;
   }
   if (unit->dimension != wanted->dimension) {
-    fault = "has the unit \"" + rest + "\", which does not measure what is asked for here (" + si + "); expected is " + expected;
+    fault = "has the unit " + inQuotes(rest) + ", which does not measure what is asked for here (" + si + "); expected is " + expected;
     return std::nullopt;
   }
   const double value = scaled(number, unit->factor / wanted->factor);

@@ -74,8 +74,8 @@ class ParameterCheck {
     if (spec_.kind == Kind::RealArray && quantity && given_.type == "Array(string)") return fromUnits();
     const std::string better = rewritten(spec_.kind, given_);
     const std::string wanted = "type=\"" + typeName(spec_.kind) + "\"";
-    fault_ = " must be " + wanted + ", not type=\"" + given_.type + "\"";
-    fault_ += better.empty() ? "." : ": write " + wanted + " value=\"" + better + "\".";
+    fault_ = " must be " + wanted + ", not type=" + inQuotes(given_.type);
+    fault_ += better.empty() ? "." : ": write " + wanted + " value=" + inQuotes(better) + ".";
     fault_ += " " + introduce(spec_);
     return std::nullopt;
   }
@@ -138,7 +138,7 @@ class ParameterCheck {
       const std::string near = closest(text, spec_.choices);
       const bool alone = spec_.kind == Kind::Choice;
       fault_ = alone ? quoted() : ": the entry " + inQuotes(text) + " ";
-      fault_ += "is not one of " + quotedList(spec_.choices) + "." + (near.empty() ? "" : " Did you mean \"" + near + "\"?");
+      fault_ += "is not one of " + quotedList(spec_.choices) + "." + (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
       return false;
     }
     return true;
@@ -220,16 +220,14 @@ class Validation {
       const ParameterSpec* diameter = spec.diameterOf(parameter.name);
       if (diameter != nullptr && given.holdsParameter(diameter->name)) continue;
       if (std::holds_alternative<Required>(parameter.value)) {
-        add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=\"" + parameter.name +
-                             "\" type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>" +
+        add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=" + inQuotes(parameter.name) + " type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>" +
                              (diameter == nullptr ? "" : ", or give " + diameter->name) + ". " + introduce(parameter));
       }
       setDefault(out, parameter);
     }
     for (const ListSpec& sublist : spec.lists()) {
       if (!sublist.required() || given.holdsList(sublist.name()) || given.holdsParameter(sublist.name())) continue;
-      add(given.place, path + "/" + sublist.name() + " is required but missing: write <ParameterList name=\"" + sublist.name() +
-                           "\">...</ParameterList>. " + introduce(sublist));
+      add(given.place, path + "/" + sublist.name() + " is required but missing: write <ParameterList name=" + inQuotes(sublist.name()) + ">...</ParameterList>. " + introduce(sublist));
     }
   }
 

@@ -18,10 +18,10 @@ std::string trailing(const std::string& text, const std::string& rest, bool inAr
   const bool quantity = unit && unit->dimension != Dimension{};
   if (rest[0] == ',') return "is not a number: write a decimal point, not a comma";
   if (!inArray && quantity) {
-    return "is not a number. A quantity with a unit is written type=\"string\" value=\"" + text + "\"";
+    return "is not a number. A quantity with a unit is written type=\"string\" value=" + inQuotes(text);
   }
   if (inArray && quantity) return "is not a number. Quantities with a unit are written type=\"Array(string)\"";
-  return "is not a number: \"" + rest + "\" is left over";
+  return "is not a number: " + inQuotes(rest) + " is left over";
 }
 
 std::string numberText(const std::string& text) {
@@ -118,7 +118,7 @@ std::optional<Value> parseArray(const std::string& text, std::string& fault, Par
     std::string why;
     const std::optional<T> value = parse(entry, why);
     if (!value) {
-      fault = "has the entry \"" + entry + "\" (number " + std::to_string(values.size() + 1) + "), which " + why;
+      fault = "has the entry " + inQuotes(entry) + " (number " + std::to_string(values.size() + 1) + "), which " + why;
       return std::nullopt;
     }
     values.push_back(*value);
@@ -173,8 +173,8 @@ std::optional<Value> parseValue(const std::string& type, const std::string& text
     return parseArray<std::string>(text, fault, [](const std::string& e, std::string&) { return std::optional<std::string>(e); });
   }
   const std::string meant = meantType(type);
-  fault = "has the type \"" + type + "\", which is not known; known are " + quotedList(typeNames());
-  if (!meant.empty()) fault += ". Did you mean type=\"" + meant + "\"?";
+  fault = "has the type " + inQuotes(type) + ", which is not known; known are " + quotedList(typeNames());
+  if (!meant.empty()) fault += ". Did you mean type=" + inQuotes(meant) + "?";
   return std::nullopt;
 }
 

@@ -66,11 +66,13 @@ std::string asText(const xmlChar* text) {
   return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
 }
 
+/// Most characters of a name, so that messages can hold it whole, with the names of the lists around it.
+constexpr std::size_t longestName = longestQuote;
+/// Most attributes of an element. libxml2 compares every attribute of an element with every other one.
+constexpr int mostAttributes = 100;
+
 /// Text a person can read in an error message: cut to a line's length.
-std::string excerpt(const std::string& text) {
-  const std::string whole = trim(text);
-  return whole.size() > 60 ? whole.substr(0, 57) + "..." : whole;
-}
+std::string shortened(const std::string& text) { return excerpt(trim(text), 60); }
 
 int lineOf(const xmlNode* node) {
   if (node->type == XML_ELEMENT_NODE) return static_cast<int>(reinterpret_cast<std::intptr_t>(node->_private));
@@ -102,6 +104,39 @@ Document parseDocument(const std::string& text, const std::string& file) {
     throw DeckError(file + ":" + std::to_string(std::max(1, news.line)) + ": not well-formed XML: " + fault + ".");
   }
   return document;
+}
+
+/// Line of the first element with more than mostAttributes attributes; 0 when there is none. Looks at the text alone: what the
+/// parser makes of it is said by the parser.
+int lineOfCrowdedElement(const std::string& text) {
+  int line = 1, attributes = 0;
+  char quote = 0;
+  bool inTag = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') ++line;
+    if (!inTag) {
+      if (c != '<') continue;
+      const bool comment = text.compare(i, 4, "<!--") == 0, data = text.compare(i, 9, "<![CDATA[") == 0;
+      if (comment || data) {
+        const auto end = std::min(text.find(comment ? "-->" : "]]>", i), text.size());
+        line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i), text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+        i = end;
+      } else {
+        inTag = true;
+        attributes = 0;
+      }
+    } else if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      inTag = false;
+    } else if (c == '=' && ++attributes > mostAttributes) {
+      return line;
+    }
+  }
+  return 0;
 }
 
 /// Walks the elements of a deck and collects what is wrong with each.
@@ -143,7 +178,7 @@ class TreeReader {
       if (std::find(known.begin(), known.end(), name) != known.end()) {
         result.emplace(name, value);
       } else {
-        add(node, subject + " has the attribute " + name + "=\"" + excerpt(value) + "\", which is not known; " +
+        add(node, subject + " has the attribute " + shortened(name) + "=" + inQuotes(shortened(value)) + ", which is not known; " +
                       attributeAdvice(name, value, known));
       }
     }
@@ -156,10 +191,10 @@ class TreeReader {
   static std::string attributeAdvice(const std::string& name, const std::string& value, const std::vector<std::string>& known) {
     const std::string small = lower(name);
     if (small == "unit" || small == "units") {
-      return "write the unit into the value: type=\"string\" value=\"... " + excerpt(value) + "\".";
+      return "write the unit into the value: type=\"string\" value=\"... " + shortened(value) + "\".";
     }
     const std::string near = closest(name, known);
-    return "known are " + quotedList(known) + "." + (near.empty() ? "" : " Did you mean \"" + near + "\"?");
+    return "known are " + quotedList(known) + "." + (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
   }
 
   /// How messages call an element before and after its name is known.
@@ -167,7 +202,7 @@ class TreeReader {
     xmlChar* content = xmlGetNoNsProp(const_cast<xmlNode*>(node), reinterpret_cast<const xmlChar*>("name"));
     const std::string name = asText(content);
     xmlFree(content);
-    if (!name.empty()) return path + "/" + name;
+    if (!name.empty()) return path + "/" + excerpt(name);
     return (path.empty() ? std::string("the outermost") : path + ": a") + " <" + tagOf(node) + ">";
   }
 
@@ -178,7 +213,10 @@ class TreeReader {
     } else if (it->second.empty()) {
       add(node, subject + " has an empty name.");
     } else if (trim(it->second) != it->second) {
-      add(node, subject + " has blanks around its name: write name=\"" + trim(it->second) + "\".");
+      add(node, subject + " has blanks around its name: write name=" + inQuotes(trim(it->second)) + ".");
+    } else if (it->second.size() > longestName) {
+      add(node, subject + " has a name of " + std::to_string(it->second.size()) + " characters; the longest one has " +
+                    std::to_string(longestName) + ".");
     } else if (it->second.find('/') != std::string::npos) {
       add(node, subject + " has a \"/\" in its name, which separates lists in a path.");
     } else {
@@ -200,9 +238,9 @@ class TreeReader {
 
   void readChild(const xmlNode* child, const std::string& path, RawList& list) {
     if (child->type == XML_TEXT_NODE || child->type == XML_CDATA_SECTION_NODE) {
-      const std::string text = excerpt(asText(child->content));
+      const std::string text = shortened(asText(child->content));
       if (!text.empty())
-        add(child, path + " holds the stray text \"" + text + "\"; a list holds <Parameter/> and <ParameterList> only.");
+        add(child, path + " holds the stray text " + inQuotes(text) + "; a list holds <Parameter/> and <ParameterList> only.");
     } else if (child->type == XML_ELEMENT_NODE) {
       readElement(child, path, list);
     } else if (child->type != XML_COMMENT_NODE && child->type != XML_PI_NODE) {
@@ -259,7 +297,7 @@ class TreeReader {
     const std::optional<Value> value = parseValue(parameter.type, parameter.text, fault);
     if (!value) {
       const bool knownType = std::find(typeNames().begin(), typeNames().end(), parameter.type) != typeNames().end();
-      const std::string what = knownType ? "type=\"" + parameter.type + "\" value=\"" + excerpt(parameter.text) + "\" " : "";
+      const std::string what = knownType ? "type=" + inQuotes(parameter.type) + " value=" + inQuotes(shortened(parameter.text)) + " " : "";
       add(node, subject + (knownType ? ": " : " ") + what + fault + (fault.back() == '?' ? "" : "."));
     }
     if (!complete || !isFirst(node, path, attributes.at("name"), list)) return;
@@ -296,6 +334,9 @@ RawList readXml(const std::string& text, const std::string& file) {
   if (text.size() > largestDeck) throw DeckError(file + ": is larger than 64 MB, which cannot be a deck.");
   if (trim(text).empty()) throw DeckError(file + ": the file is empty; a deck is one <ParameterList name=\"...\">.");
   if (text.find('\0') != std::string::npos) throw DeckError(file + ": is a binary file, not an XML text in UTF-8.");
+  if (const int line = lineOfCrowdedElement(text); line > 0)
+    throw DeckError(file + ":" + std::to_string(line) + ": an element has more than " + std::to_string(mostAttributes) +
+                    " attributes; a parameter has three: name, type and value.");
   const Document document = parseDocument(text, file);
   const xmlNode* root = xmlDocGetRootElement(document.get());
   if (root == nullptr) throw DeckError(file + ": the file holds no element; a deck is one <ParameterList name=\"...\">.");

@@ -112,10 +112,10 @@ class File {
     try {
       banner_.emplace(trim(text_));
     } catch (const std::exception&) {
-      fail("does not begin with a Matrix Market banner such as \"%%MatrixMarket matrix coordinate real general\": found \"" + trim(text_) + "\"");
+      fail("does not begin with a Matrix Market banner such as \"%%MatrixMarket matrix coordinate real general\": found " + inQuotes(trim(text_)));
     }
     if (banner_->dataType() != "real" && banner_->dataType() != "integer")
-      fail("holds a matrix of the kind \"" + banner_->dataType() + "\"; only real or integer ones can be used");
+      fail("holds a matrix of the kind " + inQuotes(banner_->dataType()) + "; only real or integer ones can be used");
     if (banner_->symmType() == "hermitian") fail("is hermitian; a real matrix is general, symmetric or skew-symmetric");
   }
 
@@ -130,7 +130,7 @@ class File {
     }
     const bool good = sizes.size() == count && sizes[0] >= 1 && sizes[1] >= 1 && sizes.back() >= 0 && sizes[0] <= largestDimension && sizes[1] <= largestDimension;
     if (!good) fail(std::string("should give the sizes here, ") + (count == 2 ? "\"rows columns\"" : "\"rows columns entries\"") + ", with at most " + std::to_string(largestDimension) +
-                    " rows and columns: found \"" + text_ + "\"");
+                    " rows and columns: found " + inQuotes(text_));
     return sizes;
   }
 
@@ -157,7 +157,7 @@ class File {
     std::istringstream words(text_);
     int row = 0, column = 0;
     std::string value, rest;
-    if (!(words >> row >> column >> value) || words >> rest) fail("should be \"row column value\": found \"" + text_ + "\"");
+    if (!(words >> row >> column >> value) || words >> rest) fail("should be \"row column value\": found " + inQuotes(text_));
     if (banner_->symmType() == "skew-symmetric" && row == column) failAt(row, column, "is on the diagonal of a skew-symmetric matrix");
     try {
       if (isNumber(value) && lines.readLine(text_, static_cast<std::size_t>(line_), false)) return;
@@ -166,7 +166,7 @@ class File {
     } catch (const std::exception&) {
       // what is wrong is said below
     }
-    failAt(row, column, "is \"" + value + "\", which is no finite number");
+    failAt(row, column, "is " + inQuotes(value) + ", which is no finite number");
   }
 
   /// Columns one after the other; of symmetric matrices their part on and below the diagonal.
@@ -176,7 +176,7 @@ class File {
     for (int j = 1; j <= entries_->columns; ++j)
       for (int i = symmetric() ? j + first : 1; i <= entries_->rows; ++i) {
         if (!next()) fail("is the last line, but the " + size() + " matrix has no entry for row " + std::to_string(i) + ", column " + std::to_string(j));
-        if (!isNumber(text_)) failAt(i, j, "is \"" + text_ + "\", which is no finite number");
+        if (!isNumber(text_)) failAt(i, j, "is " + inQuotes(text_) + ", which is no finite number");
         const double value = std::stod(text_);
         if (value != 0) add(i, j, value);
       }

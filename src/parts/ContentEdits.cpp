@@ -94,14 +94,14 @@ std::vector<int> filtered(const PartContent& content, const std::vector<int>& po
   for (const auto& name : components) {
     const auto it = std::find(m.componentNames.begin(), m.componentNames.end(), name);
     if (it == m.componentNames.end())
-      throw DeckError("names the component \"" + name + "\"; those of part \"" + content.part.name + "\" are " +
+      throw DeckError("names the component " + inQuotes(name) + "; those of part " + inQuotes(content.part.name) + " are " +
                       quotedList(m.componentNames));
     const auto component = static_cast<int>(it - m.componentNames.begin());
     const std::size_t before = out.size();
     for (int i : positions)
       if (m.dofs[static_cast<std::size_t>(i)].component == component) out.push_back(i);
     if (out.size() == before)
-      throw DeckError("names " + name + " of " + who + ", which part \"" + content.part.name + "\" does not have");
+      throw DeckError("names " + name + " of " + who + ", which part " + inQuotes(content.part.name) + " does not have");
   }
   return out;
 }
@@ -115,15 +115,15 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
     const std::string name = join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
     for (const auto& set : content.interfaces)
       if (set.name == name)
-        return filtered(content, set.dofs, {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()}, "\"" + name + "\"");
+        return filtered(content, set.dofs, {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()}, inQuotes(name));
   }
   const auto& first = all.front();
   if (first.find_first_not_of("0123456789") != std::string::npos || first.size() > 15) {
     std::vector<std::string> sets;
     for (const auto& set : content.interfaces) sets.push_back(set.name);
     const auto meant = closest(first, sets);
-    throw DeckError("names \"" + text + "\", which is no node and no interface set of part \"" + content.part.name + "\"" +
-                    (!meant.empty() ? ". Did you mean \"" + meant + "\"?"
+    throw DeckError("names " + inQuotes(text) + ", which is no node and no interface set of part " + inQuotes(content.part.name) +
+                    (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
                      : sets.empty() ? "; it has no sets"
                                     : "; its sets are " + quotedList(sets)));
   }
@@ -134,7 +134,7 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
     if (const auto& label = m.dofs[static_cast<std::size_t>(i)]; label.kind == DofLabel::Kind::Physical && label.entity == node)
       positions.push_back(i);
   if (positions.empty())
-    throw DeckError("names node " + first + ", which part \"" + content.part.name + "\" (" + content.file +
+    throw DeckError("names node " + first + ", which part " + inQuotes(content.part.name) + " (" + content.file +
                     ") does not have as a dof");
   return filtered(content, positions, {all.begin() + 1, all.end()}, "node " + first);
 }

@@ -87,7 +87,7 @@ class Hdf5Source : public PartSource {
   Matrix table(const std::string& path) const override {
     if (isGroup(path)) {
       const Sparse matrix = coordinates(path);
-      io::requireDense(file_ + ": \"" + path + "\"", matrix, std::filesystem::file_size(file_));
+      io::requireDense(file_ + ": " + inQuotes(path), matrix, std::filesystem::file_size(file_));
       return Matrix(matrix);
     }
     need(path);
@@ -113,7 +113,7 @@ class Hdf5Source : public PartSource {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
-    throw DeckError(file_ + ": \"" + path + "\" " + what + ".");
+    throw DeckError(file_ + ": " + inQuotes(path) + " " + what + ".");
   }
 
   /// What the reader says of a results file is said of a file of the deck here.
@@ -159,7 +159,7 @@ class Hdf5Source : public PartSource {
 
   void checkFinite(const std::string& path, int row, int column, double value) const {
     if (std::isfinite(value)) return;
-    throw io::MatrixFileError(file_ + ": the entry of \"" + path + "\" in row " + std::to_string(row + 1) + ", column " +
+    throw io::MatrixFileError(file_ + ": the entry of " + inQuotes(path) + " in row " + std::to_string(row + 1) + ", column " +
                                   std::to_string(column + 1) + " is " + formatNumber(value) + ", which is no finite number.",
                               row, column);
   }

@@ -11,7 +11,7 @@ namespace tooljoint::parts {
 using model::DofLabel;
 
 void JointReader::fail(const std::string& text, const std::string& what) const {
-  throw DeckError(where_ + " says \"" + text + "\", but " + what);
+  throw DeckError(where_ + " says " + inQuotes(text) + ", but " + what);
 }
 
 JointReader::Side JointReader::side(const std::string& text, const std::string& whole) const {
@@ -26,8 +26,8 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
   const auto it = std::find(names.begin(), names.end(), name);
   if (it == names.end()) {
     const auto meant = closest(name, names);
-    fail(whole, "there is no part \"" + name + "\"" +
-                    (meant.empty() ? "; the parts are " + quotedList(names) + "." : ". Did you mean \"" + meant + "\"?"));
+    fail(whole, "there is no part " + inQuotes(name) +
+                    (meant.empty() ? "; the parts are " + quotedList(names) + "." : ". Did you mean " + inQuotes(meant) + "?"));
   }
   out.part = static_cast<int>(it - names.begin());
   const auto& content = parts_[static_cast<std::size_t>(out.part)];
@@ -38,8 +38,8 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
     std::vector<std::string> sets;
     for (const auto& one : content.interfaces) sets.push_back(one.name);
     const auto meant = closest(place, sets);
-    fail(whole, "part \"" + name + "\" (" + content.file + ") has no interface set \"" + place + "\"" +
-                    (!meant.empty() ? ". Did you mean \"" + meant + "\"?"
+    fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no interface set " + inQuotes(place) +
+                    (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
                      : sets.empty() ? "; it has none."
                                     : "; its sets are " + quotedList(sets) + "."));
   }
@@ -59,7 +59,7 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
     }
     for (const auto& [p, label] : held_)
       if (p == out.part && label.entity == node && label.kind == DofLabel::Kind::Physical) had.insert(label.component);
-    if (had.empty()) fail(whole, "part \"" + name + "\" (" + content.file + ") has no node " + std::to_string(node) + ".");
+    if (had.empty()) fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no node " + std::to_string(node) + ".");
     out.had.push_back(had);
     out.joined.push_back(joined);
   }
@@ -76,8 +76,7 @@ ReadJoint JointReader::read(const std::string& text) const {
         fail(text, "both places are in part \"" + parts_[static_cast<std::size_t>(sides[s].part)].part.name +
                        "\". Tie nodes of one part by constraints of the list Coupling.");
     if (sides[s].nodes.size() != sides[0].nodes.size())
-      fail(text, "\"" + sides[0].text + "\" has " + std::to_string(sides[0].nodes.size()) + " nodes and \"" + sides[s].text +
-                     "\" has " + std::to_string(sides[s].nodes.size()) + "; sets are joined node by node.");
+      fail(text, inQuotes(sides[0].text) + " has " + std::to_string(sides[0].nodes.size()) + " nodes and " + inQuotes(sides[s].text) + " has " + std::to_string(sides[s].nodes.size()) + "; sets are joined node by node.");
   }
   const auto& names = parts_.front().part.model.componentNames;
   ReadJoint out;
@@ -105,8 +104,8 @@ ReadJoint JointReader::read(const std::string& text) const {
                            parts_[static_cast<std::size_t>(other.part)].part.name + "\". Fix it in both.");
       }
     if (common.empty())
-      fail(text, "node " + std::to_string(sides[0].nodes[k]) + " of \"" + joint.nodes[0].part + "\" and node " +
-                     std::to_string(sides[1].nodes[k]) + " of \"" + joint.nodes[1].part + "\" have no free component in common.");
+      fail(text, "node " + std::to_string(sides[0].nodes[k]) + " of " + inQuotes(joint.nodes[0].part) + " and node " +
+                     std::to_string(sides[1].nodes[k]) + " of " + inQuotes(joint.nodes[1].part) + " have no free component in common.");
     for (const auto& one : sides) {
       coupling::ReleasePlan release;
       release.name = text;

@@ -88,7 +88,7 @@ class JsonSource : public PartSource {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
-    throw DeckError(file_ + ": \"" + path + "\" " + what + ".");
+    throw DeckError(file_ + ": " + inQuotes(path) + " " + what + ".");
   }
 
   const Json* find(const std::string& path) const {
@@ -115,7 +115,7 @@ class JsonSource : public PartSource {
     if (value.is_object()) {
       for (const auto& [key, one] : value.items())
         if (key != "matrix" && key != "vector" && key != "law" && key != "name")
-          fail(path, "holds \"" + key + "\"; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
+          fail(path, "holds " + inQuotes(key) + "; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
       for (const char* key : {"law", "name"})
         if (value.contains(key)) {
           if (!value[key].is_string()) fail(path, std::string("has a \"") + key + "\" that is no text");

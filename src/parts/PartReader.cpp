@@ -46,8 +46,8 @@ class Reader {
     if (source_->has("loads")) readLoads();
     readState();
     readInterfaces();
-    if (source_->has("positions")) readPositions();
     if (source_->has("basis")) readBasis();
+    if (source_->has("positions")) readPositions();
     if (source_->has("omitted")) content_.omitted = source_->texts("omitted");
     recoverNodes();
     checkMass(content_);
@@ -59,12 +59,12 @@ class Reader {
     try {
       return openPart(path);
     } catch (const DeckError& fault) {
-      throw DeckError("Part \"" + name_ + "\": " + fault.what());
+      throw DeckError("Part " + inQuotes(name_) + ": " + fault.what());
     }
   }
 
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
-    throw DeckError(source_->file() + ": \"" + path + "\" " + what + ".");
+    throw DeckError(source_->file() + ": " + inQuotes(path) + " " + what + ".");
   }
   Eigen::Index size() const { return static_cast<Eigen::Index>(content_.part.model.dofs.size()); }
   std::string describe(const DofLabel& label) const {
@@ -76,13 +76,14 @@ class Reader {
     if (!source_->has("format")) fail("format", std::string("is missing: it says \"") + partFormat + "\" in a part file");
     const auto format = source_->text("format");
     if (format != partFormat)
-      fail("format", "is \"" + format + "\", expected \"" + partFormat + "\". Another version, or a file of another kind");
+      fail("format", "is " + inQuotes(format) + ", expected " + inQuotes(partFormat) + ". Another version, or a file of another kind");
     for (const auto& name : source_->names("")) {
       if (std::find(knownNames.begin(), knownNames.end(), name) != knownNames.end()) continue;
       const auto meant = closest(name, knownNames);
       fail(name, "is nothing a part file holds" +
-                     (meant.empty() ? "; known are " + quotedList(knownNames) : ". Did you mean \"" + meant + "\"?"));
+                     (meant.empty() ? "; known are " + quotedList(knownNames) : ". Did you mean " + inQuotes(meant) + "?"));
     }
+    if (source_->has("name")) source_->text("name");  // for people: the deck names the part
     for (const char* needed : {"components", "dofs", "mass", "stiffness"})
       if (!source_->has(needed)) fail(needed, "is missing: a part has \"components\", \"dofs\", \"mass\" and \"stiffness\"");
   }
@@ -93,7 +94,7 @@ class Reader {
     if (names.empty()) fail("components", "is empty: name the components of a node, e.g. \"u\", \"v\", \"w\"");
     for (auto it = names.begin(); it != names.end(); ++it) {
       if (it->empty()) fail("components", "holds an empty name");
-      if (std::find(names.begin(), it, *it) != it) fail("components", "names \"" + *it + "\" twice");
+      if (std::find(names.begin(), it, *it) != it) fail("components", "names " + inQuotes(*it) + " twice");
     }
   }
 
@@ -103,7 +104,7 @@ class Reader {
     if (!dof.component.empty()) {
       const auto it = std::find(names.begin(), names.end(), dof.component);
       if (it == names.end())
-        fail(path, "names the component \"" + dof.component + "\" of node " + std::to_string(dof.node) + "; the components are " +
+        fail(path, "names the component " + inQuotes(dof.component) + " of node " + std::to_string(dof.node) + "; the components are " +
                        quotedList(names));
       return static_cast<int>(it - names.begin());
     }
@@ -152,7 +153,7 @@ class Reader {
       std::set<std::pair<std::string, std::string>> names;
       for (const auto& term : terms)
         if (!names.emplace(term.name, term.law).second)
-          fail(path, "has two terms of the name \"" + term.name + "\" and the law \"" + term.law + "\"");
+          fail(path, "has two terms of the name " + inQuotes(term.name) + " and the law " + inQuotes(term.law));
       return terms;
     } catch (const io::MatrixFileError& fault) {
       throw explained(fault);
@@ -168,7 +169,7 @@ class Reader {
         where += " and the column of " + describe(dofs[static_cast<std::size_t>(fault.column)]);
       where += ".";
     }
-    return DeckError("Part \"" + name_ + "\": " + fault.what() + where);
+    return DeckError("Part " + inQuotes(name_) + ": " + fault.what() + where);
   }
 
   std::vector<NamedTerm> squareTerms(const std::string& path) const {
@@ -241,6 +242,15 @@ class Reader {
     return out;
   }
 
+  /// Nodes of the dofs, and of the rows of the basis.
+  std::set<std::int64_t> nodes() const {
+    std::set<std::int64_t> out;
+    for (const auto* labels : {&content_.part.model.dofs, &content_.basis.dofs})
+      for (const auto& l : *labels)
+        if (l.kind == DofLabel::Kind::Physical) out.insert(l.entity);
+    return out;
+  }
+
   std::string nodeRange() const {
     std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0;
     for (const auto& l : content_.part.model.dofs)
@@ -275,12 +285,15 @@ class Reader {
   }
 
   void readPositions() {
+    const auto known = nodes();
     const Matrix rows = source_->table("positions");
     if (rows.cols() != 4) fail("positions", "is " + shapeText(rows.rows(), rows.cols()) + ", expected rows \"node x y z\"");
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       const auto node = static_cast<std::int64_t>(rows(i, 0));
       if (static_cast<double>(node) != rows(i, 0) || node < 1)
         fail("positions", "has " + formatNumber(rows(i, 0)) + " for a node in row " + std::to_string(i + 1));
+      if (known.count(node) == 0)
+        fail("positions", "names node " + std::to_string(node) + " in row " + std::to_string(i + 1) + ", which the part does not have" + nodeRange());
       if (!content_.positions.emplace(node, rows.row(i).tail(3).transpose()).second)
         fail("positions", "gives node " + std::to_string(node) + " twice");
     }
@@ -295,7 +308,7 @@ class Reader {
     try {
       basis.vectors = source_->matrix("basis/vectors");
     } catch (const io::MatrixFileError& fault) {
-      throw DeckError("Part \"" + name_ + "\": " + fault.what());
+      throw DeckError("Part " + inQuotes(name_) + ": " + fault.what());
     }
     const auto rows = static_cast<Eigen::Index>(basis.dofs.size());
     if (basis.vectors.rows() != rows || basis.vectors.cols() != size())

@@ -90,8 +90,8 @@ class Builder {
     }
     const auto meant = closest(name, names);
     throw DeckError(
-        "names part \"" + name + "\", but " +
-        (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean \"" + meant + "\"?"));
+        "names part " + inQuotes(name) + ", but " +
+        (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean " + inQuotes(meant) + "?"));
   }
 
   void giveLoads() {
@@ -118,9 +118,8 @@ class Builder {
         if (it != settings_.laws.end())
           law = *it;
         else
-          faults_.push_back(settings_.where + "/Laws does not give the law \"" + law.name +
-                            "\", which terms or loads of part \"" + content.part.name + "\" (" + content.file +
-                            ") follow. Add a list \"" + law.name + "\" with its Form.");
+          faults_.push_back(settings_.where + "/Laws does not give the law " + inQuotes(law.name) + ", which terms or loads of part " + inQuotes(content.part.name) + " (" + content.file +
+                            ") follow. Add a list " + inQuotes(law.name) + " with its Form.");
       }
     for (const auto& law : settings_.laws)
       if (used.count(law.name) == 0)
@@ -180,7 +179,7 @@ class Builder {
         const auto joint = reader.read(text);
         for (const auto& side : joint.partial)
           if (imported()[static_cast<std::size_t>(side)].turned)
-            throw DeckError(settings_.where + "/Joints joins only some components in \"" + text + "\", and part \"" +
+            throw DeckError(settings_.where + "/Joints joins only some components in " + inQuotes(text) + ", and part \"" +
                             imported()[static_cast<std::size_t>(side)].name +
                             "\" is turned. Join whole nodes, and release components in the list Coupling.");
         plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
@@ -271,7 +270,7 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
     const auto it = std::find_if(scene.contents.begin(), scene.contents.end(),
                                  [&](const auto& content) { return content.part.name == start.part; });
     if (it == scene.contents.end())
-      throw DeckError(start.where + "/Part names part \"" + start.part + "\", but there is no such part.");
+      throw DeckError(start.where + "/Part names part " + inQuotes(start.part) + ", but there is no such part.");
     int position = 0;
     try {
       position = positionsOf(*it, std::to_string(start.node) + " " + start.component).front();

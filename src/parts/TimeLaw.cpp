@@ -136,7 +136,7 @@ deck::ListSpec timeLawParameters() {
 model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list) {
   const auto form = list.get<std::string>("Form");
   if (!list.isSublist(form))
-    throw DeckError(list.name() + "/Form is \"" + form + "\", but the list \"" + form + "\" with its numbers is missing.");
+    throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " + inQuotes(form) + " with its numbers is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
   return {name, [law](double t) { return law->value(t); }};
 }

@@ -54,6 +54,14 @@ struct Followers {
   Matrix rows;            ///< dofs x others
 };
 
+/// What is known of a family of bases before anything is computed.
+struct BasisTraits {
+  bool ownMass = true;           ///< mass and damping are projected on its vectors; otherwise the coupled mass is singular and residuals tell no errors
+  bool interfaceForces = false;  ///< interface forces are coordinates, and interface dofs are none
+  bool followers = false;        ///< it has coordinates that depend on others, by the inverse of the coupled mass
+  bool selectable = false;       ///< its modes have a fixed interface and may be left out one by one
+};
+
 /// What is known of a part before anything is computed.
 struct PartOutline {
   std::string name;
@@ -79,6 +87,8 @@ class Basis {
   /// in coupled dofs. The default has none.
   virtual Followers follow(const model::SecondOrderModel& coupled, const std::vector<Sparse>& maps, const std::vector<model::Substructure>& parts,
                            const std::vector<BasisResult>& bases) const;
+
+  virtual BasisTraits traits() const { return {}; }
 
   /// Looks at what it will read, files above all, before anything is computed. Throws DeckError. The default reads nothing.
   virtual void checkInput(const std::vector<PartOutline>& parts) const;

@@ -12,6 +12,8 @@ namespace {
 
 class CraigBampton : public Basis {
  public:
+  BasisTraits traits() const override { return {true, false, false, true}; }
+
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
     BasisResult basis;
     basis.partition = partition(part);

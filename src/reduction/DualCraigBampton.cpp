@@ -21,6 +21,8 @@ class DualCraigBampton : public Basis {
  public:
   explicit DualCraigBampton(bool residualMass) : residualMass_(residualMass) {}
 
+  BasisTraits traits() const override { return {false, true, false, false}; }
+
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
     model::Substructure open = part;
     open.interface.clear();

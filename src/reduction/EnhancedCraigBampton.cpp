@@ -24,6 +24,8 @@ class EnhancedCraigBampton : public Basis {
  public:
   EnhancedCraigBampton(bool tied, double independence) : tied_(tied), kind_(tied ? followingKind : freeKind), independence_(independence), base_(BasisRegistry::instance().make("Craig-Bampton", {})) {}
 
+  BasisTraits traits() const override { return {true, false, tied_, true}; }
+
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override { return base_->build(part, request); }
 
   /// Adds W, an orthonormal basis of F L, to every part that has dropped modes.

@@ -104,7 +104,7 @@ void addLoadVectors(const model::Substructure& part, const LoadVectorOptions& op
     basis.remarks.push_back(std::to_string(added) + " load vectors of " + std::to_string(F.cols()) + " loads and unit forces stand beside its modes");
 }
 
-std::vector<int> sameLoads(const std::vector<model::Substructure>& parts, const std::vector<int>& classes, const LoadVectorOptions& options) {
+void requirePointNodes(const std::vector<model::Substructure>& parts, const LoadVectorOptions& options) {
   for (const auto node : options.nodes) {
     const bool known = std::any_of(parts.begin(), parts.end(), [&](const model::Substructure& part) {
       return std::any_of(part.model.points.begin(), part.model.points.end(), [&](const model::PointSet& set) {
@@ -114,6 +114,10 @@ std::vector<int> sameLoads(const std::vector<model::Substructure>& parts, const 
     if (!known) throw DeckError("\"Load Vector Nodes\" names node " + std::to_string(node) + ", at which no substructure has a point law. Name nodes with contact, "
                                 "springs or other point laws, or leave the list out for all of them.");
   }
+}
+
+std::vector<int> sameLoads(const std::vector<model::Substructure>& parts, const std::vector<int>& classes, const LoadVectorOptions& options) {
+  requirePointNodes(parts, options);
   std::vector<int> same(classes);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     same[p] = static_cast<int>(p);

@@ -26,6 +26,9 @@ struct LoadVectorOptions {
 /// a mechanism.
 void addLoadVectors(const model::Substructure& part, const LoadVectorOptions& options, BasisResult& basis);
 
+/// Throws DeckError when a node of the options has no point law in any of the parts.
+void requirePointNodes(const std::vector<model::Substructure>& parts, const LoadVectorOptions& options);
+
 /// Classes of identical parts (the first of each, as findTwins) that also have the same loads and points. DeckError when a node of the options has no point.
 std::vector<int> sameLoads(const std::vector<model::Substructure>& parts, const std::vector<int>& classes, const LoadVectorOptions& options);
 

@@ -18,6 +18,8 @@ namespace {
 /// for symmetric parts; in general C = [0 .; . Phi' C Phi] and K is projected full.
 class MacNeal : public Basis {
  public:
+  BasisTraits traits() const override { return {false, false, false, false}; }
+
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
     FreeInterfaceBasis free = freeInterfaceBasis(part, request);
     const Matrix amplitudes = toModeAmplitudes(part, free);

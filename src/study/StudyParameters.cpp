@@ -14,6 +14,9 @@ using deck::ListSpec;
 using deck::Range;
 using Texts = std::vector<std::string>;
 
+/// Runs of one method: the product of the values of its sweep.
+constexpr double mostRuns = 1e4;
+
 const char* const overrideDoc =
     "\"PATH=VALUE\" replaces a value of the deck as --set does, \"!PATH\" takes a list or parameter out as --without does.";
 
@@ -101,7 +104,7 @@ class Reader {
       const auto equals = removes ? text.size() : text.find('=');
       const bool named = equals != std::string::npos && !trim(text.substr(removes ? 1 : 0, equals - (removes ? 1 : 0))).empty();
       if (!named)
-        fault(path, "has the entry \"" + text + "\", which is no override. Write \"PATH=VALUE\", for example \"Transient/Step=1e-3\", or \"!PATH\".");
+        fault(path, "has the entry " + inQuotes(text) + ", which is no override. Write \"PATH=VALUE\", for example \"Transient/Step=1e-3\", or \"!PATH\".");
       else
         belongs(trim(removes ? text.substr(1) : text.substr(0, equals)), path);
     }
@@ -145,6 +148,10 @@ class Reader {
       if (m.sweep.back().values.empty()) fault(where + "/Values", "is empty: a sweep needs at least one value.");
       belongs(m.sweep.back().parameter, where + "/Parameter");
     }
+    double runs = 1.0;
+    for (const auto& one : m.sweep) runs *= static_cast<double>(one.values.size());
+    if (runs > mostRuns)
+      fault(path + "/Sweep", "makes " + countText(runs) + " runs; a method has at most " + countText(mostRuns) + ". Take fewer values, or fewer dimensions.");
     if (m.sweep.empty()) fault(path + "/Sweep", "is empty. Add a list with a Parameter and its Values, or leave Sweep out.");
     return m;
   }
@@ -165,7 +172,7 @@ class Reader {
     std::map<std::string, std::string> seen;
     for (const auto& m : methods) {
       const auto [it, fresh] = seen.emplace(m.label, m.name);
-      if (!fresh) fault("Study/Methods/" + m.name, "has the label \"" + m.label + "\" of the method \"" + it->second + "\". Labels must differ.");
+      if (!fresh) fault("Study/Methods/" + m.name, "has the label " + inQuotes(m.label) + " of the method " + inQuotes(it->second) + ". Labels must differ.");
     }
   }
 

@@ -2,6 +2,7 @@
 #include "transient/TransientParameters.hpp"
 
 #include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::transient {
@@ -32,6 +33,27 @@ deck::ListSpec parameters() {
   return spec;
 }
 
+namespace {
+
+/// A motion of more steps would take years, and of more samples would fill any disk: slips in a number.
+constexpr double mostSteps = 1e12;
+constexpr double mostSamples = 1e8;
+
+void requireCounts(const TransientOptions& options) {
+  const double duration = options.end - options.start;
+  const auto require = [&](const char* what, double interval, double most) {
+    const double count = duration / interval;
+    if (count <= most) return;
+    throw DeckError(std::string("Transient/") + what + " is " + formatNumber(interval) + " s, which makes " + countText(count) + " of them in the " +
+                    formatNumber(duration) + " s from Start Time to End Time; at most " + countText(most) +
+                    " can be computed. Take a longer one, or an earlier End Time.");
+  };
+  if (options.step > 0.0) require("Step", options.step, mostSteps);
+  require("Sampling Interval", options.sampling, mostSamples);
+}
+
+}  // namespace
+
 bool isExplicit(const Teuchos::ParameterList& transient) {
   const auto list = withDefaults(transient, parameters());
   return IntegratorRegistry::instance().make(list.get<std::string>("Integrator"), Teuchos::ParameterList())->isExplicit();
@@ -51,8 +73,9 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   options.checkpointInterval = list.get<double>("Checkpoint Interval");
   if (list.isSublist(options.integrator)) options.own = list.sublist(options.integrator);
   if (!(options.end > options.start))
-    throw DeckError("Transient/End Time (" + std::to_string(options.end) + " s) must be later than Transient/Start Time (" +
-                    std::to_string(options.start) + " s).");
+    throw DeckError("Transient/End Time (" + formatNumber(options.end) + " s) must be later than Transient/Start Time (" +
+                    formatNumber(options.start) + " s).");
+  requireCounts(options);
   IntegratorRegistry::instance().make(options.integrator, options.own)->checkParameters(options.step);
   return options;
 }

@@ -174,10 +174,10 @@ AssemblyEntry parseEntry(const std::string& text) {
     parsed.name = trim(entry.substr(star + 1));
     const auto result = std::from_chars(number.data(), number.data() + number.size(), parsed.count);
     if (result.ec != std::errc() || result.ptr != number.data() + number.size() || parsed.count < 1)
-      throw DeckError("In \"" + entry + "\" the number before * must be a whole number from 1 on, as in \"3*collar\".");
+      throw DeckError("In " + inQuotes(entry) + " the number before * must be a whole number from 1 on, as in \"3*collar\".");
   }
   if (parsed.name.empty() || parsed.name.find('*') != std::string::npos)
-    throw DeckError("\"" + entry + "\" is not of the form \"component\" or \"3*component\".");
+    throw DeckError(inQuotes(entry) + " is not of the form \"component\" or \"3*component\".");
   return parsed;
 }
 

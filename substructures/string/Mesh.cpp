@@ -113,10 +113,10 @@ class Mesher {
   std::string unknown(const std::string& name) const {
     std::vector<std::string> names;
     for (const auto& entry : library_) names.push_back(entry.first);
-    std::string sentence = "The component \"" + name + "\" is not defined.";
+    std::string sentence = "The component " + inQuotes(name) + " is not defined.";
     const std::string meant = closest(name, names);
     if (!meant.empty())
-      sentence += " Did you mean \"" + meant + "\"?";
+      sentence += " Did you mean " + inQuotes(meant) + "?";
     else
       sentence += names.empty() ? " No components are defined: give a Library or the list Components."
                                 : " Known are " + quotedList(names) + ".";
@@ -217,8 +217,7 @@ class Mesher {
         return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace;
       });
       if (!seen)
-        log::warn("No node of the string stands in the bore interval \"" + interval.name +
-                  "\", so contact does not see it; use shorter elements there.");
+        log::warn("No node of the string stands in the bore interval " + inQuotes(interval.name) + ", so contact does not see it; use shorter elements there.");
     }
   }
 

@@ -24,8 +24,8 @@ std::vector<bool> flags(const std::string& text, const std::vector<std::string>&
     const auto it = std::find(known.begin(), known.end(), trim(word));
     if (it == known.end()) {
       const std::string meant = closest(trim(word), known);
-      throw DeckError(where + ": \"" + trim(word) + "\" is not a " + what + "." +
-                      (meant.empty() ? "" : " Did you mean \"" + meant + "\"?") + " Known are " + quotedList(known) + ".");
+      throw DeckError(where + ": " + inQuotes(trim(word)) + " is not a " + what + "." +
+                      (meant.empty() ? "" : " Did you mean " + inQuotes(meant) + "?") + " Known are " + quotedList(known) + ".");
     }
     found[static_cast<std::size_t>(it - known.begin())] = true;
   }

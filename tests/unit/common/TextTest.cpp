@@ -62,3 +62,23 @@ TEST(Text, TrimsSplitsAndJoins) {
   EXPECT_EQ(quotedList({}), "");
   EXPECT_EQ(lower("RK4 Adaptive"), "rk4 adaptive");
 }
+
+TEST(Text, QuotesAtMost200Characters) {
+  EXPECT_EQ(inQuotes("a"), "\"a\"");
+  EXPECT_EQ(inQuotes(std::string(200, 'x')), "\"" + std::string(200, 'x') + "\"");
+  EXPECT_EQ(inQuotes(std::string(100000, 'x')), "\"" + std::string(197, 'x') + "...\"");
+  EXPECT_EQ(quotedList({std::string(300, 'x')}).size(), 202U);
+  std::string umlauts;
+  for (int i = 0; i < 200; ++i) umlauts += "\u00e4";  // two bytes each: none is cut in two
+  EXPECT_EQ(excerpt(umlauts, 10), "\u00e4\u00e4\u00e4...");
+}
+
+TEST(Text, CountsHaveThreeDigits) {
+  EXPECT_EQ(countText(999999), "999999");
+  EXPECT_EQ(countText(1.23456e9), "1.23e+09");
+  EXPECT_EQ(countText(1e300), "1e+300");
+}
+
+TEST(Text, ALongTextIsComparedWithNoTable) {
+  EXPECT_EQ(closest(std::string(5000000, 'x'), {"Stiffness", "Friction"}), "");
+}

@@ -71,22 +71,22 @@ TEST_F(DeckFiles, FaultsAreTheSameOnEveryRank) {
 TEST_F(DeckFiles, AMissingFileIsAFileError) {
   const std::string file = folder_ + "/nothing.xml";
   EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
-            "FileError: " + file + ": the file cannot be opened: No such file or directory.");
+            "FileError: " + file + " cannot be read: No such file or directory.");
 }
 
 TEST_F(DeckFiles, AFolderIsAFileError) {
   EXPECT_EQ(messageOf([&] { Deck::read(folder_, smallScene()); }),
-            "FileError: " + folder_ + ": is a folder; a deck is an XML file.");
+            "FileError: " + folder_ + " cannot be read: it is a folder.");
 }
 
 TEST_F(DeckFiles, ADeviceOrPipeIsAFileError) {
   EXPECT_EQ(messageOf([&] { Deck::read("/dev/zero", smallScene()); }),
-            "FileError: /dev/zero: is no regular file; a deck is an XML file.");
+            "FileError: /dev/zero cannot be read: it is no regular file, but a device.");
   const std::string pipe = folder_ + "/pipe";
   const int made = parallel::rank() == 0 ? mkfifo(pipe.c_str(), 0600) : 0;
   EXPECT_EQ(made, 0);
   EXPECT_EQ(messageOf([&] { Deck::read(pipe, smallScene()); }),
-            "FileError: " + pipe + ": is no regular file; a deck is an XML file.");
+            "FileError: " + pipe + " cannot be read: it is no regular file, but a FIFO.");
 }
 
 TEST_F(DeckFiles, AnEmptyFileIsABadDeck) {
@@ -137,8 +137,8 @@ TEST_F(DeckFiles, AMissingLibraryIsAFaultOfTheDeck) {
   const std::string scene = write("scene.xml", deckWith(stiffness, endTime + "\n" + parameter("Note", "string", "no.xml")));
   const Deck deck = Deck::read(scene, smallScene());
   EXPECT_EQ(messageOf([&] { deck.readNamed("Transient/Note", "no.xml", ListSpec("library", "L.")); }),
-            scene + ":7: /well/Transient/Note names a file that cannot be read: " + folder_ +
-                "/no.xml: the file cannot be opened: No such file or directory.");
+            scene + ":7: /well/Transient/Note names a file, but " + folder_ +
+                "/no.xml cannot be read: No such file or directory.");
 }
 
 TEST_F(DeckFiles, FaultsOfALibraryPointIntoTheLibrary) {

@@ -7,6 +7,7 @@
 
 #include "SmallScene.hpp"
 #include "deck/Template.hpp"
+#include "deck/Units.hpp"
 #include "deck/Variants.hpp"
 
 using namespace tooljoint;
@@ -140,8 +141,28 @@ TEST(Manual, TopicsAreThePathsOfAllLists) {
 
 TEST(Manual, UnitsAreListedByQuantity) {
   const std::string text = unitsMarkdown();
-  EXPECT_NE(text.find("| length | `m`, `mm`, `cm`, `km`, `ft`, `in` |\n"), std::string::npos);
-  EXPECT_NE(text.find("| rotary speed | `rpm` |\n"), std::string::npos);
+  EXPECT_EQ(text.find("## Units\n\n"), 0U);
+  EXPECT_NE(text.find("| length | `in` | `inch`, `inches` | 0.0254 m |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("| rotary speed | `rpm` |  | 0.10471975511965977 rad/s |\n"), std::string::npos);
+  EXPECT_NE(text.find("9.80665 m/s2"), std::string::npos);
+}
+
+TEST(Manual, UnitsInJsonAreGroupedByQuantityWithTheirFactors) {
+  const auto json = nlohmann::json::parse(unitsJson());
+  std::size_t count = 0;
+  for (const auto& quantity : json) count += quantity["units"].size();
+  EXPECT_EQ(count, unitSymbols().size());
+  EXPECT_EQ(json[0]["quantity"], "length");
+  EXPECT_EQ(json[0]["si"], "m");
+  EXPECT_EQ(json[0]["units"][5]["unit"], "in");
+  EXPECT_EQ(json[0]["units"][5]["factor"], 0.0254);
+  EXPECT_EQ(json[0]["units"][5]["also"][0], "inch");
+}
+
+TEST(Manual, UnitsAreATopicInAnyCase) {
+  EXPECT_TRUE(isUnitsTopic("units"));
+  EXPECT_TRUE(isUnitsTopic(" Units"));
+  EXPECT_FALSE(isUnitsTopic("Contact"));
 }
 
 TEST(Template, ReadsAsItIs) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
 
 using namespace tooljoint::deck;
 
@@ -50,7 +51,18 @@ INSTANTIATE_TEST_SUITE_P(
         Quantity{"9.81 m/s2", "m/s2", 9.81}, Quantity{"1 m s^-2", "m/s2", 1.0}, Quantity{"1 m/s/s", "m/s2", 1.0},
         Quantity{"2 kN m/(rad)", "N m/rad", 2000.0}, Quantity{"8 kg/(m s)", "Pa s", 8.0}, Quantity{"100 mm2", "m2", 1e-4},
         Quantity{"2 mm4", "m4", 2e-12}, Quantity{"1e3 mm", "m", 1.0}, Quantity{"1e-3 km", "m", 1.0}, Quantity{"0 in", "m", 0.0},
-        Quantity{"5 in", "mm", 127.0}));
+        Quantity{"5 in", "mm", 127.0},
+        // compounds of the oil field; 1 ft lbf = 0.3048 x 4.4482216152605 N m
+        Quantity{"1 ft-lbf", "N m", 1.3558179483314004}, Quantity{"1 ft.lbf", "N m", 1.3558179483314004},
+        Quantity{"1 ft-lb", "N m", 1.3558179483314004}, Quantity{"1 kft-lbf", "N m", 1355.8179483314004},
+        Quantity{"1 kft.lb", "N m", 1355.8179483314004}, Quantity{"1 in-lbf", "N m", 0.11298482902761670},
+        Quantity{"2 kN.m", "N m", 2000.0}, Quantity{"2 kN-m", "N m", 2000.0}, Quantity{"10 klb", "N", 44482.216152605},
+        Quantity{"10 kip", "N", 44482.216152605}, Quantity{"5 daN", "N", 50.0}, Quantity{"2 t", "kg", 2000.0},
+        Quantity{"2 t", "N", 19613.3}, Quantity{"2 tf", "N", 19613.3}, Quantity{"1.25 sg", "kg/m3", 1250.0},
+        Quantity{"10 lb/gal", "kg/m3", 1198.2642731689663}, Quantity{"75 pcf", "kg/m3", 1201.3847530470105},
+        Quantity{"75 lb/ft3", "kg/m3", 1201.3847530470105}, Quantity{"600 lpm", "m3/s", 0.01},
+        Quantity{"1 bbl/min", "m3/s", 0.0026497882488}, Quantity{"5 inch", "m", 0.127}, Quantity{"2 ft/s", "m/s", 0.6096},
+        Quantity{"3 \u00b0/30m", "rad/m", 3.0 * pi / 180.0 / 30.0}, Quantity{"2 kg.m", "kg m", 2.0}, Quantity{"4 s-1", "1/s", 4.0}));
 
 struct Refusal {
   std::string text, si, fault;
@@ -74,7 +86,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"1e999 m", "m", "is a number too large or too small for a double"},
         Refusal{"1e308 km", "m", "is a number too large for a double"},
         Refusal{"1,5 m", "m", "has a decimal comma; write a decimal point"},
-        Refusal{"5 inch", "m", "has a unit that is not understood: \"inch\" is not a known unit (did you mean \"in\"?)"},
+        Refusal{"5 inchs", "m", "has a unit that is not understood: \"inchs\" is not a known unit (did you mean \"inch\"?)"},
+        Refusal{"5 ft-", "m", "has a unit that is not understood: an exponent is missing"},
+        Refusal{"5 ft.", "m", "has a unit that is not understood: \".\" is not a unit"},
+        Refusal{"5 kip", "kg", "has the unit \"kip\", which does not measure what is asked for here (kg)"},
+        Refusal{"5 tf", "kg", "has the unit \"tf\", which does not measure what is asked for here (kg)"},
+        Refusal{"5 t", "kg/m3", "has the unit \"t\", which does not measure what is asked for here (kg/m3)"},
+        Refusal{"1.2 sg", "N", "has the unit \"sg\", which does not measure what is asked for here (N)"},
         Refusal{"120 RPM", "rad/s", "has a unit that is not understood: \"RPM\" is not a known unit (did you mean \"rpm\"?)"},
         Refusal{"5 m m", "m", "has the unit \"m m\", which does not measure what is asked for here (m)"},
         Refusal{"5 in", "N", "has the unit \"in\", which does not measure what is asked for here (N)"},
@@ -101,13 +119,120 @@ TEST(Units, DeepParenthesesAreRefusedNotFollowed) {
   EXPECT_EQ(fault, "the unit is nested too deeply");
 }
 
-TEST(Units, EverySymbolOfTheTableReadsAsItself) {
-  for (const UnitSymbol& symbol : unitSymbols()) {
-    const auto unit = parseUnit(symbol.symbol);
-    ASSERT_TRUE(unit) << symbol.symbol;
-    EXPECT_DOUBLE_EQ(unit->factor, symbol.unit.factor) << symbol.symbol;
-    EXPECT_EQ(unit->dimension, symbol.unit.dimension) << symbol.symbol;
+/// One unit of the reference table below: what it measures, how it is written, and its value in SI.
+struct ReferenceUnit {
+  std::string quantity, si, symbol;
+  double value;
+  std::vector<std::string> synonyms;
+};
+
+/// Values from the definitions, written as decimal numbers and not computed from each other. Exact: inch 0.0254 m, foot 0.3048 m, pound
+/// 0.45359237 kg, standard gravity 9.80665 m/s2, and so the pound-force 4.4482216152605 N; US gallon 3.785411784e-3 m3 (231 cubic
+/// inches); barrel 42 US gallons; bar, minute, hour (NIST SP 811, appendix B.8). psi, ppg and pcf are quotients of these, rounded
+/// to 17 digits with 40-digit arithmetic; degree, revolution and rpm are multiples of pi.
+const std::vector<ReferenceUnit> referenceUnits = {
+    {"length", "m", "m", 1.0, {"meter", "meters", "metre", "metres"}},
+    {"length", "m", "mm", 0.001, {}},
+    {"length", "m", "cm", 0.01, {}},
+    {"length", "m", "km", 1000.0, {}},
+    {"length", "m", "ft", 0.3048, {"foot", "feet"}},
+    {"length", "m", "in", 0.0254, {"inch", "inches"}},
+    {"length", "m", "kft", 304.8, {}},
+    {"mass", "kg", "kg", 1.0, {}},
+    {"mass", "kg", "g", 0.001, {}},
+    {"mass", "kg", "t", 1000.0, {"tonne", "tonnes"}},
+    {"mass", "kg", "lbm", 0.45359237, {}},
+    {"mass", "kg", "lb", 0.45359237, {"lbs"}},
+    {"mass", "kg", "klb", 453.59237, {"klbs"}},
+    {"time", "s", "s", 1.0, {"sec", "second", "seconds"}},
+    {"time", "s", "ms", 0.001, {}},
+    {"time", "s", "min", 60.0, {"minute", "minutes"}},
+    {"time", "s", "h", 3600.0, {"hr", "hour", "hours"}},
+    {"angle", "rad", "rad", 1.0, {"radian", "radians"}},
+    {"angle", "rad", "deg", 0.017453292519943295, {"\u00b0", "degree", "degrees"}},
+    {"angle", "rad", "rev", 6.283185307179586, {}},
+    {"force", "N", "N", 1.0, {"newton"}},
+    {"force", "N", "daN", 10.0, {}},
+    {"force", "N", "kN", 1000.0, {}},
+    {"force", "N", "MN", 1e6, {}},
+    {"force", "N", "lbf", 4.4482216152605, {}},
+    {"force", "N", "klbf", 4448.2216152605, {"kip", "kips"}},
+    {"force", "N", "tf", 9806.65, {}},
+    {"force", "N", "t", 9806.65, {"tonne", "tonnes"}},
+    {"force", "N", "lb", 4.4482216152605, {"lbs"}},
+    {"force", "N", "klb", 4448.2216152605, {"klbs"}},
+    {"torque", "N m", "Nm", 1.0, {}},
+    {"torque", "N m", "kNm", 1000.0, {}},
+    {"pressure", "Pa", "Pa", 1.0, {"pascal"}},
+    {"pressure", "Pa", "kPa", 1000.0, {}},
+    {"pressure", "Pa", "MPa", 1e6, {}},
+    {"pressure", "Pa", "GPa", 1e9, {}},
+    {"pressure", "Pa", "bar", 1e5, {}},
+    {"pressure", "Pa", "psi", 6894.7572931683613, {}},
+    {"power", "W", "W", 1.0, {}},
+    {"power", "W", "kW", 1000.0, {}},
+    {"density", "kg/m3", "ppg", 119.82642731689663, {}},
+    {"density", "kg/m3", "pcf", 16.018463373960140, {}},
+    {"density", "kg/m3", "sg", 1000.0, {}},
+    {"rotary speed", "rad/s", "rpm", 0.10471975511965977, {}},
+    {"frequency", "Hz", "Hz", 1.0, {}},
+    {"frequency", "Hz", "kHz", 1000.0, {}},
+    {"volume", "m3", "l", 0.001, {"liter", "liters", "litre", "litres"}},
+    {"volume", "m3", "gal", 3.785411784e-3, {}},
+    {"volume", "m3", "bbl", 0.158987294928, {}},
+    {"volume flow", "m3/s", "gpm", 6.30901964e-5, {}},
+    {"volume flow", "m3/s", "lpm", 1.6666666666666667e-5, {}},
+    {"kinematic viscosity", "m2/s", "cSt", 1e-6, {}},
+    {"dynamic viscosity", "Pa s", "cP", 0.001, {}},
+};
+
+/// Base units of SI with their exponents: a unit that measured something else would not convert.
+TEST(Units, TheTableHasTheValuesOfTheDefinitionsAndNoOthers) {
+  const auto& table = unitSymbols();
+  ASSERT_EQ(table.size(), referenceUnits.size());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const ReferenceUnit& expected = referenceUnits[i];
+    EXPECT_EQ(table[i].quantity, expected.quantity);
+    EXPECT_EQ(table[i].symbol, expected.symbol);
+    EXPECT_EQ(table[i].si, expected.si);
+    EXPECT_EQ(table[i].synonyms, expected.synonyms) << expected.symbol;
+    EXPECT_NEAR(table[i].unit.factor, expected.value, 4e-16 * expected.value) << expected.symbol;
   }
+}
+
+TEST(Units, EverySymbolAndSynonymConvertsAsTheDefinitionSays) {
+  for (const ReferenceUnit& expected : referenceUnits) {
+    std::vector<std::string> spellings = expected.synonyms;
+    spellings.push_back(expected.symbol);
+    for (const std::string& spelling : spellings) {
+      std::string fault;
+      const auto value = toSi("2 " + spelling, expected.si, fault);
+      ASSERT_TRUE(value) << spelling << " " << fault;
+      EXPECT_NEAR(*value, 2.0 * expected.value, 8e-16 * expected.value) << spelling;
+    }
+  }
+}
+
+TEST(Units, DimensionsAreThoseOfTheQuantity) {
+  // metre, kilogram, second, radian, cycle
+  const std::map<std::string, Dimension> dimensions = {{"length", {1, 0, 0, 0, 0}},          {"mass", {0, 1, 0, 0, 0}},
+                                                       {"time", {0, 0, 1, 0, 0}},            {"angle", {0, 0, 0, 1, 0}},
+                                                       {"force", {1, 1, -2, 0, 0}},          {"torque", {2, 1, -2, 0, 0}},
+                                                       {"pressure", {-1, 1, -2, 0, 0}},      {"power", {2, 1, -3, 0, 0}},
+                                                       {"density", {-3, 1, 0, 0, 0}},        {"rotary speed", {0, 0, -1, 1, 0}},
+                                                       {"frequency", {0, 0, -1, 0, 1}},      {"volume", {3, 0, 0, 0, 0}},
+                                                       {"volume flow", {3, 0, -1, 0, 0}},    {"kinematic viscosity", {2, 0, -1, 0, 0}},
+                                                       {"dynamic viscosity", {-1, 1, -1, 0, 0}}};
+  for (const UnitSymbol& symbol : unitSymbols()) EXPECT_EQ(symbol.unit.dimension, dimensions.at(symbol.quantity)) << symbol.symbol;
+}
+
+TEST(Units, ASymbolOfMassAndForceIsReadAsWhatIsAskedFor) {
+  std::string fault;
+  EXPECT_EQ(toSi("3 t", "kg", fault), 3000.0);
+  EXPECT_EQ(toSi("3 t", "N", fault), 3.0 * 9806.65);
+  EXPECT_EQ(toSi("3 lb/ft", "kg/m", fault), 3.0 * (0.45359237 / 0.3048));
+  EXPECT_NEAR(toSi("3 lb/ft", "N/m", fault).value_or(0.0), 3.0 * 14.593902937206365, 1e-14);
+  EXPECT_FALSE(parseUnit("t")->dimension == parseUnit("t", nullptr, Reading::Force)->dimension);
 }
 
 TEST(Units, OfferedUnitsAllMeasureWhatIsAsked) {

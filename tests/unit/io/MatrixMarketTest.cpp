@@ -81,12 +81,50 @@ TEST(MatrixMarket, RefusesWithFileLineAndEntry) {
   expectRefused("%%MatrixMarket matrix array real general\n2 1\n1\n2\n3\n", "is more than the entries of a 2 x 1 matrix");
   expectRefused("%%MatrixMarket matrix array real general\n2 1\n1\ninf\n", "row 2, column 1 is \"inf\"", 1, 0);
   try {
+    readMatrixMarket("/dev/zero");
+    FAIL();
+  } catch (const DeckError& error) {
+    EXPECT_STREQ(error.what(), "The matrix file /dev/zero cannot be read: it is no regular file, but a device.");
+  }
+  try {
     readMatrixMarket("there is no such file.mtx");
     FAIL();
   } catch (const DeckError& error) {
     EXPECT_NE(std::string(error.what()).find("cannot be read: No such file"), std::string::npos);
     EXPECT_EQ(error.code(), ExitCode::InvalidDeck);
   }
+}
+
+/// Nothing is stored for what a file only announces.
+TEST(MatrixMarket, RefusesSizesThatTheFileCannotHold) {
+  expectRefused(general + "2 2 1000000000000\n1 1 1\n", ":2 announces 1000000000000 entries, for which the file of");
+  expectRefused("%%MatrixMarket matrix array real general\n16000000 16000000\n1\n", ":2 announces 256000000000000 entries");
+  expectRefused("%%MatrixMarket matrix array real symmetric\n16000000 16000000\n1\n", "entries, for which the file of");
+  expectRefused(general + "100000000 100000000 1\n1 1 1\n", ":2 should give the sizes here, \"rows columns entries\", with at most 16777216 rows and columns");
+  expectRefused(general + "2 2 1\n1 1 " + std::string(2000, '1') + "\n", "has a line of more than 1024 characters");
+  const std::string message = [] {
+    try {
+      readMatrixMarket(file("long.mtx", general + "2 2 1\n1 1 " + std::string(900, 'x') + "\n"));
+    } catch (const MatrixFileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  }();
+  EXPECT_NE(message.find(std::string(197, 'x') + "...\""), std::string::npos) << message;
+  EXPECT_EQ(message.find(std::string(198, 'x')), std::string::npos) << message;
+}
+
+TEST(MatrixMarket, ADenseMatrixIsNoLargerThanItsFileAllows) {
+  const auto path = file("wide.mtx", general + "10000000 1000000 1\n1 1 1\n");
+  EXPECT_EQ(readMatrixMarket(path).nonZeros(), 1);
+  try {
+    readMatrixMarketDense(path);
+    FAIL();
+  } catch (const MatrixFileError& error) {
+    EXPECT_NE(std::string(error.what()).find("wide.mtx is 10000000 x 1000000, too large for a matrix that is needed with all its zeros"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(readMatrixMarketDense(file("tall.mtx", general + "1000000 2 1\n3 2 5\n"))(2, 1), 5.0);
 }
 
 }  // namespace

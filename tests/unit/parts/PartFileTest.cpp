@@ -157,6 +157,10 @@ TEST(PartFile, NamesFaultsOfLabels) {
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "stifness": 1)")).expect<DeckError>("Did you mean \"stiffness\"?");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0]])"))
       .expect<DeckError>("\"positions\" is 1 x 3, expected rows \"node x y z\"");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0,0],[7,1,0,0]])"))
+      .expect<DeckError>("\"positions\" names node 7 in row 2, which the part does not have (its nodes are 1 to 2)");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": 7)")).expect<DeckError>("\"name\" should be a text");
+  EXPECT_NO_THROW(BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": "beam", "positions": [[1,0,0,0]])")).read());
 }
 
 TEST(PartFile, NamesFaultsOfMatrices) {
@@ -213,7 +217,7 @@ TEST(PartFile, NamesFaultsOfHdf5) {
     readPart(scratch / "nowhere.h5", "bar");
     FAIL() << "was read";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("there is no such file"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("nowhere.h5 cannot be read: No such file or directory."), std::string::npos) << error.what();
   }
 }
 

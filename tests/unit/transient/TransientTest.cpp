@@ -133,6 +133,23 @@ TEST(Transient, refusesAnEndBeforeTheStart) {
   EXPECT_NE(failure([&] { readOptions(list); }).find("must be later than Transient/Start Time"), std::string::npos);
 }
 
+TEST(Transient, refusesCountsOfStepsAndSamplesThatNobodyCanCompute) {
+  Teuchos::ParameterList list("Transient");
+  list.set("End Time", 1e6);
+  list.set("Step", 1e-9);
+  EXPECT_NE(failure([&] { readOptions(list); }).find("Transient/Step is 1e-09 s, which makes 1e+15 of them in the 1e+06 s from Start Time to End Time; at most 1e+12"),
+            std::string::npos)
+      << failure([&] { readOptions(list); });
+  list.set("Step", 1e-3);
+  list.set("Sampling Interval", 1e-3);
+  EXPECT_NE(failure([&] { readOptions(list); }).find("Transient/Sampling Interval is 0.001 s, which makes 1e+09 of them"), std::string::npos);
+  list.set("Sampling Interval", 1.0);
+  EXPECT_EQ(readOptions(list).sampling, 1.0);
+  list.set("Start Time", -1e308);
+  list.set("End Time", 1e308);  // their difference is no number
+  EXPECT_THROW(readOptions(list), DeckError);
+}
+
 TEST(Transient, everyIntegratorDescribesItself) {
   const auto spec = parameters();
   for (const auto& integrator : allIntegrators) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "substructures/well/Trajectory.hpp"
@@ -69,6 +70,93 @@ TEST(SurveyFile, UnitsOfTheDeckApplyWhereTheHeaderHasNone) {
   const auto stations = readSurvey(file.name(), "ft", "rad");
   EXPECT_DOUBLE_EQ(stations[1].depth, 304.8);
   EXPECT_DOUBLE_EQ(stations[1].inclination, 0.1);
+}
+
+/// Each column alone in each unit: 50 gon would be 0.785 rad, and a unit that is not read leaves degrees.
+TEST(SurveyFile, TheUnitOfEachColumnIsReadFromTheHeader) {
+  const auto second = [](const std::string& header, const std::string& row) {
+    const CsvFile file(header + "\n0,0,0\n" + row + "\n");
+    return readSurvey(file.name())[1];
+  };
+  EXPECT_DOUBLE_EQ(second("MD, Inc, Azi [rad]", "100,5,0.5").azimuth, 0.5);
+  EXPECT_DOUBLE_EQ(second("MD, Inc, Azi [rad]", "100,5,0.5").inclination, 5.0 * degree);
+  EXPECT_DOUBLE_EQ(second("MD, Inc [rad], Azi", "100,0.25,5").inclination, 0.25);
+  EXPECT_DOUBLE_EQ(second("MD, Inc [rad], Azi", "100,0.25,5").azimuth, 5.0 * degree);
+  EXPECT_DOUBLE_EQ(second("MD [ft], Inc, Azi", "100,5,5").depth, 30.48);
+  EXPECT_DOUBLE_EQ(second("MD [km], Inc, Azi", "2,5,5").depth, 2000.0);
+  EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").depth, 30.48);
+  EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").azimuth, 0.5);
+  EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").inclination, 5.0 * degree);
+}
+
+TEST(SurveyFile, SemicolonsWithDecimalCommasAndTabs) {
+  for (const std::string separator : {";", "\t"}) {
+    const std::string s = separator;
+    const CsvFile file("\xEF\xBB\xBFMD" + s + "Inc" + s + "Azi\r\n0" + s + "0" + s + "0\r\n100,5" + s + "2,25" + s + "-7\r\n");
+    const auto table = readSurveyTable(file.name());
+    ASSERT_EQ(table.stations.size(), 2U);
+    EXPECT_DOUBLE_EQ(table.stations[1].depth, 100.5);
+    EXPECT_DOUBLE_EQ(table.stations[1].inclination, 2.25 * degree);
+    EXPECT_DOUBLE_EQ(table.stations[1].azimuth, -7.0 * degree);
+    ASSERT_EQ(table.remarks.size(), 1U);
+    EXPECT_EQ(table.remarks[0], file.name() + ": 2 stations, cells separated by " + (s == ";" ? "semicolons" : "tabs") + ", decimal commas");
+  }
+}
+
+TEST(SurveyFile, DegreeSignsInHeaderAndCells) {
+  for (const std::string degreeSign : {"\xC2\xB0", "\xB0"}) {
+    const CsvFile file("MD [ft];Inc [" + degreeSign + "];Azi" + degreeSign + "\n0;0;0\n100;2.5" + degreeSign + ";10 " + degreeSign + "\n");
+    const auto stations = readSurvey(file.name(), "m", "rad");
+    ASSERT_EQ(stations.size(), 2U);
+    EXPECT_DOUBLE_EQ(stations[1].depth, 30.48);
+    EXPECT_DOUBLE_EQ(stations[1].inclination, 2.5 * degree);
+    EXPECT_DOUBLE_EQ(stations[1].azimuth, 10.0 * degree);
+  }
+}
+
+TEST(SurveyFile, ARowOfUnitsBelowTheHeader) {
+  for (const std::string row : {"ft,rad,-,deg", "[ft],[rad],[-],[\xC2\xB0]", "(ft),(rad),,(deg)"}) {
+    const CsvFile file("MD,Inclination,Tool,Azimuth\n" + row + "\n0,0,x,0\n100,0.5,y,90\n");
+    const auto stations = readSurvey(file.name());
+    ASSERT_EQ(stations.size(), 2U) << row;
+    EXPECT_DOUBLE_EQ(stations[1].depth, 30.48);
+    EXPECT_DOUBLE_EQ(stations[1].inclination, 0.5);
+    EXPECT_DOUBLE_EQ(stations[1].azimuth, 90.0 * degree);
+  }
+  EXPECT_NE(errorOf("MD,Inc,Azi\nm,furlong,deg\n0,0,0\n1,0,0\n").find("F:2: the unit \"furlong\" of the inclination is not known"), std::string::npos);
+  EXPECT_NE(errorOf("MD [ft],Inc,Azi\nm,deg,deg\n0,0,0\n1,0,0\n").find("F:2: the unit \"m\" of the measured depth is another one than that of the header"),
+            std::string::npos);
+  EXPECT_NE(errorOf("MD,Inc,Azi\nkg,deg,deg\n0,0,0\n1,0,0\n").find("the unit \"kg\" of the measured depth is not known"), std::string::npos);
+}
+
+TEST(SurveyFile, SaysWhatWasNotRead) {
+  const CsvFile file("# exported\n#\nMD,TVD,Inc,Azi,Remarks\n0,0,0,0,start\n,,,,\n100,99,10,0,\n");
+  const auto table = readSurveyTable(file.name());
+  ASSERT_EQ(table.remarks.size(), 1U);
+  EXPECT_EQ(table.remarks[0], file.name() + ": 2 stations; not read: columns \"TVD\", \"Remarks\", 2 comment lines, 1 empty row");
+  const CsvFile plain("0,0,0\n100,5,5\n");
+  EXPECT_TRUE(readSurveyTable(plain.name()).remarks.empty());
+}
+
+TEST(SurveyFile, DecimalCommasAndPointsDoNotMix) {
+  const std::string mixed = errorOf("MD;Inc;Azi\n0;0;0\n100,5;1.5;0\n");
+  EXPECT_NE(mixed.find("F:3: the inclination \"1.5\" has a decimal point, but there is a decimal comma in line 3"), std::string::npos) << mixed;
+  EXPECT_NE(errorOf("MD;Inc;Azi\n0;0;0\n1.234,5;1;0\n").find("\"1.234,5\" is not a finite number"), std::string::npos);
+}
+
+TEST(SurveyFile, UTF16AndPipesAreRefused) {
+  const CsvFile wide(std::string("\xFF\xFEM\0D\0", 6));
+  EXPECT_THROW(readSurvey(wide.name()), DeckError);
+  const std::string pipe = "survey_pipe_" + std::to_string(getpid());
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(readSurvey(pipe), DeckError);
+  std::remove(pipe.c_str());
+  EXPECT_THROW(readSurvey("/dev/zero"), DeckError);
+}
+
+TEST(SurveyFile, QuotesLittleOfALongCell) {
+  const std::string message = errorOf("0,0,0\n100," + std::string(100000, 'x') + ",0\n");
+  EXPECT_LT(message.size(), 400U);
 }
 
 TEST(SurveyFile, EveryFaultIsReportedWithItsLine) {
