@@ -101,7 +101,7 @@ TEST(MatrixMarket, RefusesSizesThatTheFileCannotHold) {
   expectRefused("%%MatrixMarket matrix array real general\n16000000 16000000\n1\n", ":2 announces 256000000000000 entries");
   expectRefused("%%MatrixMarket matrix array real symmetric\n16000000 16000000\n1\n", "entries, for which the file of");
   expectRefused(general + "100000000 100000000 1\n1 1 1\n", ":2 should give the sizes here, \"rows columns entries\", with at most 16777216 rows and columns");
-  expectRefused(general + "2 2 1\n1 1 " + std::string(2000, '1') + "\n", "has a line of more than 1024 characters");
+  expectRefused(general + "2 2 1\n1 1 " + std::string(2000, '1') + "\n", "The matrix file " + file("bad.mtx", "") + " has a line of more than 1024 characters");
   const std::string message = [] {
     try {
       readMatrixMarket(file("long.mtx", general + "2 2 1\n1 1 " + std::string(900, 'x') + "\n"));
