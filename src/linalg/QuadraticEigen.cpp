@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "common/Error.hpp"
 #include "common/StageTimes.hpp"
@@ -279,10 +280,6 @@ Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name
   }
 }
 
-bool isZeroMatrix(const Sparse& A) {
-  return A.nonZeros() == 0 || Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).isZero(0.0);
-}
-
 /// a_ij - a_ji is rounding of the entries.
 bool isSymmetric(const Sparse& A) {
   const Sparse transposed = A.transpose(), difference = A - transposed;
@@ -296,28 +293,69 @@ bool isSymmetric(const Sparse& A) {
   return true;
 }
 
-/// s = +-sqrt(-lambda) of the symmetric modes: nothing damps them and nothing couples them.
-Checked conservativeModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
+/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the fit leaves: proportional
+/// damping, none at all included.
+struct Proportional {
+  double alpha = 0, beta = 0;
+};
+std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
+  const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(), mk = pencil.M.cwiseProduct(pencil.K).sum();
+  const double cm = pencil.C.cwiseProduct(pencil.M).sum(), ck = pencil.C.cwiseProduct(pencil.K).sum(),
+               determinant = mm * kk - mk * mk;
+  Proportional fit;
+  if (determinant > 1e-12 * mm * kk) {
+    fit = {(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant};
+  } else if (mm > 0) {
+    fit = {cm / mm, 0.0};
+  }
+  const Sparse difference = pencil.C - fit.alpha * pencil.M - fit.beta * pencil.K;
+  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() + std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
+  for (int i = 0; i < difference.outerSize(); ++i)
+    for (Sparse::InnerIterator it(difference, i); it; ++it)
+      if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return std::nullopt;
+  return fit;
+}
+
+/// Roots with Im s >= 0 of s^2 + c s + lambda = 0; a double zero once.
+std::vector<Complex> roots(double c, double lambda) {
+  const double square = 0.25 * c * c - lambda;
+  if (square < 0) return {Complex(-0.5 * c, std::sqrt(-square))};
+  const double far = -(0.5 * c + std::copysign(std::sqrt(square), c));
+  if (far == 0.0) return {Complex(0)};
+  return {Complex(far), Complex(lambda / far)};
+}
+
+/// Those of the symmetric modes, which proportional damping does not couple. Of a mode with omega^2 >= lambda no |s| is below
+/// sqrt(lambda) or, overdamped, lambda / (|alpha| + |beta| lambda): enough modes are computed to know that the lowest |s| are
+/// among them. Nothing when these are too many, where stiffness-proportional damping gathers the values of all high modes at 1 /
+/// beta.
+std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Proportional& damping, int count,
+                                         const DofNamer& name) {
   EigenOptions options;
   options.name = name;
   const auto n = static_cast<int>(pencil.size());
-  EigenPairs pairs = lowestModes(pencil.K, pencil.M, count, options);
-  const auto negative = static_cast<int>((pairs.values.array() < 0).count());
-  if (negative > 0)
-    pairs = lowestModes(pencil.K, pencil.M, std::min(n, count + negative), options);  // by |s| others come before them
-  Checked modes;
-  for (int j = 0; j < pairs.count(); ++j) {
-    const Vector phi = pairs.vectors.col(j);
-    const double lambda = std::abs(pairs.values[j]) <= pencil.rounding(phi.cast<Complex>()) ? 0.0 : pairs.values[j],
-                 root = std::sqrt(std::abs(lambda));
-    std::vector<Complex> values{Complex(0, root)};
-    if (lambda < 0) values = {Complex(-root), Complex(root)};
-    for (const Complex& s : values) {
-      modes.values.push_back(s);
-      modes.vectors.push_back(phi.cast<Complex>());
+  const int most = std::min(n, std::max(16 * count, 200));
+  for (int asked = count;; asked = std::min(most, 2 * asked)) {
+    const EigenPairs pairs = lowestModes(pencil.K, pencil.M, asked, options);
+    Checked modes;
+    std::vector<double> sizes;
+    for (int j = 0; j < pairs.count(); ++j) {
+      const ComplexVector phi = pairs.vectors.col(j).cast<Complex>();
+      const double lambda = std::abs(pairs.values[j]) <= pencil.rounding(phi) ? 0.0 : pairs.values[j];
+      for (const Complex& s : roots(damping.alpha + damping.beta * lambda, lambda)) {
+        modes.values.push_back(s);
+        modes.vectors.push_back(phi);
+        sizes.push_back(std::abs(s));
+      }
     }
+    if (asked == n) return modes;
+    std::sort(sizes.begin(), sizes.end());
+    const double last = std::max(0.0, pairs.values[pairs.count() - 1]),
+                 spread = std::abs(damping.alpha) + std::abs(damping.beta) * last;
+    const double known = spread > 0 ? std::min(std::sqrt(last), last / spread) : std::sqrt(last);
+    if (sizes[static_cast<std::size_t>(count) - 1] <= known) return modes;
+    if (asked == most) return std::nullopt;
   }
-  return modes;
 }
 
 double rowNorm(const Sparse& A) {
@@ -347,8 +385,10 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   }
   const Stage stage("damped modes");
   const ScaledPencil pencil(M, C, K, rounding);
-  const bool conservative = isZeroMatrix(C) && isSymmetric(K) && !hasSingularMass(M);
-  const Checked found = conservative ? conservativeModes(pencil, count, name) : generalModes(pencil, count, name);
+  std::optional<Checked> simple;
+  if (isSymmetric(K) && !hasSingularMass(M))
+    if (const auto damping = proportionalDamping(pencil)) simple = proportionalModes(pencil, *damping, count, name);
+  const Checked found = simple ? *simple : generalModes(pencil, count, name);
   std::vector<std::size_t> order(found.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
