@@ -3,6 +3,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 
+#include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "reduction/Basis.hpp"
 #include "reduction/Reduce.hpp"
@@ -65,7 +66,12 @@ class Rules {
 
   /// What the basis is asked for, and cannot give.
   void basis() {
-    const reduction::BasisTraits traits = reduction::makeBasis(choice("Basis"), reduction())->traits();
+    reduction::BasisTraits traits;
+    try {
+      traits = reduction::makeBasis(choice("Basis"), reduction())->traits();
+    } catch (const DeckError&) {
+      return;  // its own parameters are wrong, which its reader says
+    }
     const std::string name = inQuotes(choice("Basis"));
     if (!traits.ownMass && explicit_)
       add("Reduction/Basis", "is " + name + ", whose mass is singular, but the integrator " + integrator() +

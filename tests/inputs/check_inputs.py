@@ -180,7 +180,7 @@ def check_refuses_what_run_refuses():
     mass = ["--without", "Reduction/Cut-off Frequency", "--set", "Reduction/Effective Interface Mass=0.5"]
     rows = [
         (STRING, ["--set", "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
-        (STRING, ["--set", "Supports/Top=u v w"], "The string floats: theta_z is free at all of its"),
+        (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
         (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: nothing holds it."),
         (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", whose mass is singular, but the integrator \"RK4\" needs a mass everywhere"),
         (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", whose mass is singular"),
@@ -193,7 +193,7 @@ def check_refuses_what_run_refuses():
         (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Reduction/Error Estimate=Both"], "asks for the error of the motion, which is not estimated with"),
         (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not estimated with Coupling/Assembly \"Dual\""),
         (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, at which no substructure has a point law"),
-        (FRAME, ["--set", "Transient/Step=1e-300"], "which makes 1e+298 of them"),
+        (FRAME, ["--set", "Transient/Step=1e-300"], "which makes 2e+300 of them"),
         (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which makes"),
         (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]), "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
         (deck_of(part("number", name=7), "number.xml"), [], "\"name\" should be a text"),
