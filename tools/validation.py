@@ -232,7 +232,37 @@ def source_table(bench):
     return bench.taken() + "\n" + "\n".join(rows) + "\n"
 
 
-TABLES = {"static": static_table, "torque": torque_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
+def modes_table(bench):
+    """Undamped modes of beams and of a frame, bending in pairs, beside closed forms and scipy's dense solver."""
+    import csv
+    import numpy
+    import scipy.linalg
+    import structures
+
+    length, radius, steel = 10.0, 0.05, structures.STEEL
+    wave = radius / 2.0 * math.sqrt(steel["E"] / steel["rho"]) / (2.0 * math.pi * length**2)  # f = (beta L)^2 sqrt(E I/(rho A)) / (2 pi L^2)
+    frame = structures.frame(5, 3)
+    dense = numpy.sqrt(scipy.linalg.eigh(frame.K.toarray(), frame.M.toarray(), eigvals_only=True, subset_by_index=[0, 11])) / (2.0 * math.pi)
+    cases = [("free_beam", "free beam, 40 elements", structures.beam(40), [wave * b**2 for b in (4.730041, 7.853205, 10.995608) for _ in range(2)], 6),
+             ("pinned_beam", "pinned beam, 40 elements", structures.pinned_beam(40), [wave * (n * math.pi) ** 2 for n in (1, 2, 3) for _ in range(2)], 0),
+             ("frame", "square frame of five storeys", frame, list(dense), 0)]
+    rows = ["| structure | dofs | rigid-body modes | frequencies [Hz] | closed form or scipy [Hz] | largest relative difference |", "|---|---|---|---|---|---|"]
+    for name, title, structure, exact, rigid in cases:
+        folder = bench.work / f"modes_{name}"
+        folder.mkdir(parents=True, exist_ok=True)
+        structure.write(folder / "part.h5")
+        deck = structures.deck(folder / "scene.xml", {"part": "part.h5"})
+        subprocess.run([bench.program, "modes", str(deck), "--count", str(rigid + len(exact)), "--output", str(folder / "out")], stdout=subprocess.DEVNULL, check=True)
+        with open(folder / "out/modes.csv", newline="", encoding="utf-8") as table:
+            found = [float(next(value for key, value in row.items() if key.split(" ")[0] == "full")) for row in csv.DictReader(table)]
+        elastic = found[rigid:]
+        worst = max(abs(f - e) / e for f, e in zip(elastic, exact))
+        listed = lambda values: ", ".join(f"{v:.4f}" for v in values[::2])
+        rows.append(f"| {title} | {structure.M.shape[0]} | {sum(1 for f in found if f == 0.0)} | {listed(elastic)} | {listed(exact)} | {worst:.1e} |")
+    return "\n" + "\n".join(rows) + "\n"
+
+
+TABLES = {"static": static_table, "modes": modes_table, "torque": torque_table, "gauges": gauge_table, "motion": motion_table, "speed": speed_windows, "nodes": node_table, "source": source_table}
 
 
 def main():
