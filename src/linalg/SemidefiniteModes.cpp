@@ -100,14 +100,24 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   return modes;
 }
 
+/// Forces, displacements and modal amplitudes are coordinates side by side, and the condition of K - sigma M depends on their
+/// units: of the units given and of those that make masses equal (powers of two), the ones with the better condition.
+Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
+  const Matrix A = Matrix(K) - sigma * Matrix(M);
+  const Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
+  if (A.rows() == 0) return given;
+  const auto condition = [&](const Vector& d) {
+    return Eigen::PartialPivLU<Matrix>(d.asDiagonal() * A * d.asDiagonal()).rcond();
+  };
+  return condition(masses) > condition(given) ? masses : given;
+}
+
 }  // namespace
 
 EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
   if (K.rows() != M.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
-  // Forces, displacements and modal amplitudes are coordinates side by side: rows and columns are scaled to unit mass (or to the
-  // stiffness of the others), by powers of two, so that "singular" means what it says.
   const Sparse stiffness = symmetricPart(K, "stiffness", options.name), mass = symmetricPart(M, "mass", options.name);
-  const Vector scale = binaryMassScale(stiffness, mass);
+  const Vector scale = betterScale(stiffness, mass, options.shift.value_or(-middle(stiffness, mass)));
   const Sparse k = scale.asDiagonal() * stiffness * scale.asDiagonal(), m = scale.asDiagonal() * mass * scale.asDiagonal();
   const Matrix W = root(m, options.name), dense = k;
   if (W.cols() == 0) {  // no mass: no finite modes
