@@ -14,18 +14,18 @@ namespace {
 /// Samples between two flushes.
 constexpr long flushEvery = 1000;
 
-std::vector<io::Csv::Column> columns(const model::ComponentNames& names) {
-  std::vector<io::Csv::Column> out{{"time", "s"}};
-  for (const auto& name : names) out.push_back({"max_" + name, "m or rad"});
-  return out;
-}
-
 std::string unitOf(const std::string& component) {
   switch (coupling::kindOf(component)) {
     case coupling::ComponentKind::Translation: return "m";
     case coupling::ComponentKind::Rotation: return "rad";
     default: return "";
   }
+}
+
+std::vector<io::Csv::Column> columns(const model::ComponentNames& names) {
+  std::vector<io::Csv::Column> out{{"time", "s"}};
+  for (const auto& name : names) out.push_back({"max_" + name, unitOf(name)});
+  return out;
 }
 
 std::string plain(std::string name) {

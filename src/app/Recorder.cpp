@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/Recorder.hpp"
 
+#include <algorithm>
+
 #include "common/Text.hpp"
 
 namespace tooljoint::app {
@@ -13,7 +15,7 @@ io::TimeSeries& seriesOf(io::ResultsFile& file, const std::vector<io::Csv::Colum
   std::vector<std::string> names, units;
   for (const auto& column : columns) {
     names.push_back(column.name);
-    units.push_back(column.unit);
+    if (std::find(units.begin(), units.end(), column.unit) == units.end()) units.push_back(column.unit);
   }
   return file.series(motionSeries, {columns.size()}, join(units, ", "), "Rows of motion.csv: " + join(names, ", "));
 }
