@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct PartContent {
   StoredBasis basis;                          ///< empty unless the file holds one
   std::vector<std::string> omitted;           ///< point laws the part had where it came from, and that a file cannot hold
 };
+
+/// Nodes that a part knows: those of its dofs, and of the rows of its basis.
+std::set<std::int64_t> nodesOf(const PartContent& content);
 
 /// Reads a part. `path` is a .json file, a folder with a part.json, or an HDF5 file; `name` is what messages call the part.
 /// DeckError naming part, file and dof: a file that is missing or malformed, unknown names, a matrix that is not square or of

@@ -242,15 +242,6 @@ class Reader {
     return out;
   }
 
-  /// Nodes of the dofs, and of the rows of the basis.
-  std::set<std::int64_t> nodes() const {
-    std::set<std::int64_t> out;
-    for (const auto* labels : {&content_.part.model.dofs, &content_.basis.dofs})
-      for (const auto& l : *labels)
-        if (l.kind == DofLabel::Kind::Physical) out.insert(l.entity);
-    return out;
-  }
-
   std::string nodeRange() const {
     std::int64_t low = std::numeric_limits<std::int64_t>::max(), high = 0;
     for (const auto& l : content_.part.model.dofs)
@@ -285,7 +276,7 @@ class Reader {
   }
 
   void readPositions() {
-    const auto known = nodes();
+    const auto known = nodesOf(content_);
     const Matrix rows = source_->table("positions");
     if (rows.cols() != 4) fail("positions", "is " + shapeText(rows.rows(), rows.cols()) + ", expected rows \"node x y z\"");
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -354,6 +345,14 @@ class Reader {
 };
 
 }  // namespace
+
+std::set<std::int64_t> nodesOf(const PartContent& content) {
+  std::set<std::int64_t> out;
+  for (const auto* labels : {&content.part.model.dofs, &content.basis.dofs})
+    for (const auto& l : *labels)
+      if (l.kind == DofLabel::Kind::Physical) out.insert(l.entity);
+  return out;
+}
 
 PartContent readPart(const std::string& path, const std::string& name) { return Reader(path, name).read(); }
 

@@ -95,7 +95,9 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
   }
   for (std::size_t k = 0; k < kept.size(); ++k)
     (inSet[k] ? out.part.interface : out.part.retained).push_back(static_cast<int>(k));
-  out.positions = original.positions;
+  const auto known = nodesOf(out);
+  for (const auto& [node, position] : original.positions)
+    if (known.count(node) > 0) out.positions.emplace(node, position);  // a held node is none of the part any more
   return out;
 }
 

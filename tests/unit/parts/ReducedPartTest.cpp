@@ -45,6 +45,20 @@ std::vector<reduction::ReducedSubstructure> reduced(const std::vector<Substructu
   return reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")), fourModes());
 }
 
+/// A node that was held is none of the part any more: with its position the file would be refused.
+TEST(ReducedPart, KeepsThePositionsOfItsNodesAlone) {
+  const test::Scratch scratch;
+  const auto parts = bars();
+  auto original = contentOf(parts[0]);
+  for (int node = 1; node <= 13; ++node) original.positions[node] = Vector3(0.1 * node, 0.0, 0.0);
+  const auto path = scratch / "a.h5";
+  writePart(reducedContent(original, reduced(parts)[0]), path, FileKind::Hdf5);
+  const auto positions = readPart(path, "a").positions;
+  EXPECT_EQ(positions.size(), 12U);
+  EXPECT_EQ(positions.count(1), 0U);
+  EXPECT_EQ(positions.at(13), Vector3(1.3, 0.0, 0.0));
+}
+
 TEST(ReducedPart, HasTheFrequenciesAndForcesOfTheOneReducedInPlace) {
   const test::Scratch scratch;
   const auto parts = bars();
