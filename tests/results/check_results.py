@@ -245,7 +245,7 @@ def check_parts(rows, written):
         near("parts: the gap of a stop", gap, file["/transient/displacement"][:, tip, names.index("v")] - 1e-5, 1e-9)
         expect("parts: stops push", np.ravel(file["/transient/plug/stop_force"][:])[gap < 0].min() > 0)
         largest = np.abs(file["/transient/displacement"][:]).max(axis=1)
-    motion = table(folder / "motion.csv", ["time [s]"] + [f"max_{name} [{"rad" if name.startswith("theta") else "m"}]" for name in names])
+    motion = table(folder / "motion.csv", ["time [s]"] + [f"max_{name} [{'rad' if name.startswith('theta') else 'm'}]" for name in names])
     for c, name in enumerate(names):
         near(f"parts: motion.csv: max_{name}", motion[f"max_{name}"], largest[:, c], 1e-12)
 
