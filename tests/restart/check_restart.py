@@ -56,14 +56,28 @@ def stamp(folder):
     return file.stat().st_mtime_ns if file.exists() else 0
 
 
+def children(parent):
+    """Processes that a process has started."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and int((entry / "stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[1]) == parent:
+                found.append(int(entry.name))
+        except (FileNotFoundError, ProcessLookupError):  # it has ended meanwhile
+            continue
+    return found
+
+
 def stop(signum, folder, *arguments, ranks=1):
-    """Starts a run and sends it a signal as soon as it has written a checkpoint; its exit code."""
+    """Starts a run and sends it a signal as soon as it has written a checkpoint; its exit code. With several ranks the signal goes to each of them:
+    mpiexec hands it on late, or never, and a short run would end first."""
     before = stamp(folder)
     process = subprocess.Popen(command(*arguments, ranks=ranks), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     while process.poll() is None and stamp(folder) == before:
         time.sleep(0.002)
-    if process.poll() is None:
-        process.send_signal(signum)
+    for target in children(process.pid) if ranks > 1 else [process.pid]:
+        if process.poll() is None:
+            os.kill(target, signum)
     code = process.wait(timeout=60)
     lock = os.open(folder, os.O_RDONLY)  # ranks may outlive their mpiexec for a moment
     deadline = time.monotonic() + 60
