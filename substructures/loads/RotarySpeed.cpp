@@ -36,14 +36,16 @@ RotarySpeed RotarySpeed::fromDeck(const Teuchos::ParameterList& deck) {
 
 double RotarySpeed::sense(double from) const {
   if (!law_) return 0.0;
+  constexpr double rounding = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude, of either sign
   constexpr double justAfter = 1e-6;  // share of a smooth stretch: the sign with which the stretch begins
   std::vector<double> starts{from};
   for (double corner : law_->corners())
     if (corner > from) starts.push_back(corner);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double width = i + 1 < starts.size() ? starts[i + 1] - starts[i] : 1.0;
-    for (double t : {starts[i], starts[i] + justAfter * width})
-      if (speed(t) != 0.0) return std::copysign(1.0, speed(t));
+    const double here = speed(starts[i]), after = speed(starts[i] + justAfter * width);
+    if (std::abs(here) > rounding) return std::copysign(1.0, here);
+    if (after != 0.0) return std::copysign(1.0, after);
   }
   return 0.0;
 }

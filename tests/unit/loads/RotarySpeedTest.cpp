@@ -329,5 +329,16 @@ TEST(RotarySpeed, KnowsTheSenseOfTheFirstRotation) {
             1.0);
 }
 
+/// sin(pi) is 1.2e-16 in floating point, and the speed falls from there.
+TEST(RotarySpeed, DoesNotTakeRoundingForTheFirstRotation) {
+  EXPECT_EQ(RotarySpeed(law("Harmonic", [](auto& l) {
+              l.set("Mean Speed", 0.0);
+              l.set("Amplitude", 2.0);
+              l.set("Frequency", 0.5);
+              l.set("Phase", pi);
+            })).sense(0.0),
+            -1.0);
+}
+
 }  // namespace
 }  // namespace tooljoint::loads
