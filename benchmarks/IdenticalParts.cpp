@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Reduction of 1, 10 and 100 identical pipes that carry no load, cut from a string in a straight inclined well: parts that are
-/// identical but for rounding are found and reduced once.
+/// Reduction of 1, 10 and 100 identical pipes that carry no load, cut from a string in a straight
+/// inclined well: parts that are identical but for rounding are found and reduced once.
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
 #include <benchmark/benchmark.h>
@@ -22,8 +22,9 @@ const std::vector<model::Substructure>& pipes(long elements) {
   static std::map<long, std::vector<model::Substructure>> known;
   auto& inner = known[elements];
   if (inner.empty()) {
-    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml",
-                                      {"Drillstring/Components/pipe/Segments/body/Elements=" + std::to_string(elements)});
+    const auto scene = app::readScene(
+        std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml",
+        {"Drillstring/Components/pipe/Segments/body/Elements=" + std::to_string(elements)});
     const auto parts = app::cut(scene, app::settle(scene));
     inner.assign(parts.begin() + 1, parts.end() - 1);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Cost of the pieces of a time step on a string of the size of the reference scene (972 dofs, contact looked at at 161 nodes),
-/// and of longer ones. Figures depend on the machine: docs/validation.md records some with theirs.
-#include <benchmark/benchmark.h>
-
+/// Cost of the pieces of a time step on a string of the size of the reference scene (972 dofs,
+/// contact looked at at 161 nodes), and of longer ones. Figures depend on the machine:
+/// docs/validation.md records some with theirs.
 #include <algorithm>
+#include <benchmark/benchmark.h>
 #include <cmath>
 #include <ctime>
 #include <numeric>
@@ -27,10 +27,13 @@ struct NoSink final : transient::SampleSink {
 struct Motion final : transient::SampleSink {
   Vector q, v;
   double t = 0;
-  void sample(double time, const Vector& q_, const Vector& v_, const Vector&) override { t = time, q = q_, v = v_; }
+  void sample(double time, const Vector& q_, const Vector& v_, const Vector&) override {
+    t = time, q = q_, v = v_;
+  }
 };
 
-transient::TransientOptions options(const std::string& integrator, double begin, double end, double step) {
+transient::TransientOptions options(const std::string& integrator, double begin, double end,
+                                    double step) {
   transient::TransientOptions o;
   o.integrator = integrator;
   o.start = begin;
@@ -71,18 +74,20 @@ struct Kernel {
   }
 };
 
-/// One acceleration: residual with speed-dependent damping, contact, mass solve. The argument tells whether the rotary speed is
-/// steady.
+/// One acceleration: residual with speed-dependent damping, contact, mass solve. The argument tells
+/// whether the rotary speed is steady.
 void rightHandSide(benchmark::State& bench) {
   Kernel kernel(settled(bench.range(0) != 0));
   double t = 1.0;
   for (auto _ : bench) {
-    t += 1e-9;  // another time: speed-dependent matrices are combined anew unless the speed is the same
+    t += 1e-9;  // another time: speed-dependent matrices are combined anew unless the speed is the
+                // same
     kernel.rhs.acceleration(t, kernel.state.q.data(), kernel.state.v.data(), kernel.state.a.data());
     benchmark::DoNotOptimize(kernel.state.a.data());
   }
   bench.counters["dofs"] = kernel.model.size();
-  bench.counters["points looked at"] = static_cast<double>(kernel.model.points()[0].active().size());
+  bench.counters["points looked at"] =
+      static_cast<double>(kernel.model.points()[0].active().size());
 }
 BENCHMARK(rightHandSide)->Arg(0)->Arg(1);
 
@@ -90,7 +95,8 @@ BENCHMARK(rightHandSide)->Arg(0)->Arg(1);
 void rightHandSideAllPoints(benchmark::State& bench) {
   Kernel kernel(settled(false));
   kernel.rhs.look(1.0, 0.0, kernel.state.q.data());
-  const Vector far = Vector::Constant(kernel.model.size(), 10.0);  // everything out of reach: all points become active
+  const Vector far = Vector::Constant(kernel.model.size(),
+                                      10.0);  // everything out of reach: all points become active
   kernel.rhs.missed(far.data());
   double t = 1.0;
   for (auto _ : bench) {
@@ -98,7 +104,8 @@ void rightHandSideAllPoints(benchmark::State& bench) {
     kernel.rhs.acceleration(t, kernel.state.q.data(), kernel.state.v.data(), kernel.state.a.data());
     benchmark::DoNotOptimize(kernel.state.a.data());
   }
-  bench.counters["points looked at"] = static_cast<double>(kernel.model.points()[0].active().size());
+  bench.counters["points looked at"] =
+      static_cast<double>(kernel.model.points()[0].active().size());
 }
 BENCHMARK(rightHandSideAllPoints);
 
@@ -121,17 +128,20 @@ BENCHMARK(combineMatrices);
 void pointForces(benchmark::State& bench) {
   Kernel kernel(settled(false));
   for (auto _ : bench) {
-    kernel.model.addPointForces(1.0, kernel.state.q.data(), kernel.state.v.data(), kernel.state.a.data());
+    kernel.model.addPointForces(1.0, kernel.state.q.data(), kernel.state.v.data(),
+                                kernel.state.a.data());
     benchmark::DoNotOptimize(kernel.state.a.data());
   }
-  bench.counters["points looked at"] = static_cast<double>(kernel.model.points()[0].active().size());
+  bench.counters["points looked at"] =
+      static_cast<double>(kernel.model.points()[0].active().size());
 }
 BENCHMARK(pointForces);
 
 void pointTangents(benchmark::State& bench) {
   Kernel kernel(settled(false));
   for (auto _ : bench)
-    for (auto& batch : kernel.model.points()) batch.evaluateWithTangent(1.0, kernel.state.q.data(), kernel.state.v.data());
+    for (auto& batch : kernel.model.points())
+      batch.evaluateWithTangent(1.0, kernel.state.q.data(), kernel.state.v.data());
 }
 BENCHMARK(pointTangents);
 
@@ -174,10 +184,10 @@ void generalizedAlphaStep(benchmark::State& bench) {
     steps += report.counters.steps;
   }
   bench.counters["us/step"] = 1e6 * seconds / static_cast<double>(steps);
-  bench.counters["newton/step"] =
-      static_cast<double>(report.counters.newtonIterations) / static_cast<double>(report.counters.steps);
-  bench.counters["factorisations/step"] =
-      static_cast<double>(report.counters.factorisations) / static_cast<double>(report.counters.steps);
+  bench.counters["newton/step"] = static_cast<double>(report.counters.newtonIterations) /
+                                  static_cast<double>(report.counters.steps);
+  bench.counters["factorisations/step"] = static_cast<double>(report.counters.factorisations) /
+                                          static_cast<double>(report.counters.steps);
   bench.counters["halved"] = static_cast<double>(report.counters.halved);
 }
 BENCHMARK(generalizedAlphaStep)
@@ -227,17 +237,22 @@ double contactShare(const model::SecondOrderModel& model, const Vector& q) {
   std::iota(points.begin(), points.end(), 0);
   std::vector<double> gap(points.size());
   set.law->clearanceLeft(points, d.data(), gap.data());
-  return static_cast<double>(std::count_if(gap.begin(), gap.end(), [](double g) { return g <= 0; })) / static_cast<double>(gap.size());
+  return static_cast<double>(
+             std::count_if(gap.begin(), gap.end(), [](double g) { return g <= 0; })) /
+         static_cast<double>(gap.size());
 }
 
-/// Cost of a step against length: the string repeated end to end, so that the share of contacts is the same. Arguments:
-/// elements; whether the steps of 1 ms are the 100 of the fall from the centre line (0.02 to 0.12 s, to the first contacts) or 300 in
-/// contact (0.2 to 0.5 s). What comes before is left out.
+/// Cost of a step against length: the string repeated end to end, so that the share of contacts is
+/// the same. Arguments: elements; whether the steps of 1 ms are the 100 of the fall from the centre
+/// line (0.02 to 0.12 s, to the first contacts) or 300 in contact (0.2 to 0.5 s). What comes before
+/// is left out.
 void longString(benchmark::State& bench) {
   const auto model = helicalString(longMesh(static_cast<std::size_t>(bench.range(0))), true);
   Window window(bench.range(1) != 0 ? 0.2 : 0.02, bench.range(1) != 0 ? 0.5 : 0.12);
   NoSink sink;
-  const auto before = transient::integrate(model, options("Generalized-alpha", 0, window.begin, 1e-3), sink).counters;
+  const auto before =
+      transient::integrate(model, options("Generalized-alpha", 0, window.begin, 1e-3), sink)
+          .counters;
   auto o = options("Generalized-alpha", 0, window.end, 1e-3);
   o.sampling = 0.02;
   double seconds = 0;
@@ -250,14 +265,19 @@ void longString(benchmark::State& bench) {
     factorisations += whole.factorisations - before.factorisations;
     steps += whole.steps - before.steps;
   }
-  const auto perStep = [steps](long count) { return static_cast<double>(count) / static_cast<double>(steps); };
+  const auto perStep = [steps](long count) {
+    return static_cast<double>(count) / static_cast<double>(steps);
+  };
   bench.counters["dofs"] = model.size();
   bench.counters["contact share at the end"] = contactShare(model, window.q);
   bench.counters["iterations/step"] = perStep(iterations);
   bench.counters["factorisations/step"] = perStep(factorisations);
   bench.counters["ns/step/dof"] = 1e9 * seconds / static_cast<double>(steps) / model.size();
 }
-BENCHMARK(longString)->ArgsProduct({{162, 1620, 16200}, {0, 1}})->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(longString)
+    ->ArgsProduct({{162, 1620, 16200}, {0, 1}})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// GoogleTest main for one or several ranks. Rank 0 prints the versions, its own log and, at the end, what failed on the other
-/// ranks; the exit code is the worst of all ranks. A failed ASSERT_* on one rank alone before a collective call would hang the
-/// others: use EXPECT_* in tests of several ranks.
-#include <gtest/gtest.h>
-#include <mpi.h>
-
+/// GoogleTest main for one or several ranks. Rank 0 prints the versions, its own log and, at the
+/// end, what failed on the other ranks; the exit code is the worst of all ranks. A failed ASSERT_*
+/// on one rank alone before a collective call would hang the others: use EXPECT_* in tests of
+/// several ranks.
 #include <Tpetra_Core.hpp>
+#include <gtest/gtest.h>
 #include <iostream>
+#include <mpi.h>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -22,13 +22,16 @@ class FailureCollector : public ::testing::EmptyTestEventListener {
   const std::string& text() const { return text_; }
 
  private:
-  void OnTestStart(const ::testing::TestInfo& test) override { test_ = std::string(test.test_suite_name()) + "." + test.name(); }
+  void OnTestStart(const ::testing::TestInfo& test) override {
+    test_ = std::string(test.test_suite_name()) + "." + test.name();
+  }
   void OnTestEnd(const ::testing::TestInfo& /*test*/) override { test_ = "outside of a test"; }
   // GoogleTest holds its lock here: asking it for the current test would wait for ever.
   void OnTestPartResult(const ::testing::TestPartResult& result) override {
     if (!result.failed()) return;
     std::ostringstream entry;
-    entry << (result.file_name() ? result.file_name() : "unknown file") << ":" << result.line_number() << ": " << test_ << "\n"
+    entry << (result.file_name() ? result.file_name() : "unknown file") << ":"
+          << result.line_number() << ": " << test_ << "\n"
           << result.message() << "\n";
     text_ += entry.str();
   }
@@ -49,8 +52,10 @@ void printFailuresOfOthers(const std::string& mine, int rank, int ranks) {
   for (int other = 1; other < ranks; ++other) {
     std::string text(static_cast<std::size_t>(lengths[static_cast<std::size_t>(other)]), ' ');
     if (text.empty()) continue;
-    MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_CHAR, other, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    std::cout << "\n[  FAILED  ] on rank " << other << " of " << ranks << ":\n" << text << std::flush;
+    MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_CHAR, other, 0, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
+    std::cout << "\n[  FAILED  ] on rank " << other << " of " << ranks << ":\n"
+              << text << std::flush;
   }
 }
 

@@ -2,14 +2,15 @@
 /// \file
 /// Couples two reduced halves of a rod.
 ///
-/// A rod of length L, clamped at one end, obeys rho u_tt = E u_xx; its frequencies are f_n = (2n - 1) c / 4L, c = sqrt(E/rho). Linear
-/// elements of length h give
+/// A rod of length L, clamped at one end, obeys rho u_tt = E u_xx; its frequencies are f_n = (2n -
+/// 1) c / 4L, c = sqrt(E/rho). Linear elements of length h give
 ///
 ///     K_e = (E A / h) [1 -1; -1 1],   M_e = (rho A h / 6) [2 1; 1 2].
 ///
-/// Each half becomes a Substructure whose interface is the node in the middle. Craig-Bampton replaces its interior by constraint
-/// modes and a few fixed-interface modes; the assembler joins the halves because their interface dofs carry the same label. The
-/// frequencies of the coupled model lie above those of the mesh and close to the closed form.
+/// Each half becomes a Substructure whose interface is the node in the middle. Craig-Bampton
+/// replaces its interior by constraint modes and a few fixed-interface modes; the assembler joins
+/// the halves because their interface dofs carry the same label. The frequencies of the coupled
+/// model lie above those of the mesh and close to the closed form.
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
 #include <cmath>
@@ -45,7 +46,8 @@ model::Substructure part(const std::string& name, int first, int last) {
   }
   Triplets stiffness, mass;
   for (int e = first; e <= last; ++e) {
-    const int ends[2] = {dof[static_cast<std::size_t>(e - first)], dof[static_cast<std::size_t>(e - first + 1)]};
+    const int ends[2] = {dof[static_cast<std::size_t>(e - first)],
+                         dof[static_cast<std::size_t>(e - first + 1)]};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         if (ends[i] < 0 || ends[j] < 0) continue;
@@ -62,12 +64,14 @@ model::Substructure part(const std::string& name, int first, int last) {
   rod.initialDisplacement = rod.initialVelocity = Vector::Zero(n);
   rod.recovery.resize(0, n);
   for (int i = 0; i < n; ++i)  // the node both halves know
-    if (rod.dofs[static_cast<std::size_t>(i)].entity == kElements / 2 + 1) half.interface.push_back(i);
+    if (rod.dofs[static_cast<std::size_t>(i)].entity == kElements / 2 + 1)
+      half.interface.push_back(i);
   return half;
 }
 
 int run() {
-  const std::vector<model::Substructure> parts{part("upper half", 0, kElements / 2 - 1), part("lower half", kElements / 2, kElements - 1)};
+  const std::vector<model::Substructure> parts{part("upper half", 0, kElements / 2 - 1),
+                                               part("lower half", kElements / 2, kElements - 1)};
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {6};
@@ -79,12 +83,16 @@ int run() {
   const auto modes = linalg::lowestModes(coupled.stiffnessAt(0.0), coupled.mass, count);
   const double c = std::sqrt(kModulus / kDensity);
   bool right = true;
-  if (parallel::rank() == 0) std::printf("%d + %d dofs reduced to %d\n", parts[0].model.size(), parts[1].model.size(), coupled.size());
+  if (parallel::rank() == 0)
+    std::printf("%d + %d dofs reduced to %d\n", parts[0].model.size(), parts[1].model.size(),
+                coupled.size());
   for (int i = 0; i < count; ++i) {
     const double found = std::sqrt(modes.values(i)) / (2.0 * std::acos(-1.0));
     const double exact = (2 * i + 1) * c / (4.0 * kLength);
     const double error = found / exact - 1.0;
-    if (parallel::rank() == 0) std::printf("mode %d: %10.5f Hz, closed form %10.5f Hz, error %+.1e\n", i + 1, found, exact, error);
+    if (parallel::rank() == 0)
+      std::printf("mode %d: %10.5f Hz, closed form %10.5f Hz, error %+.1e\n", i + 1, found, exact,
+                  error);
     right = right && error > 0.0 && error < 1e-3;  // Rayleigh-Ritz: from above
   }
   return right ? 0 : 1;

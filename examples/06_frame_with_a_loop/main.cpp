@@ -10,16 +10,20 @@
 ///       |           |        left column 1-4, right column 2-3
 ///       1           2        both feet clamped
 ///
-/// Every member is a Substructure of plane beam elements (u, v, theta) in axes of its own, u along the member. Four ways to join them:
+/// Every member is a Substructure of plane beam elements (u, v, theta) in axes of its own, u along
+/// the member. Four ways to join them:
 ///
 ///   primal     q_p = L_p z, equal labels become one coordinate, turned into the common frame;
-///   dual       every part keeps its coordinates, and [K -B'; -B 0] holds B q = 0: the multipliers are the forces between the parts;
-///   system     characteristic constraint modes K_GG psi = omega^2 M_GG psi of all 9 joined dofs, 5 kept;
-///   local      the same for each of the three interfaces by itself, the others held, 2 kept of each: too few here, see below.
+///   dual       every part keeps its coordinates, and [K -B'; -B 0] holds B q = 0: the multipliers
+///   are the forces between the parts; system     characteristic constraint modes K_GG psi =
+///   omega^2 M_GG psi of all 9 joined dofs, 5 kept; local      the same for each of the three
+///   interfaces by itself, the others held, 2 kept of each: too few here, see below.
 ///
-/// Each is compared with the frame assembled in one piece. Craig-Bampton is a Ritz method, so frequencies lie above those of the one piece, and
-/// primal and dual assembly of the same reduced parts agree to the last digits. An interface reduction adds the static answer to the weight to its modes.
-/// Local modes are for interfaces of many nodes: these have three dofs each, and without one of them the frame cannot sway.
+/// Each is compared with the frame assembled in one piece. Craig-Bampton is a Ritz method, so
+/// frequencies lie above those of the one piece, and primal and dual assembly of the same reduced
+/// parts agree to the last digits. An interface reduction adds the static answer to the weight to
+/// its modes. Local modes are for interfaces of many nodes: these have three dofs each, and without
+/// one of them the frame cannot sway.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
@@ -49,14 +53,20 @@ struct Member {
   int from, to;
 };
 
-const std::map<int, std::array<double, 2>> corners{{1, {0, 0}}, {2, {6, 0}}, {3, {6, 4}}, {4, {0, 4}}, {5, {3, 6}}};
-const std::vector<Member> members{{"left column", 1, 4}, {"right column", 2, 3}, {"tie beam", 4, 3}, {"left rafter", 4, 5}, {"right rafter", 3, 5}};
+const std::map<int, std::array<double, 2>> corners{
+    {1, {0, 0}}, {2, {6, 0}}, {3, {6, 4}}, {4, {0, 4}}, {5, {3, 6}}};
+const std::vector<Member> members{{"left column", 1, 4},
+                                  {"right column", 2, 3},
+                                  {"tie beam", 4, 3},
+                                  {"left rafter", 4, 5},
+                                  {"right rafter", 3, 5}};
 
 /// Length and direction cosines of a member.
 struct Line {
   double length, c, s;
   explicit Line(const Member& m) {
-    const double x = corners.at(m.to)[0] - corners.at(m.from)[0], y = corners.at(m.to)[1] - corners.at(m.from)[1];
+    const double x = corners.at(m.to)[0] - corners.at(m.from)[0],
+                 y = corners.at(m.to)[1] - corners.at(m.from)[1];
     length = std::hypot(x, y);
     c = x / length;
     s = y / length;
@@ -71,8 +81,14 @@ void element(double l, Matrix& K, Matrix& M) {
   M(0, 0) = M(3, 3) = kMass * l / 3;
   M(0, 3) = M(3, 0) = kMass * l / 6;
   const int i[4] = {1, 2, 4, 5};
-  const double k[4][4] = {{12, 6 * l, -12, 6 * l}, {6 * l, 4 * l * l, -6 * l, 2 * l * l}, {-12, -6 * l, 12, -6 * l}, {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
-  const double m[4][4] = {{156, 22 * l, 54, -13 * l}, {22 * l, 4 * l * l, 13 * l, -3 * l * l}, {54, 13 * l, 156, -22 * l}, {-13 * l, -3 * l * l, -22 * l, 4 * l * l}};
+  const double k[4][4] = {{12, 6 * l, -12, 6 * l},
+                          {6 * l, 4 * l * l, -6 * l, 2 * l * l},
+                          {-12, -6 * l, 12, -6 * l},
+                          {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
+  const double m[4][4] = {{156, 22 * l, 54, -13 * l},
+                          {22 * l, 4 * l * l, 13 * l, -3 * l * l},
+                          {54, 13 * l, 156, -22 * l},
+                          {-13 * l, -3 * l * l, -22 * l, 4 * l * l}};
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) {
       K(i[a], i[b]) = kEI / (l * l * l) * k[a][b];
@@ -105,11 +121,16 @@ model::Substructure part(const std::string& name, const std::vector<Member>& som
     }
     const Vector load = kWeight * M * down;
     for (int e = 0; e < kElements; ++e) {
-      const auto number = [&](int n) { return n == 0 ? member.from : n == kElements ? member.to : 100 * member.from + 1000 * member.to + n; };
+      const auto number = [&](int n) {
+        return n == 0           ? member.from
+               : n == kElements ? member.to
+                                : 100 * member.from + 1000 * member.to + n;
+      };
       for (int node : {number(e), number(e + 1)})
         if (first.count(node) == 0) {
           first[node] = node <= 2 ? -1 : static_cast<int>(model.dofs.size());
-          for (int c = 0; c < 3 && node > 2; ++c) model.dofs.push_back(model::DofLabel::physical(node, c));
+          for (int c = 0; c < 3 && node > 2; ++c)
+            model.dofs.push_back(model::DofLabel::physical(node, c));
         }
       for (int i = 0; i < 6; ++i) {
         const int row = first[number(e + i / 3)];
@@ -135,7 +156,8 @@ model::Substructure part(const std::string& name, const std::vector<Member>& som
   model.initialDisplacement = model.initialVelocity = Vector::Zero(n);
   model.recovery.resize(0, n);
   for (int i = 0; i < n; ++i)
-    if (some.size() == 1 && model.dofs[static_cast<std::size_t>(i)].entity <= 5) out.interface.push_back(i);
+    if (some.size() == 1 && model.dofs[static_cast<std::size_t>(i)].entity <= 5)
+      out.interface.push_back(i);
   return out;
 }
 
@@ -151,7 +173,8 @@ std::vector<coupling::Frame> frames() {
   return list;
 }
 
-coupling::Synthesis join(coupling::Assembly assembly, std::shared_ptr<const reduction::InterfaceBasis> interface) {
+coupling::Synthesis join(coupling::Assembly assembly,
+                         std::shared_ptr<const reduction::InterfaceBasis> interface) {
   std::vector<model::Substructure> parts;
   for (const auto& member : members) parts.push_back(part(member.name, {member}, true));
   reduction::ReductionOptions options;
@@ -161,7 +184,9 @@ coupling::Synthesis join(coupling::Assembly assembly, std::shared_ptr<const redu
   coupling::CouplingOptions how;
   how.assembly = assembly;
   how.connections.frames = frames();
-  return coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")), options, how);
+  return coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")), options,
+      how);
 }
 
 double hertz(double eigenvalue) { return std::sqrt(eigenvalue) / (2.0 * std::acos(-1.0)); }
@@ -171,7 +196,9 @@ double forceAt(const coupling::Synthesis& dual, const std::string& name, int com
   const auto& model = dual.coupled.model;
   const Vector z = linalg::DirectSolver(model.stiffnessAt(0.0)).solve(model.loadAt(0.0));
   for (const auto& multiplier : dual.coupled.multipliers)
-    if (multiplier.part == name && multiplier.dof.entity == 5 && multiplier.dof.component == component) return multiplier.force(z);
+    if (multiplier.part == name && multiplier.dof.entity == 5 &&
+        multiplier.dof.component == component)
+      return multiplier.force(z);
   throw ModelError("No multiplier acts on part \"" + name + "\" at node 5.");
 }
 
@@ -181,13 +208,15 @@ int run() {
   two.modes = 2;
   const auto whole = part("whole", members, false).model;
   const std::array<const char*, 4> names{"primal", "dual", "system", "local"};
-  const std::array<coupling::Synthesis, 4> ways{join(coupling::Assembly::Primal, nullptr), join(coupling::Assembly::Dual, nullptr),
-                                                join(coupling::Assembly::Primal, reduction::systemInterfaceModes(five)),
-                                                join(coupling::Assembly::Primal, reduction::localInterfaceModes(two))};
+  const std::array<coupling::Synthesis, 4> ways{
+      join(coupling::Assembly::Primal, nullptr), join(coupling::Assembly::Dual, nullptr),
+      join(coupling::Assembly::Primal, reduction::systemInterfaceModes(five)),
+      join(coupling::Assembly::Primal, reduction::localInterfaceModes(two))};
   constexpr int count = 8;
   const Vector exact = coupling::lowestModes(whole, count).values;
   std::array<Vector, 4> found;
-  for (std::size_t w = 0; w < ways.size(); ++w) found[w] = coupling::lowestModes(ways[w].coupled.model, count).values;
+  for (std::size_t w = 0; w < ways.size(); ++w)
+    found[w] = coupling::lowestModes(ways[w].coupled.model, count).values;
 
   const bool prints = parallel::rank() == 0;
   bool right = true;
@@ -195,12 +224,16 @@ int run() {
     std::printf("one piece: %d dofs\n", whole.size());
     for (std::size_t w = 0; w < ways.size(); ++w) {
       const auto& c = ways[w].coupled;
-      std::printf("%-9s: %d dofs, %d of them join parts", names[w], c.model.size(), static_cast<int>(c.interface.size()));
-      if (c.interfaceModes >= 0) std::printf(": kept %d modes of %d joined dofs", c.interfaceModes, c.joinedDofs);
+      std::printf("%-9s: %d dofs, %d of them join parts", names[w], c.model.size(),
+                  static_cast<int>(c.interface.size()));
+      if (c.interfaceModes >= 0)
+        std::printf(": kept %d modes of %d joined dofs", c.interfaceModes, c.joinedDofs);
       if (!c.multipliers.empty()) std::printf(", %zu forces between parts", c.multipliers.size());
       std::printf("\n");
     }
-    std::printf("\nmode   one piece [Hz]      primal       dual     system      local   (relative error)\n");
+    std::printf(
+        "\nmode   one piece [Hz]      primal       dual     system      local   (relative "
+        "error)\n");
   }
   for (int i = 0; i < count; ++i) {
     if (prints) std::printf("%4d   %14.6f", i + 1, hertz(exact[i]));
@@ -213,9 +246,15 @@ int run() {
     if (prints) std::printf("\n");
     right = right && std::abs(found[1][i] / found[0][i] - 1.0) < 1e-9;
   }
-  // By symmetry the apex carries no vertical force from one rafter to the other, and the horizontal ones are equal and opposite.
-  const double push = forceAt(ways[1], "right rafter", 0), lift = forceAt(ways[1], "right rafter", 1);
-  if (prints) std::printf("\nweight at rest: the left rafter pushes the right one at the apex with %.3f N sideways and %.1e N up\n", push, lift);
+  // By symmetry the apex carries no vertical force from one rafter to the other, and the horizontal
+  // ones are equal and opposite.
+  const double push = forceAt(ways[1], "right rafter", 0),
+               lift = forceAt(ways[1], "right rafter", 1);
+  if (prints)
+    std::printf(
+        "\nweight at rest: the left rafter pushes the right one at the apex with %.3f N sideways "
+        "and %.1e N up\n",
+        push, lift);
   return right && std::abs(lift) < 1e-6 * std::abs(push) ? 0 : 1;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A basis of your own, registered under a name and taken by a deck. Here: constraint modes and a random subspace of the interior, drawn towards its low modes
-/// by a few inverse steps X <- K_II^-1 M_II X (N. Halko, P. G. Martinsson, J. A. Tropp, SIAM Rev. 53 (2011) 217-288).
+/// A basis of your own, registered under a name and taken by a deck. Here: constraint modes and a
+/// random subspace of the interior, drawn towards its low modes by a few inverse steps X <- K_II^-1
+/// M_II X (N. Halko, P. G. Martinsson, J. A. Tropp, SIAM Rev. 53 (2011) 217-288).
 #include <Teuchos_ParameterList.hpp>
 #include <Tpetra_Core.hpp>
 #include <cmath>
@@ -23,18 +24,21 @@ class RandomSubspace : public Basis {
  public:
   explicit RandomSubspace(int steps) : steps_(steps) {}
   BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
-    if (request.kind != ModeRequest::Kind::Count) throw DeckError("The basis \"Random Subspace\" needs a number of modes: give \"Modes\".");
+    if (request.kind != ModeRequest::Kind::Count)
+      throw DeckError("The basis \"Random Subspace\" needs a number of modes: give \"Modes\".");
     const Partition p = partition(part);
     const Sparse K = constantStiffness(part.model);
     const ConstraintModes constraint = constraintModes(part, p, K);
     std::vector<std::vector<int>> whole(1);  // all interior dofs, in one group
     for (int i = 0; i < static_cast<int>(p.interior.size()); ++i) whole[0].push_back(i);
-    const Sparse KII = block(K, p.interior, p.interior), MII = block(part.model.mass, p.interior, p.interior);
+    const Sparse KII = block(K, p.interior, p.interior),
+                 MII = block(part.model.mass, p.interior, p.interior);
     OrthonormalSet set(MII, 1e-10, "Part \"" + part.name + "\": ");
     std::vector<ModalVector> vectors;
     if (request.count > 0 && !p.interior.empty()) {
       const linalg::DirectSolver solver(KII, namer(part, p.interior));
-      Matrix X = linalg::scatteredNumbers(KII.rows(), std::min<Eigen::Index>(request.count + 4, KII.rows()), 1);
+      Matrix X = linalg::scatteredNumbers(KII.rows(),
+                                          std::min<Eigen::Index>(request.count + 4, KII.rows()), 1);
       for (int step = 0; step < steps_; ++step) X = solver.solve(MII * X);
       for (Eigen::Index j = 0; j < X.cols(); ++j) set.add(X.col(j));
       double defect = 0;  // of orthonormality
@@ -50,19 +54,27 @@ class RandomSubspace : public Basis {
 const bool registered = BasisRegistry::instance().add(
     "Random Subspace",
     {"Constraint modes and a random subspace of the interior (Halko, Martinsson and Tropp 2011).",
-     deck::ListSpec("Random Subspace", "").integer("Steps", 2, deck::Range::atLeast(1), "Inverse steps that draw the vectors towards low modes."),
-     [](const Teuchos::ParameterList& list) { return std::unique_ptr<Basis>(new RandomSubspace(list.isParameter("Steps") ? list.get<int>("Steps") : 2)); }});
+     deck::ListSpec("Random Subspace", "")
+         .integer("Steps", 2, deck::Range::atLeast(1),
+                  "Inverse steps that draw the vectors towards low modes."),
+     [](const Teuchos::ParameterList& list) {
+       return std::unique_ptr<Basis>(
+           new RandomSubspace(list.isParameter("Steps") ? list.get<int>("Steps") : 2));
+     }});
 
 int run(const std::string& deck) {
   const app::Scene scene = app::readScene(deck, {});
   const app::StaticStage stage = app::settle(scene);
   const auto mine = coupling::synthesise(app::cut(scene, stage), scene.list().sublist("Reduction"));
-  const auto full = coupling::lowestModes(app::fullModel(stage), 8), small = coupling::lowestModes(mine.coupled.model, 8);
+  const auto full = coupling::lowestModes(app::fullModel(stage), 8),
+             small = coupling::lowestModes(mine.coupled.model, 8);
   bool near = registered;
   for (int k = 0; k < 8; ++k) {
-    const double hertz = std::sqrt(full.values[k]) / (2 * std::acos(-1.0)), error = std::sqrt(small.values[k] / full.values[k]) - 1;
+    const double hertz = std::sqrt(full.values[k]) / (2 * std::acos(-1.0)),
+                 error = std::sqrt(small.values[k] / full.values[k]) - 1;
     if (parallel::rank() == 0) std::printf("mode %d: %9.4f Hz, error %+.1e\n", k + 1, hertz, error);
-    near = near && error > -1e-7 && error < 1e-3;  // Rayleigh and Ritz: from above, but for rounding
+    near =
+        near && error > -1e-7 && error < 1e-3;  // Rayleigh and Ritz: from above, but for rounding
   }
   return near ? 0 : 1;
 }

@@ -19,7 +19,8 @@ namespace {
 /// "modelled" and "not modelled" lines, aligned.
 void item(bool modelled, const std::string& what, const std::string& why) {
   char line[512];
-  std::snprintf(line, sizeof line, "  %-3s %-24s %s", modelled ? "yes" : "no", what.c_str(), why.c_str());
+  std::snprintf(line, sizeof line, "  %-3s %-24s %s", modelled ? "yes" : "no", what.c_str(),
+                why.c_str());
   log::info(line);
 }
 
@@ -36,10 +37,13 @@ void listPhysics(const Scene& scene) {
   log::info("modelled:");
   item(true, "motions", families(scene.supports) + " dofs");
   item(scene.loads.gravity != 0.0, "weight",
-       scene.loads.gravity != 0.0 ? "g = " + formatNumber(scene.loads.gravity) + " m/s2" : "no gravity in Loads");
-  item(scene.mud.has_value(), "mud", scene.mud ? "added mass, damping and buoyancy in every element" : "no Mud list");
+       scene.loads.gravity != 0.0 ? "g = " + formatNumber(scene.loads.gravity) + " m/s2"
+                                  : "no gravity in Loads");
+  item(scene.mud.has_value(), "mud",
+       scene.mud ? "added mass, damping and buoyancy in every element" : "no Mud list");
   item(scene.contact.has_value(), "contact",
-       scene.contact ? scene.contact->lawName + " law at " + std::to_string(scene.contactPoints.size()) + " nodes"
+       scene.contact ? scene.contact->lawName + " law at " +
+                           std::to_string(scene.contactPoints.size()) + " nodes"
                      : "no Contact list");
   const bool friction = scene.contact && scene.contact->friction;
   item(friction, "friction", friction ? "smoothed Coulomb" : "no Friction in Contact");
@@ -47,23 +51,30 @@ void listPhysics(const Scene& scene) {
   item(resting.direction != 0.0, "static friction", resting.why);
   item(turns, "gyroscopics", turns ? "matrices times the rotary speed" : "no Rotary Speed list");
   item(scene.statics.geometricStiffness, "geometric stiffness",
-       scene.statics.geometricStiffness ? "of the static axial force and torque" : "switched off in Static");
-  item(scene.damping.present(), "Rayleigh damping", scene.damping.present() ? "" : "no Damping list");
-  item(scene.loads.weightOnBit != 0.0, "weight on bit", formatNumber(scene.loads.weightOnBit) + " N");
-  item(scene.loads.torqueOnBit != 0.0, "torque on bit", formatNumber(scene.loads.torqueOnBit) + " N m");
+       scene.statics.geometricStiffness ? "of the static axial force and torque"
+                                        : "switched off in Static");
+  item(scene.damping.present(), "Rayleigh damping",
+       scene.damping.present() ? "" : "no Damping list");
+  item(scene.loads.weightOnBit != 0.0, "weight on bit",
+       formatNumber(scene.loads.weightOnBit) + " N");
+  item(scene.loads.torqueOnBit != 0.0, "torque on bit",
+       formatNumber(scene.loads.torqueOnBit) + " N m");
   const bool unbalance = !scene.loads.unbalances.empty() && turns;
   item(unbalance, "mass unbalance",
-       std::to_string(scene.loads.unbalances.size()) + (turns ? " places" : " places, but nothing turns"));
+       std::to_string(scene.loads.unbalances.size()) +
+           (turns ? " places" : " places, but nothing turns"));
 }
 
 /// How the modes are chosen when a tolerance does it, and which errors are estimated.
 void listEstimates(const Teuchos::ParameterList& reduction) {
   std::vector<std::string> tolerances;
   for (const char* name : {"Frequency Tolerance", "Motion Tolerance"})
-    if (reduction.isParameter(name)) tolerances.push_back(std::string(name) + " " + formatNumber(reduction.get<double>(name)));
+    if (reduction.isParameter(name))
+      tolerances.push_back(std::string(name) + " " + formatNumber(reduction.get<double>(name)));
   if (!tolerances.empty())
     item(true, "modes by tolerance",
-         join(tolerances, ", ") + ": in rounds" + (reduction.isParameter("Motion Tolerance") ? ", each with a transient" : ""));
+         join(tolerances, ", ") + ": in rounds" +
+             (reduction.isParameter("Motion Tolerance") ? ", each with a transient" : ""));
   const auto estimated = reduction.get<std::string>("Error Estimate");
   item(estimated != "None", "error estimate",
        estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\"");
@@ -73,17 +84,19 @@ void listEstimates(const Teuchos::ParameterList& reduction) {
 void listInterfaces(const Teuchos::ParameterList& reduction) {
   const auto name = reduction.get<std::string>("Interface Reduction");
   item(name != "None", "interface reduction",
-       name == "None" ? "all joined dofs are kept" : "characteristic constraint modes, \"" + name + "\"");
+       name == "None" ? "all joined dofs are kept"
+                      : "characteristic constraint modes, \"" + name + "\"");
 }
 
 void listCoupling(const Scene& scene) {
   item(scene.coupling.has_value(), "coupling",
-       scene.coupling ? coupling::describe(*scene.coupling) : "no Coupling list: equal node numbers join the parts");
+       scene.coupling ? coupling::describe(*scene.coupling)
+                      : "no Coupling list: equal node numbers join the parts");
   if (!scene.coupling) return;
   std::vector<std::string> names;
   for (const auto& part : string_::cutParts(scene.string, scene.partition))
-    names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " + std::to_string(part.lastElement + 2) +
-                    ")");
+    names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " +
+                    std::to_string(part.lastElement + 2) + ")");
   log::info("  parts and their nodes: " + join(names, ", "));
 }
 
@@ -93,8 +106,8 @@ void listWork(const Scene& scene) {
   if (scene.reduces()) {
     const auto parts = string_::cutParts(scene.string, scene.partition);
     item(true, "reduction",
-         std::to_string(parts.size()) + " parts (" + scene.partition.rule +
-             "), retained nodes: " + scene.partition.retainedNodes + ", chosen when the static state is known");
+         std::to_string(parts.size()) + " parts (" + scene.partition.rule + "), retained nodes: " +
+             scene.partition.retainedNodes + ", chosen when the static state is known");
     listEstimates(scene.list().sublist("Reduction"));
     listInterfaces(scene.list().sublist("Reduction"));
   } else {
@@ -109,12 +122,16 @@ void listWork(const Scene& scene) {
   const double duration = list.get<double>("End Time") - list.get<double>("Start Time");
   const double samples = std::floor(duration / list.get<double>("Sampling Interval")) + 1.0;
   std::string what = list.get<std::string>("Integrator") + " over " + formatNumber(duration) + " s";
-  if (list.isParameter("Step")) what += ", about " + countText(std::ceil(duration / list.get<double>("Step"))) + " steps";
+  if (list.isParameter("Step"))
+    what += ", about " + countText(std::ceil(duration / list.get<double>("Step"))) + " steps";
   item(true, "transient", what);
-  const double recorded = 8.0 * samples * scene.string.nodeCount() *
-                          (6.0 * (scene.output.hasField("displacement") + scene.output.hasField("velocity") + scene.output.hasField("acceleration")) +
-                           scene.output.hasField("normal_force"));
-  item(true, "results.h5", countText(samples) + " samples, about " + countText(std::ceil(recorded / 1e6)) + " MB");
+  const double recorded =
+      8.0 * samples * scene.string.nodeCount() *
+      (6.0 * (scene.output.hasField("displacement") + scene.output.hasField("velocity") +
+              scene.output.hasField("acceleration")) +
+       scene.output.hasField("normal_force"));
+  item(true, "results.h5",
+       countText(samples) + " samples, about " + countText(std::ceil(recorded / 1e6)) + " MB");
 }
 
 /// Settles and reduces the scene to know both models.
@@ -132,8 +149,10 @@ void predictCost(const Scene& scene) {
     estimate::MotionEstimator estimator(planned.parts, synthesis, stage.state.displacement);
     return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
   };
-  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe, planned.options);
-  log::info(describeCost(fullStepCost(scene, stage), transient::stepCost(outcome.synthesis.coupled.model, options)));
+  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe,
+                                            planned.options);
+  log::info(describeCost(fullStepCost(scene, stage),
+                         transient::stepCost(outcome.synthesis.coupled.model, options)));
 }
 
 }  // namespace
@@ -144,13 +163,15 @@ void check(const RunOptions& options) {
     return;
   }
   const auto scene = readScene(options.deck, options.overrides);
-  if (!freeDirections(scene).empty()) settle(scene);  // only the static state tells whether the string floats
+  if (!freeDirections(scene).empty())
+    settle(scene);  // only the static state tells whether the string floats
   log::info(scene.deck.file() + " is a valid deck.");
   log::info(describeScene(scene));
   warnOfPrestress(scene);
   listPhysics(scene);
   listWork(scene);
-  if (scene.list().isSublist("Study")) item(true, "study", describe(planStudy(*readStringStudy(options))));
+  if (scene.list().isSublist("Study"))
+    item(true, "study", describe(planStudy(*readStringStudy(options))));
   if (options.cost) predictCost(scene);
 }
 

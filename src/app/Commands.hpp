@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What each subcommand does. All of them throw tooljoint::Error; main turns that into the exit code.
+/// What each subcommand does. All of them throw tooljoint::Error; main turns that into the exit
+/// code.
 #pragma once
 
 #include <optional>
@@ -15,12 +16,13 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< "PATH=VALUE", or "!PATH" for a list taken out
   std::vector<std::string> without;    ///< lists taken out before the other overrides
   std::string output;                  ///< results folder; empty: results/<name of the deck>
-  bool cost = false;                   ///< `check` also settles and reduces, to predict what a step costs
-  bool fresh = false;                  ///< `study` forgets the runs it has done before
-  std::string restart;                 ///< folder of an interrupted run; empty: start anew
-  int modeCount = 20;                  ///< frequencies listed by `modes`
-  std::string format = "hdf5";         ///< files of `export`: "hdf5" or "mtx"
-  std::optional<double> modeTime;      ///< when `modes` looks at the laws of time [s]; the end of the motion
+  bool cost = false;            ///< `check` also settles and reduces, to predict what a step costs
+  bool fresh = false;           ///< `study` forgets the runs it has done before
+  std::string restart;          ///< folder of an interrupted run; empty: start anew
+  int modeCount = 20;           ///< frequencies listed by `modes`
+  std::string format = "hdf5";  ///< files of `export`: "hdf5" or "mtx"
+  std::optional<double>
+      modeTime;  ///< when `modes` looks at the laws of time [s]; the end of the motion
 };
 
 /// Two results folders, the window of time to compare them in [s], and how the result is told.
@@ -33,21 +35,27 @@ struct CompareOptions {
   bool json = false;                ///< print JSON in the place of the line for people
 };
 
-/// `tooljoint run`: the whole way of the data, ending in results.h5, summary.json and a printed summary.
+/// `tooljoint run`: the whole way of the data, ending in results.h5, summary.json and a printed
+/// summary.
 void run(const RunOptions& options);
-/// `tooljoint study`: many runs of one deck against a reference run; study.csv, study.h5, summary.json and plots of speed against error.
+/// `tooljoint study`: many runs of one deck against a reference run; study.csv, study.h5,
+/// summary.json and plots of speed against error.
 void study(const RunOptions& options);
-/// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates; runs nothing. With options.cost: path, static
-/// state and reduction are computed, and the cost of a step of both models predicted.
+/// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates;
+/// runs nothing. With options.cost: path, static state and reduction are computed, and the cost of
+/// a step of both models predicted.
 void check(const RunOptions& options);
-/// `tooljoint modes`: bases of the parts; undamped and damped modes of the full and the coupled model with MAC values, true and estimated
-/// errors; modes.csv and damped_modes.csv in the output folder, if one is given.
+/// `tooljoint modes`: bases of the parts; undamped and damped modes of the full and the coupled
+/// model with MAC values, true and estimated errors; modes.csv and damped_modes.csv in the output
+/// folder, if one is given.
 void modes(const RunOptions& options);
-/// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file, to be imported elsewhere.
+/// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file,
+/// to be imported elsewhere.
 void exportReduced(const RunOptions& options);
-/// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run against another, and the window of the samples that were
-/// compared. FileError; UsageError: the folders hold different scenes or different times in the window, or the reference does not move in it;
-/// ConvergenceError: dyn is above options.failAbove.
+/// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run
+/// against another, and the window of the samples that were compared. FileError; UsageError: the
+/// folders hold different scenes or different times in the window, or the reference does not move
+/// in it; ConvergenceError: dyn is above options.failAbove.
 void compare(const CompareOptions& options);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);

@@ -10,10 +10,12 @@ namespace tooljoint::app {
 
 std::string manual(const std::string& topic, const std::string& format) {
   const std::vector<deck::ListSpec> roots{sceneSpec(), string_::libraryParameters()};
-  if (deck::isUnitsTopic(topic)) return format == "json" ? deck::unitsJson() : deck::unitsMarkdown();
+  if (deck::isUnitsTopic(topic))
+    return format == "json" ? deck::unitsJson() : deck::unitsMarkdown();
   if (format == "json") return deck::manualJson(roots, topic) + "\n";
   if (!topic.empty()) return deck::manualMarkdown(roots, topic);
-  return "# Parameters of a deck\n\nWritten by `tooljoint doc`; every parameter a deck may hold, and the component libraries it may name.\n\n" +
+  return "# Parameters of a deck\n\nWritten by `tooljoint doc`; every parameter a deck may hold, "
+         "and the component libraries it may name.\n\n" +
          deck::manualMarkdown(roots) + "\n" + deck::unitsMarkdown();
 }
 
@@ -29,7 +31,8 @@ std::string deckTemplate(const std::string& kind) {
                                {"Loads/Gravity", "9.81"}};
   if (kind == "scene") return deck::templateXml(sceneSpec(), "my_scene", hanging);
   if (kind == "components") return deck::templateXml(string_::libraryParameters(), "my_components");
-  throw UsageError("There is no template \"" + kind + "\"; known are \"scene\" and \"components\".");
+  throw UsageError("There is no template \"" + kind +
+                   "\"; known are \"scene\" and \"components\".");
 }
 
 }  // namespace tooljoint::app

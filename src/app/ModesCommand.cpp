@@ -12,7 +12,8 @@ namespace tooljoint::app {
 
 namespace {
 
-/// When the laws of time are looked at: the end of the motion, unless the command line says otherwise.
+/// When the laws of time are looked at: the end of the motion, unless the command line says
+/// otherwise.
 double timeOf(const RunOptions& options, const Scene& scene) {
   if (options.modeTime) return *options.modeTime;
   return scene.moves() ? scene.list().sublist("Transient").get<double>("End Time") : 0.0;
@@ -38,10 +39,15 @@ void modes(const RunOptions& options) {
     return;
   }
   const auto& parts = planned.parts;
-  const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
-    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene.list().sublist("Transient")), limit);
-  }, planned.options);
+  const auto outcome = estimate::synthesise(
+      parts, scene.list().sublist("Reduction"),
+      [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+        estimate::MotionEstimator estimator(parts, synthesis, stage.state.displacement);
+        return estimate::watchMotion(estimator, synthesis.coupled.model,
+                                     transient::readOptions(scene.list().sublist("Transient")),
+                                     limit);
+      },
+      planned.options);
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());
   log::info(reduction::summaryTable(outcome.synthesis.parts));
   log::info(describeCoupling(outcome.synthesis.coupled));

@@ -29,19 +29,23 @@ void writeInto(const std::string& folder, const std::string& name, const io::Csv
     if (parallel::rank() != 0) return;
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
-    if (failed) throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
+    if (failed)
+      throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
     table.write((std::filesystem::path(folder) / name).string());
   });
 }
 
 const char* const undampedHeading =
-    "Undamped modes about the static state: symmetric part of the stiffness, friction left out, closed contacts linear. A "
+    "Undamped modes about the static state: symmetric part of the stiffness, friction left out, "
+    "closed contacts linear. A "
     "negative frequency stands for "
-    "omega^2 < 0 of that part and 0 for a rigid-body mode; whether the state is stable is for the damped modes to say";
+    "omega^2 < 0 of that part and 0 for a rigid-body mode; whether the state is stable is for the "
+    "damped modes to say";
 
 std::string dampedHeading(double t) {
   return "Damped modes with the matrices of t = " + formatNumber(t) +
-         " s (damping, gyroscopic, circulatory, friction), by |s|; s = Re s + i Im s, damping = -Re s / |s|";
+         " s (damping, gyroscopic, circulatory, friction), by |s|; s = Re s + i Im s, damping = "
+         "-Re s / |s|";
 }
 
 /// Growth rates below this fraction of |s| are within the accuracy of s.
@@ -56,9 +60,11 @@ std::string verdict(const std::vector<std::complex<double>>& values) {
       ++growing;
       fastest = std::max(fastest, s.real());
     }
-  if (growing == 0) return "None of the " + std::to_string(values.size()) + " damped modes listed grows.";
-  return std::to_string(growing) + " of the " + std::to_string(values.size()) + " damped modes listed " +
-         (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" + formatNumber(fastest) + " t): the state is unstable.";
+  if (growing == 0)
+    return "None of the " + std::to_string(values.size()) + " damped modes listed grows.";
+  return std::to_string(growing) + " of the " + std::to_string(values.size()) +
+         " damped modes listed " + (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" +
+         formatNumber(fastest) + " t): the state is unstable.";
 }
 
 void reportTimes() {
@@ -66,7 +72,8 @@ void reportTimes() {
   if (!times.empty()) log::info("times       " + times);
 }
 
-void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder, const std::string& name) {
+void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder,
+                const std::string& name) {
   io::Csv table({{"mode", ""},
                  {"full", "Hz"},
                  {"full_damping", ""},
@@ -82,8 +89,8 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const auto& m = modes[i];
     std::vector<std::string> cells;
-    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(), m.coupledMode + 1.0, m.coupledHz(),
-                          m.coupledDamping(), m.mac, m.error})
+    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(),
+                          m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error})
       cells.push_back(formatNumber(number));
     cells.push_back(m.estimated ? formatNumber(m.estimate) : "");
     cells.push_back(m.definite ? "1" : "0");
@@ -99,14 +106,16 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
 void listFullModes(const model::SecondOrderModel& full, const RunOptions& options, double t) {
   const int count = std::min(options.modeCount, full.size());
   const auto pairs = coupling::lowestModes(full, count);
-  const auto values = estimate::undampedValues(coupling::undampedStiffness(full), reduction::symmetricPart(full.mass),
-                                               pairs.values, pairs.vectors);
+  const auto values =
+      estimate::undampedValues(coupling::undampedStiffness(full),
+                               reduction::symmetricPart(full.mass), pairs.values, pairs.vectors);
   log::info(std::string(undampedHeading) + ":");
   log::info("  mode       full [Hz]");
   io::Csv table({{"mode", ""}, {"full", "Hz"}});
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     char line[64];
-    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1), values(i).imag() / kTwoPi);
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1),
+                  values(i).imag() / kTwoPi);
     log::info(line);
     table.row({static_cast<double>(i + 1), values(i).imag() / kTwoPi});
   }
@@ -120,8 +129,8 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
     const auto s = damped.values[i];
     const double size = std::abs(s), ratio = size > 0 ? 0.0 - s.real() / size : 0.0;
     char line[96];
-    std::snprintf(line, sizeof line, "  %4ld %14.8g  %14.8g  %12.4e", static_cast<long>(i + 1), size / kTwoPi, s.imag() / kTwoPi,
-                  ratio);
+    std::snprintf(line, sizeof line, "  %4ld %14.8g  %14.8g  %12.4e", static_cast<long>(i + 1),
+                  size / kTwoPi, s.imag() / kTwoPi, ratio);
     log::info(line);
     dampedTable.row({static_cast<double>(i + 1), size / kTwoPi, ratio, s.imag() / kTwoPi});
   }
@@ -131,18 +140,23 @@ void listFullModes(const model::SecondOrderModel& full, const RunOptions& option
 }
 
 void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
-                       const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
-                       const RunOptions& options, double t) {
-  log::info("reduced     " + std::to_string(full.size()) + " dofs to " + std::to_string(synthesis.coupled.model.size()));
+                       const std::vector<model::Substructure>& parts,
+                       const coupling::Synthesis& synthesis, const RunOptions& options, double t) {
+  log::info("reduced     " + std::to_string(full.size()) + " dofs to " +
+            std::to_string(synthesis.coupled.model.size()));
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.modeCount, maps);
   if (synthesis.coupled.interfaceModes >= 0)
-    log::info("The estimates see what the reduction of the parts leaves out, not what the interface reduction does.");
+    log::info(
+        "The estimates see what the reduction of the parts leaves out, not what the interface "
+        "reduction does.");
   log::info(std::string(undampedHeading) +
-            ". Beside each full mode the coupled mode of the same shape (repeated modes: of the same subspace), " +
+            ". Beside each full mode the coupled mode of the same shape (repeated modes: of the "
+            "same subspace), " +
             "its true relative error and the one estimated without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
-  const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
+  const auto damped =
+      estimate::compareDampedModes(full, parts, synthesis, options.modeCount, t, maps);
   log::info(dampedHeading(t) + ", errors of s:");
   log::info(estimate::comparisonTable(damped, true));
   std::vector<std::complex<double>> values;

@@ -9,18 +9,21 @@ namespace tooljoint::app {
 
 model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list) {
   const auto sublist = [&list](const char* name) {
-    return list.isSublist(name) ? std::make_shared<const Teuchos::ParameterList>(list.sublist(name)) : nullptr;
+    return list.isSublist(name) ? std::make_shared<const Teuchos::ParameterList>(list.sublist(name))
+                                : nullptr;
   };
   const auto nox = sublist("NOX");
   const auto belos = sublist("Belos");
-  return [nox, belos](const model::NonlinearProblem& problem, Vector& x, const model::SolveRequest& request) {
+  return [nox, belos](const model::NonlinearProblem& problem, Vector& x,
+                      const model::SolveRequest& request) {
     statics::NewtonOptions options;
     options.tolerance = request.tolerance;
     options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;
     options.maxIterations = request.maxIterations;
     options.lineSearch = statics::lineSearch(request.search);
     const auto report = statics::solve(problem, x, options, nox.get(), belos.get());
-    return model::SolveOutcome{report.converged, report.iterations, report.residual, report.update, report.message};
+    return model::SolveOutcome{report.converged, report.iterations, report.residual, report.update,
+                               report.message};
   };
 }
 

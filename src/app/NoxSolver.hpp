@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Hands the nonlinear problems of the path and of the static state to the NOX driver of src/statics.
+/// Hands the nonlinear problems of the path and of the static state to the NOX driver of
+/// src/statics.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -9,7 +10,8 @@
 
 namespace tooljoint::app {
 
-/// Solver that takes the sublists `NOX` and `Belos` of `list` (a validated `Path` or `Static` list) where it has them.
+/// Solver that takes the sublists `NOX` and `Belos` of `list` (a validated `Path` or `Static` list)
+/// where it has them.
 model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::app

@@ -15,7 +15,8 @@ namespace {
 
 void item(bool modelled, const std::string& what, const std::string& why) {
   char line[512];
-  std::snprintf(line, sizeof line, "  %-3s %-24s %s", modelled ? "yes" : "no", what.c_str(), why.c_str());
+  std::snprintf(line, sizeof line, "  %-3s %-24s %s", modelled ? "yes" : "no", what.c_str(),
+                why.c_str());
   log::info(line);
 }
 
@@ -27,8 +28,9 @@ void listParts(const PartsDeck& deck) {
     std::vector<std::string> sets;
     for (const auto& set : content.interfaces) sets.push_back(set.name);
     item(true, part.name,
-         content.file + ": " + std::to_string(part.model.size()) + " dofs, " + std::to_string(part.interface.size()) +
-             " joined, " + std::to_string(part.retained.size()) + " retained" +
+         content.file + ": " + std::to_string(part.model.size()) + " dofs, " +
+             std::to_string(part.interface.size()) + " joined, " +
+             std::to_string(part.retained.size()) + " retained" +
              (sets.empty() ? "" : "; sets " + quotedList(sets)));
     for (const auto& law : content.omitted)
       log::warn("Part \"" + part.name + "\" (" + content.file + ") had the point law \"" + law +
@@ -38,7 +40,8 @@ void listParts(const PartsDeck& deck) {
        deck.settings.joints.empty() ? "no Joints in Parts" : join(deck.settings.joints, ", "));
   item(deck.list().isSublist("Coupling"), "coupling",
        deck.list().isSublist("Coupling") ? coupling::describe(deck.plan) : "no Coupling list");
-  item(!deck.settings.loads.empty(), "loads", std::to_string(deck.settings.loads.size()) + " beside those of the files");
+  item(!deck.settings.loads.empty(), "loads",
+       std::to_string(deck.settings.loads.size()) + " beside those of the files");
 }
 
 void listWork(const PartsDeck& deck) {
@@ -46,7 +49,8 @@ void listWork(const PartsDeck& deck) {
   item(deck.settings.atRest, "equilibrium",
        deck.settings.atRest ? "of the loads of the start time" : "Initial State is \"From files\"");
   item(deck.reduces(), "reduction",
-       deck.reduces() ? deck.list().sublist("Reduction").get<std::string>("Basis") : "no Reduction list: the full model runs");
+       deck.reduces() ? deck.list().sublist("Reduction").get<std::string>("Basis")
+                      : "no Reduction list: the full model runs");
   if (!deck.moves()) {
     item(false, "transient", "no Transient list");
     return;
@@ -68,7 +72,8 @@ void checkParts(const RunOptions& options) {
   for (const auto& remark : whole.remarks) log::info(remark);
   listParts(deck);
   listWork(deck);
-  if (deck.list().isSublist("Study")) item(true, "study", describe(planStudy(*readPartsStudy(options))));
+  if (deck.list().isSublist("Study"))
+    item(true, "study", describe(planStudy(*readPartsStudy(options))));
 }
 
 void partsModes(const RunOptions& options) {
@@ -85,8 +90,11 @@ void partsModes(const RunOptions& options) {
   const auto outcome = estimate::synthesise(
       parts, deck.list().sublist("Reduction"),
       [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-        estimate::MotionEstimator estimator(parts, synthesis, restOf(whole), motionOptions(whole.model));
-        return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(deck.list().sublist("Transient")), limit);
+        estimate::MotionEstimator estimator(parts, synthesis, restOf(whole),
+                                            motionOptions(whole.model));
+        return estimate::watchMotion(estimator, synthesis.coupled.model,
+                                     transient::readOptions(deck.list().sublist("Transient")),
+                                     limit);
       },
       deck.scene.coupling);
   for (const auto& part : outcome.synthesis.parts) log::info(part.report.table());

@@ -19,7 +19,8 @@ namespace tooljoint::app {
 /// Description of a deck of parts.
 deck::ListSpec partsSceneSpec();
 
-/// True for a deck with the list Parts and neither Drillstring nor Well, before anything else of it is looked at. Collective.
+/// True for a deck with the list Parts and neither Drillstring nor Well, before anything else of it
+/// is looked at. Collective.
 bool isPartsDeck(const RunOptions& options);
 
 /// Such a deck, read and checked, with its parts.
@@ -42,18 +43,20 @@ struct PartsDeck {
   coupling::Coupling whole() const;
 };
 
-/// Reads deck and files, puts the parts together and finds the state they start from. DeckError, ModelError, ConvergenceError,
-/// FileError. Collective.
+/// Reads deck and files, puts the parts together and finds the state they start from. DeckError,
+/// ModelError, ConvergenceError, FileError. Collective.
 PartsDeck readPartsDeck(const RunOptions& options);
 
 /// The lists alone, checked, before any part is read. DeckError, FileError. Collective.
 PartsDeck readPartsLists(const RunOptions& options);
 
 /// Throws ModelError naming a dof without mass where the deck's integrator divides by it.
-void requireMass(const deck::Deck& deck, const parts::PartsScene& scene, const model::SecondOrderModel& full);
+void requireMass(const deck::Deck& deck, const parts::PartsScene& scene,
+                 const model::SecondOrderModel& full);
 
-/// A basis with interface forces leaves interface dofs to its modes, which may not start where the neighbours do: only the reduction can tell. Reduces the
-/// parts of such a deck when they do not start at rest, and throws what a run would. Collective.
+/// A basis with interface forces leaves interface dofs to its modes, which may not start where the
+/// neighbours do: only the reduction can tell. Reduces the parts of such a deck when they do not
+/// start at rest, and throws what a run would. Collective.
 void checkStart(const PartsDeck& deck);
 
 /// "parts       5 parts from 2 files, 40 nodes, 117 dofs, 105 when joined".

@@ -24,20 +24,23 @@ std::string fileName(std::string name) {
 
 }  // namespace
 
-std::vector<std::string> exportedFiles(const std::vector<std::string>& parts, io::ExportFormat format) {
+std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
+                                       io::ExportFormat format) {
   std::set<std::string> names;
   std::vector<std::string> files;
   for (const auto& part : parts) {
     const std::string name = fileName(part);
     if (!names.insert(name).second)
-      throw DeckError("Two parts would be exported into the file " + inQuotes(name) +
-                      ": their names differ only in characters that file names cannot hold. Rename one.");
+      throw DeckError(
+          "Two parts would be exported into the file " + inQuotes(name) +
+          ": their names differ only in characters that file names cannot hold. Rename one.");
     files.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
   }
   return files;
 }
 
-void exportParts(const std::vector<parts::PartContent>& originals, const std::vector<reduction::ReducedSubstructure>& reduced,
+void exportParts(const std::vector<parts::PartContent>& originals,
+                 const std::vector<reduction::ReducedSubstructure>& reduced,
                  io::ExportFormat format, const std::string& folder) {
   if (format == io::ExportFormat::None) return;
   std::vector<std::string> names;
@@ -47,15 +50,18 @@ void exportParts(const std::vector<parts::PartContent>& originals, const std::ve
     if (parallel::rank() == 0) {
       std::error_code failed;
       std::filesystem::create_directories(folder, failed);
-      if (failed) throw FileError("The folder \"" + folder + "\" for exported parts cannot be made: " + failed.message() + ".");
+      if (failed)
+        throw FileError("The folder \"" + folder +
+                        "\" for exported parts cannot be made: " + failed.message() + ".");
     }
     for (std::size_t p = 0; p < reduced.size(); ++p) {
       const auto content = parts::reducedContent(originals[p], reduced[p]);
       for (const auto& law : content.omitted)
         log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
                   "\", which a part file cannot hold.");
-      parts::writePart(content, (std::filesystem::path(folder) / written[p]).string(),
-                       format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+      parts::writePart(
+          content, (std::filesystem::path(folder) / written[p]).string(),
+          format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
     }
   });
   log::info("exported    " + folder + ": " + join(written, ", "));

@@ -15,9 +15,11 @@
 namespace tooljoint::app {
 
 /// Group /model: which node of which part a row is.
-void writePartsModel(const PartsDeck& deck, const model::SecondOrderModel& model, io::ResultsFile& file);
+void writePartsModel(const PartsDeck& deck, const model::SecondOrderModel& model,
+                     io::ResultsFile& file);
 
-/// Recovers every sample, D = offset + Phi q, and writes the fields of the list Output into /transient.
+/// Recovers every sample, D = offset + Phi q, and writes the fields of the list Output into
+/// /transient.
 class PartsRecorder : public Recorder {
  public:
   /// The arguments must outlive the recorder.
@@ -36,8 +38,8 @@ class PartsRecorder : public Recorder {
     std::vector<io::TimeSeries*> channels;
     Vector d, v, values;
   };
-  io::TimeSeries* add(const std::string& path, std::size_t rows, std::size_t columns, const std::string& unit,
-                      const std::string& longName);
+  io::TimeSeries* add(const std::string& path, std::size_t rows, std::size_t columns,
+                      const std::string& unit, const std::string& longName);
   void measure(double t, const double* displacement);
 
   const model::SecondOrderModel& model_;

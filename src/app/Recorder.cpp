@@ -15,9 +15,11 @@ io::TimeSeries& seriesOf(io::ResultsFile& file, const std::vector<io::Csv::Colum
   std::vector<std::string> names, units;
   for (const auto& column : columns) {
     names.push_back(column.name);
-    if (std::find(units.begin(), units.end(), column.unit) == units.end()) units.push_back(column.unit);
+    if (std::find(units.begin(), units.end(), column.unit) == units.end())
+      units.push_back(column.unit);
   }
-  return file.series(motionSeries, {columns.size()}, join(units, ", "), "Rows of motion.csv: " + join(names, ", "));
+  return file.series(motionSeries, {columns.size()}, join(units, ", "),
+                     "Rows of motion.csv: " + join(names, ", "));
 }
 
 }  // namespace
@@ -25,7 +27,8 @@ io::TimeSeries& seriesOf(io::ResultsFile& file, const std::vector<io::Csv::Colum
 MotionTable::MotionTable(io::ResultsFile& file, const std::vector<io::Csv::Column>& columns)
     : series_(seriesOf(file, columns)), table_(columns) {
   const auto carried = file.carried(motionSeries);
-  for (auto row = carried.begin(); row != carried.end(); row += static_cast<std::ptrdiff_t>(columns.size()))
+  for (auto row = carried.begin(); row != carried.end();
+       row += static_cast<std::ptrdiff_t>(columns.size()))
     table_.row(std::vector<double>(row, row + static_cast<std::ptrdiff_t>(columns.size())));
 }
 

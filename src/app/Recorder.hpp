@@ -13,15 +13,17 @@
 
 namespace tooljoint::app {
 
-/// Samples go into time series of the results file, which continue by themselves (ResultsFile::continueFrom()); save() and
-/// restore() are about everything else: extremes, counts, what is due next.
+/// Samples go into time series of the results file, which continue by themselves
+/// (ResultsFile::continueFrom()); save() and restore() are about everything else: extremes, counts,
+/// what is due next.
 class Recorder : public transient::SampleSink {
  public:
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
 };
 
-/// motion.csv, whose rows also stand in /transient/motion of the results file, so that a restart has them.
+/// motion.csv, whose rows also stand in /transient/motion of the results file, so that a restart
+/// has them.
 class MotionTable {
  public:
   MotionTable(io::ResultsFile& file, const std::vector<io::Csv::Column>& columns);

@@ -25,27 +25,38 @@ io::XdmfScene picture(const Scene& scene, const StaticStage& stage) {
 
 }  // namespace
 
-MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model, io::ResultsFile& file)
+MotionRecorder::MotionRecorder(const Scene& scene, const StaticStage& stage,
+                               const model::SecondOrderModel& model, io::ResultsFile& file)
     : scene_(scene),
       model_(model),
       recovery_(model.recovery),
       file_(file),
-      table_(file, {{"time", "s"}, {"rotary_speed", "rad/s"}, {"bit_speed", "rad/s"}, {"bit_w", "m"}, {"bit_theta_z", "rad"}}) {
+      table_(file, {{"time", "s"},
+                    {"rotary_speed", "rad/s"},
+                    {"bit_speed", "rad/s"},
+                    {"bit_w", "m"},
+                    {"bit_theta_z", "rad"}}) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
   const auto& output = scene.output;
   time_ = &file.series("/transient/time", {}, "s", "Time of the samples");
   speed_ = &file.series("/transient/speed", {}, "rad/s", "Rotary speed imposed at the surface");
   if (output.hasField("displacement"))
-    displacementSeries_ = &file.series("/transient/displacement", {nodes, 6}, "m, rad",
-                                       "Displacements from the path state in nodal frames: u, v, w, theta_x, theta_y, theta_z");
+    displacementSeries_ = &file.series(
+        "/transient/displacement", {nodes, 6}, "m, rad",
+        "Displacements from the path state in nodal frames: u, v, w, theta_x, theta_y, theta_z");
   if (output.hasField("velocity"))
-    velocitySeries_ = &file.series("/transient/velocity", {nodes, 6}, "m/s, rad/s", "Velocities of the displacements");
+    velocitySeries_ = &file.series("/transient/velocity", {nodes, 6}, "m/s, rad/s",
+                                   "Velocities of the displacements");
   if (output.hasField("acceleration"))
-    accelerationSeries_ = &file.series("/transient/acceleration", {nodes, 6}, "m/s2, rad/s2", "Accelerations of the displacements");
-  const bool touches = std::any_of(model.points.begin(), model.points.end(), [](const auto& set) { return set.name == kContactSet; });
+    accelerationSeries_ = &file.series("/transient/acceleration", {nodes, 6}, "m/s2, rad/s2",
+                                       "Accelerations of the displacements");
+  const bool touches = std::any_of(model.points.begin(), model.points.end(),
+                                   [](const auto& set) { return set.name == kContactSet; });
   if (output.hasField("normal_force") && touches)
-    forceSeries_ = &file.series("/transient/normal_force", {nodes}, "N", "Normal contact force, positive pushing off the wall");
-  if (output.xdmf) xdmf_ = std::make_unique<io::XdmfRecorder>(file, picture(scene, stage), output.xdmfInterval);
+    forceSeries_ = &file.series("/transient/normal_force", {nodes}, "N",
+                                "Normal contact force, positive pushing off the wall");
+  if (output.xdmf)
+    xdmf_ = std::make_unique<io::XdmfRecorder>(file, picture(scene, stage), output.xdmfInterval);
 
   const bool forces = forceSeries_ != nullptr || xdmf_ != nullptr;
   watched_.assign(nodes, 0);
@@ -95,15 +106,18 @@ io::XdmfFrame MotionRecorder::frame(double t) const {
 }
 
 void MotionRecorder::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(figures_.samples), figures_.minBitSpeed, figures_.maxBitSpeed, figures_.sumBitSpeed,
-                               figures_.maxPenetration, static_cast<double>(figures_.missed.size())});
+  memory.insert(memory.end(), {static_cast<double>(figures_.samples), figures_.minBitSpeed,
+                               figures_.maxBitSpeed, figures_.sumBitSpeed, figures_.maxPenetration,
+                               static_cast<double>(figures_.missed.size())});
   memory.insert(memory.end(), figures_.missed.begin(), figures_.missed.end());
   if (xdmf_) xdmf_->save(memory);
 }
 
 void MotionRecorder::restore(const double*& memory) {
   figures_.samples = static_cast<long>(*memory++);
-  for (double* figure : {&figures_.minBitSpeed, &figures_.maxBitSpeed, &figures_.sumBitSpeed, &figures_.maxPenetration}) *figure = *memory++;
+  for (double* figure : {&figures_.minBitSpeed, &figures_.maxBitSpeed, &figures_.sumBitSpeed,
+                         &figures_.maxPenetration})
+    *figure = *memory++;
   figures_.missed.resize(static_cast<std::size_t>(*memory++));
   for (int& node : figures_.missed) {
     node = static_cast<int>(*memory++);
@@ -127,7 +141,8 @@ void MotionRecorder::recordContact(double t, const Vector& q, const Vector& qDot
     contact.set->law->record(t, contact.d.data(), contact.v.data(), contact.channels.data());
     const int size = contact.set->law->size();
     for (int p = 0; p < size; ++p)
-      normalForce_(contact.set->entities[static_cast<std::size_t>(p)] - 1) = contact.channels(contact.normalForce * size + p);
+      normalForce_(contact.set->entities[static_cast<std::size_t>(p)] - 1) =
+          contact.channels(contact.normalForce * size + p);
   }
 }
 
@@ -144,7 +159,8 @@ void MotionRecorder::measure(double t) {
     const auto p = static_cast<std::size_t>(i);
     const int node = points.node[p] - 1;
     // G = r - j0
-    const double penetration = std::hypot(displacement_(6 * node), displacement_(6 * node + 1)) - points.clearance[p];
+    const double penetration =
+        std::hypot(displacement_(6 * node), displacement_(6 * node + 1)) - points.clearance[p];
     figures_.maxPenetration = std::max(figures_.maxPenetration, penetration);
     if (penetration > 0.0 && watched_[static_cast<std::size_t>(node)] == 0) {
       watched_[static_cast<std::size_t>(node)] = 1;

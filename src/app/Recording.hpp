@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Turns the coordinates of a model into motions of nodes and contact forces, sample by sample, and writes them.
+/// Turns the coordinates of a model into motions of nodes and contact forces, sample by sample, and
+/// writes them.
 #pragma once
 
 #include <memory>
@@ -21,19 +22,25 @@ namespace tooljoint::app {
 /// What a person asks first of a motion.
 struct MotionFigures {
   long samples = 0;
-  double minBitSpeed = 0.0;     ///< Omega + dtheta_z/dt of the last node [rad/s]
+  double minBitSpeed = 0.0;  ///< Omega + dtheta_z/dt of the last node [rad/s]
   double maxBitSpeed = 0.0;
   double sumBitSpeed = 0.0;
   double maxPenetration = 0.0;  ///< largest r - j0 of a contact node [m]
-  std::vector<int> missed;      ///< contact nodes (1-based) the reduced model did not look at and that passed the wall
-  double meanBitSpeed() const { return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples); }
+  std::vector<int> missed;  ///< contact nodes (1-based) the reduced model did not look at and that
+                            ///< passed the wall
+  double meanBitSpeed() const {
+    return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples);
+  }
 };
 
-/// Recovers every sample, D = offset + Phi q, and writes the fields the deck's Output list asks for into /transient.
+/// Recovers every sample, D = offset + Phi q, and writes the fields the deck's Output list asks for
+/// into /transient.
 class MotionRecorder : public Recorder {
  public:
-  /// The arguments must outlive the recorder. Nothing is recovered that is neither written nor counted.
-  MotionRecorder(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model, io::ResultsFile& file);
+  /// The arguments must outlive the recorder. Nothing is recovered that is neither written nor
+  /// counted.
+  MotionRecorder(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model,
+                 io::ResultsFile& file);
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   void save(std::vector<double>& memory) const override;

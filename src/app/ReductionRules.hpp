@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the lists Reduction, Coupling, Transient and Output ask of each other, in scenes of a string and of imported parts alike:
-/// found from the deck alone, before any part is made.
+/// What the lists Reduction, Coupling, Transient and Output ask of each other, in scenes of a
+/// string and of imported parts alike: found from the deck alone, before any part is made.
 #pragma once
 
 #include <string>
@@ -21,7 +21,9 @@ struct RuleFault {
   std::string sentence;  ///< continues the path: "is \"Dual\", but ..."
 };
 
-/// Choices that cannot stand together. `deck` is the root list with all defaults; `parts` is the number of substructures.
-std::vector<RuleFault> reductionFaults(const Teuchos::ParameterList& deck, coupling::Assembly assembly, int parts);
+/// Choices that cannot stand together. `deck` is the root list with all defaults; `parts` is the
+/// number of substructures.
+std::vector<RuleFault> reductionFaults(const Teuchos::ParameterList& deck,
+                                       coupling::Assembly assembly, int parts);
 
 }  // namespace tooljoint::app

@@ -18,7 +18,8 @@ namespace tooljoint::app {
 
 std::string describeScene(const Scene& scene);
 std::string describeStatic(const StaticStage& stage);
-std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts, int fullDofs, int reducedDofs, double wall);
+std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
+                              int fullDofs, int reducedDofs, double wall);
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 /// Cost of a step of both models, and which is the cheaper one.
 std::string describeCost(const transient::StepCost& full, const transient::StepCost& reduced);
@@ -26,6 +27,7 @@ std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
 /// Integrator, steps and what was counted, two lines.
 std::string describeSteps(const transient::TransientReport& report);
-std::string describeTransient(const transient::TransientReport& report, const MotionFigures& figures);
+std::string describeTransient(const transient::TransientReport& report,
+                              const MotionFigures& figures);
 
 }  // namespace tooljoint::app

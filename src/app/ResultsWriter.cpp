@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kRpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
-std::size_t nodeCount(const Scene& scene) { return static_cast<std::size_t>(scene.string.nodeCount()); }
+std::size_t nodeCount(const Scene& scene) {
+  return static_cast<std::size_t>(scene.string.nodeCount());
+}
 
 std::vector<double> rows(const std::vector<Vector3>& vectors) {
   std::vector<double> out;
@@ -22,7 +24,9 @@ std::vector<double> rows(const std::vector<Vector3>& vectors) {
 
 }  // namespace
 
-io::Provenance provenance(const deck::Deck& deck) { return {deck.file(), deck.text(), deck.sha256(), deck.overrides()}; }
+io::Provenance provenance(const deck::Deck& deck) {
+  return {deck.file(), deck.text(), deck.sha256(), deck.overrides()};
+}
 
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
   const auto nodes = nodeCount(scene);
@@ -38,8 +42,10 @@ void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& f
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column) frames.push_back(frame(row, column));
   file.write("/model/s", s, {nodes}, "m", "Depth of the nodes along the well");
-  file.write("/model/position", rows(axis), {nodes, 3}, "m", "Well axis at the nodes, global X, Y, Z (down)");
-  file.write("/model/frame", frames, {nodes, 3, 3}, "1", "Nodal frames; columns are the x, y, z axes in global components");
+  file.write("/model/position", rows(axis), {nodes, 3}, "m",
+             "Well axis at the nodes, global X, Y, Z (down)");
+  file.write("/model/frame", frames, {nodes, 3, 3}, "1",
+             "Nodal frames; columns are the x, y, z axes in global components");
   file.write("/model/clearance", clearance, {nodes}, "m", "Radial clearance between node and wall");
   file.write("/model/contact_radius", radius, {nodes}, "m", "Lever arm of the friction torque");
 }
@@ -47,10 +53,12 @@ void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& f
 void writePath(const StaticStage& stage, io::ResultsFile& file) {
   const auto nodes = stage.path.position.size();
   const auto elements = stage.path.chordLength.size();
-  file.write("/path/position", rows(stage.path.position), {nodes, 3}, "m", "Nodes at the end of the path, global X, Y, Z");
+  file.write("/path/position", rows(stage.path.position), {nodes, 3}, "m",
+             "Nodes at the end of the path, global X, Y, Z");
   file.write("/path/reaction", Matrix(stage.path.reaction.transpose()), "N, N m",
              "Pre-load R_ipa of the nodes in nodal frames, forces then moments");
-  file.write("/path/axial_force", stage.path.axialForce, {elements}, "N", "Axial force of the elements, tension positive");
+  file.write("/path/axial_force", stage.path.axialForce, {elements}, "N",
+             "Axial force of the elements, tension positive");
   file.write("/path/torque", stage.path.torque, {elements}, "N m", "Torque of the elements");
 }
 
@@ -58,12 +66,17 @@ void writeStatic(const Scene& scene, const StaticStage& stage, io::ResultsFile& 
   const auto nodes = nodeCount(scene);
   const auto elements = stage.path.chordLength.size();
   const auto& state = stage.state;
-  file.write("/static/displacement", state.displacement, {nodes, 6}, "m, rad",
-             "Displacements from the path state in nodal frames: u, v, w, theta_x, theta_y, theta_z");
-  file.write("/static/normal_force", state.normalForce, {nodes}, "N", "Normal contact force, positive pushing off the wall");
-  file.write("/static/tangential_force", state.tangentialForce, {nodes}, "N", "Friction force along the direction of rotation");
-  file.write("/static/friction_torque", state.frictionTorque, {nodes}, "N m", "Friction torque about the axis");
-  file.write("/static/axial_force", state.axialForce, {elements}, "N", "Axial force F_apo of the elements, tension positive");
+  file.write(
+      "/static/displacement", state.displacement, {nodes, 6}, "m, rad",
+      "Displacements from the path state in nodal frames: u, v, w, theta_x, theta_y, theta_z");
+  file.write("/static/normal_force", state.normalForce, {nodes}, "N",
+             "Normal contact force, positive pushing off the wall");
+  file.write("/static/tangential_force", state.tangentialForce, {nodes}, "N",
+             "Friction force along the direction of rotation");
+  file.write("/static/friction_torque", state.frictionTorque, {nodes}, "N m",
+             "Friction torque about the axis");
+  file.write("/static/axial_force", state.axialForce, {elements}, "N",
+             "Axial force F_apo of the elements, tension positive");
   file.write("/static/torque", state.torque, {elements}, "N m", "Torque T_apo of the elements");
 }
 
@@ -71,11 +84,14 @@ void writeBases(const std::vector<reduction::ReducedSubstructure>& parts, io::Re
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& part = parts[p];
     const std::string group = "/reduction/part_" + std::to_string(p + 1);
-    file.write(group + "/basis", Matrix(part.basis->vectors), "1", "Basis Phi of " + part.name + ": D = offset + Phi q");
-    file.write(group + "/offset", part.offset, {static_cast<std::size_t>(part.offset.size())}, "m, rad", "D at q = 0");
+    file.write(group + "/basis", Matrix(part.basis->vectors), "1",
+               "Basis Phi of " + part.name + ": D = offset + Phi q");
+    file.write(group + "/offset", part.offset, {static_cast<std::size_t>(part.offset.size())},
+               "m, rad", "D at q = 0");
     if (part.basis->eigenvalues.size() > 0)
-      file.write(group + "/eigenvalues", part.basis->eigenvalues, {static_cast<std::size_t>(part.basis->eigenvalues.size())},
-                 "rad2/s2", "Squared angular frequencies of the modes");
+      file.write(group + "/eigenvalues", part.basis->eigenvalues,
+                 {static_cast<std::size_t>(part.basis->eigenvalues.size())}, "rad2/s2",
+                 "Squared angular frequencies of the modes");
   }
 }
 
@@ -95,21 +111,27 @@ void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputF
   for (int i = 0; i < scene.string.nodeCount(); ++i) {
     const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
     const auto d = state.displacement.segment<6>(6 * i);
-    nodes.row({i + 1.0, node.s, d(0), d(1), d(2), d(5), std::hypot(d(0), d(1)), node.clearance, state.normalForce(i),
-               state.tangentialForce(i), state.frictionTorque(i)});
+    nodes.row({i + 1.0, node.s, d(0), d(1), d(2), d(5), std::hypot(d(0), d(1)), node.clearance,
+               state.normalForce(i), state.tangentialForce(i), state.frictionTorque(i)});
   }
   nodes.stage(folder.file("static_nodes.csv"));
-  io::Csv elements(
-      {{"element", ""}, {"s", "m"}, {"axial_force", "N"}, {"torque", "N m"}, {"path_axial_force", "N"}, {"path_torque", "N m"}});
+  io::Csv elements({{"element", ""},
+                    {"s", "m"},
+                    {"axial_force", "N"},
+                    {"torque", "N m"},
+                    {"path_axial_force", "N"},
+                    {"path_torque", "N m"}});
   for (int e = 0; e < scene.string.elementCount(); ++e) {
     const auto i = static_cast<std::size_t>(e);
-    elements.row({e + 1.0, 0.5 * (scene.string.nodes[i].s + scene.string.nodes[i + 1].s), state.axialForce(e), state.torque(e),
-                  stage.path.axialForce(e), stage.path.torque(e)});
+    elements.row({e + 1.0, 0.5 * (scene.string.nodes[i].s + scene.string.nodes[i + 1].s),
+                  state.axialForce(e), state.torque(e), stage.path.axialForce(e),
+                  stage.path.torque(e)});
   }
   elements.stage(folder.file("static_elements.csv"));
 }
 
-void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts, io::OutputFolder& folder) {
+void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
+                     io::OutputFolder& folder) {
   io::Csv table({{"part", ""},
                  {"kind", ""},
                  {"vector", ""},
@@ -118,11 +140,13 @@ void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts, i
                  {"residual", ""},
                  {"kept", ""},
                  {"why", ""}});
-  const auto number = [](double value) { return std::isfinite(value) ? formatNumber(value) : std::string(); };
+  const auto number = [](double value) {
+    return std::isfinite(value) ? formatNumber(value) : std::string();
+  };
   for (const auto& part : parts)
     for (const auto& row : part.basisRows())
-      table.row({part.name, row.kind, row.name, number(row.frequency()), number(row.eigenvalue), number(row.residual),
-                 row.kept ? "kept" : "dropped", row.why});
+      table.row({part.name, row.kind, row.name, number(row.frequency()), number(row.eigenvalue),
+                 number(row.residual), row.kept ? "kept" : "dropped", row.why});
   table.stage(folder.file("basis.csv"));
 }
 
@@ -162,8 +186,8 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.friction_speed_rpm", stage.friction.speed * kRpm);
 }
 
-void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis, int reducedDofs, double wall,
-               io::Summary& summary) {
+void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis,
+               int reducedDofs, double wall, io::Summary& summary) {
   summary.set("reduction.basis", basis);
   for (const auto& part : parts)
     summary.append("reduction.substructures", io::SummaryRow()
@@ -178,22 +202,28 @@ void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const s
 }
 
 void summarise(const coupling::Coupling& coupled, io::Summary& summary) {
-  summary.set("reduction.coupling.assembly", std::string(coupled.multipliers.empty() ? "Primal" : "Dual"));
+  summary.set("reduction.coupling.assembly",
+              std::string(coupled.multipliers.empty() ? "Primal" : "Dual"));
   summary.set("reduction.coupling.joined_dofs", coupled.joinedDofs);
   summary.set("reduction.coupling.multipliers", static_cast<long>(coupled.multipliers.size()));
-  if (coupled.interfaceModes >= 0) summary.set("reduction.coupling.interface_modes", coupled.interfaceModes);
+  if (coupled.interfaceModes >= 0)
+    summary.set("reduction.coupling.interface_modes", coupled.interfaceModes);
 }
 
-void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts, io::Summary& summary) {
-  if (!outcome.rounds.empty()) summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
-  if (!outcome.rounds.empty() || !outcome.frequencies.empty()) summary.set("reduction.estimate.wall_s", outcome.wall);
+void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts,
+               io::Summary& summary) {
+  if (!outcome.rounds.empty())
+    summary.set("reduction.estimate.rounds", static_cast<long>(outcome.rounds.size()));
+  if (!outcome.rounds.empty() || !outcome.frequencies.empty())
+    summary.set("reduction.estimate.wall_s", outcome.wall);
   if (outcome.frequencies.empty()) return;
   for (const auto& e : outcome.frequencies) {
     Eigen::Index worst = 0;
     if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
     io::SummaryRow row;
     row.set("hz", e.frequency()).set("error", e.error).set("complete", e.definite);
-    if (e.byPart.size() > 0 && e.byPart[worst] > 0) row.set("part", parts[static_cast<std::size_t>(worst)].name);
+    if (e.byPart.size() > 0 && e.byPart[worst] > 0)
+      row.set("part", parts[static_cast<std::size_t>(worst)].name);
     summary.append("reduction.estimate.frequencies", row);
   }
   summary.set("reduction.estimate.frequency_error", estimate::largestError(outcome.frequencies));
@@ -224,11 +254,13 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);
   if (report.stepErrors.local > 0) summary.set("transient.local_error", report.stepErrors.local);
-  if (report.stepErrors.halving > 0) summary.set("transient.halving_error", report.stepErrors.halving);
+  if (report.stepErrors.halving > 0)
+    summary.set("transient.halving_error", report.stepErrors.halving);
   if (report.hasEnergy) summary.set("transient.energy_residual", report.energy.residual());
 }
 
-void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced, io::Summary& summary) {
+void summarise(const transient::TransientReport& report, const MotionFigures& figures, bool reduced,
+               io::Summary& summary) {
   summarise(report, reduced, summary);
   summary.set("transient.bit_speed_rpm.min", figures.minBitSpeed * kRpm);
   summary.set("transient.bit_speed_rpm.max", figures.maxBitSpeed * kRpm);

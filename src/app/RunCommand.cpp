@@ -31,7 +31,9 @@ class Run {
 
   void go() {
     constexpr std::size_t width = 6;  // dofs of a node
-    files_.emplace(options_, scene_.deck, scene_.output, expectedBytes(scene_.list(), scene_.output, static_cast<std::size_t>(scene_.string.nodeCount()), width));
+    files_.emplace(options_, scene_.deck, scene_.output,
+                   expectedBytes(scene_.list(), scene_.output,
+                                 static_cast<std::size_t>(scene_.string.nodeCount()), width));
     summarise(scene_, files_->summary());
     files_->complete([this] { stages(); }, [this] { tables(); });
   }
@@ -67,7 +69,9 @@ class Run {
     parts_ = std::move(planned.parts);
     const auto& list = scene_.list().sublist("Reduction");
     outcome_ = estimate::synthesise(
-        parts_, list, [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); }, planned.options);
+        parts_, list,
+        [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); },
+        planned.options);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -75,13 +79,15 @@ class Run {
     log::info(describeReduction(reduced, scene_.freeDofs(), dofs, wall));
     log::info(describeCoupling(outcome_.synthesis.coupled));
     for (const auto& remark : outcome_.synthesis.coupled.remarks) log::warn(remark);
-    if (!outcome_.frequencies.empty()) log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
+    if (!outcome_.frequencies.empty())
+      log::info(estimate::frequencyTable(outcome_.frequencies, parts_));
     summarise(reduced, list.get<std::string>("Basis"), dofs, wall, files_->summary());
     predictCost();
     summarise(outcome_.synthesis.coupled, files_->summary());
     summarise(outcome_, parts_, files_->summary());
     exportReducedParts();
-    estimatesMotion_ = estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
+    estimatesMotion_ =
+        estimate::readEstimateOptions(list).motion || list.isParameter("Motion Tolerance");
     if (!estimatesMotion_) parts_.clear();
     parallel::agree([&] {
       if (scene_.output.csv) stageBasisTable(reduced, files_->folder());
@@ -92,7 +98,8 @@ class Run {
   void predictCost() {
     const auto full = fullStepCost(scene_, stage_);
     const auto reduced =
-        transient::stepCost(outcome_.synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")));
+        transient::stepCost(outcome_.synthesis.coupled.model,
+                            transient::readOptions(scene_.list().sublist("Transient")));
     log::info(describeCost(full, reduced));
     files_->summary().set("reduction.cost_ratio", reduced.total() / full.total());
   }
@@ -101,20 +108,23 @@ class Run {
     if (scene_.output.exportFormat == io::ExportFormat::None) return;
     std::vector<parts::PartContent> originals;
     for (const auto& part : parts_) originals.push_back(parts::contentOf(part));
-    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat, (std::filesystem::path(files_->folder().folder()) / "parts").string());
+    exportParts(originals, outcome_.synthesis.parts, scene_.output.exportFormat,
+                (std::filesystem::path(files_->folder().folder()) / "parts").string());
   }
 
   /// The motion of a candidate of the reduction, for its error only.
-  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+  estimate::MotionEstimate probe(const coupling::Synthesis& synthesis,
+                                 const estimate::MotionLimit& limit) {
     estimate::MotionEstimator estimator(parts_, synthesis, stage_.state.displacement);
-    return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(scene_.list().sublist("Transient")),
-                                 limit);
+    return estimate::watchMotion(estimator, synthesis.coupled.model,
+                                 transient::readOptions(scene_.list().sublist("Transient")), limit);
   }
 
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
     estimate::MotionEstimator estimator(parts_, outcome_.synthesis, stage_.state.displacement);
     Both both(*recorder_, estimator);
-    const auto report = files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, both);
+    const auto report =
+        files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, both);
     const auto error = estimator.result();
     log::info(describeMotionError(error));
     summarise(error, files_->summary());
@@ -124,9 +134,12 @@ class Run {
   void integrate(const model::SecondOrderModel& model) {
     recorder_ = std::make_unique<MotionRecorder>(scene_, stage_, model, files_->results());
     if (estimatesMotion_ && files_->goesOn())
-      log::warn("The error of the motion is not estimated in a run that goes on from a checkpoint.");
-    const auto report = estimatesMotion_ && !files_->goesOn() ? integrateEstimating(model)
-                                                              : files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, *recorder_);
+      log::warn(
+          "The error of the motion is not estimated in a run that goes on from a checkpoint.");
+    const auto report =
+        estimatesMotion_ && !files_->goesOn()
+            ? integrateEstimating(model)
+            : files_->integrate(model, scene_.list().sublist("Transient"), *recorder_, *recorder_);
     summarise(report, recorder_->figures(), scene_.reduces(), files_->summary());
     files_->requireComplete(report);
     log::info(describeTransient(report, recorder_->figures()));
@@ -137,9 +150,11 @@ class Run {
   void warnOfMissedNodes() const {
     const auto& missed = recorder_->figures().missed;
     if (missed.empty()) return;
-    log::warn(std::to_string(missed.size()) +
-              " nodes reached the wall although contact is evaluated at retained nodes only (node " +
-              std::to_string(missed.front()) + " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
+    log::warn(
+        std::to_string(missed.size()) +
+        " nodes reached the wall although contact is evaluated at retained nodes only (node " +
+        std::to_string(missed.front()) +
+        " first). Retain more nodes, or set Substructures/Contact Nodes to \"All\".");
   }
 
   void tables() {

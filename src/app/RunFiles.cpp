@@ -34,30 +34,36 @@ void onFirstRank(const Work& work) {
 
 }  // namespace
 
-double expectedBytes(const Teuchos::ParameterList& deck, const io::OutputSettings& output, std::size_t nodes, std::size_t width) {
+double expectedBytes(const Teuchos::ParameterList& deck, const io::OutputSettings& output,
+                     std::size_t nodes, std::size_t width) {
   constexpr double beside = 1e6;  ///< model, static state, summary
   if (!deck.isSublist("Transient")) return beside;
   const auto& list = deck.sublist("Transient");
-  const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) / list.get<double>("Sampling Interval");
+  const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) /
+                         list.get<double>("Sampling Interval");
   return beside + 8.0 * samples * static_cast<double>(nodes * width * output.fields.size());
 }
 
-RunFiles::RunFiles(const RunOptions& options, const deck::Deck& deck, const io::OutputSettings& output, double bytes)
+RunFiles::RunFiles(const RunOptions& options, const deck::Deck& deck,
+                   const io::OutputSettings& output, double bytes)
     : options_(options), identity_(runIdentity(deck)) {
   const auto folderName = resultsFolder(options, output.folder);
   onFirstRank([&] {
     if (options_.restart.empty()) return;
     if (!fs::exists(fs::path(options_.restart) / io::checkpointName))
-      throw FileError("\"" + options_.restart + "\" holds no " + io::checkpointName +
-                      ". --restart goes on from the folder of an interrupted run" +
-                      (fs::exists(fs::path(options_.restart) / "interrupted")
-                           ? "; an earlier one is in " + (fs::path(options_.restart) / "interrupted").string()
-                           : "") +
-                      ".");
+      throw FileError(
+          "\"" + options_.restart + "\" holds no " + io::checkpointName +
+          ". --restart goes on from the folder of an interrupted run" +
+          (fs::exists(fs::path(options_.restart) / "interrupted")
+               ? "; an earlier one is in " + (fs::path(options_.restart) / "interrupted").string()
+               : "") +
+          ".");
     std::error_code different;
     samePlace_ = fs::equivalent(options_.restart, folderName, different);
   });
-  parallel::agree([&] { folder_.emplace(folderName, samePlace_ ? io::OldCheckpoint::GoOn : io::OldCheckpoint::SetAside); });
+  parallel::agree([&] {
+    folder_.emplace(folderName, samePlace_ ? io::OldCheckpoint::GoOn : io::OldCheckpoint::SetAside);
+  });
   if (!options_.restart.empty()) readCheckpoint(folderName);
   parallel::agree([&] {
     folder_->requireSpace(bytes);
@@ -69,7 +75,9 @@ RunFiles::RunFiles(const RunOptions& options, const deck::Deck& deck, const io::
   });
 }
 
-std::string RunFiles::at(const char* name) const { return (fs::path(folder_->folder()) / name).string(); }
+std::string RunFiles::at(const char* name) const {
+  return (fs::path(folder_->folder()) / name).string();
+}
 
 /// All ranks have the bytes of rank 0.
 void RunFiles::readCheckpoint(const std::string& folderName) {
@@ -80,14 +88,15 @@ void RunFiles::readCheckpoint(const std::string& folderName) {
   parallel::agree([&] { checkpoint_ = transient::Checkpoint::decode(bytes, file); });
   if (checkpoint_->run != identity_)
     throw DeckError("The checkpoint in " + options_.restart +
-                    " belongs to another run than this deck describes: " + identityDifferences(checkpoint_->run, identity_) +
+                    " belongs to another run than this deck describes: " +
+                    identityDifferences(checkpoint_->run, identity_) +
                     ". Give the deck, --set and --without of the run that was interrupted.");
   const auto program = programVersion() + " " + gitHash();
   if (checkpoint_->program != program)
-    log::warn("The checkpoint was written by the program " + checkpoint_->program + ", this is " + program +
-              ": the numbers may differ from those of one run.");
-  log::info("restart     from t = " + formatNumber(checkpoint_->state.t) + " s of " + options_.restart +
-            (folderName == options_.restart ? "" : " into " + folderName));
+    log::warn("The checkpoint was written by the program " + checkpoint_->program + ", this is " +
+              program + ": the numbers may differ from those of one run.");
+  log::info("restart     from t = " + formatNumber(checkpoint_->state.t) + " s of " +
+            options_.restart + (folderName == options_.restart ? "" : " into " + folderName));
 }
 
 /// Why a results file is not the one with the samples of the checkpoint; empty when it is.
@@ -95,11 +104,13 @@ std::string RunFiles::whyNot(const std::string& file) const {
   if (!fs::exists(file)) return file + " is not there";
   try {
     const io::ResultsReader reader(file);
-    if (!reader.hasAttribute("/", identityAttribute) || reader.textAttribute("/", identityAttribute) != sha256(identity_))
+    if (!reader.hasAttribute("/", identityAttribute) ||
+        reader.textAttribute("/", identityAttribute) != sha256(identity_))
       return file + " belongs to another run";
     for (const auto& [path, rows] : checkpoint_->rows) {
       const auto shape = reader.has(path) ? reader.shape(path) : std::vector<std::size_t>();
-      if (shape.empty() || shape[0] < rows) return file + " holds fewer rows of " + path + " than the checkpoint needs";
+      if (shape.empty() || shape[0] < rows)
+        return file + " holds fewer rows of " + path + " than the checkpoint needs";
     }
     return "";
   } catch (const FileError& error) {
@@ -110,25 +121,30 @@ std::string RunFiles::whyNot(const std::string& file) const {
 std::string RunFiles::findSamples() const {
   std::vector<std::string> reasons;
   for (const std::string& name :
-       {std::string(io::resultsName) + ".part", std::string(io::resultsName), std::string(io::checkpointSamplesName)}) {
+       {std::string(io::resultsName) + ".part", std::string(io::resultsName),
+        std::string(io::checkpointSamplesName)}) {
     const auto file = (fs::path(options_.restart) / name).string();
     reasons.push_back(whyNot(file));
     if (reasons.back().empty()) return file;
   }
-  throw FileError("\"" + options_.restart + "\" holds a checkpoint, but not the samples before it: " + join(reasons, "; ") +
+  throw FileError("\"" + options_.restart +
+                  "\" holds a checkpoint, but not the samples before it: " + join(reasons, "; ") +
                   ". Restore them from a copy, or run the deck from the start.");
 }
 
-/// Samples in the output folder get a name that no run writes to; returns it. Finished results of a run that has computed the
-/// same stay.
+/// Samples in the output folder get a name that no run writes to; returns it. Finished results of a
+/// run that has computed the same stay.
 std::string RunFiles::keepSamples(const std::string& samples) const {
-  const bool finished = fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
-  if (!samePlace_ || finished || fs::path(samples).filename() == io::checkpointSamplesName) return samples;
+  const bool finished =
+      fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
+  if (!samePlace_ || finished || fs::path(samples).filename() == io::checkpointSamplesName)
+    return samples;
   const auto kept = at(io::checkpointSamplesName);
   std::error_code error;
   fs::rename(samples, kept, error);
   if (error)
-    throw FileError("The samples to go on from, " + samples + ", cannot be renamed to " + kept + ": " + error.message() + ".");
+    throw FileError("The samples to go on from, " + samples + ", cannot be renamed to " + kept +
+                    ": " + error.message() + ".");
   return kept;
 }
 
@@ -146,7 +162,8 @@ void RunFiles::keep(const transient::Checkpoint& checkpoint, const Recorder& rec
   kept_ = true;
 }
 
-transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& model, const Teuchos::ParameterList& transient,
+transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& model,
+                                               const Teuchos::ParameterList& transient,
                                                Recorder& recorder, transient::SampleSink& sink) {
   transient::RunHooks hooks;
   if (goesOn()) {
@@ -160,8 +177,10 @@ transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& mo
 
 void RunFiles::requireComplete(const transient::TransientReport& report) const {
   if (!report.interrupted) return;
-  throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s. What was computed so far is in " +
-                         folder_->folder() + "; go on with: tooljoint run " + options_.deck + " --restart " + folder_->folder());
+  throw InterruptedError("Interrupted at " + formatNumber(report.end) +
+                         " s. What was computed so far is in " + folder_->folder() +
+                         "; go on with: tooljoint run " + options_.deck + " --restart " +
+                         folder_->folder());
 }
 
 void RunFiles::complete(const std::function<void()>& stages, const std::function<void()>& tables) {
@@ -187,7 +206,8 @@ void RunFiles::publish(const std::function<void()>& tables) {
   log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
 }
 
-/// A run that does not converge leaves no checkpoint: from there the same deck would not converge again.
+/// A run that does not converge leaves no checkpoint: from there the same deck would not converge
+/// again.
 void RunFiles::leave(const Error& error) {
   stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
   try {
@@ -212,7 +232,8 @@ void RunFiles::stamp(const std::string& status, const std::string& message) {
 void RunFiles::removeCheckpoint() const {
   if (parallel::rank() != 0) return;
   std::error_code ignored;
-  for (const char* name : {io::checkpointName, io::checkpointSamplesName}) fs::remove(at(name), ignored);
+  for (const char* name : {io::checkpointName, io::checkpointSamplesName})
+    fs::remove(at(name), ignored);
 }
 
 }  // namespace tooljoint::app

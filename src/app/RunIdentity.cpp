@@ -33,8 +33,10 @@ class Describer {
     if (!deck.list().isSublist("Transient")) return;
     const auto& transient = deck.list().sublist("Transient");
     const auto integrator = transient.get<std::string>("Integrator");
-    const auto own = transient.isSublist(integrator) ? transient.sublist(integrator) : Teuchos::ParameterList();
-    anywhere_ = transient::IntegratorRegistry::instance().make(integrator, own)->goesOnFromAnywhere();
+    const auto own =
+        transient.isSublist(integrator) ? transient.sublist(integrator) : Teuchos::ParameterList();
+    anywhere_ =
+        transient::IntegratorRegistry::instance().make(integrator, own)->goesOnFromAnywhere();
   }
 
   Lines lines() {
@@ -62,39 +64,46 @@ class Describer {
       }
       if (!matters(path)) continue;
       lines_[path] = study::valueText(list.entry(it));
-      if (fileParameters.count(name) > 0 && list.isType<std::string>(name)) addContent(path, list.get<std::string>(name));
+      if (fileParameters.count(name) > 0 && list.isType<std::string>(name))
+        addContent(path, list.get<std::string>(name));
     }
   }
 
-  /// A file; all files of a folder and beside a part in JSON, which names matrices there; all that match a pattern with "%".
+  /// A file; all files of a folder and beside a part in JSON, which names matrices there; all that
+  /// match a pattern with "%".
   void addContent(const std::string& path, const std::string& name) {
     const fs::path file(deck_.resolve(name));
     std::error_code ignored;
     const bool folder = fs::is_directory(file, ignored);
     const auto mark = file.filename().string().find('%');
-    if (!folder && mark == std::string::npos && file.extension() != ".json") return addFile(path, file);
+    if (!folder && mark == std::string::npos && file.extension() != ".json")
+      return addFile(path, file);
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder                   ? file
                                                     : file.has_parent_path() ? file.parent_path()
                                                                              : fs::path("."),
                                                     ignored)) {
       const auto found = entry.path();
-      const bool wanted = folder || (mark != std::string::npos ? matches(found.filename().string(), file.filename().string())
-                                                               : found == file || found.extension() == ".mtx");
+      const bool wanted =
+          folder ||
+          (mark != std::string::npos ? matches(found.filename().string(), file.filename().string())
+                                     : found == file || found.extension() == ".mtx");
       if (wanted) files.insert(found);
     }
     for (const auto& each : files) addFile(path + "/" + each.filename().string(), each);
   }
 
   static bool matches(const std::string& name, const std::string& pattern) {
-    const auto head = pattern.substr(0, pattern.find('%')), tail = pattern.substr(pattern.rfind('%') + 1);
+    const auto head = pattern.substr(0, pattern.find('%')),
+               tail = pattern.substr(pattern.rfind('%') + 1);
     return name.size() >= head.size() + tail.size() && name.rfind(head, 0) == 0 &&
            name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
   }
 
   void addFile(const std::string& path, const fs::path& file) {
     std::error_code ignored;
-    if (fs::is_regular_file(file, ignored)) lines_[path + " (content)"] = sha256(io::readText(file.string()));
+    if (fs::is_regular_file(file, ignored))
+      lines_[path + " (content)"] = sha256(io::readText(file.string()));
   }
 
   const deck::Deck& deck_;
@@ -145,7 +154,8 @@ std::string identityDifferences(const std::string& then, const std::string& now)
     if (before == after && (a.count(path) == b.count(path)) && a.at(path) == b.at(path)) continue;
     const bool content = path.size() > 10 && path.compare(path.size() - 10, 10, " (content)") == 0;
     if (content && a.count(path) > 0 && b.count(path) > 0)
-      differences.push_back("the content of the file of " + path.substr(0, path.size() - 10) + " has changed");
+      differences.push_back("the content of the file of " + path.substr(0, path.size() - 10) +
+                            " has changed");
     else
       differences.push_back(path + " was " + before + " and is " + after);
   }

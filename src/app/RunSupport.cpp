@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/RunSupport.hpp"
 
-#include <sys/resource.h>
-
 #include <filesystem>
+#include <sys/resource.h>
 
 #include "common/Parallel.hpp"
 
 namespace tooljoint::app {
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 double peakMemory() {
   rusage usage{};

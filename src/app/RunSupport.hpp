@@ -19,13 +19,15 @@ double since(Clock::time_point start);
 /// Largest resident memory so far, summed over the ranks [MB].
 double peakMemory();
 
-/// Folder of the command line, else of the run that goes on, else of the deck's list "Output" (may be empty), else results/<deck>.
+/// Folder of the command line, else of the run that goes on, else of the deck's list "Output" (may
+/// be empty), else results/<deck>.
 std::string resultsFolder(const RunOptions& options, const std::string& ofDeck);
 
 /// Hands every sample to two sinks.
 class Both : public transient::SampleSink {
  public:
-  Both(transient::SampleSink& first, transient::SampleSink& second) : first_(first), second_(second) {}
+  Both(transient::SampleSink& first, transient::SampleSink& second)
+      : first_(first), second_(second) {}
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
 
  private:

@@ -23,9 +23,10 @@
 namespace tooljoint::app {
 
 deck::ListSpec sceneSpec() {
-  deck::ListSpec scene("Scene",
-                       "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
-                       "Drillstring may be left out, and what is left out is not modelled.");
+  deck::ListSpec scene(
+      "Scene",
+      "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
+      "Drillstring may be left out, and what is left out is not modelled.");
   scene.requiredList(well::parameters());
   scene.requiredList(string_::drillstringParameters());
   scene.list(string_::supportParameters());
@@ -46,7 +47,9 @@ deck::ListSpec sceneSpec() {
   return scene;
 }
 
-int Scene::freeDofs() const { return static_cast<int>(std::count(held.begin(), held.end(), char{0})); }
+int Scene::freeDofs() const {
+  return static_cast<int>(std::count(held.begin(), held.end(), char{0}));
+}
 
 namespace {
 
@@ -59,10 +62,13 @@ class Faults {
     try {
       read();
     } catch (const DeckError& error) {
-      for (const auto& line : split(error.what(), '\n')) lines_.push_back(deck_.located(rooted(line)));
+      for (const auto& line : split(error.what(), '\n'))
+        lines_.push_back(deck_.located(rooted(line)));
     }
   }
-  void add(const std::string& path, const std::string& sentence) { lines_.push_back(deck_.error(path, sentence)); }
+  void add(const std::string& path, const std::string& sentence) {
+    lines_.push_back(deck_.error(path, sentence));
+  }
   bool none() const { return lines_.empty(); }
   void raise() const {
     if (!none()) throw DeckError(join(lines_, "\n"));
@@ -73,7 +79,8 @@ class Faults {
   std::string rooted(const std::string& line) const {
     const auto spec = sceneSpec();
     for (const auto& list : spec.lists())
-      if (line.rfind(list.name() + "/", 0) == 0 || line.rfind(list.name() + " ", 0) == 0) return "/" + deck_.name() + "/" + line;
+      if (line.rfind(list.name() + "/", 0) == 0 || line.rfind(list.name() + " ", 0) == 0)
+        return "/" + deck_.name() + "/" + line;
     return line;
   }
 
@@ -82,7 +89,8 @@ class Faults {
 };
 
 /// The sublist, or the defaults of its description when the deck leaves it out.
-Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck, const deck::ListSpec& spec) {
+Teuchos::ParameterList listOrDefaults(const Teuchos::ParameterList& deck,
+                                      const deck::ListSpec& spec) {
   return deck.isSublist(spec.name()) ? deck.sublist(spec.name()) : deck::defaults(spec);
 }
 
@@ -91,18 +99,22 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
     faults.add("Coupling/Node Numbers",
-               "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it at \"Shared\".");
+               "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it "
+               "at \"Shared\".");
   const auto& plan = *scene.coupling;
   if (scene.reduces()) {
     const auto& reduction = list.sublist("Reduction");
     const auto estimated = reduction.get<std::string>("Error Estimate");
-    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() && plan.constraints.empty() &&
-                        plan.links.empty() && plan.hinges.empty();
-    if (!simple && (estimated == "Transient" || estimated == "Both" || reduction.isParameter("Motion Tolerance")))
+    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() &&
+                        plan.constraints.empty() && plan.links.empty() && plan.hinges.empty();
+    if (!simple && (estimated == "Transient" || estimated == "Both" ||
+                    reduction.isParameter("Motion Tolerance")))
       faults.add("Coupling",
-                 "gives frames, constraints, links, hinges or dual assembly, and Reduction asks for the error of the motion, "
+                 "gives frames, constraints, links, hinges or dual assembly, and Reduction asks "
+                 "for the error of the motion, "
                  "which is estimated only where parts are joined by "
-                 "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the \"Motion Tolerance\".");
+                 "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the "
+                 "\"Motion Tolerance\".");
   }
 }
 
@@ -110,42 +122,58 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)
-    faults.add("Substructures", "has no effect without a Reduction list. Add one, or leave Substructures out.");
+    faults.add("Substructures",
+               "has no effect without a Reduction list. Add one, or leave Substructures out.");
   if (list.isSublist("Parts"))
     faults.add("Parts",
-               "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and export the string (tooljoint "
+               "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and "
+               "export the string (tooljoint "
                "export), and import it there.");
   if (scene.output.exportFormat != io::ExportFormat::None && !(scene.reduces() && scene.moves()))
-    faults.add("Output/Export Parts", "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
+    faults.add("Output/Export Parts",
+               "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
   if (scene.coupling) crossCheckCoupling(scene, faults);
   if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
-    faults.add("Reduction", "has neither a Transient list to serve nor Substructures to cut. Add Transient, or leave Reduction out.");
+    faults.add("Reduction",
+               "has neither a Transient list to serve nor Substructures to cut. Add Transient, or "
+               "leave Reduction out.");
   const auto assembly = scene.coupling ? scene.coupling->assembly : coupling::Assembly::Primal;
   std::vector<std::string> parts;
   if (scene.reduces() && faults.none())
-    for (const auto& part : string_::cutParts(scene.string, scene.partition)) parts.push_back(part.name);
-  if (scene.output.exportFormat != io::ExportFormat::None) faults.attempt([&] { exportedFiles(parts, scene.output.exportFormat); });
-  for (const auto& fault : reductionFaults(list, assembly, static_cast<int>(parts.size()))) faults.add(fault.path, fault.sentence);
+    for (const auto& part : string_::cutParts(scene.string, scene.partition))
+      parts.push_back(part.name);
+  if (scene.output.exportFormat != io::ExportFormat::None)
+    faults.attempt([&] { exportedFiles(parts, scene.output.exportFormat); });
+  for (const auto& fault : reductionFaults(list, assembly, static_cast<int>(parts.size())))
+    faults.add(fault.path, fault.sentence);
   if (scene.reduces() && list.sublist("Reduction").isParameter("Load Vector Nodes"))
     for (const int node : list.sublist("Reduction").get<Teuchos::Array<int>>("Load Vector Nodes"))
       if (std::count(scene.contactPoints.node.begin(), scene.contactPoints.node.end(), node) == 0)
-        faults.add("Reduction/Load Vector Nodes", "names node " + std::to_string(node) + ", which cannot touch the wall and so has no point law. Name nodes with "
-                                                  "contact, or leave the list out for all of them.");
+        faults.add("Reduction/Load Vector Nodes",
+                   "names node " + std::to_string(node) +
+                       ", which cannot touch the wall and so has no point law. Name nodes with "
+                       "contact, or leave the list out for all of them.");
   if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
     faults.add("Contact/Friction",
-               "has no effect in a scene that neither turns nor moves. Add Rotary Speed or Transient, or leave Friction out.");
+               "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
+               "Transient, or leave Friction out.");
   if (scene.loads.weightOnBit < 0.0)
-    faults.add("Loads/Weight On Bit", "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
-                                          " N. A weight on bit is positive when it compresses the string.");
+    faults.add("Loads/Weight On Bit",
+               "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
+                   " N. A weight on bit is positive when it compresses the string.");
   const auto dofs = scene.held.size() - 6;
   const auto held = [&](std::size_t dof) { return scene.held[dof] != 0; };
   if (scene.loads.weightOnBit != 0.0 && held(dofs + 2))
     faults.add("Loads/Weight On Bit",
-               "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the load out.");
+               "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the "
+               "load out.");
   if (scene.loads.torqueOnBit != 0.0 && held(dofs + 5))
     faults.add("Loads/Torque On Bit",
-               "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or leave the load out.");
-  if (scene.freeDofs() == 0) faults.add("Supports", "hold every dof of the string; nothing is left to compute. Release some.");
+               "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or "
+               "leave the load out.");
+  if (scene.freeDofs() == 0)
+    faults.add("Supports",
+               "hold every dof of the string; nothing is left to compute. Release some.");
 }
 
 }  // namespace
@@ -158,7 +186,8 @@ std::vector<coupling::PartOutline> outlines(const Scene& scene) {
   std::vector<coupling::PartOutline> parts;
   for (const auto& range : string_::cutParts(scene.string, scene.partition)) {
     parts.push_back({range.name, {}});
-    for (int node = range.firstElement + 1; node <= range.lastElement + 2; ++node) parts.back().nodes.push_back(node);
+    for (int node = range.firstElement + 1; node <= range.lastElement + 2; ++node)
+      parts.back().nodes.push_back(node);
   }
   return parts;
 }
@@ -172,8 +201,8 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
     for (int node = ranges[p].firstElement; node <= ranges[p].lastElement + 1; ++node) {
       const auto first = scene.held.begin() + string_::kNodeDofs * node;
       const auto free = static_cast<int>(std::count(first, first + string_::kNodeDofs, 0));
-      const bool shared =
-          (p > 0 && node == ranges[p].firstElement) || (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
+      const bool shared = (p > 0 && node == ranges[p].firstElement) ||
+                          (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
       part.dofs += free;
       part.inner = part.inner || (free > 0 && !shared);
     }
@@ -192,7 +221,9 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   std::optional<well::Well> well;
   std::optional<string_::DrillString> string;
   faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
-  if (well) faults.attempt([&] { string = string_::buildDrillString(string_::readDrillstring(deck), *well); });
+  if (well)
+    faults.attempt(
+        [&] { string = string_::buildDrillString(string_::readDrillstring(deck), *well); });
   std::optional<mud::Mud> mud;
   std::optional<contact::ContactSettings> contact;
   loads::RotarySpeed rotary;
@@ -205,34 +236,52 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   io::OutputSettings output;
   std::optional<coupling::CouplingPlan> coupling;
   if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
-  if (list.isSublist("Contact")) faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
+  if (list.isSublist("Contact"))
+    faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
   faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
-  if (list.isSublist("Loads")) faults.attempt([&] { loads = loads::readLoads(list.sublist("Loads")); });
-  if (list.isSublist("Damping")) faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
-  if (list.isSublist("Supports")) faults.attempt([&] { supports = string_::readSupports(list.sublist("Supports")); });
+  if (list.isSublist("Loads"))
+    faults.attempt([&] { loads = loads::readLoads(list.sublist("Loads")); });
+  if (list.isSublist("Damping"))
+    faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
+  if (list.isSublist("Supports"))
+    faults.attempt([&] { supports = string_::readSupports(list.sublist("Supports")); });
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
-  faults.attempt([&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
+  faults.attempt(
+      [&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
   faults.attempt([&] { output = io::readOutput(listOrDefaults(list, io::parameters())); });
-  if (list.isSublist("Transient")) faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
-  if (list.isSublist("Coupling")) faults.attempt([&] { coupling = coupling::readCoupling(list.sublist("Coupling")); });
+  if (list.isSublist("Transient"))
+    faults.attempt([&] { transient::readOptions(list.sublist("Transient")); });
+  if (list.isSublist("Coupling"))
+    faults.attempt([&] { coupling = coupling::readCoupling(list.sublist("Coupling")); });
   if (list.isSublist("Study")) faults.attempt([&] { study::readStudy(list.sublist("Study")); });
-  const bool explicitSteps = list.isSublist("Transient") && transient::isExplicit(list.sublist("Transient"));
-  faults.attempt([&] { partition = string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps); });
+  const bool explicitSteps =
+      list.isSublist("Transient") && transient::isExplicit(list.sublist("Transient"));
+  faults.attempt([&] {
+    partition =
+        string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps);
+  });
   faults.raise();
 
-  Scene scene{deck, *well, *string, supports, {}, mud, contact, {}, rotary, loads, damping, path, statics, partition, output};
+  Scene scene{deck,   *well, *string, supports, {},      mud,       contact, {},
+              rotary, loads, damping, path,     statics, partition, output};
   scene.coupling = coupling;
-  if (coupling) faults.attempt([&] { coupling::checkNames(*coupling, outlines(scene), string_::componentNames()); });
+  if (coupling)
+    faults.attempt(
+        [&] { coupling::checkNames(*coupling, outlines(scene), string_::componentNames()); });
   faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
   faults.raise();
-  if (contact) faults.attempt([&] { scene.contactPoints = string_::contactPoints(*contact, scene.string, scene.held); });
+  if (contact)
+    faults.attempt(
+        [&] { scene.contactPoints = string_::contactPoints(*contact, scene.string, scene.held); });
   faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
   if (scene.reduces()) {
     faults.attempt([&] {
       string_::requireKnownNodes(scene.string, partition);
       const auto parts = string_::cutParts(scene.string, partition);
-      const auto options = reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
-      reduction::makeBasis(options.basis, list.sublist("Reduction"))->checkInput(reductionOutlines(scene));
+      const auto options =
+          reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+      reduction::makeBasis(options.basis, list.sublist("Reduction"))
+          ->checkInput(reductionOutlines(scene));
       estimate::readEstimateOptions(list.sublist("Reduction"));
     });
   }

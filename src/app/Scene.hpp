@@ -43,7 +43,8 @@ struct Scene {
   equilibrium::StaticOptions statics;
   string_::PartitionRules partition;
   io::OutputSettings output;
-  std::optional<coupling::CouplingPlan> coupling = std::nullopt;  ///< null: equal node numbers alone join the parts
+  std::optional<coupling::CouplingPlan> coupling =
+      std::nullopt;  ///< null: equal node numbers alone join the parts
 
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }
@@ -51,7 +52,8 @@ struct Scene {
   int freeDofs() const;
 };
 
-/// Reads and checks a deck with its overrides. Throws DeckError (one line per fault of the phase that failed) or FileError.
+/// Reads and checks a deck with its overrides. Throws DeckError (one line per fault of the phase
+/// that failed) or FileError.
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace tooljoint::app

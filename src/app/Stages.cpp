@@ -18,9 +18,12 @@ namespace tooljoint::app {
 StaticFriction staticFriction(const Scene& scene) {
   constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
   using equilibrium::FrictionRule;
-  if (!scene.contact || !scene.contact->friction) return {0.0, 0.0, "no friction in the Contact list"};
-  if (scene.statics.friction == FrictionRule::None) return {0.0, 0.0, "switched off in Static/Friction"};
-  const double start = scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
+  if (!scene.contact || !scene.contact->friction)
+    return {0.0, 0.0, "no friction in the Contact list"};
+  if (scene.statics.friction == FrictionRule::None)
+    return {0.0, 0.0, "switched off in Static/Friction"};
+  const double start =
+      scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
   const double speed = scene.rotary.speed(start);
   const bool turns = std::abs(speed) > atRest;
   const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
@@ -49,7 +52,8 @@ path::PathState bend(const Scene& scene) {
 }
 
 /// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
-equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path, const string_::StringModel& equations,
+equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
+                                     const string_::StringModel& equations,
                                      const StaticFriction& friction) {
   equilibrium::StaticInput input;
   input.nodes = equations.nodes;
@@ -67,9 +71,11 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
     element.length = path.initialLength[i];
     element.axialRigidity = section.axialRigidity();
     element.torsionalRigidity = section.torsionalRigidity();
-    const double curvature = std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
-                                      scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
-    element.bendingMoment = section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
+    const double curvature =
+        std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
+                 scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
+    element.bendingMoment =
+        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
     input.elements.push_back(element);
   }
   input.load = Vector::Zero(string_::kNodeDofs * equations.nodes);
@@ -82,19 +88,20 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
   }
   input.direction = friction.direction;
   if (scene.contactPoints.size() > 0)
-    input.contact =
-        scene.contact->law->atRest(friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
+    input.contact = scene.contact->law->atRest(
+        friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
   return input;
 }
 
-/// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it can touch, is singular.
-/// Throws ModelError naming the dof that moves most.
+/// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
+/// can touch, is singular. Throws ModelError naming the dof that moves most.
 void requireHeld(const Scene& scene, const string_::StringModel& equations) {
   const auto model = string_::assemble(equations);
   Triplets walls;
   for (int i = 0; i < scene.contactPoints.size(); ++i)
     for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
-      if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] && model.dofs[dof].component < 2)
+      if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] &&
+          model.dofs[dof].component < 2)
         walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof),
                            scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
   Sparse wall(model.size(), model.size());
@@ -116,16 +123,20 @@ struct FreeMotion {
 };
 constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns about its axis"}};
 
-/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it curves, walls and bending resist
-/// sliding, but by far too little for the weight. Said when that string has no static equilibrium: exit code of a model that
-/// floats, not of a solver that failed.
+/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it
+/// curves, walls and bending resist sliding, but by far too little for the weight. Said when that
+/// string has no static equilibrium: exit code of a model that floats, not of a solver that failed.
 void explainFailure(const Scene& scene, const ConvergenceError& error) {
   const auto free = freeDirections(scene);
   if (free.empty()) return;
-  const auto motion = std::find_if(std::begin(freeMotions), std::end(freeMotions), [&](const FreeMotion& one) { return one.component == free.front(); });
+  const auto motion =
+      std::find_if(std::begin(freeMotions), std::end(freeMotions),
+                   [&](const FreeMotion& one) { return one.component == free.front(); });
   const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion->component)];
-  throw ModelError("The string floats: " + dof + " is free at all of its " + std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
-                   ", which walls and bending cannot hold. Hold " + dof + " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
+  throw ModelError("The string floats: " + dof + " is free at all of its " +
+                   std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
+                   ", which walls and bending cannot hold. Hold " + dof +
+                   " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
 }
 
 }  // namespace
@@ -135,7 +146,8 @@ std::vector<int> freeDirections(const Scene& scene) {
   for (const auto& motion : freeMotions) {
     bool held = false;
     for (int node = 0; node < scene.string.nodeCount(); ++node)
-      held = held || scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
+      held = held ||
+             scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
     if (!held) free.push_back(motion.component);
   }
   return free;
@@ -147,21 +159,23 @@ StaticStage solveStatic(const Scene& scene) {
   stage.friction = staticFriction(scene);
   stage.path = bend(scene);
   const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
-  stage.equations =
-      string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud, scene.rotary, scene.loads, scene.damping});
+  stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
+                                             scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, stage.equations);
   const auto input = staticInput(scene, stage.path, stage.equations, stage.friction);
   try {
-    stage.state = equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
+    stage.state =
+        equilibrium::solveStatic(input, scene.statics, noxSolver(listOrEmpty(scene, "Static")));
   } catch (const ConvergenceError& error) {
     explainFailure(scene, error);
     throw;
   }
-  string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement, scene.damping);
+  string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement,
+                     scene.damping);
   if (scene.contactPoints.size() > 0) {
     const auto rotary = scene.rotary;
-    stage.equations.contact.law =
-        scene.contact->law->inMotion(scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
+    stage.equations.contact.law = scene.contact->law->inMotion(
+        scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
     for (int node : scene.contactPoints.node) stage.equations.contact.nodes.push_back(node - 1);
   }
   return stage;
@@ -172,24 +186,29 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
   const auto& state = stage.state;
   const double defect = state.relativeTorqueDefect();
   if (defect <= worthAWarning) return;
-  const std::string found =
-      "The displacements of the static state give a torque of " + formatNumber(std::round(state.topTorque)) +
-      " N m at the top, loads, friction and supports below give " + formatNumber(std::round(state.topTorqueEquilibrium())) +
-      " N m: the balance of torque is off by " + formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
-      formatNumber(std::round(state.torqueScale)) + " N m. ";
-  const bool round = std::all_of(scene.string.elements.begin(), scene.string.elements.end(),
-                                 [](const string_::Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
+  const std::string found = "The displacements of the static state give a torque of " +
+                            formatNumber(std::round(state.topTorque)) +
+                            " N m at the top, loads, friction and supports below give " +
+                            formatNumber(std::round(state.topTorqueEquilibrium())) +
+                            " N m: the balance of torque is off by " +
+                            formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
+                            formatNumber(std::round(state.torqueScale)) + " N m. ";
+  const bool round = std::all_of(
+      scene.string.elements.begin(), scene.string.elements.end(),
+      [](const string_::Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
   if (scene.path.prestress == path::Prestress::AxialAndTorque)
-    log::warn(
-        found +
-        "The pre-stress \"Axial and torque\" resists a spin about the curved axis; Path/Pre-stress \"Full tangent\" does not.");
+    log::warn(found +
+              "The pre-stress \"Axial and torque\" resists a spin about the curved axis; "
+              "Path/Pre-stress \"Full tangent\" does not.");
   else if (!round)
     log::warn(found + "Sections that are not round resist a spin about the curved axis.");
   else if (defect <= wrong)
-    log::warn(found + "Use more elements per component, or shorter ones where the well bends most.");
+    log::warn(found +
+              "Use more elements per component, or shorter ones where the well bends most.");
   else
     throw ConvergenceError(found +
-                           "Use more elements per component, shorter ones where the well bends most; or accept the imbalance "
+                           "Use more elements per component, shorter ones where the well bends "
+                           "most; or accept the imbalance "
                            "with Path/Pre-stress \"Axial and torque\".");
 }
 
@@ -204,14 +223,18 @@ void warnOfPrestress(const Scene& scene) {
   for (const double s : scene.string.depths())
     if (scene.well.trajectory().at(s).curvature.norm() > 0.0) {
       log::warn(
-          "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then resists a spin about its own curved "
+          "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then resists a "
+          "spin about its own curved "
           "axis, and torques are wrong. "
-          "Take \"Full tangent\" (the default) unless the published model of Nguyen et al. 2020 is wanted.");
+          "Take \"Full tangent\" (the default) unless the published model of Nguyen et al. 2020 is "
+          "wanted.");
       return;
     }
 }
 
-model::SecondOrderModel fullModel(const StaticStage& stage) { return string_::assemble(stage.equations); }
+model::SecondOrderModel fullModel(const StaticStage& stage) {
+  return string_::assemble(stage.equations);
+}
 
 namespace {
 
@@ -239,13 +262,14 @@ std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage) {
   if (!scene.partition.contactAtRetainedOnly) return stage.equations.contact.nodes;
   const auto chosen = string_::chosenNodes(scene.string, scene.partition, nodeState(scene, stage));
   std::vector<int> nodes;
-  std::set_intersection(chosen.begin(), chosen.end(), stage.equations.contact.nodes.begin(), stage.equations.contact.nodes.end(),
-                        std::back_inserter(nodes));
+  std::set_intersection(chosen.begin(), chosen.end(), stage.equations.contact.nodes.begin(),
+                        stage.equations.contact.nodes.end(), std::back_inserter(nodes));
   return nodes;
 }
 
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage) {
-  const auto retained = string_::retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
+  const auto retained =
+      string_::retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
   const auto touching = contactNodes(scene, stage);
   std::vector<model::Substructure> parts;
   for (const auto& range : string_::cutParts(scene.string, scene.partition))
@@ -266,7 +290,8 @@ coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned) {
 }
 
 transient::StepCost fullStepCost(const Scene& scene, const StaticStage& stage) {
-  return transient::stepCost(fullModel(scene, stage), transient::readOptions(scene.list().sublist("Transient")));
+  return transient::stepCost(fullModel(scene, stage),
+                             transient::readOptions(scene.list().sublist("Transient")));
 }
 
 model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage) {

@@ -39,14 +39,17 @@ struct StaticStage {
   StaticFriction friction;
 };
 
-/// Components (2: w, 5: theta_z) that are free at every node, so that nothing but walls and bending holds the string.
+/// Components (2: w, 5: theta_z) that are free at every node, so that nothing but walls and bending
+/// holds the string.
 std::vector<int> freeDirections(const Scene& scene);
 
-/// Bends the string into the well and finds its static equilibrium. Throws ConvergenceError, ModelError.
+/// Bends the string into the well and finds its static equilibrium. Throws ConvergenceError,
+/// ModelError.
 StaticStage solveStatic(const Scene& scene);
-/// Torque at the top against what loads, friction and supports below ask for: above 2 % of the scale of StaticState a warning,
-/// above 10 % a ConvergenceError. With the pre-stress "Axial and torque", or sections that are not round, always a warning: there
-/// the model itself resists a spin about the curved axis.
+/// Torque at the top against what loads, friction and supports below ask for: above 2 % of the
+/// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
+/// torque", or sections that are not round, always a warning: there the model itself resists a spin
+/// about the curved axis.
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
 /// Both in turn.
 StaticStage settle(const Scene& scene);

@@ -29,7 +29,9 @@ using study::StudyRow;
 
 constexpr int kStoreFormat = 3;  ///< raised when the meaning of a stored row changes
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// One study in one folder.
 class Study {
@@ -69,7 +71,9 @@ class Study {
     if (!options_.output.empty()) return options_.output;
     // beside the folder of `tooljoint run`, whose files would be replaced otherwise
     if (!scene_.folder().empty()) return scene_.folder() + "_study";
-    return (std::filesystem::path("results") / std::filesystem::path(options_.deck).stem()).string() + "_study";
+    return (std::filesystem::path("results") / std::filesystem::path(options_.deck).stem())
+               .string() +
+           "_study";
   }
 
   void open() {
@@ -97,18 +101,23 @@ class Study {
     timed_ = found;
   }
 
-  /// What decides a row: the deck of its run and that of the reference, the program, the machine and the ranks, and what is compared.
+  /// What decides a row: the deck of its run and that of the reference, the program, the machine
+  /// and the ranks, and what is compared.
   void makeKeys() {
     keys_.assign(plan_.runs.size(), "");
     parallel::agree([&] {
       if (parallel::rank() != 0) return;
-      const auto program = std::to_string(kStoreFormat) + "\n" + study::programStamp() + "\n" + std::to_string(parallel::size()) + "\n";
+      const auto program = std::to_string(kStoreFormat) + "\n" + study::programStamp() + "\n" +
+                           std::to_string(parallel::size()) + "\n";
       const auto reference = sha256(program + contentOf(*plan_.runs[0].scene));
-      const auto common = reference + "\n" + result_.machine + "\n" + formatNumber(plan_.windowEnd) + "\n" + (plan_.hasStatistics() ? "statistics\n" : "\n");
+      const auto common = reference + "\n" + result_.machine + "\n" +
+                          formatNumber(plan_.windowEnd) + "\n" +
+                          (plan_.hasStatistics() ? "statistics\n" : "\n");
       for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
         const auto& run = plan_.runs[i];
         auto kind = study::kindName(run.plan.kind);
-        if (run.plan.kind == RunKind::Sensitivity) kind += formatNumber(plan_.settings.perturbation);
+        if (run.plan.kind == RunKind::Sensitivity)
+          kind += formatNumber(plan_.settings.perturbation);
         if (run.plan.reduced) kind += std::to_string(plan_.settings.frequencies);
         keys_[i] = sha256(common + kind + "\n" + contentOf(*run.scene));
       }
@@ -116,16 +125,23 @@ class Study {
   }
 
   void announce() {
-    log::info("Tooljoint " + programVersion() + ": study of " + scene_.deck().name() + " on " + result_.machine);
+    log::info("Tooljoint " + programVersion() + ": study of " + scene_.deck().name() + " on " +
+              result_.machine);
     const auto methods = plan_.settings.methods.size();
-    log::info("study       " + std::to_string(plan_.runs.size() - plan_.referenceRuns()) + " runs of " + std::to_string(methods) + " methods, " +
-              formatNumber(plan_.start) + " to " + formatNumber(plan_.end) + " s, each timed " + std::to_string(plan_.settings.repeats) +
-              " times; pointwise errors up to " + formatNumber(plan_.windowEnd) + " s");
+    log::info("study       " + std::to_string(plan_.runs.size() - plan_.referenceRuns()) +
+              " runs of " + std::to_string(methods) + " methods, " + formatNumber(plan_.start) +
+              " to " + formatNumber(plan_.end) + " s, each timed " +
+              std::to_string(plan_.settings.repeats) + " times; pointwise errors up to " +
+              formatNumber(plan_.windowEnd) + " s");
     const auto known = completed();
-    if (known > 0) log::info("            " + std::to_string(known) + " of " + std::to_string(timed_.size()) + " runs are known from before (--fresh forgets them)");
+    if (known > 0)
+      log::info("            " + std::to_string(known) + " of " + std::to_string(timed_.size()) +
+                " runs are known from before (--fresh forgets them)");
   }
 
-  int wantedRepeats(std::size_t i) const { return plan_.runs[i].plan.kind == RunKind::Method ? plan_.settings.repeats : 1; }
+  int wantedRepeats(std::size_t i) const {
+    return plan_.runs[i].plan.kind == RunKind::Method ? plan_.settings.repeats : 1;
+  }
   bool complete(std::size_t i) const { return timed_[i] < 0 || timed_[i] >= wantedRepeats(i); }
   std::size_t completed() const {
     std::size_t count = 0;
@@ -138,12 +154,14 @@ class Study {
     try {
       moveReference();
     } catch (const Error& error) {
-      for (auto passed : {ExitCode::Interrupted, ExitCode::Files, ExitCode::Internal, ExitCode::InvalidDeck})
+      for (auto passed :
+           {ExitCode::Interrupted, ExitCode::Files, ExitCode::Internal, ExitCode::InvalidDeck})
         if (error.code() == passed) throw;
       result_.rows[0].status = "failed";
       result_.rows[0].reason = error.what();
-      throw ConvergenceError(std::string("The reference run failed, so there is nothing to compare with. ") + error.what() +
-                             " Change the deck, or Study/Reference/Set.");
+      throw ConvergenceError(
+          std::string("The reference run failed, so there is nothing to compare with. ") +
+          error.what() + " Change the deck, or Study/Reference/Set.");
     }
     for (std::size_t i = 1; i < plan_.referenceRuns(); ++i)
       if (!complete(i)) run(i, result_.rows[i].plan.label);
@@ -175,7 +193,8 @@ class Study {
   /// All methods once; those that failed before, or have been timed often enough, are left out.
   void repeat(int pass) {
     for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i) {
-      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i)) run(i, isatty(STDERR_FILENO) == 1 ? result_.rows[i].plan.label : "");
+      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i))
+        run(i, isatty(STDERR_FILENO) == 1 ? result_.rows[i].plan.label : "");
       if (!isFirst(i)) copyTwin(i);
     }
   }
@@ -198,7 +217,9 @@ class Study {
       fail(i, error.what(), plan_.settings.timeLimit.value_or(0.0));
     } catch (const Error& error) {
       const auto code = error.code();
-      if (code != ExitCode::InvalidDeck && code != ExitCode::ModelNotBuilt && code != ExitCode::NotConverged) throw;
+      if (code != ExitCode::InvalidDeck && code != ExitCode::ModelNotBuilt &&
+          code != ExitCode::NotConverged)
+        throw;
       fail(i, error.what(), 0.0);
     }
     parallel::agree([&] {
@@ -211,15 +232,18 @@ class Study {
   void execute(std::size_t i, const std::string& title) {
     const auto& one = plan_.runs[i];
     const bool first = timed_[i] == 0;
-    const double perturbation = one.plan.kind == RunKind::Sensitivity ? plan_.settings.perturbation : 0.0;
+    const double perturbation =
+        one.plan.kind == RunKind::Sensitivity ? plan_.settings.perturbation : 0.0;
     const auto limit = one.plan.kind == RunKind::Method ? plan_.settings.timeLimit : std::nullopt;
     const auto prepared = runner_.prepare(*one.scene, first ? plan_.settings.frequencies : 0);
     if (first) bookModel(prepared, result_.rows[i]);
     const auto execution = runner_.move(*one.scene, prepared, {title, first, perturbation, limit});
     parallel::agree([&] {
       if (parallel::rank() != 0) return;
-      if (first) comparison_.book(one, prepared, execution, result_.rows[i]);
-      else again(result_.rows[i], prepared, execution);
+      if (first)
+        comparison_.book(one, prepared, execution, result_.rows[i]);
+      else
+        again(result_.rows[i], prepared, execution);
     });
   }
 
@@ -227,7 +251,8 @@ class Study {
   void fail(std::size_t i, const std::string& reason, double givenUpAfter) {
     StudyRow row;
     auto& old = result_.rows[i];
-    row.plan = old.plan, row.basis = old.basis, row.modes = old.modes, row.dofs = old.dofs, row.modeErrors = old.modeErrors;
+    row.plan = old.plan, row.basis = old.basis, row.modes = old.modes, row.dofs = old.dofs,
+    row.modeErrors = old.modeErrors;
     row.status = "failed";
     row.reason = reason;
     row.givenUpAfter = givenUpAfter;
@@ -282,15 +307,17 @@ class Study {
   }
 
   std::string interruptedSentence() const {
-    return "Interrupted with " + std::to_string(completed()) + " of " + std::to_string(timed_.size()) + " runs done. They are kept in " +
-           folder_->folder() + "; the same command goes on from there.";
+    return "Interrupted with " + std::to_string(completed()) + " of " +
+           std::to_string(timed_.size()) + " runs done. They are kept in " + folder_->folder() +
+           "; the same command goes on from there.";
   }
 
   const RunOptions& options_;
   const StudyScene& scene_;
   StudyPlan plan_;
   StudyResult result_;
-  std::vector<int> timed_;         ///< repeats done of each run, -1 for one that failed; the same on every rank
+  std::vector<int>
+      timed_;  ///< repeats done of each run, -1 for one that failed; the same on every rank
   std::vector<std::string> keys_;  ///< rank 0
   StudyRunner runner_;
   StudyComparison comparison_;

@@ -21,11 +21,13 @@ template <class Values>
 std::vector<double> thinned(const Values& values) {
   const std::size_t stride = (values.size() + kCurvePoints - 1) / kCurvePoints;
   std::vector<double> out;
-  for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(stride, 1)) out.push_back(values[i]);
+  for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(stride, 1))
+    out.push_back(values[i]);
   return out;
 }
 
-/// Where a run stands on the axis of accuracy: the tolerance that is swept, else the tolerance of an integrator whose steps varied, else the step.
+/// Where a run stands on the axis of accuracy: the tolerance that is swept, else the tolerance of
+/// an integrator whose steps varied, else the step.
 std::optional<double> stepOrTolerance(const StudyRun& run, const transient::Counters& counters) {
   const auto& lists = run.scene->list();
   const auto numberAt = [&](const std::string& path) -> std::optional<double> {
@@ -70,22 +72,26 @@ void StudyComparison::setReference(const StudyScene& scene, study::RecordedHisto
   const auto width = rest.size() / static_cast<Eigen::Index>(measures.nodes.size());
   rest_.clear();
   for (std::size_t n = 0; n < measures.nodes.size(); ++n)
-    for (int c : measures.components) rest_.push_back(rest(static_cast<Eigen::Index>(n) * width + c));
+    for (int c : measures.components)
+      rest_.push_back(rest(static_cast<Eigen::Index>(n) * width + c));
   clearance_ = measures.clearance;
   reference_ = std::move(history);
   try {
     study::vibrationError(reference_->view(), reference_->view(), rest_, window());
   } catch (const Error& error) {
-    throw ConvergenceError(std::string(error.what()) + " The window ends at " + formatNumber(plan_.windowEnd) + " s (Study/Window).");
+    throw ConvergenceError(std::string(error.what()) + " The window ends at " +
+                           formatNumber(plan_.windowEnd) + " s (Study/Window).");
   }
   if (plan_.hasStatistics()) statistics_ = statisticsOf(*reference_);
 }
 
 study::MotionStatistics StudyComparison::statisticsOf(const study::RecordedHistory& history) const {
-  return study::statisticsOf(history.view(), history.bitSpeed, clearance_, {plan_.windowEnd + 1e-6, plan_.end});
+  return study::statisticsOf(history.view(), history.bitSpeed, clearance_,
+                             {plan_.windowEnd + 1e-6, plan_.end});
 }
 
-void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared, const Execution& execution, StudyRow& row) const {
+void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared,
+                           const Execution& execution, StudyRow& row) const {
   const auto& report = execution.report;
   const auto& c = report.counters;
   forget(row);
@@ -98,8 +104,10 @@ void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared, c
   row.wall = {execution.wall};
   row.setupCpu = prepared.setupCpu + execution.setupCpu;
   row.setupWall = prepared.setupWall + execution.setupWall;
-  row.steps = c.steps, row.rejected = c.rejected, row.halved = c.halved, row.unconverged = c.unconvergedSteps;
-  row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations, row.rightHandSides = c.rightHandSides;
+  row.steps = c.steps, row.rejected = c.rejected, row.halved = c.halved,
+  row.unconverged = c.unconvergedSteps;
+  row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations,
+  row.rightHandSides = c.rightHandSides;
   row.minStep = c.minStep, row.maxStep = c.maxStep;
   if (report.hasEnergy) row.energyResidual = report.energy.residual();
   row.estimatedDyn = execution.estimatedDyn;
@@ -125,7 +133,8 @@ void StudyComparison::compare(StudyRow& row, const study::RecordedHistory& histo
   const auto mine = history.view();
   const auto theirs = reference_->view();
   const auto overTime = study::errorOverTime(mine, theirs, window());
-  row.errors = study::PointwiseErrors{overTime.max(), overTime.mean(), study::errorOverNodes(mine, theirs, window()).max(),
+  row.errors = study::PointwiseErrors{overTime.max(), overTime.mean(),
+                                      study::errorOverNodes(mine, theirs, window()).max(),
                                       study::vibrationError(mine, theirs, rest_, window())};
   row.curves.errorTime = overTime.at;
   row.curves.errorOverTime = overTime.value;
@@ -136,7 +145,8 @@ void StudyComparison::compare(StudyRow& row, const study::RecordedHistory& histo
     double farthest = 0.0;
     for (std::size_t n = 0; n < mine.nodes; ++n) {
       double square = 0.0;
-      for (std::size_t c = 0; c < mine.vibrating; ++c) square += std::pow(mine.at(i, n, c) - theirs.at(i, n, c), 2);
+      for (std::size_t c = 0; c < mine.vibrating; ++c)
+        square += std::pow(mine.at(i, n, c) - theirs.at(i, n, c), 2);
       farthest = std::max(farthest, std::sqrt(square));
     }
     growth.push_back(farthest);

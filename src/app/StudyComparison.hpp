@@ -19,12 +19,14 @@ class StudyComparison {
  public:
   explicit StudyComparison(const StudyPlan& plan) : plan_(plan) {}
 
-  /// The motion to compare with. `scene` is settled. ConvergenceError when it does not move within the window: dyn divides by that motion.
+  /// The motion to compare with. `scene` is settled. ConvergenceError when it does not move within
+  /// the window: dyn divides by that motion.
   void setReference(const StudyScene& scene, study::RecordedHistory history);
   const study::RecordedHistory& reference() const { return *reference_; }
 
   /// Everything a first run says goes into its row, the plan of which stays.
-  void book(const StudyRun& run, const PreparedModel& prepared, const Execution& execution, study::StudyRow& row) const;
+  void book(const StudyRun& run, const PreparedModel& prepared, const Execution& execution,
+            study::StudyRow& row) const;
 
  private:
   study::Window window() const { return {plan_.start, plan_.windowEnd}; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a study leaves in its folder: study.csv, study.h5, summary.json and pictures. docs/file-formats.md describes all of it.
+/// What a study leaves in its folder: study.csv, study.h5, summary.json and pictures.
+/// docs/file-formats.md describes all of it.
 #pragma once
 
 #include <string>
@@ -31,8 +32,8 @@ void summarise(const StudyResult& result, io::Summary& summary);
 /// What the reference is worth, in two lines.
 std::string describeReference(const StudyResult& result);
 
-/// Draws the plots of the files in a folder with the installed script: names of the files made. When that is not possible, warns with the
-/// command to draw them later. Rank 0 only.
+/// Draws the plots of the files in a folder with the installed script: names of the files made.
+/// When that is not possible, warns with the command to draw them later. Rank 0 only.
 void drawStudy(const std::string& folder);
 
 }  // namespace tooljoint::app

@@ -22,7 +22,8 @@ struct StartedParts {
 using SharedParts = std::map<std::string, std::shared_ptr<StartedParts>>;
 
 void append(std::string& text, const double* values, Eigen::Index count) {
-  text.append(reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(double));
+  text.append(reinterpret_cast<const char*>(values),
+              static_cast<std::size_t>(count) * sizeof(double));
 }
 
 void append(std::string& text, const Sparse& matrix) {
@@ -36,7 +37,8 @@ void append(std::string& text, const Sparse& matrix) {
 /// Imported parts, joined.
 class PartsStudy : public StudyScene {
  public:
-  PartsStudy(PartsDeck lists, std::shared_ptr<SharedParts> shared) : lists_(std::move(lists)), shared_(std::move(shared)) {
+  PartsStudy(PartsDeck lists, std::shared_ptr<SharedParts> shared)
+      : lists_(std::move(lists)), shared_(std::move(shared)) {
     auto key = lists_.list();
     for (const char* name : {"Reduction", "Transient", "Output", "Study"}) key.remove(name, false);
     auto& parts = (*shared_)[study::canonicalText(key) + formatNumber(lists_.startTime())];
@@ -73,7 +75,9 @@ class PartsStudy : public StudyScene {
     return text;
   }
 
-  void summarise(io::Summary& summary) const override { app::summarise(lists_, parts_->deck.whole(), summary); }
+  void summarise(io::Summary& summary) const override {
+    app::summarise(lists_, parts_->deck.whole(), summary);
+  }
 
   void settle() override {
     if (!parts_->found) {
@@ -86,7 +90,9 @@ class PartsStudy : public StudyScene {
   }
 
   coupling::Coupling full() const override { return parts_->whole; }
-  coupling::PlannedCoupling parts() const override { return {parts_->deck.scene.parts, parts_->deck.scene.coupling}; }
+  coupling::PlannedCoupling parts() const override {
+    return {parts_->deck.scene.parts, parts_->deck.scene.coupling};
+  }
   Vector rest() const override { return parts_->rest; }
 
   /// Translations, or everything where there are none; nothing is known of walls and bits.
@@ -99,7 +105,9 @@ class PartsStudy : public StudyScene {
     return m;
   }
 
-  void write(io::ResultsFile& file) const override { writePartsModel(parts_->deck, parts_->whole.model, file); }
+  void write(io::ResultsFile& file) const override {
+    writePartsModel(parts_->deck, parts_->whole.model, file);
+  }
 
  private:
   PartsDeck lists_;  ///< of this run; its scene stays empty

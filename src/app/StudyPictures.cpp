@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kScript = "share/tooljoint/tools/plot_study.py";
 
-/// Exit code of a program found in PATH, its output discarded unless `speaks`; -1 when it cannot be started.
+/// Exit code of a program found in PATH, its output discarded unless `speaks`; -1 when it cannot be
+/// started.
 int start(const std::vector<std::string>& words, bool speaks) {
   std::vector<char*> arguments;
   for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -24,9 +25,11 @@ int start(const std::vector<std::string>& words, bool speaks) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (int stream : {1, 2})
-    if (!speaks) posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", 1, 0);  // 1: O_WRONLY
+    if (!speaks)
+      posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", 1, 0);  // 1: O_WRONLY
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const int failed =
+      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (failed != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
@@ -42,7 +45,8 @@ std::filesystem::path script() {
   return {};
 }
 
-/// An interpreter that has what the script needs; "" for none. The distribution's own comes first, since its packages belong to it.
+/// An interpreter that has what the script needs; "" for none. The distribution's own comes first,
+/// since its packages belong to it.
 std::string interpreter() {
   for (const char* candidate : {"/usr/bin/python3", "python3"})
     if (start({candidate, "-c", "import h5py, matplotlib, numpy"}, false) == 0) return candidate;
@@ -57,17 +61,22 @@ void drawStudy(const std::string& folder) {
     // pictures of an earlier study are not ours
     const auto name = entry.path().filename().string();
     const auto kind = entry.path().extension();
-    if (name.rfind("study_", 0) == 0 && (kind == ".png" || kind == ".svg")) std::filesystem::remove(entry.path());
+    if (name.rfind("study_", 0) == 0 && (kind == ".png" || kind == ".svg"))
+      std::filesystem::remove(entry.path());
   }
   const auto where = script();
   const auto python = where.empty() ? std::string() : interpreter();
-  const auto command = "python3 " + (where.empty() ? std::string("plot_study.py") : where.string()) + " " + folder;
+  const auto command =
+      "python3 " + (where.empty() ? std::string("plot_study.py") : where.string()) + " " + folder;
   if (python.empty()) {
     log::warn("The plots were not drawn: that needs python3 with h5py, numpy and matplotlib" +
-              std::string(where.empty() ? ", and the script plot_study.py of this project" : "") + ". Draw them later with: " + command);
+              std::string(where.empty() ? ", and the script plot_study.py of this project" : "") +
+              ". Draw them later with: " + command);
     return;
   }
-  if (start({python, where.string(), folder}, true) != 0) log::warn("The plots were not drawn; the script says why above. Draw them later with: " + command);
+  if (start({python, where.string(), folder}, true) != 0)
+    log::warn("The plots were not drawn; the script says why above. Draw them later with: " +
+              command);
 }
 
 }  // namespace tooljoint::app

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/StudyScene.hpp"
-#include "study/StudyParameters.hpp"
 #include "study/Expansion.hpp"
+#include "study/StudyParameters.hpp"
 
 namespace tooljoint::app {
 
@@ -17,15 +17,17 @@ namespace tooljoint::app {
 struct StudyRun {
   study::PlannedRun plan;
   std::unique_ptr<StudyScene> scene;
-  std::size_t twin = 0;  ///< the first method's run with the same deck, usually itself: lines of the plots may cross
+  std::size_t twin = 0;  ///< the first method's run with the same deck, usually itself: lines of
+                         ///< the plots may cross
 };
 
 struct StudyPlan {
   study::StudySettings settings;
-  double start = 0.0;     ///< of every run [s]
-  double end = 0.0;       ///< [s]
-  double windowEnd = 0.0; ///< pointwise errors are taken from start to here [s]
-  std::vector<StudyRun> runs;  ///< reference, check, sensitivity (unless switched off), then the methods
+  double start = 0.0;      ///< of every run [s]
+  double end = 0.0;        ///< [s]
+  double windowEnd = 0.0;  ///< pointwise errors are taken from start to here [s]
+  std::vector<StudyRun>
+      runs;  ///< reference, check, sensitivity (unless switched off), then the methods
 
   double simulated() const { return end - start; }
   /// Two samples at least lie beyond the window, and the deck wants them compared.
@@ -33,14 +35,16 @@ struct StudyPlan {
   std::size_t referenceRuns() const;  ///< number of runs in front that belong to the reference
 };
 
-/// Reads the deck once for every run. DeckError that points into the Study list: overrides that do not fit the deck, runs that cannot be
-/// compared (other nodes), a window beyond the end, a method with two runs that are the same. ModelError: a run whose parts make no model.
+/// Reads the deck once for every run. DeckError that points into the Study list: overrides that do
+/// not fit the deck, runs that cannot be compared (other nodes), a window beyond the end, a method
+/// with two runs that are the same. ModelError: a run whose parts make no model.
 StudyPlan planStudy(const StudyScene& scene);
 
 /// "12 runs of 4 methods, ...": for a person.
 std::string describe(const StudyPlan& plan);
 
-/// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On rank 0 only (reads those files).
+/// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On
+/// rank 0 only (reads those files).
 std::string contentOf(const StudyScene& scene);
 
 }  // namespace tooljoint::app

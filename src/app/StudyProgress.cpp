@@ -13,15 +13,19 @@ namespace {
 
 std::string duration(double seconds) {
   char text[32];
-  if (seconds < 90.0) std::snprintf(text, sizeof text, "%.0f s", seconds);
-  else if (seconds < 5400.0) std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
-  else std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
+  if (seconds < 90.0)
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  else if (seconds < 5400.0)
+    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
+  else
+    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
   return text;
 }
 
 }  // namespace
 
-void StudyProgress::report(std::size_t run, const study::StudyRow& row, const std::vector<int>& timed, double wall) {
+void StudyProgress::report(std::size_t run, const study::StudyRow& row,
+                           const std::vector<int>& timed, double wall) {
   if (row.plan.kind != study::RunKind::Method) return;
   spent_ += wall;
   ++executed_;
@@ -42,8 +46,8 @@ void StudyProgress::report(std::size_t run, const study::StudyRow& row, const st
     std::snprintf(line, sizeof line, "failed: %.360s", row.reason.c_str());
   else if (parallel::rank() == 0)
     std::snprintf(line, sizeof line, "%.3g s CPU, dyn %.2e", row.cpu.back(), row.errors->dyn);
-  log::info("run " + std::to_string(done) + " of " + std::to_string(all) + "  " + row.plan.label + ": " + line +
-            (done < all ? "; about " + duration(left) + " left" : ""));
+  log::info("run " + std::to_string(done) + " of " + std::to_string(all) + "  " + row.plan.label +
+            ": " + line + (done < all ? "; about " + duration(left) + " left" : ""));
 }
 
 }  // namespace tooljoint::app

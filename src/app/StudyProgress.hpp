@@ -15,8 +15,10 @@ class StudyProgress {
   explicit StudyProgress(const StudyPlan& plan) : plan_(plan), wall_(plan.runs.size(), 0.0) {}
 
   /// "run 3 of 40  label: what it gave; about 2 min left", once for every finished run of a method.
-  /// \param timed repeats done of each run, -1 for one that failed \param wall seconds this one took
-  void report(std::size_t run, const study::StudyRow& row, const std::vector<int>& timed, double wall);
+  /// \param timed repeats done of each run, -1 for one that failed \param wall seconds this one
+  /// took
+  void report(std::size_t run, const study::StudyRow& row, const std::vector<int>& timed,
+              double wall);
 
  private:
   const StudyPlan& plan_;

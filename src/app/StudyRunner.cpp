@@ -28,7 +28,9 @@ double processSeconds() {
 class Stopwatch {
  public:
   double cpu() const { return processSeconds() - cpu_; }
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+  double wall() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+  }
 
  private:
   double cpu_ = processSeconds();
@@ -36,7 +38,8 @@ class Stopwatch {
 };
 
 /// Rows of the recovery for the measured components of the measured nodes.
-std::vector<Eigen::Index> measuredRows(const Measures& measures, const model::SecondOrderModel& model) {
+std::vector<Eigen::Index> measuredRows(const Measures& measures,
+                                       const model::SecondOrderModel& model) {
   std::map<std::int64_t, std::size_t> place;
   for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i) place[model.recoveryNodes[i]] = i;
   std::vector<Eigen::Index> rows;
@@ -44,19 +47,25 @@ std::vector<Eigen::Index> measuredRows(const Measures& measures, const model::Se
     const auto it = place.find(node);
     if (it == place.end())
       throw ModelError("Node " + std::to_string(node) +
-                       " of the full model is not recovered by the reduced one, so their motions cannot be compared.");
-    for (int c : measures.components) rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
+                       " of the full model is not recovered by the reduced one, so their motions "
+                       "cannot be compared.");
+    for (int c : measures.components)
+      rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
   }
   return rows;
 }
 
-/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if there is one, and measures how
-/// long that takes.
+/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if
+/// there is one, and measures how long that takes.
 class HistoryRecorder : public transient::SampleSink {
  public:
   HistoryRecorder(const Measures& measures, const model::SecondOrderModel& model, bool record,
                   estimate::MotionEstimator* estimator)
-      : measures_(measures), model_(model), rows_(measuredRows(measures, model)), record_(record), estimator_(estimator) {
+      : measures_(measures),
+        model_(model),
+        rows_(measuredRows(measures, model)),
+        record_(record),
+        estimator_(estimator) {
     history_.nodes = measures.nodes.size();
     history_.components = measures.components.size();
     history_.vibrating = measures.vibrating;
@@ -93,20 +102,25 @@ class HistoryRecorder : public transient::SampleSink {
 };
 
 std::vector<int> vibrating(const Measures& measures) {
-  return {measures.components.begin(), measures.components.begin() + static_cast<std::ptrdiff_t>(measures.vibrating)};
+  return {measures.components.begin(),
+          measures.components.begin() + static_cast<std::ptrdiff_t>(measures.vibrating)};
 }
 
 /// Dofs of the vibration moved by at most `size`, each by another amount.
-model::SecondOrderModel perturbed(model::SecondOrderModel model, const Measures& measures, double size) {
+model::SecondOrderModel perturbed(model::SecondOrderModel model, const Measures& measures,
+                                  double size) {
   const auto components = vibrating(measures);
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i].kind == model::DofLabel::Kind::Physical &&
-        std::find(components.begin(), components.end(), model.dofs[i].component) != components.end())
-      model.initialDisplacement(static_cast<Eigen::Index>(i)) += size * std::cos(1.7 * static_cast<double>(i));
+        std::find(components.begin(), components.end(), model.dofs[i].component) !=
+            components.end())
+      model.initialDisplacement(static_cast<Eigen::Index>(i)) +=
+          size * std::cos(1.7 * static_cast<double>(i));
   return model;
 }
 
-void countContact(const Measures& measures, const model::SecondOrderModel& model, Execution& execution) {
+void countContact(const Measures& measures, const model::SecondOrderModel& model,
+                  Execution& execution) {
   std::set<std::int64_t> watched;
   for (const auto& set : model.points)
     if (set.name == kContactSet) watched.insert(set.entities.begin(), set.entities.end());
@@ -115,7 +129,8 @@ void countContact(const Measures& measures, const model::SecondOrderModel& model
     const double clearance = measures.clearance[node];
     if (!std::isfinite(clearance)) continue;
     double deepest = -clearance;
-    for (std::size_t i = 0; i < view.samples; ++i) deepest = std::max(deepest, view.radius(i, node) - clearance);
+    for (std::size_t i = 0; i < view.samples; ++i)
+      deepest = std::max(deepest, view.radius(i, node) - clearance);
     execution.maxPenetration = std::max(execution.maxPenetration, deepest);
     if (deepest > 0.0 && watched.count(measures.nodes[node]) == 0) ++execution.missedNodes;
   }
@@ -134,7 +149,8 @@ void reduce(const StudyScene& scene, PreparedModel& prepared) {
   const auto& parts = prepared.planned.parts;
   const auto& list = scene.list().sublist("Reduction");
   const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, scene.rest(), estimated(scene.measures()));
+    estimate::MotionEstimator estimator(parts, synthesis, scene.rest(),
+                                        estimated(scene.measures()));
     auto options = transient::readOptions(scene.list().sublist("Transient"));
     options.progress = false;
     return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
@@ -146,8 +162,9 @@ void reduce(const StudyScene& scene, PreparedModel& prepared) {
   prepared.setupWall = parallel::maximum(watch.wall());
 }
 
-Execution integrate(const StudyScene& scene, const Measures& measures, const model::SecondOrderModel& model,
-                    const ExecutionOptions& options, estimate::MotionEstimator* estimator) {
+Execution integrate(const StudyScene& scene, const Measures& measures,
+                    const model::SecondOrderModel& model, const ExecutionOptions& options,
+                    estimate::MotionEstimator* estimator) {
   auto transientOptions = transient::readOptions(scene.list().sublist("Transient"));
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
@@ -199,13 +216,14 @@ PreparedModel StudyRunner::prepare(StudyScene& scene, int frequencies) {
     if (frequencies > 0) prepared.modeErrors = compare(scene, prepared, frequencies);
   } catch (const Error& error) {
     if (error.code() != ExitCode::ModelNotBuilt && error.code() != ExitCode::NotConverged) throw;
-    prepared.notCompared =
-        std::string("The frequencies could not be compared. ") + error.what();  // the model may move all the same
+    prepared.notCompared = std::string("The frequencies could not be compared. ") +
+                           error.what();  // the model may move all the same
   }
   return prepared;
 }
 
-study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedModel& prepared, int frequencies) {
+study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedModel& prepared,
+                                       int frequencies) {
   auto lists = scene.list();
   for (const char* name : {"Reduction", "Transient", "Output"}) lists.remove(name, false);
   const auto key = study::canonicalText(lists);
@@ -216,8 +234,9 @@ study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedMo
   }
   const auto& known = fullModes_.at(key);
   study::ModeErrors errors;
-  for (const auto& m : estimate::compareModes(known.whole.model, known.modes, frequencies, prepared.planned.parts,
-                                              prepared.outcome.synthesis, known.whole.maps)) {
+  for (const auto& m :
+       estimate::compareModes(known.whole.model, known.modes, frequencies, prepared.planned.parts,
+                              prepared.outcome.synthesis, known.whole.maps)) {
     errors.full.push_back(m.fullHz());
     errors.coupled.push_back(m.coupledHz());
     errors.mac.push_back(m.mac);
@@ -228,14 +247,17 @@ study::ModeErrors StudyRunner::compare(const StudyScene& scene, const PreparedMo
   return errors;
 }
 
-Execution StudyRunner::move(const StudyScene& scene, const PreparedModel& prepared, const ExecutionOptions& options) const {
+Execution StudyRunner::move(const StudyScene& scene, const PreparedModel& prepared,
+                            const ExecutionOptions& options) const {
   const auto measures = scene.measures();
   if (options.perturbation > 0.0)
-    return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation), options, nullptr);
-  const bool estimates =
-      prepared.reduced && options.record && estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion;
+    return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation),
+                     options, nullptr);
+  const bool estimates = prepared.reduced && options.record &&
+                         estimate::readEstimateOptions(scene.list().sublist("Reduction")).motion;
   if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
-  estimate::MotionEstimator estimator(prepared.planned.parts, prepared.outcome.synthesis, scene.rest(), estimated(measures));
+  estimate::MotionEstimator estimator(prepared.planned.parts, prepared.outcome.synthesis,
+                                      scene.rest(), estimated(measures));
   auto execution = integrate(scene, measures, prepared.model(), options, &estimator);
   execution.estimatedDyn = estimator.result().error;
   return execution;

@@ -16,9 +16,10 @@
 
 namespace tooljoint::app {
 
-/// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads, summed over the ranks, and wall seconds.
+/// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads,
+/// summed over the ranks, and wall seconds.
 struct PreparedModel {
-  coupling::Coupling full;           ///< of a full run
+  coupling::Coupling full;            ///< of a full run
   coupling::PlannedCoupling planned;  ///< of a reduced one
   estimate::Outcome outcome;
   bool reduced = false;
@@ -26,19 +27,22 @@ struct PreparedModel {
   long modes = 0;
   double setupCpu = 0.0, setupWall = 0.0;  ///< reduction and coupling
   study::ModeErrors modeErrors;            ///< what comparing costs is in no time
-  std::string notCompared;                 ///< why there are no `modeErrors` although they were asked for
+  std::string notCompared;  ///< why there are no `modeErrors` although they were asked for
 
-  const model::SecondOrderModel& model() const { return reduced ? outcome.synthesis.coupled.model : full.model; }
+  const model::SecondOrderModel& model() const {
+    return reduced ? outcome.synthesis.coupled.model : full.model;
+  }
 };
 
 struct ExecutionOptions {
-  std::string title;               ///< of the progress bar; empty: none
-  bool record = true;              ///< keep the motion
-  double perturbation = 0.0;       ///< size of the change of the initial displacements [m]
-  std::optional<double> timeLimit; ///< CPU time after which the run is given up [s]
+  std::string title;                ///< of the progress bar; empty: none
+  bool record = true;               ///< keep the motion
+  double perturbation = 0.0;        ///< size of the change of the initial displacements [m]
+  std::optional<double> timeLimit;  ///< CPU time after which the run is given up [s]
 };
 
-/// What one motion gave. Times as above, without the recovery of the recorded motion, which is the same work for every method.
+/// What one motion gave. Times as above, without the recovery of the recorded motion, which is the
+/// same work for every method.
 struct Execution {
   transient::TransientReport report;
   study::RecordedHistory history;
@@ -46,7 +50,8 @@ struct Execution {
   double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
-  std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the transient; its time is not in `cpu` and `wall`
+  std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the
+                                       ///< transient; its time is not in `cpu` and `wall`
 };
 
 /// A run that took more than its time.
@@ -57,19 +62,22 @@ struct TimeLimitError : ConvergenceError {
 /// All calls are collective.
 class StudyRunner {
  public:
-  /// Settles the scene, and reduces it if its deck says so. With `frequencies` above 0 the coupled modes of a reduced model are compared with
-  /// as many of the full one, which are computed once for all runs of the same full model. Throws what the stages throw.
+  /// Settles the scene, and reduces it if its deck says so. With `frequencies` above 0 the coupled
+  /// modes of a reduced model are compared with as many of the full one, which are computed once
+  /// for all runs of the same full model. Throws what the stages throw.
   PreparedModel prepare(StudyScene& scene, int frequencies);
 
   /// Moves it. Throws what transient::integrate throws, InterruptedError, and TimeLimitError.
-  Execution move(const StudyScene& scene, const PreparedModel& prepared, const ExecutionOptions& options) const;
+  Execution move(const StudyScene& scene, const PreparedModel& prepared,
+                 const ExecutionOptions& options) const;
 
  private:
   struct FullModes {
     coupling::Coupling whole;
     linalg::EigenPairs modes;
   };
-  study::ModeErrors compare(const StudyScene& scene, const PreparedModel& prepared, int frequencies);
+  study::ModeErrors compare(const StudyScene& scene, const PreparedModel& prepared,
+                            int frequencies);
   std::map<std::string, FullModes> fullModes_;
 };
 

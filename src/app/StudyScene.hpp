@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A scene as a study sees it, whatever it is made of: a deck that can be read again with changes, and something at rest that can be reduced
-/// and set in motion.
+/// A scene as a study sees it, whatever it is made of: a deck that can be read again with changes,
+/// and something at rest that can be reduced and set in motion.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,18 @@ namespace tooljoint::app {
 
 /// What of a motion is recorded and compared.
 struct Measures {
-  std::vector<std::int64_t> nodes;        ///< in the order of all histories
-  std::vector<int> components;            ///< of a node
-  std::size_t vibrating = 0;              ///< how many of them, from the first on, are the vibration that dyn measures
-  std::vector<double> clearance;          ///< per node [m]; infinite where nothing can be touched
-  int speedRow = -1;                      ///< row of the recovery whose velocity is the speed of the bit; -1: there is no bit
+  std::vector<std::int64_t> nodes;  ///< in the order of all histories
+  std::vector<int> components;      ///< of a node
+  std::size_t vibrating =
+      0;  ///< how many of them, from the first on, are the vibration that dyn measures
+  std::vector<double> clearance;  ///< per node [m]; infinite where nothing can be touched
+  int speedRow =
+      -1;  ///< row of the recovery whose velocity is the speed of the bit; -1: there is no bit
   std::function<double(double)> turning;  ///< what is added to that velocity [rad/s]
 };
 
-/// Scenes made by with() from one another share the states at rest that they have in common. All calls are collective.
+/// Scenes made by with() from one another share the states at rest that they have in common. All
+/// calls are collective.
 class StudyScene {
  public:
   virtual ~StudyScene() = default;

@@ -22,20 +22,24 @@ using StaticStages = std::map<std::string, std::shared_ptr<const StaticStage>>;
 /// A string in its well.
 class StringStudy : public StudyScene {
  public:
-  StringStudy(Scene scene, std::shared_ptr<StaticStages> stages) : scene_(std::move(scene)), stages_(std::move(stages)) {}
+  StringStudy(Scene scene, std::shared_ptr<StaticStages> stages)
+      : scene_(std::move(scene)), stages_(std::move(stages)) {}
 
   const deck::Deck& deck() const override { return scene_.deck; }
   std::unique_ptr<StudyScene> with(const std::vector<std::string>& overrides) const override {
     return std::make_unique<StringStudy>(readScene(scene_.deck.file(), overrides), stages_);
   }
-  std::vector<std::string> reductionLists() const override { return {"Substructures", "Reduction"}; }
+  std::vector<std::string> reductionLists() const override {
+    return {"Substructures", "Reduction"};
+  }
   int nodes() const override { return scene_.string.nodeCount(); }
   std::string folder() const override { return scene_.output.folder; }
 
   std::string files() const override {
     std::string text;
     const auto file = [&](const Teuchos::ParameterList& list, const char* name) {
-      if (list.isParameter(name)) text += "\n" + io::readText(scene_.deck.resolve(list.get<std::string>(name)));
+      if (list.isParameter(name))
+        text += "\n" + io::readText(scene_.deck.resolve(list.get<std::string>(name)));
     };
     file(scene_.list().sublist("Drillstring"), "Library");
     const auto& well = scene_.list().sublist("Well");
@@ -45,10 +49,12 @@ class StringStudy : public StudyScene {
 
   void summarise(io::Summary& summary) const override { app::summarise(scene_, summary); }
 
-  /// Path and static state; those of an earlier scene when Substructures, Coupling, Reduction, Transient and Output alone differ.
+  /// Path and static state; those of an earlier scene when Substructures, Coupling, Reduction,
+  /// Transient and Output alone differ.
   void settle() override {
     auto lists = scene_.list();
-    for (const char* name : {"Substructures", "Coupling", "Reduction", "Transient", "Output"}) lists.remove(name, false);
+    for (const char* name : {"Substructures", "Coupling", "Reduction", "Transient", "Output"})
+      lists.remove(name, false);
     auto& stage = (*stages_)[study::canonicalText(lists)];
     if (!stage) stage = std::make_shared<const StaticStage>(app::settle(scene_));
     stage_ = stage;
@@ -93,10 +99,14 @@ class StringStudy : public StudyScene {
     }
     const auto elements = static_cast<std::size_t>(state.axialForce.size());
     file.write("/profile/s", s, {s.size()}, "m", "Depth of the nodes along the well");
-    file.write("/profile/clearance", clearance, {s.size()}, "m", "Radial clearance between node and wall");
-    file.write("/profile/radius", radius, {s.size()}, "m", "Static lateral distance of the nodes from the well axis");
-    file.write("/profile/normal_force", state.normalForce, {s.size()}, "N", "Static normal contact force");
-    file.write("/profile/axial_force", state.axialForce, {elements}, "N", "Static axial force of the elements, tension positive");
+    file.write("/profile/clearance", clearance, {s.size()}, "m",
+               "Radial clearance between node and wall");
+    file.write("/profile/radius", radius, {s.size()}, "m",
+               "Static lateral distance of the nodes from the well axis");
+    file.write("/profile/normal_force", state.normalForce, {s.size()}, "N",
+               "Static normal contact force");
+    file.write("/profile/axial_force", state.axialForce, {elements}, "N",
+               "Static axial force of the elements, tension positive");
     file.write("/profile/torque", state.torque, {elements}, "N m", "Static torque of the elements");
   }
 
@@ -109,7 +119,8 @@ class StringStudy : public StudyScene {
 }  // namespace
 
 std::unique_ptr<StudyScene> readStringStudy(const RunOptions& options) {
-  return std::make_unique<StringStudy>(readScene(options.deck, options.overrides), std::make_shared<StaticStages>());
+  return std::make_unique<StringStudy>(readScene(options.deck, options.overrides),
+                                       std::make_shared<StaticStages>());
 }
 
 std::unique_ptr<StudyScene> readStudyScene(const RunOptions& options) {

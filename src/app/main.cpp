@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The program `tooljoint`: reads the command line, runs one command, and turns every error into a sentence and its exit code.
+/// The program `tooljoint`: reads the command line, runs one command, and turns every error into a
+/// sentence and its exit code.
 #include <CLI/CLI.hpp>
 #include <Tpetra_Core.hpp>
-
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -40,10 +40,12 @@ int guarded(const std::function<void()>& command) {
     say(std::cerr, std::string("tooljoint: ") + error.what() + "\n");
     return code(error.code());
   } catch (const std::bad_alloc&) {
-    say(std::cerr, "tooljoint: out of memory. Use fewer nodes, fewer modes or a longer sampling interval.\n");
+    say(std::cerr,
+        "tooljoint: out of memory. Use fewer nodes, fewer modes or a longer sampling interval.\n");
     return code(ExitCode::Internal);
   } catch (const std::exception& error) {
-    say(std::cerr, std::string("tooljoint: internal error, please report it: ") + error.what() + "\n");
+    say(std::cerr,
+        std::string("tooljoint: internal error, please report it: ") + error.what() + "\n");
     return code(ExitCode::Internal);
   }
 }
@@ -51,26 +53,36 @@ int guarded(const std::function<void()>& command) {
 /// A deck on the command line with its overrides and where results go.
 void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool writes) {
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
-  command.add_option("--set", options.overrides, "override one parameter: PATH=VALUE, e.g. --set \"Transient/End Time=5\"")
+  command
+      .add_option("--set", options.overrides,
+                  "override one parameter: PATH=VALUE, e.g. --set \"Transient/End Time=5\"")
       ->allow_extra_args(false);
-  command.add_option("--without", options.without, "take a list out of the deck before --set, e.g. --without Mud: what it describes is not modelled")
+  command
+      .add_option("--without", options.without,
+                  "take a list out of the deck before --set, e.g. --without Mud: what it describes "
+                  "is not modelled")
       ->allow_extra_args(false);
-  if (writes) command.add_option("--output,-o", options.output, "folder for the results (default: results/<name of the deck>)");
+  if (writes)
+    command.add_option("--output,-o", options.output,
+                       "folder for the results (default: results/<name of the deck>)");
 }
 
 /// What is wrong with a command line that holds words or options no command takes.
 std::string describeUnknown(const CLI::App& program, const std::vector<std::string>& unknown) {
   if (!program.get_subcommands().empty() || unknown.front().front() == '-')
-    return (unknown.size() == 1 ? "Unknown argument: " : "Unknown arguments: ") + tooljoint::join(unknown, " ") +
-           ". Options and what they take are listed by --help.";
+    return (unknown.size() == 1 ? "Unknown argument: " : "Unknown arguments: ") +
+           tooljoint::join(unknown, " ") + ". Options and what they take are listed by --help.";
   std::vector<std::string> commands;
-  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command->get_name());
+  for (const auto* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    commands.push_back(command->get_name());
   const auto meant = tooljoint::closest(unknown.front(), commands);
-  return "Unknown command \"" + unknown.front() + "\"." + (meant.empty() ? "" : " Did you mean \"" + meant + "\"?") +
+  return "Unknown command \"" + unknown.front() + "\"." +
+         (meant.empty() ? "" : " Did you mean \"" + meant + "\"?") +
          " Available: " + tooljoint::quotedList(commands) + ".";
 }
 
-/// Reads the command line; an exit code where nothing is left to do (help, or an error that has been told).
+/// Reads the command line; an exit code where nothing is left to do (help, or an error that has
+/// been told).
 std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   try {
     program.parse(argc, argv);
@@ -92,7 +104,8 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
 
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
-  CLI::App program{"Tooljoint: component mode synthesis, and the drillstring simulator built on it."};
+  CLI::App program{
+      "Tooljoint: component mode synthesis, and the drillstring simulator built on it."};
   program.name("tooljoint");
   program.require_subcommand(0, 1);
   bool version = false;
@@ -104,39 +117,62 @@ int run(int argc, char** argv) {
   std::string kind;
   std::function<void()> command;
 
-  auto* runCommand = program.add_subcommand("run", "path, static state, reduction, transient: from deck to results");
+  auto* runCommand = program.add_subcommand(
+      "run", "path, static state, reduction, transient: from deck to results");
   addDeckOptions(*runCommand, options, true);
-  runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from");
+  runCommand->add_option("--restart", options.restart,
+                         "folder of an interrupted run to go on from");
   runCommand->callback([&] { command = [&] { app::run(options); }; });
 
-  auto* studyCommand = program.add_subcommand("study", "speed against error: the runs of the deck's Study list against its reference run");
+  auto* studyCommand = program.add_subcommand(
+      "study", "speed against error: the runs of the deck's Study list against its reference run");
   addDeckOptions(*studyCommand, options, true);
-  studyCommand->add_flag("--fresh", options.fresh, "forget the runs an earlier study left in the folder");
+  studyCommand->add_flag("--fresh", options.fresh,
+                         "forget the runs an earlier study left in the folder");
   studyCommand->callback([&] { command = [&] { app::study(options); }; });
 
-  auto* checkCommand = program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
+  auto* checkCommand =
+      program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
   addDeckOptions(*checkCommand, options, false);
-  checkCommand->add_flag("--cost", options.cost, "compute static state and reduction too, and predict which model is the cheaper one to move");
+  checkCommand->add_flag(
+      "--cost", options.cost,
+      "compute static state and reduction too, and predict which model is the cheaper one to move");
   checkCommand->callback([&] { command = [&] { app::check(options); }; });
 
-  auto* modesCommand = program.add_subcommand("modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
+  auto* modesCommand = program.add_subcommand(
+      "modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
   addDeckOptions(*modesCommand, options, true);
-  modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")->check(CLI::PositiveNumber);
-  modesCommand->add_option("--time", options.modeTime, "when the laws of time (rotary speed) are looked at for damped modes [s] (default: the end of the motion)");
+  modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
+      ->check(CLI::PositiveNumber);
+  modesCommand->add_option("--time", options.modeTime,
+                           "when the laws of time (rotary speed) are looked at for damped modes "
+                           "[s] (default: the end of the motion)");
   modesCommand->callback([&] { command = [&] { app::modes(options); }; });
 
-  auto* exportCommand = program.add_subcommand("export", "reduce the parts of a deck and write them with their bases as part files, to be imported by other decks");
+  auto* exportCommand =
+      program.add_subcommand("export",
+                             "reduce the parts of a deck and write them with their bases as part "
+                             "files, to be imported by other decks");
   addDeckOptions(*exportCommand, options, true);
-  exportCommand->add_option("--format", options.format, "hdf5 (one file a part) or mtx (a folder of Matrix Market files a part)")->check(CLI::IsMember({"hdf5", "mtx"}));
+  exportCommand
+      ->add_option("--format", options.format,
+                   "hdf5 (one file a part) or mtx (a folder of Matrix Market files a part)")
+      ->check(CLI::IsMember({"hdf5", "mtx"}));
   exportCommand->callback([&] { command = [&] { app::exportReduced(options); }; });
 
   app::CompareOptions comparison;
-  auto* compareCommand = program.add_subcommand("compare", "errors eps_t, eps_n and dyn of one run against a reference run");
+  auto* compareCommand = program.add_subcommand(
+      "compare", "errors eps_t, eps_n and dyn of one run against a reference run");
   compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
-  compareCommand->add_option("REFERENCE", comparison.reference, "results folder of the reference run")->required();
+  compareCommand
+      ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
+      ->required();
   compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
   compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
-  compareCommand->add_option("--fail-above", comparison.failAbove, "end with exit code 4 when dyn is larger than this")->check(CLI::NonNegativeNumber);
+  compareCommand
+      ->add_option("--fail-above", comparison.failAbove,
+                   "end with exit code 4 when dyn is larger than this")
+      ->check(CLI::NonNegativeNumber);
   compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
 
@@ -145,7 +181,8 @@ int run(int argc, char** argv) {
   docCommand->add_option("--format", format, "md or json")->check(CLI::IsMember({"md", "json"}));
   docCommand->callback([&] { command = [&] { say(std::cout, app::manual(topic, format)); }; });
 
-  auto* templateCommand = program.add_subcommand("template", "print a commented deck to start from");
+  auto* templateCommand =
+      program.add_subcommand("template", "print a commented deck to start from");
   templateCommand->add_option("KIND", kind, "scene or components")->required();
   templateCommand->callback([&] { command = [&] { say(std::cout, app::deckTemplate(kind)); }; });
 
@@ -169,7 +206,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   tooljoint::linalg::shareLargePages();
-  // Neither MPI nor Kokkos takes arguments from the command line: Kokkos would answer --help with its own.
+  // Neither MPI nor Kokkos takes arguments from the command line: Kokkos would answer --help with
+  // its own.
   int none = 0;
   char* end = nullptr;
   char** nothing = &end;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Counts what a run has built and evaluated on this rank, so that tests can assert that what a deck does not ask for
-/// is neither built nor evaluated. Names in use: "mud matrices", "contact evaluations", "friction evaluations",
-/// "gyroscopic matrices", "geometric stiffness", "unbalance loads", "modes computed", "factorisations", "parts reduced".
+/// Counts what a run has built and evaluated on this rank, so that tests can assert that what a
+/// deck does not ask for is neither built nor evaluated. Names in use: "mud matrices", "contact
+/// evaluations", "friction evaluations", "gyroscopic matrices", "geometric stiffness", "unbalance
+/// loads", "modes computed", "factorisations", "parts reduced".
 #pragma once
 
 #include <map>
@@ -13,7 +14,8 @@ namespace tooljoint {
 /// Add `n` to the counter `what`.
 void count(const std::string& what, long n = 1);
 
-/// The counter itself, for loops that count often: the reference stays valid, also across resetCensus().
+/// The counter itself, for loops that count often: the reference stays valid, also across
+/// resetCensus().
 long& counter(const std::string& what);
 
 /// Value of a counter; 0 for one that was never counted.

@@ -17,7 +17,8 @@ std::string normalised(const std::string& text) {
   std::string result;
   result.reserve(text.size());
   for (std::size_t i = text.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0; i < text.size(); ++i) {
-    if (text[i] == degree && (i == 0 || (static_cast<unsigned char>(text[i - 1]) & 0x80U) == 0)) result += utf8Lead;
+    if (text[i] == degree && (i == 0 || (static_cast<unsigned char>(text[i - 1]) & 0x80U) == 0))
+      result += utf8Lead;
     result += text[i];
   }
   return result;
@@ -56,7 +57,8 @@ std::vector<std::string> cellsOf(const std::string& line, char separator) {
 
 DelimitedText splitDelimited(const std::string& text) {
   if (text.find('\0') != std::string::npos)
-    throw DeckError("holds bytes of zero, as UTF-16 or a binary file does. Save it as text in UTF-8.");
+    throw DeckError(
+        "holds bytes of zero, as UTF-16 or a binary file does. Save it as text in UTF-8.");
   DelimitedText result;
   bool decided = false;
   int number = 0;
@@ -71,7 +73,8 @@ DelimitedText splitDelimited(const std::string& text) {
     if (!decided) result.separator = separatorOf(line);
     decided = true;
     DelimitedRow row{number, cellsOf(line, result.separator)};
-    const bool empty = std::all_of(row.cells.begin(), row.cells.end(), [](const std::string& cell) { return cell.empty(); });
+    const bool empty = std::all_of(row.cells.begin(), row.cells.end(),
+                                   [](const std::string& cell) { return cell.empty(); });
     if (empty)
       ++result.emptyRows;
     else
@@ -89,7 +92,8 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
   if (number.comma && number.point) return std::nullopt;
   if (number.comma) text[comma] = '.';
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number.value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value)) return std::nullopt;
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number.value))
+    return std::nullopt;
   return number;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Tables as spreadsheets and survey programs write them: cells separated by commas, semicolons or tabs.
+/// Tables as spreadsheets and survey programs write them: cells separated by commas, semicolons or
+/// tabs.
 #pragma once
 
 #include <optional>
@@ -22,9 +23,10 @@ struct DelimitedText {
   int emptyRows = 0;  ///< rows of separators alone, not read
 };
 
-/// Splits a text into rows of cells. The first line that is no comment and not empty decides the separator: a semicolon where it
-/// has one, else a tab, else a comma. A cell in double quotes may hold the separator; "" in it is one quote. A byte-order mark of
-/// UTF-8 is skipped; a degree sign of Latin-1 becomes one of UTF-8. Throws DeckError for UTF-16, whose bytes hold zeros.
+/// Splits a text into rows of cells. The first line that is no comment and not empty decides the
+/// separator: a semicolon where it has one, else a tab, else a comma. A cell in double quotes may
+/// hold the separator; "" in it is one quote. A byte-order mark of UTF-8 is skipped; a degree sign
+/// of Latin-1 becomes one of UTF-8. Throws DeckError for UTF-16, whose bytes hold zeros.
 DelimitedText splitDelimited(const std::string& text);
 
 /// A number as a cell writes it; `comma` says whether it has a decimal comma.
@@ -34,7 +36,8 @@ struct CellNumber {
   bool point = false;
 };
 
-/// The number that fills the whole cell and is finite, with a decimal point or a decimal comma (not both, no groups of thousands).
+/// The number that fills the whole cell and is finite, with a decimal point or a decimal comma (not
+/// both, no groups of thousands).
 std::optional<CellNumber> cellNumber(const std::string& cell);
 
 }  // namespace tooljoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What can go wrong for a user, and the exit code each kind ends with (docs/user-manual.md lists them).
+/// What can go wrong for a user, and the exit code each kind ends with (docs/user-manual.md lists
+/// them).
 #pragma once
 
 #include <stdexcept>
@@ -20,7 +21,8 @@ enum class ExitCode : int {
   Interrupted = 130,
 };
 
-/// An error a user can act on: a full sentence saying what was found, what is expected and what to change.
+/// An error a user can act on: a full sentence saying what was found, what is expected and what to
+/// change.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
@@ -38,13 +40,15 @@ struct UsageError : Error {
 struct DeckError : Error {
   explicit DeckError(const std::string& sentence) : Error(ExitCode::InvalidDeck, sentence) {}
 };
-/// The deck is valid but no model can be built from it: a floating part, a singular matrix (exit code 3).
+/// The deck is valid but no model can be built from it: a floating part, a singular matrix (exit
+/// code 3).
 struct ModelError : Error {
   explicit ModelError(const std::string& sentence) : Error(ExitCode::ModelNotBuilt, sentence) {}
 };
 /// A solver did not converge: what was tried and what to change (exit code 4).
 struct ConvergenceError : Error {
-  explicit ConvergenceError(const std::string& sentence) : Error(ExitCode::NotConverged, sentence) {}
+  explicit ConvergenceError(const std::string& sentence)
+      : Error(ExitCode::NotConverged, sentence) {}
 };
 /// Deck missing, folder not writable, disk full (exit code 5).
 struct FileError : Error {

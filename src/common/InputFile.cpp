@@ -27,8 +27,10 @@ int openRegular(const std::string& path, std::uint64_t& size, std::string& reaso
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
     // A socket cannot be opened, so that its kind is looked up by name.
     const int error = errno;
-    const bool special = ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-    reason = special ? "it is no regular file, but " + kindOf(status.st_mode) : std::strerror(error);
+    const bool special =
+        ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+    reason =
+        special ? "it is no regular file, but " + kindOf(status.st_mode) : std::strerror(error);
   } else if (S_ISDIR(status.st_mode)) {
     reason = "it is a folder";
   } else if (!S_ISREG(status.st_mode)) {
@@ -70,7 +72,10 @@ bool InputFile::fill() {
 }
 
 std::string InputFile::all(std::uint64_t most) {
-  const auto refuse = [&] { throw FileError(path_ + " is larger than " + formatNumber(static_cast<double>(most)) + " bytes, the most that is read of such a file."); };
+  const auto refuse = [&] {
+    throw FileError(path_ + " is larger than " + formatNumber(static_cast<double>(most)) +
+                    " bytes, the most that is read of such a file.");
+  };
   if (size_ > most) refuse();
   std::string text;
   text.reserve(size_);
@@ -89,13 +94,16 @@ bool InputFile::line(std::string& text, std::size_t longest) {
     const auto* feed = static_cast<const char*>(std::memchr(begin, '\n', end_ - at_));
     const std::size_t count = feed != nullptr ? static_cast<std::size_t>(feed - begin) : end_ - at_;
     if (text.size() + count > longest)
-      throw FileError(path_ + " has a line of more than " + std::to_string(longest) + " characters, which cannot be one of such a file.");
+      throw FileError(path_ + " has a line of more than " + std::to_string(longest) +
+                      " characters, which cannot be one of such a file.");
     text.append(begin, count);
     at_ += count + (feed != nullptr ? 1 : 0);
     if (feed != nullptr) return true;
   }
 }
 
-std::string readInput(const std::string& path, std::uint64_t most) { return InputFile(path).all(most); }
+std::string readInput(const std::string& path, std::uint64_t most) {
+  return InputFile(path).all(most);
+}
 
 }  // namespace tooljoint

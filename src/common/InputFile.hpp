@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The one place that opens files for reading. Only regular files are read: opening a FIFO would wait for a writer, and a device
-/// may have no end. Every rank reads for itself.
+/// The one place that opens files for reading. Only regular files are read: opening a FIFO would
+/// wait for a writer, and a device may have no end. Every rank reads for itself.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace tooljoint {
 
-/// Why a file cannot be read ("No such file or directory", "it is a folder", "it is no regular file, but a FIFO"); "" when it can.
-/// Nothing is read from it.
+/// Why a file cannot be read ("No such file or directory", "it is a folder", "it is no regular
+/// file, but a FIFO"); "" when it can. Nothing is read from it.
 std::string whyUnreadable(const std::string& path);
 
 /// A regular file open for reading. Closes itself.
@@ -26,11 +26,12 @@ class InputFile {
   /// Bytes the file had when it was opened.
   std::uint64_t size() const { return size_; }
 
-  /// What is left of the file. FileError when it is longer than `most` bytes (nothing is read then), or reading fails.
+  /// What is left of the file. FileError when it is longer than `most` bytes (nothing is read
+  /// then), or reading fails.
   std::string all(std::uint64_t most);
 
-  /// The next line without its line feed; false at the end. FileError for a line of more than `longest` bytes, or when reading
-  /// fails.
+  /// The next line without its line feed; false at the end. FileError for a line of more than
+  /// `longest` bytes, or when reading fails.
   bool line(std::string& text, std::size_t longest);
 
  private:

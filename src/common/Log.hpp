@@ -12,11 +12,12 @@ namespace tooljoint::log {
 void setQuiet(bool quiet);
 bool quiet();
 
-/// One line on standard output, rank 0 only. Not collective: any rank may call it, only rank 0 prints.
+/// One line on standard output, rank 0 only. Not collective: any rank may call it, only rank 0
+/// prints.
 void info(const std::string& line);
 
-/// "warning: line" on standard error, rank 0 only. Collected on every rank that calls it, for the summary; a sentence
-/// that was said before is neither printed nor collected again.
+/// "warning: line" on standard error, rank 0 only. Collected on every rank that calls it, for the
+/// summary; a sentence that was said before is neither printed nor collected again.
 void warn(const std::string& line);
 
 /// The distinct warnings of this rank so far, in the order they came.

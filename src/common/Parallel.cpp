@@ -23,7 +23,8 @@ void broadcastBytes(void* data, std::uint64_t bytes, int root) {
   constexpr std::uint64_t piece = 1U << 30U;
   auto* at = static_cast<char*>(data);
   for (std::uint64_t done = 0; done < bytes; done += piece) {
-    MPI_Bcast(at + done, static_cast<int>(std::min(piece, bytes - done)), MPI_BYTE, root, MPI_COMM_WORLD);
+    MPI_Bcast(at + done, static_cast<int>(std::min(piece, bytes - done)), MPI_BYTE, root,
+              MPI_COMM_WORLD);
   }
 }
 
@@ -68,7 +69,8 @@ void broadcast(std::vector<int>& value, int root) { broadcastContainer(value, ro
 
 void broadcast(Vector& value, int root) {
   if (alone()) return;
-  value.resize(static_cast<Eigen::Index>(broadcastCount(static_cast<std::uint64_t>(value.size()), root)));
+  value.resize(
+      static_cast<Eigen::Index>(broadcastCount(static_cast<std::uint64_t>(value.size()), root)));
   broadcastBytes(value.data(), static_cast<std::uint64_t>(value.size()) * sizeof(double), root);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The few MPI operations that code outside src/linalg needs, over MPI_COMM_WORLD. Without MPI (not initialised, or
-/// already finalised) there is one rank, 0, and every operation is local.
+/// The few MPI operations that code outside src/linalg needs, over MPI_COMM_WORLD. Without MPI (not
+/// initialised, or already finalised) there is one rank, 0, and every operation is local.
 #pragma once
 
 #include <functional>
@@ -29,12 +29,14 @@ void broadcast(int& value, int root = 0);
 double sum(double value);
 double maximum(double value);
 
-/// Run `work` on every rank; when it threw on any of them, every rank throws an Error of the same kind, with the exit code and
-/// sentence of the lowest failing rank (an exception that is no tooljoint::Error becomes ExitCode::Internal).
-/// Collective, and `work` must not hold a collective call that a failing rank would miss.
+/// Run `work` on every rank; when it threw on any of them, every rank throws an Error of the same
+/// kind, with the exit code and sentence of the lowest failing rank (an exception that is no
+/// tooljoint::Error becomes ExitCode::Internal). Collective, and `work` must not hold a collective
+/// call that a failing rank would miss.
 void agree(const std::function<void()>& work);
 
-/// Throw the type that belongs to `code` (DeckError for InvalidDeck, ...), so that it can be caught as such.
+/// Throw the type that belongs to `code` (DeckError for InvalidDeck, ...), so that it can be caught
+/// as such.
 [[noreturn]] void throwError(ExitCode code, const std::string& sentence);
 
 }  // namespace tooljoint::parallel

@@ -36,7 +36,9 @@ double Progress::fraction(double now) const {
   return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
 }
 
-double Progress::elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+double Progress::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
 
 bool Progress::due(double now) const {
   if (!speaks_ || finished_) return false;
@@ -52,20 +54,22 @@ void Progress::update(double now, const std::string& suffix) {
     return;
   }
   lastTenth_ = static_cast<int>(10.0 * done + 1e-9);
-  std::fprintf(stderr, "%s: %3d %% (%.1f s)%s%s\n", title_.c_str(), 10 * lastTenth_, elapsed(), suffix.empty() ? "" : " ",
-               suffix.c_str());
+  std::fprintf(stderr, "%s: %3d %% (%.1f s)%s%s\n", title_.c_str(), 10 * lastTenth_, elapsed(),
+               suffix.empty() ? "" : " ", suffix.c_str());
   std::fflush(stderr);
 }
 
 void Progress::drawBar(double done, const std::string& suffix) {
   const int filled = static_cast<int>(std::lround(done * barWidth));
-  const std::string bar =
-      std::string(static_cast<std::size_t>(filled), '#') + std::string(static_cast<std::size_t>(barWidth - filled), '.');
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(barWidth - filled), '.');
   const double soFar = elapsed();
   std::string left;
-  if (done > 0.01 && done < 1.0) left = ", " + std::to_string(std::lround(soFar * (1.0 - done) / done)) + " s left";
-  std::fprintf(stderr, "\r\033[K%s [%s] %3d %% (%.1f s%s)%s%s", title_.c_str(), bar.c_str(), static_cast<int>(100.0 * done),
-               soFar, left.c_str(), suffix.empty() ? "" : " ", suffix.c_str());
+  if (done > 0.01 && done < 1.0)
+    left = ", " + std::to_string(std::lround(soFar * (1.0 - done) / done)) + " s left";
+  std::fprintf(stderr, "\r\033[K%s [%s] %3d %% (%.1f s%s)%s%s", title_.c_str(), bar.c_str(),
+               static_cast<int>(100.0 * done), soFar, left.c_str(), suffix.empty() ? "" : " ",
+               suffix.c_str());
   std::fflush(stderr);
   drawn_ = true;
   lastDraw_ = std::chrono::steady_clock::now();

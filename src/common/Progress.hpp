@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Progress of long work on standard error: a bar on a terminal, one line per 10 % elsewhere; rank 0 only.
+/// Progress of long work on standard error: a bar on a terminal, one line per 10 % elsewhere; rank
+/// 0 only.
 #pragma once
 
 #include <chrono>
@@ -10,19 +11,22 @@ namespace tooljoint {
 
 class Progress {
  public:
-  /// `title` stands in front of the bar; update() counts from `begin` to `end` (simulated time, number of parts, ...).
+  /// `title` stands in front of the bar; update() counts from `begin` to `end` (simulated time,
+  /// number of parts, ...).
   Progress(std::string title, double end, double begin = 0.0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Cheap enough for every step of a time loop: prints at most ten times a second on a terminal, and once per 10 % elsewhere.
+  /// Cheap enough for every step of a time loop: prints at most ten times a second on a terminal,
+  /// and once per 10 % elsewhere.
   void update(double now, const std::string& suffix = "");
 
   /// True when update() would print something: lets a caller skip the work of composing a suffix.
   bool due(double now) const;
 
-  /// Ends the bar at 100 %. A Progress destroyed before that (an error, an interrupt) just ends its line where it stands.
+  /// Ends the bar at 100 %. A Progress destroyed before that (an error, an interrupt) just ends its
+  /// line where it stands.
   void finish();
 
  private:

@@ -24,10 +24,13 @@ Stage*& innermost() {
 }  // namespace
 
 Stage::Stage(std::string name)
-    : name_(std::move(name)), outer_(std::exchange(innermost(), this)), start_(std::chrono::steady_clock::now()) {}
+    : name_(std::move(name)),
+      outer_(std::exchange(innermost(), this)),
+      start_(std::chrono::steady_clock::now()) {}
 
 Stage::~Stage() {
-  const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double whole =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   seconds()[name_] += whole - inside_;
   if (outer_ != nullptr) outer_->inside_ += whole;
   innermost() = outer_;

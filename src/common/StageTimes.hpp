@@ -8,8 +8,8 @@
 
 namespace tooljoint {
 
-/// Wall-clock time from its construction to its destruction counts for the stage `name`, but for the stages inside it, which
-/// count for themselves.
+/// Wall-clock time from its construction to its destruction counts for the stage `name`, but for
+/// the stages inside it, which count for themselves.
 class Stage {
  public:
   explicit Stage(std::string name);
@@ -24,8 +24,8 @@ class Stage {
   double inside_ = 0;  ///< seconds of inner stages
 };
 
-/// "constraint modes 3.2 s, factorisation 1.1 s, ...", longest first, stages below `least` seconds left out; empty when none is
-/// left.
+/// "constraint modes 3.2 s, factorisation 1.1 s, ...", longest first, stages below `least` seconds
+/// left out; empty when none is left.
 std::string stageTimes(double least = 0.05);
 
 }  // namespace tooljoint

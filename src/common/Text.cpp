@@ -12,7 +12,8 @@
 namespace tooljoint {
 namespace {
 
-/// Lower case without blanks, "_" and "-": "Time_Step" and "timestep" are the same word to a person.
+/// Lower case without blanks, "_" and "-": "Time_Step" and "timestep" are the same word to a
+/// person.
 std::string normalised(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -25,7 +26,8 @@ std::string normalised(std::string_view text) {
 }  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-  // Optimal string alignment: d(i,j) = min(d(i-1,j)+1, d(i,j-1)+1, d(i-1,j-1)+[a_i != b_j], swap d(i-2,j-2)+1)
+  // Optimal string alignment: d(i,j) = min(d(i-1,j)+1, d(i,j-1)+1, d(i-1,j-1)+[a_i != b_j], swap
+  // d(i-2,j-2)+1)
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
@@ -33,8 +35,10 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      row[j] =
+          std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     before.swap(last);
     last.swap(row);
@@ -48,12 +52,15 @@ std::string closest(std::string_view name, const std::vector<std::string>& candi
   std::size_t bestDistance = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : candidates) {
     const std::string theirs = normalised(candidate);
-    const std::size_t longer = std::max(mine.size(), theirs.size()), shorter = std::min(mine.size(), theirs.size());
+    const std::size_t longer = std::max(mine.size(), theirs.size()),
+                      shorter = std::min(mine.size(), theirs.size());
     const std::size_t allowed = 2 * std::max<std::size_t>(1, longer / 3);
-    // The distance is the difference of the lengths at least: texts that differ too much there need no table.
+    // The distance is the difference of the lengths at least: texts that differ too much there need
+    // no table.
     std::size_t distance = 2 * (longer - shorter);
     if (distance <= allowed) distance = 2 * editDistance(mine, theirs);
-    // A whole word of the candidate (or one that begins it) is a good guess too: "Young" for "Young Modulus".
+    // A whole word of the candidate (or one that begins it) is a good guess too: "Young" for "Young
+    // Modulus".
     const bool begins = mine.size() >= 3 && theirs.compare(0, mine.size(), mine) == 0;
     const bool extends = theirs.size() >= 3 && mine.compare(0, theirs.size(), theirs) == 0;
     if (begins || extends) distance = std::min(distance, allowed);
@@ -115,7 +122,8 @@ std::string excerpt(std::string_view text, std::size_t most) {
   constexpr std::string_view dots = "...";
   if (text.size() <= most) return std::string(text);
   std::size_t end = most - std::min(most, dots.size());
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // never within a character of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+    --end;  // never within a character of UTF-8
   return std::string(text.substr(0, end)).append(dots);
 }
 

@@ -13,11 +13,12 @@ namespace tooljoint {
 /// Edit distance (insertions, deletions, substitutions, swaps of neighbours), case matters.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// The candidate a person most probably meant by `name`, or "" when none is close. Differences of case, blanks, "_" and "-"
-/// weigh little; of equal ones the first wins.
+/// The candidate a person most probably meant by `name`, or "" when none is close. Differences of
+/// case, blanks, "_" and "-" weigh little; of equal ones the first wins.
 std::string closest(std::string_view name, const std::vector<std::string>& candidates);
 
-/// Shortest text that reads back as the same double ("0.1", "2.1e+11"); "inf", "-inf", "nan" for the others.
+/// Shortest text that reads back as the same double ("0.1", "2.1e+11"); "inf", "-inf", "nan" for
+/// the others.
 std::string formatNumber(double value);
 std::string formatNumber(int value);
 

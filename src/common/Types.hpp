@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The numeric types shared by all rooms. Dense and sparse storage is Eigen's; solvers turn it into Tpetra
-/// objects behind one .cpp each (src/linalg), so that Trilinos headers stay out of the physics.
+/// The numeric types shared by all rooms. Dense and sparse storage is Eigen's; solvers turn it into
+/// Tpetra objects behind one .cpp each (src/linalg), so that Trilinos headers stay out of the
+/// physics.
 #pragma once
 
 #include <Eigen/Core>

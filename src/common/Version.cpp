@@ -25,7 +25,8 @@ std::string gitHash() { return TOOLJOINT_GIT_HASH; }
 std::string trilinosVersion() {
   // TRILINOS_MAJOR_MINOR_VERSION is xxyyzz, read as one decimal number.
   const int number = TRILINOS_MAJOR_MINOR_VERSION;
-  return std::to_string(number / 10000) + "." + std::to_string(number / 100 % 100) + "." + std::to_string(number % 100);
+  return std::to_string(number / 10000) + "." + std::to_string(number / 100 % 100) + "." +
+         std::to_string(number % 100);
 }
 
 std::string mpiVersion() {
@@ -38,12 +39,13 @@ std::string mpiVersion() {
 }
 
 std::string hdf5Version() {
-  return std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." + std::to_string(H5_VERS_RELEASE);
+  return std::to_string(H5_VERS_MAJOR) + "." + std::to_string(H5_VERS_MINOR) + "." +
+         std::to_string(H5_VERS_RELEASE);
 }
 
 std::string versionText() {
-  return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " + trilinosVersion() + "\nMPI       " +
-         mpiVersion() + "\nHDF5      " + hdf5Version() + "\n";
+  return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " +
+         trilinosVersion() + "\nMPI       " + mpiVersion() + "\nHDF5      " + hdf5Version() + "\n";
 }
 
 }  // namespace tooljoint

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Versions of the program and of what it stands on, for --version and for the provenance of results.
+/// Versions of the program and of what it stands on, for --version and for the provenance of
+/// results.
 #pragma once
 
 #include <string>
 
 namespace tooljoint {
 
-std::string programVersion();   ///< "0.1.0"
-std::string gitHash();          ///< of the source this was built from; "unknown" outside a git checkout
+std::string programVersion();  ///< "0.1.0"
+std::string gitHash();  ///< of the source this was built from; "unknown" outside a git checkout
 std::string trilinosVersion();  ///< "13.2.0"
 std::string mpiVersion();       ///< first line of the MPI library's own version text
 std::string hdf5Version();      ///< "1.10.8"

@@ -59,9 +59,12 @@ class Coupler {
   double offset(const Place& place) const { return pieces_[at(place.part)].offset[place.dof]; }
 
   static std::string nameOf(const Constraint& constraint, std::size_t number) {
-    return "constraint " + (constraint.name.empty() ? std::to_string(number + 1) : "\"" + constraint.name + "\"");
+    return "constraint " +
+           (constraint.name.empty() ? std::to_string(number + 1) : "\"" + constraint.name + "\"");
   }
-  static std::string nameOf(const Connector& connector) { return "The connector \"" + connector.name + "\""; }
+  static std::string nameOf(const Connector& connector) {
+    return "The connector \"" + connector.name + "\"";
+  }
 
   LabelRules labelRules(const Finder& finder) const {
     LabelRules rules;
@@ -69,13 +72,17 @@ class Coupler {
     for (const auto& dof : connections_.released)
       for (const auto& place : finder.find(dof, "A release")) {
         const Piece& piece = pieces_[at(place.part)];
-        if (std::find(piece.interface.begin(), piece.interface.end(), place.dof) == piece.interface.end())
-          throw ModelError("A release names " + describe(dof) + ", which is no interface dof of part \"" + piece.name + "\", so nothing is joined to it.");
+        if (std::find(piece.interface.begin(), piece.interface.end(), place.dof) ==
+            piece.interface.end())
+          throw ModelError("A release names " + describe(dof) +
+                           ", which is no interface dof of part \"" + piece.name +
+                           "\", so nothing is joined to it.");
         rules.released.insert({place.part, place.dof});
       }
     const auto attach = [&](const std::vector<Term>& terms, const std::string& who) {
       for (const auto& term : terms)
-        for (const auto& place : finder.find(term.dof, who)) rules.attached.insert({place.part, place.dof});
+        for (const auto& place : finder.find(term.dof, who))
+          rules.attached.insert({place.part, place.dof});
     };
     for (std::size_t k = 0; k < connections_.constraints.size(); ++k)
       attach(connections_.constraints[k].terms, "The " + nameOf(connections_.constraints[k], k));
@@ -84,13 +91,16 @@ class Coupler {
     return rules;
   }
 
-  /// The one coordinate a dof means. Where several parts have it and none is named, they must be joined.
+  /// The one coordinate a dof means. Where several parts have it and none is named, they must be
+  /// joined.
   Place place(const Finder& finder, const PartDof& dof, const std::string& who) const {
     const auto places = finder.find(dof, who);
     for (const auto& other : places)
       if (!joined(places.front(), other))
-        throw ModelError(who + " names " + describe(dof) + " without a part, but parts \"" + pieces_[at(places.front().part)].name + "\" and \"" +
-                         pieces_[at(other.part)].name + "\" have it and are not joined there. Name the part.");
+        throw ModelError(who + " names " + describe(dof) + " without a part, but parts \"" +
+                         pieces_[at(places.front().part)].name + "\" and \"" +
+                         pieces_[at(other.part)].name +
+                         "\" have it and are not joined there. Name the part.");
     return places.front();
   }
 
@@ -98,7 +108,8 @@ class Coupler {
     if (column(a) == column(b)) return true;
     for (const auto& joint : labelled_.joints) {
       const auto in = [&](const Place& x) {
-        return std::any_of(joint.places.begin(), joint.places.end(), [&](const Place& y) { return x.part == y.part && x.dof == y.dof; });
+        return std::any_of(joint.places.begin(), joint.places.end(),
+                           [&](const Place& y) { return x.part == y.part && x.dof == y.dof; });
       };
       if (in(a) && in(b)) return true;
     }
@@ -110,8 +121,10 @@ class Coupler {
       const std::string who = nameOf(connector);
       if (!connector.law) throw ModelError(who + " has no law.");
       const int size = connector.law->size(), width = connector.law->width(), rows = size * width;
-      if (static_cast<int>(connector.rows.size()) != rows || (connector.offset.size() != 0 && connector.offset.size() != rows))
-        throw ModelError(who + " has " + std::to_string(connector.rows.size()) + " rows for a law of " + std::to_string(size) + " points with " +
+      if (static_cast<int>(connector.rows.size()) != rows ||
+          (connector.offset.size() != 0 && connector.offset.size() != rows))
+        throw ModelError(who + " has " + std::to_string(connector.rows.size()) +
+                         " rows for a law of " + std::to_string(size) + " points with " +
                          std::to_string(width) + " coordinates each.");
       model::PointSet set;
       set.name = connector.name;
@@ -134,7 +147,8 @@ class Coupler {
     }
   }
 
-  /// All constraints over the coordinates of labelled_, relative to the states the parts were reduced about.
+  /// All constraints over the coordinates of labelled_, relative to the states the parts were
+  /// reduced about.
   void makeRows(const Finder& finder) {
     if (dual()) addJoints();
     for (std::size_t k = 0; k < connections_.constraints.size(); ++k) {
@@ -144,7 +158,8 @@ class Coupler {
       checkKinds(constraint, row.name);
       for (const auto& term : constraint.terms) {
         if (!std::isfinite(term.factor) || !std::isfinite(constraint.value))
-          throw ModelError("The " + row.name + " has a factor or a value that is not a finite number.");
+          throw ModelError("The " + row.name +
+                           " has a factor or a value that is not a finite number.");
         const Place where = place(finder, term.dof, "The " + row.name);
         row.entries.emplace_back(column(where), term.factor);
         row.value -= term.factor * offset(where);
@@ -159,16 +174,19 @@ class Coupler {
   static void checkKinds(const Constraint& constraint, const std::string& name) {
     for (const auto& a : constraint.terms)
       for (const auto& b : constraint.terms)
-        if (constraint.sameKind && kindOf(a.dof.component) == ComponentKind::Translation && kindOf(b.dof.component) == ComponentKind::Rotation)
+        if (constraint.sameKind && kindOf(a.dof.component) == ComponentKind::Translation &&
+            kindOf(b.dof.component) == ComponentKind::Rotation)
           throw ModelError("The " + name + " makes " + describe(a.dof) + " and " + describe(b.dof) +
-                           " equal, a translation and a rotation. Tie dofs of one kind, or give a constraint with a lever arm as factor.");
+                           " equal, a translation and a rotation. Tie dofs of one kind, or give a "
+                           "constraint with a lever arm as factor.");
   }
 
   /// u_p - u_first = 0 for every further part of a joint.
   void addJoints() {
     for (const auto& joint : labelled_.joints)
       for (std::size_t k = 1; k < joint.places.size(); ++k)
-        rows_.push_back({"joint of parts \"" + pieces_[at(joint.places.front().part)].name + "\" and \"" + pieces_[at(joint.places[k].part)].name + "\" in " +
+        rows_.push_back({"joint of parts \"" + pieces_[at(joint.places.front().part)].name +
+                             "\" and \"" + pieces_[at(joint.places[k].part)].name + "\" in " +
                              model::describe(joint.label, labelled_.model.componentNames),
                          {{column(joint.places[k]), 1.0}, {column(joint.places.front()), -1.0}},
                          0.0});
@@ -179,15 +197,20 @@ class Coupler {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const Piece& piece = pieces_[p];
       if (piece.forces > 0)
-        throw ModelError("The coordinates of part \"" + piece.name + "\" contain the forces on its interface, which only multipliers can join. Set the assembly to Dual, or "
+        throw ModelError("The coordinates of part \"" + piece.name +
+                         "\" contain the forces on its interface, which only multipliers can join. "
+                         "Set the assembly to Dual, or "
                          "take a basis that keeps the interface dofs.");
       for (int j = 0; j < piece.boundaryRows.rows(); ++j) {
         const int dof = piece.coordinates + j;
-        ConstraintRow row{"interface of part \"" + piece.name + "\" in " + model::describe(piece.model->dofs[at(dof)], piece.model->componentNames),
-                          {{labelled_.columns[p][at(dof)], 1.0}},
-                          0.0};
+        ConstraintRow row{
+            "interface of part \"" + piece.name + "\" in " +
+                model::describe(piece.model->dofs[at(dof)], piece.model->componentNames),
+            {{labelled_.columns[p][at(dof)], 1.0}},
+            0.0};
         for (Sparse::InnerIterator it(piece.boundaryRows, j); it; ++it)
-          row.entries.emplace_back(labelled_.columns[p][at(static_cast<int>(it.col()))], -it.value());
+          row.entries.emplace_back(labelled_.columns[p][at(static_cast<int>(it.col()))],
+                                   -it.value());
         rows_.push_back(row);
       }
     }
@@ -199,7 +222,8 @@ class Coupler {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       for (std::size_t i = 0; i < labelled_.columns[p].size(); ++i) {
         int& r = rank[at(labelled_.columns[p][i])];
-        if (labelled_.model.dofs[at(labelled_.columns[p][i])].kind == DofLabel::Kind::Physical) r = std::min(r, 1);
+        if (labelled_.model.dofs[at(labelled_.columns[p][i])].kind == DofLabel::Kind::Physical)
+          r = std::min(r, 1);
       }
       for (int i : pieces_[p].interface) rank[at(labelled_.columns[p][at(i)])] = 0;
     }
@@ -217,9 +241,12 @@ class Coupler {
           size = std::max(size, std::abs(factor * y[other]));
         }
         if (std::abs(y[solved.unknown] - value) <= agreement * size) continue;
-        throw ModelError("The initial " + std::string(velocity ? "velocity" : "displacement") + " of " +
-                         model::describe(labelled_.model.dofs[at(solved.unknown)], labelled_.model.componentNames) + " is " + formatNumber(y[solved.unknown]) +
-                         ", but the " + rows_[at(solved.row)].name + " asks for " + formatNumber(value) + ". Parts that meet must start from one state.");
+        throw ModelError(
+            "The initial " + std::string(velocity ? "velocity" : "displacement") + " of " +
+            model::describe(labelled_.model.dofs[at(solved.unknown)],
+                            labelled_.model.componentNames) +
+            " is " + formatNumber(y[solved.unknown]) + ", but the " + rows_[at(solved.row)].name +
+            " asks for " + formatNumber(value) + ". Parts that meet must start from one state.");
       }
     };
     check(labelled_.model.initialDisplacement, false);
@@ -253,7 +280,8 @@ class Coupler {
         s.initialVelocity[to[y]] = out_.model.initialVelocity[static_cast<Eigen::Index>(y)];
       }
     for (const auto& solved : elimination.solved) {
-      for (const auto& [other, factor] : solved.rest) entries.emplace_back(solved.unknown, to[at(other)], factor);
+      for (const auto& [other, factor] : solved.rest)
+        entries.emplace_back(solved.unknown, to[at(other)], factor);
       offset_[solved.unknown] = solved.value;
     }
     s.map = Sparse(all, kept);
@@ -287,7 +315,8 @@ class Coupler {
       Vector local(static_cast<Eigen::Index>(columns.size()));
       for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
         local[i] = offset_[columns[at(i)]];
-        for (Sparse::InnerIterator it(map, columns[at(i)]); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+        for (Sparse::InnerIterator it(map, columns[at(i)]); it; ++it)
+          entries.emplace_back(i, static_cast<int>(it.col()), it.value());
       }
       Sparse own(local.size(), map.cols());
       own.setFromTriplets(entries.begin(), entries.end());
@@ -310,7 +339,8 @@ class Coupler {
       for (const auto& place : joint.places)
         if (position[at(column(place))] >= 0) out_.interface.push_back(position[at(column(place))]);
     std::sort(out_.interface.begin(), out_.interface.end());
-    out_.interface.erase(std::unique(out_.interface.begin(), out_.interface.end()), out_.interface.end());
+    out_.interface.erase(std::unique(out_.interface.begin(), out_.interface.end()),
+                         out_.interface.end());
     out_.joinedDofs = static_cast<int>(out_.interface.size());
   }
 
@@ -327,22 +357,27 @@ class Coupler {
 }  // namespace
 
 bool Coupling::boolean() const {
-  return std::all_of(positions.begin(), positions.end(),
-                     [](const auto& part) { return std::find(part.begin(), part.end(), -1) == part.end(); });
+  return std::all_of(positions.begin(), positions.end(), [](const auto& part) {
+    return std::find(part.begin(), part.end(), -1) == part.end();
+  });
 }
 
-Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts, const CouplingOptions& options) {
+Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts,
+                             const CouplingOptions& options) {
   return Coupler(makePieces(parts), options).run();
 }
 
-Coupling coupleWithPositions(const std::vector<model::Substructure>& parts, const CouplingOptions& options) {
+Coupling coupleWithPositions(const std::vector<model::Substructure>& parts,
+                             const CouplingOptions& options) {
   return Coupler(makePieces(parts), options).run();
 }
 
-SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts, const CouplingOptions& options) {
+SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts,
+                        const CouplingOptions& options) {
   return coupleWithPositions(parts, options).model;
 }
-SecondOrderModel couple(const std::vector<model::Substructure>& parts, const CouplingOptions& options) {
+SecondOrderModel couple(const std::vector<model::Substructure>& parts,
+                        const CouplingOptions& options) {
   return coupleWithPositions(parts, options).model;
 }
 

@@ -32,7 +32,8 @@ Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index
   Triplets entries;
   for (int i = 0; i < A.outerSize(); ++i)
     for (Sparse::InnerIterator it(A, i); it; ++it)
-      if (it.value() != 0.0) entries.emplace_back(i, column[at(static_cast<int>(it.col()))], it.value());
+      if (it.value() != 0.0)
+        entries.emplace_back(i, column[at(static_cast<int>(it.col()))], it.value());
   Sparse moved(A.rows(), columns);
   moved.setFromTriplets(entries.begin(), entries.end());
   return moved;
@@ -46,7 +47,8 @@ void substitute(model::SecondOrderModel& model, const Substitution& substitution
   if (!offset.isZero(0.0))
     for (const auto& term : model.stiffness) {
       const Vector force = -(term.matrix * offset);
-      if (!force.isZero(0.0)) model.loads.push_back({"constraint values: " + term.name, transposed * force, term.law});
+      if (!force.isZero(0.0))
+        model.loads.push_back({"constraint values: " + term.name, transposed * force, term.law});
     }
   changeEachMatrix(model, [&](model::SharedSparse& A) {
     const Sparse right = A * L;
@@ -92,7 +94,8 @@ std::vector<int> narrowNumbering(const model::SecondOrderModel& model) {
   next = 0;
   for (int g : cuthillMcKee(static_cast<int>(members.size()), edges)) {
     auto& dofs = members[at(g)];
-    std::sort(dofs.begin(), dofs.end(), [&](int a, int b) { return model.dofs[at(a)] < model.dofs[at(b)]; });
+    std::sort(dofs.begin(), dofs.end(),
+              [&](int a, int b) { return model.dofs[at(a)] < model.dofs[at(b)]; });
     for (int i : dofs) position[at(i)] = next++;
   }
   return position;
@@ -104,7 +107,9 @@ void renumber(model::SecondOrderModel& model, const std::vector<int>& position) 
     Triplets entries;
     for (int i = 0; i < A.outerSize(); ++i)
       for (model::SharedSparse::InnerIterator it(A, i); it; ++it)
-        if (it.value() != 0.0) entries.emplace_back(position[at(i)], position[at(static_cast<int>(it.col()))], it.value());
+        if (it.value() != 0.0)
+          entries.emplace_back(position[at(i)], position[at(static_cast<int>(it.col()))],
+                               it.value());
     A = Sparse(n, n);
     A.setFromTriplets(entries.begin(), entries.end());
   });

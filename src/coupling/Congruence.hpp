@@ -18,11 +18,13 @@ struct Substitution {
   Vector initialVelocity;
 };
 
-/// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery follow.
+/// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery
+/// follow.
 void substitute(model::SecondOrderModel& model, const Substitution& substitution);
 
-/// Position of every dof in a numbering by a Cuthill-McKee walk over groups: the dofs of a node together, with the forces on them; the modes of an
-/// interface together; every mode of a part by itself.
+/// Position of every dof in a numbering by a Cuthill-McKee walk over groups: the dofs of a node
+/// together, with the forces on them; the modes of an interface together; every mode of a part by
+/// itself.
 std::vector<int> narrowNumbering(const model::SecondOrderModel& model);
 
 /// Puts dof i at position[i].

@@ -25,9 +25,11 @@ bool forcesHaveMass(const model::SecondOrderModel& model) {
 Sparse normalStiffness(const model::SecondOrderModel& model, std::size_t first) {
   model::SecondOrderModel smooth;
   smooth.mass = Sparse(model.size(), model.size());
-  smooth.points.assign(model.points.begin() + static_cast<std::ptrdiff_t>(first), model.points.end());
+  smooth.points.assign(model.points.begin() + static_cast<std::ptrdiff_t>(first),
+                       model.points.end());
   for (auto& set : smooth.points) set.law = model::withoutFriction(set.law);
-  return reduction::symmetricPart(smooth.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity));
+  return reduction::symmetricPart(
+      smooth.pointStiffness(0.0, model.initialDisplacement, model.initialVelocity));
 }
 
 Sparse undampedStiffness(const model::SecondOrderModel& model) {
@@ -39,12 +41,16 @@ linalg::EigenPairs lowestModes(const model::SecondOrderModel& model, int count) 
   const Sparse K = undampedStiffness(model);
   const Sparse M = reduction::symmetricPart(model.mass);
   linalg::EigenOptions options;
-  options.name = [&](int i) { return model::describe(model.dofs[static_cast<std::size_t>(i)], model.componentNames); };
-  return linalg::hasSingularMass(M) ? linalg::semidefiniteModes(K, M, count < model.size() ? count : -1, options)
-                                    : linalg::lowestModes(K, M, count, options);
+  options.name = [&](int i) {
+    return model::describe(model.dofs[static_cast<std::size_t>(i)], model.componentNames);
+  };
+  return linalg::hasSingularMass(M)
+             ? linalg::semidefiniteModes(K, M, count < model.size() ? count : -1, options)
+             : linalg::lowestModes(K, M, count, options);
 }
 
-std::vector<char> spuriousShapes(const model::SecondOrderModel& model, const Eigen::MatrixXcd& shapes) {
+std::vector<char> spuriousShapes(const model::SecondOrderModel& model,
+                                 const Eigen::MatrixXcd& shapes) {
   std::vector<char> spurious(static_cast<std::size_t>(shapes.cols()), 0);
   if (!forcesHaveMass(model)) return spurious;
   Vector ofForces(model.size());
@@ -63,7 +69,8 @@ std::vector<char> spuriousShapes(const model::SecondOrderModel& model, const Eig
   return spurious;
 }
 
-linalg::EigenPairs lowestPhysicalModes(const model::SecondOrderModel& model, int count, int* spurious) {
+linalg::EigenPairs lowestPhysicalModes(const model::SecondOrderModel& model, int count,
+                                       int* spurious) {
   if (spurious != nullptr) *spurious = 0;
   if (!forcesHaveMass(model)) return lowestModes(model, count);
   const linalg::EigenPairs all = lowestModes(model, model.size());

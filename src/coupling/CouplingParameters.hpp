@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Coupling`: how parts are joined beyond equal labels. Read without any part, then turned into connections when the parts
-/// are there, wherever they came from.
+/// The deck list `Coupling`: how parts are joined beyond equal labels. Read without any part, then
+/// turned into connections when the parts are there, wherever they came from.
 #pragma once
 
 #include <optional>
@@ -52,7 +52,8 @@ struct PointPlan : PlanEntry {
   std::optional<Vector3> direction;
   std::string component;  ///< instead of a direction
   std::shared_ptr<const model::PointLaw> law;
-  std::optional<StopParameters> sliding;  ///< friction of a stop: the law is made when it is known how many tangents there are
+  std::optional<StopParameters> sliding;  ///< friction of a stop: the law is made when it is known
+                                          ///< how many tangents there are
 };
 
 struct CouplingPlan {
@@ -71,8 +72,9 @@ struct CouplingPlan {
 /// Description of the list `Coupling`.
 deck::ListSpec parameters();
 
-/// Throws DeckError: a node that is not written PART:NODE, not exactly one of Direction and Component, axes that are not perpendicular, factors
-/// that are not as many as terms, joints of parts whose numbers are shared.
+/// Throws DeckError: a node that is not written PART:NODE, not exactly one of Direction and
+/// Component, axes that are not perpendicular, factors that are not as many as terms, joints of
+/// parts whose numbers are shared.
 CouplingPlan readCoupling(const Teuchos::ParameterList& list);
 
 /// What is known of a part before it is made.
@@ -80,8 +82,10 @@ struct PartOutline {
   std::string name;
   std::vector<std::int64_t> nodes;  ///< empty: not known yet
 };
-/// Throws DeckError, one line each, for parts, nodes and components that the plan names and that do not exist, with path and suggestion.
-void checkNames(const CouplingPlan& plan, const std::vector<PartOutline>& parts, const model::ComponentNames& names);
+/// Throws DeckError, one line each, for parts, nodes and components that the plan names and that do
+/// not exist, with path and suggestion.
+void checkNames(const CouplingPlan& plan, const std::vector<PartOutline>& parts,
+                const model::ComponentNames& names);
 
 /// "4 springs, 1 hinge": for people.
 std::string describe(const CouplingPlan& plan);

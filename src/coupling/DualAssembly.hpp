@@ -18,7 +18,9 @@ struct DualModel {
   std::vector<Multiplier> multipliers;
   Sparse map;  ///< coordinates of `labelled` from those of the model
 };
-/// Two multipliers for each constraint that `constraints` solved: halves of the force on the dof it is solved for.
-DualModel addMultipliers(const std::vector<Piece>& pieces, const Labelled& labelled, const Elimination& constraints);
+/// Two multipliers for each constraint that `constraints` solved: halves of the force on the dof it
+/// is solved for.
+DualModel addMultipliers(const std::vector<Piece>& pieces, const Labelled& labelled,
+                         const Elimination& constraints);
 
 }  // namespace tooljoint::coupling

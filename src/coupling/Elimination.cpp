@@ -61,7 +61,9 @@ class Eliminator {
       put(unknown, factor, a);
     }
     for (auto it = a.entries.begin(); it != a.entries.end();)
-      it = std::abs(it->second.value) <= rounding * std::max(it->second.size, size) ? a.entries.erase(it) : std::next(it);
+      it = std::abs(it->second.value) <= rounding * std::max(it->second.size, size)
+               ? a.entries.erase(it)
+               : std::next(it);
     if (a.entries.empty()) {
       empty(row, a);
       return;
@@ -86,11 +88,17 @@ class Eliminator {
   void empty(const ConstraintRow& row, const Accumulator& a) {
     std::vector<std::string> others;
     for (int o : a.origins) others.push_back(rows_[at(o)].name);
-    const std::string by = others.empty() ? "" : others.size() > 6 ? std::to_string(others.size()) + " others" : join(others, ", ");
+    const std::string by = others.empty()      ? ""
+                           : others.size() > 6 ? std::to_string(others.size()) + " others"
+                                               : join(others, ", ");
     if (std::abs(a.right.value) > 1e-9 * std::max(a.right.size, 1e-300))
-      throw ModelError("The " + row.name + (by.empty() ? " has no dof in it" : " contradicts " + by) + ": together they ask for 0 = " +
-                       formatNumber(a.right.value) + ". Take one of them out, or change its value.");
-    out_.redundant.push_back("The " + row.name + (by.empty() ? " says nothing" : " follows from " + by) + " and was left out.");
+      throw ModelError("The " + row.name +
+                       (by.empty() ? " has no dof in it" : " contradicts " + by) +
+                       ": together they ask for 0 = " + formatNumber(a.right.value) +
+                       ". Take one of them out, or change its value.");
+    out_.redundant.push_back("The " + row.name +
+                             (by.empty() ? " says nothing" : " follows from " + by) +
+                             " and was left out.");
   }
 
   int pivot(const ConstraintRow& row, const Accumulator& a) const {
@@ -107,7 +115,9 @@ class Eliminator {
   bool before(int a, int b, const ConstraintRow& row) const {
     if (rank_[at(a)] != rank_[at(b)]) return rank_[at(a)] < rank_[at(b)];
     const auto place = [&](int unknown) {
-      return std::find_if(row.entries.begin(), row.entries.end(), [&](const auto& e) { return e.first == unknown; }) - row.entries.begin();
+      return std::find_if(row.entries.begin(), row.entries.end(),
+                          [&](const auto& e) { return e.first == unknown; }) -
+             row.entries.begin();
     };
     if (place(a) != place(b)) return place(a) < place(b);
     return users_[at(a)].size() < users_[at(b)].size();
@@ -160,6 +170,8 @@ class Eliminator {
 
 }  // namespace
 
-Elimination eliminate(const std::vector<ConstraintRow>& rows, const std::vector<int>& rank) { return Eliminator(rows, rank).run(); }
+Elimination eliminate(const std::vector<ConstraintRow>& rows, const std::vector<int>& rank) {
+  return Eliminator(rows, rank).run();
+}
 
 }  // namespace tooljoint::coupling

@@ -11,14 +11,17 @@
 
 namespace tooljoint::coupling {
 
-/// sum_k entries[k].second y[entries[k].first] = value. Solved for the first unknown if that is possible.
+/// sum_k entries[k].second y[entries[k].first] = value. Solved for the first unknown if that is
+/// possible.
 struct ConstraintRow {
-  std::string name;  ///< how messages call it: `constraint "crank"`, `u of node 4 of parts "a" and "b"`
+  std::string
+      name;  ///< how messages call it: `constraint "crank"`, `u of node 4 of parts "a" and "b"`
   std::vector<std::pair<int, double>> entries;
   double value = 0;
 };
 
-/// y[unknown] = value + sum_k rest[k].second y[rest[k].first]; no unknown that is solved for stands in any `rest`.
+/// y[unknown] = value + sum_k rest[k].second y[rest[k].first]; no unknown that is solved for stands
+/// in any `rest`.
 struct SolvedRow {
   int unknown = 0;
   std::vector<std::pair<int, double>> rest;  ///< by increasing unknown
@@ -27,12 +30,13 @@ struct SolvedRow {
 };
 
 struct Elimination {
-  std::vector<SolvedRow> solved;  ///< in the order of the constraints
+  std::vector<SolvedRow> solved;       ///< in the order of the constraints
   std::vector<std::string> redundant;  ///< sentences: constraints that follow from others
 };
 
-/// Gauss-Jordan elimination, one constraint after the other. Of the unknowns of a row whose coefficient is at least 1e-3 of the
-/// largest, one with the least `rank` is solved for; of several, the one named first in the constraint. ModelError when constraints contradict each
+/// Gauss-Jordan elimination, one constraint after the other. Of the unknowns of a row whose
+/// coefficient is at least 1e-3 of the largest, one with the least `rank` is solved for; of
+/// several, the one named first in the constraint. ModelError when constraints contradict each
 /// other, naming them.
 /// \param rank per unknown: lower ones are eliminated rather
 Elimination eliminate(const std::vector<ConstraintRow>& rows, const std::vector<int>& rank);

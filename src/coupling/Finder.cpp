@@ -11,7 +11,8 @@ namespace tooljoint::coupling {
 using model::DofLabel;
 
 std::string describe(const PartDof& dof) {
-  return dof.component + " of node " + std::to_string(dof.node) + (dof.part.empty() ? "" : " of part \"" + dof.part + "\"");
+  return dof.component + " of node " + std::to_string(dof.node) +
+         (dof.part.empty() ? "" : " of part \"" + dof.part + "\"");
 }
 
 Finder::Finder(const std::vector<Piece>& pieces) : pieces_(pieces) {}
@@ -23,20 +24,23 @@ int Finder::partNumber(const std::string& name, const std::string& who) const {
   if (it != names.end()) return static_cast<int>(it - names.begin());
   const auto meant = closest(name, names);
   throw ModelError(who + " names part \"" + name + "\", but there is no such part." +
-                   (meant.empty() ? " The parts are " + quotedList(names) + "." : " Did you mean \"" + meant + "\"?"));
+                   (meant.empty() ? " The parts are " + quotedList(names) + "."
+                                  : " Did you mean \"" + meant + "\"?"));
 }
 
 int Finder::component(const std::string& name, const std::string& who) const {
   const auto it = std::find(names().begin(), names().end(), name);
   if (it != names().end()) return static_cast<int>(it - names().begin());
-  throw ModelError(who + " names the component \"" + name + "\", but the components of a node are " + quotedList(names()) + ".");
+  throw ModelError(who + " names the component \"" + name +
+                   "\", but the components of a node are " + quotedList(names()) + ".");
 }
 
 bool Finder::hasNode(int part, std::int64_t node) const {
   const auto& m = *pieces_[static_cast<std::size_t>(part)].model;
   return std::find(m.recoveryNodes.begin(), m.recoveryNodes.end(), node) != m.recoveryNodes.end() ||
-         std::any_of(m.dofs.begin(), m.dofs.end(),
-                     [&](const DofLabel& label) { return label.kind == DofLabel::Kind::Physical && label.entity == node; });
+         std::any_of(m.dofs.begin(), m.dofs.end(), [&](const DofLabel& label) {
+           return label.kind == DofLabel::Kind::Physical && label.entity == node;
+         });
 }
 
 std::vector<Place> Finder::find(const PartDof& dof, const std::string& who) const {
@@ -55,16 +59,21 @@ std::vector<Place> Finder::find(const PartDof& dof, const std::string& who) cons
     const auto it = std::find(dofs.begin(), dofs.end(), label);
     if (it == dofs.end()) continue;
     if (piece.unturned.count(label) > 0)
-      throw ModelError(who + " names " + coupling::describe(dof) + ", which the frame of that node mixes with dofs the part does not have there. Retain "
-                       "all components of the node, or give it no frame.");
+      throw ModelError(
+          who + " names " + coupling::describe(dof) +
+          ", which the frame of that node mixes with dofs the part does not have there. Retain "
+          "all components of the node, or give it no frame.");
     places.push_back({p, static_cast<int>(it - dofs.begin())});
   }
   if (!places.empty()) return places;
   const std::string where = dof.part.empty() ? "no part" : "part \"" + dof.part + "\"";
   if (nodeKnown)
-    throw ModelError(who + " names " + coupling::describe(dof) + ", but it is held there, or an inner dof that the reduction has taken away. Retain that "
-                     "node, or name another dof.");
-  throw ModelError(who + " names node " + std::to_string(dof.node) + ", but " + where + " has " + (dof.part.empty() ? "such a node." : "no such node."));
+    throw ModelError(
+        who + " names " + coupling::describe(dof) +
+        ", but it is held there, or an inner dof that the reduction has taken away. Retain that "
+        "node, or name another dof.");
+  throw ModelError(who + " names node " + std::to_string(dof.node) + ", but " + where + " has " +
+                   (dof.part.empty() ? "such a node." : "no such node."));
 }
 
 }  // namespace tooljoint::coupling

@@ -21,8 +21,9 @@ class Finder {
  public:
   explicit Finder(const std::vector<Piece>& pieces);
 
-  /// Where the dof stands: one place, or all of them when no part is named. `who` opens messages: `The constraint "a"`. ModelError: unknown
-  /// part (with a suggestion), component or node, an inner dof of a reduced part, or one that a frame could not turn.
+  /// Where the dof stands: one place, or all of them when no part is named. `who` opens messages:
+  /// `The constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an
+  /// inner dof of a reduced part, or one that a frame could not turn.
   std::vector<Place> find(const PartDof& dof, const std::string& who) const;
   const model::ComponentNames& names() const { return pieces_.front().model->componentNames; }
 

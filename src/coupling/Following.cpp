@@ -27,8 +27,10 @@ void follow(Coupling& coupling, const reduction::Followers& followers) {
   coupling.followers = static_cast<int>(followers.dofs.size());
   model::SecondOrderModel& model = coupling.model;
   if (!coupling.multipliers.empty())
-    throw ModelError("Coordinates that follow the others need joined dofs, but dual assembly leaves every part its own. Set the assembly to Primal, or give the "
-                     "basis coordinates of its own (\"Residual Coordinates\" = \"Free\").");
+    throw ModelError(
+        "Coordinates that follow the others need joined dofs, but dual assembly leaves every part "
+        "its own. Set the assembly to Primal, or give the "
+        "basis coordinates of its own (\"Residual Coordinates\" = \"Free\").");
   std::vector<int> column(static_cast<std::size_t>(model.size()), 0);
   for (int i : followers.dofs) column[static_cast<std::size_t>(i)] = -1;
   std::vector<int> others;
@@ -44,7 +46,8 @@ void follow(Coupling& coupling, const reduction::Followers& followers) {
   for (std::size_t f = 0; f < followers.dofs.size(); ++f)
     for (Eigen::Index j = 0; j < followers.rows.cols(); ++j)
       if (followers.rows(static_cast<Eigen::Index>(f), j) != 0.0)
-        entries.emplace_back(followers.dofs[f], static_cast<int>(j), followers.rows(static_cast<Eigen::Index>(f), j));
+        entries.emplace_back(followers.dofs[f], static_cast<int>(j),
+                             followers.rows(static_cast<Eigen::Index>(f), j));
   s.map = Sparse(model.size(), static_cast<Eigen::Index>(others.size()));
   s.map.setFromTriplets(entries.begin(), entries.end());
   s.offset = Vector::Zero(model.size());
@@ -57,9 +60,11 @@ void follow(Coupling& coupling, const reduction::Followers& followers) {
   }
   std::vector<int> interface;
   for (int i : coupling.interface)
-    if (column[static_cast<std::size_t>(i)] >= 0) interface.push_back(column[static_cast<std::size_t>(i)]);
+    if (column[static_cast<std::size_t>(i)] >= 0)
+      interface.push_back(column[static_cast<std::size_t>(i)]);
   coupling.interface = std::move(interface);
-  coupling.remarks.push_back(std::to_string(followers.dofs.size()) + " coordinates follow the others; the coupled matrices are full");
+  coupling.remarks.push_back(std::to_string(followers.dofs.size()) +
+                             " coordinates follow the others; the coupled matrices are full");
 }
 
 }  // namespace tooljoint::coupling

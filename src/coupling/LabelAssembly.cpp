@@ -24,7 +24,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Labeller {
  public:
-  Labeller(const std::vector<Piece>& pieces, const LabelRules& rules) : pieces_(pieces), rules_(rules) {}
+  Labeller(const std::vector<Piece>& pieces, const LabelRules& rules)
+      : pieces_(pieces), rules_(rules) {}
 
   Labelled run() {
     out_.model.componentNames = part(0).componentNames;
@@ -47,7 +48,9 @@ class Labeller {
   const SecondOrderModel& part(int p) const { return *pieces_[at(p)].model; }
   int parts() const { return static_cast<int>(pieces_.size()); }
   int size() const { return static_cast<int>(out_.model.dofs.size()); }
-  std::string describe(const DofLabel& label) const { return model::describe(label, out_.model.componentNames); }
+  std::string describe(const DofLabel& label) const {
+    return model::describe(label, out_.model.componentNames);
+  }
   bool released(int p, int i) const { return rules_.released.count({p, i}) > 0; }
 
   /// Interface dofs by label, and that inner dofs are nobody else's.
@@ -66,20 +69,24 @@ class Labeller {
         if (open[at(i)]) {
           shared[label].push_back({p, i});
         } else if (const auto [it, fresh] = inner.emplace(label, Place{p, i}); !fresh) {
-          throw ModelError("Parts \"" + name(it->second.part) + "\" and \"" + name(p) + "\" both have " + describe(label) +
-                           ", but as an inner dof, which nothing can be joined to. Declare it an interface dof of both parts.");
+          throw ModelError("Parts \"" + name(it->second.part) + "\" and \"" + name(p) +
+                           "\" both have " + describe(label) +
+                           ", but as an inner dof, which nothing can be joined to. Declare it an "
+                           "interface dof of both parts.");
         }
       }
     }
     for (const auto& [label, places] : shared) {
       if (const auto it = inner.find(label); it != inner.end())
-        throw ModelError(describe(label) + " is an interface dof of part \"" + name(places.front().part) +
-                         "\" but an inner dof of part \"" + name(it->second.part) +
-                         "\". Declare it an interface dof of both parts.");
+        throw ModelError(describe(label) + " is an interface dof of part \"" +
+                         name(places.front().part) + "\" but an inner dof of part \"" +
+                         name(it->second.part) + "\". Declare it an interface dof of both parts.");
       const Place& first = places.front();
-      if (places.size() < 2 && rules_.attached.count({first.part, first.dof}) == 0 && !released(first.part, first.dof))
+      if (places.size() < 2 && rules_.attached.count({first.part, first.dof}) == 0 &&
+          !released(first.part, first.dof))
         throw ModelError("The interface dof " + describe(label) + " of part \"" + name(first.part) +
-                         "\" joins nothing: no other part has it. Check the labels, or take it out of the interface.");
+                         "\" joins nothing: no other part has it. Check the labels, or take it out "
+                         "of the interface.");
       Joint joint{label, {}};
       for (const auto& place : places)
         if (!released(place.part, place.dof)) joint.places.push_back(place);
@@ -95,7 +102,8 @@ class Labeller {
     return label.kind == DofLabel::Kind::Modal ? DofLabel::modal(p, label.component) : label;
   }
 
-  /// Gives every dof of every part a coordinate; joined ones get the same. Modes are renumbered by part.
+  /// Gives every dof of every part a coordinate; joined ones get the same. Modes are renumbered by
+  /// part.
   void numberDofs() {
     out_.columns.resize(at(parts()));
     std::map<DofLabel, int> numberOf;
@@ -120,7 +128,8 @@ class Labeller {
     const auto& to = out_.columns[at(p)];
     for (int i = 0; i < A.outerSize(); ++i)
       for (Sparse::InnerIterator it(A, i); it; ++it)
-        if (it.value() != 0.0) entries.emplace_back(to[at(i)], to[at(static_cast<int>(it.col()))], it.value());
+        if (it.value() != 0.0)
+          entries.emplace_back(to[at(i)], to[at(static_cast<int>(it.col()))], it.value());
   }
 
   Sparse square(const Triplets& entries) const {
@@ -133,7 +142,8 @@ class Labeller {
   /// Law of a part as an index of the coupled model.
   int mergedLaw(int p, int law) { return out_.model.lawIndex(part(p).laws[at(law)]); }
 
-  std::vector<model::MatrixTerm> mergeTerms(model::SharedList<model::MatrixTerm> SecondOrderModel::*terms) {
+  std::vector<model::MatrixTerm> mergeTerms(
+      model::SharedList<model::MatrixTerm> SecondOrderModel::*terms) {
     std::vector<model::MatrixTerm> merged;
     std::vector<Triplets> entries;
     for (int p = 0; p < parts(); ++p)
@@ -164,20 +174,24 @@ class Labeller {
     for (int p = 0; p < parts(); ++p)
       for (const auto& load : part(p).loads) {
         const int law = mergedLaw(p, load.law);
-        auto it = std::find_if(loads.begin(), loads.end(),
-                               [&](const model::LoadTerm& other) { return other.name == load.name && other.law == law; });
+        auto it = std::find_if(loads.begin(), loads.end(), [&](const model::LoadTerm& other) {
+          return other.name == load.name && other.law == law;
+        });
         if (it == loads.end()) it = loads.insert(it, {load.name, Vector::Zero(size()), law});
-        for (int i = 0; i < part(p).size(); ++i) it->vector[out_.columns[at(p)][at(i)]] += load.vector[i];
+        for (int i = 0; i < part(p).size(); ++i)
+          it->vector[out_.columns[at(p)][at(i)]] += load.vector[i];
       }
   }
 
   /// Puts the values of all parts together; those of joined dofs must agree.
   template <class ValuesOf>
-  Vector gather(const ValuesOf& valuesOf, const std::string& what, const std::string& advice) const {
+  Vector gather(const ValuesOf& valuesOf, const std::string& what,
+                const std::string& advice) const {
     Vector all = Vector::Zero(size());
     std::vector<int> from(at(size()), -1);  // of the dof that stands for the joint
     double largest = 0;
-    for (int p = 0; p < parts(); ++p) largest = std::max(largest, part(p).size() > 0 ? valuesOf(p).cwiseAbs().maxCoeff() : 0.0);
+    for (int p = 0; p < parts(); ++p)
+      largest = std::max(largest, part(p).size() > 0 ? valuesOf(p).cwiseAbs().maxCoeff() : 0.0);
     for (int p = 0; p < parts(); ++p) {
       const Vector& values = valuesOf(p);
       for (int i = 0; i < part(p).size(); ++i) {
@@ -187,8 +201,9 @@ class Labeller {
           first = p;
           all[joint] = values[i];
         } else if (std::abs(all[joint] - values[i]) > agreement * largest) {
-          throw ModelError("The " + what + " of " + describe(part(p).dofs[at(i)]) + " is " + formatNumber(all[joint]) + " in part \"" +
-                           name(first) + "\" and " + formatNumber(values[i]) + " in part \"" + name(p) + "\". " + advice);
+          throw ModelError("The " + what + " of " + describe(part(p).dofs[at(i)]) + " is " +
+                           formatNumber(all[joint]) + " in part \"" + name(first) + "\" and " +
+                           formatNumber(values[i]) + " in part \"" + name(p) + "\". " + advice);
         }
         all[dof] = all[joint];
       }
@@ -201,8 +216,11 @@ class Labeller {
            "Parts that meet must be reduced about one state.");
     const std::string advice = "Parts that meet must start from one state.";
     out_.model.initialDisplacement =
-        gather([this](int p) -> const Vector& { return part(p).initialDisplacement; }, "initial displacement", advice);
-    out_.model.initialVelocity = gather([this](int p) -> const Vector& { return part(p).initialVelocity; }, "initial velocity", advice);
+        gather([this](int p) -> const Vector& { return part(p).initialDisplacement; },
+               "initial displacement", advice);
+    out_.model.initialVelocity =
+        gather([this](int p) -> const Vector& { return part(p).initialVelocity; },
+               "initial velocity", advice);
   }
 
   /// Output rows of a node in one part.
@@ -218,11 +236,13 @@ class Labeller {
     for (int p = 0; p < parts(); ++p) {
       const SecondOrderModel& m = part(p);
       const auto expected = static_cast<Eigen::Index>(m.recoveryNodes.size()) * components;
-      if (expected > 0 && (m.recovery.rows() != expected || m.recovery.cols() != m.size() || m.recoveryOffset.size() != expected))
+      if (expected > 0 && (m.recovery.rows() != expected || m.recovery.cols() != m.size() ||
+                           m.recoveryOffset.size() != expected))
         throw ModelError("Part \"" + name(p) + "\": its recovery rows do not match its " +
-                         std::to_string(m.recoveryNodes.size()) + " output nodes with " + std::to_string(components) +
-                         " components each.");
-      rows.push_back(expected > 0 ? moveColumns(m.recovery, out_.columns[at(p)], size()) : Sparse(0, size()));
+                         std::to_string(m.recoveryNodes.size()) + " output nodes with " +
+                         std::to_string(components) + " components each.");
+      rows.push_back(expected > 0 ? moveColumns(m.recovery, out_.columns[at(p)], size())
+                                  : Sparse(0, size()));
       for (std::size_t n = 0; n < m.recoveryNodes.size(); ++n) {
         const NodeRows here{p, static_cast<int>(n) * components};
         const auto [it, fresh] = nodes.emplace(m.recoveryNodes[n], here);
@@ -247,20 +267,23 @@ class Labeller {
   /// Whether the dof of a node is released in one of the parts, so that its motion differs.
   bool free(std::int64_t node, int component, int a, int b) const {
     for (const auto& [p, i] : rules_.released)
-      if ((p == a || p == b) && part(p).dofs[at(i)] == DofLabel::physical(node, component)) return true;
+      if ((p == a || p == b) && part(p).dofs[at(i)] == DofLabel::physical(node, component))
+        return true;
     return false;
   }
 
   /// A row in the dofs that stand for joints.
   Eigen::SparseVector<double> standing(const Sparse& rows, int row) const {
     Eigen::SparseVector<double> out(size());
-    for (Sparse::InnerIterator it(rows, row); it; ++it) out.coeffRef(stands_[at(static_cast<int>(it.col()))]) += it.value();
+    for (Sparse::InnerIterator it(rows, row); it; ++it)
+      out.coeffRef(stands_[at(static_cast<int>(it.col()))]) += it.value();
     return out;
   }
 
-  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b, std::int64_t node,
-                   int components) const {
-    if (pieces_[at(a.part)].boundaryRows.rows() > 0 || pieces_[at(b.part)].boundaryRows.rows() > 0) return;
+  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b,
+                   std::int64_t node, int components) const {
+    if (pieces_[at(a.part)].boundaryRows.rows() > 0 || pieces_[at(b.part)].boundaryRows.rows() > 0)
+      return;
     for (int c = 0; c < components; ++c) {
       if (free(node, c, a.part, b.part)) continue;
       const auto left = standing(rows[at(a.part)], a.firstRow + c);
@@ -268,25 +291,30 @@ class Labeller {
       const double leftOffset = part(a.part).recoveryOffset[a.firstRow + c];
       const double rightOffset = part(b.part).recoveryOffset[b.firstRow + c];
       const double scale = std::max({1.0, left.norm(), right.norm()});
-      const double offsetScale =
-          std::max({std::abs(leftOffset), std::abs(rightOffset), part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
+      const double offsetScale = std::max({std::abs(leftOffset), std::abs(rightOffset),
+                                           part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
       const Eigen::SparseVector<double> difference = left - right;
-      if (difference.norm() > agreement * scale || std::abs(leftOffset - rightOffset) > agreement * offsetScale)
-        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) + " is recovered differently by part \"" +
-                         name(a.part) + "\" and part \"" + name(b.part) +
-                         "\". A node that two parts share must be joined in every dof, or recovered by one of them only.");
+      if (difference.norm() > agreement * scale ||
+          std::abs(leftOffset - rightOffset) > agreement * offsetScale)
+        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) +
+                         " is recovered differently by part \"" + name(a.part) + "\" and part \"" +
+                         name(b.part) +
+                         "\". A node that two parts share must be joined in every dof, or "
+                         "recovered by one of them only.");
     }
   }
 
   const std::vector<Piece>& pieces_;
   const LabelRules& rules_;
   std::set<std::pair<int, int>> own_;  ///< (part, dof): one of several of its label, and by itself
-  std::vector<int> stands_;            ///< per coordinate: the first of those it is or will be joined to
+  std::vector<int> stands_;  ///< per coordinate: the first of those it is or will be joined to
   Labelled out_;
 };
 
 }  // namespace
 
-Labelled joinByLabels(const std::vector<Piece>& pieces, const LabelRules& rules) { return Labeller(pieces, rules).run(); }
+Labelled joinByLabels(const std::vector<Piece>& pieces, const LabelRules& rules) {
+  return Labeller(pieces, rules).run();
+}
 
 }  // namespace tooljoint::coupling

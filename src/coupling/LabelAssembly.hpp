@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Boolean part of assembly: one coordinate for all interface dofs of one label, or one for each part.
+/// The Boolean part of assembly: one coordinate for all interface dofs of one label, or one for
+/// each part.
 #pragma once
 
 #include <set>
@@ -14,9 +15,10 @@ namespace tooljoint::coupling {
 
 /// What the labels alone do not say.
 struct LabelRules {
-  bool apart = false;                        ///< every part keeps its own dofs (dual assembly)
-  std::set<std::pair<int, int>> released;    ///< (part, dof): not joined
-  std::set<std::pair<int, int>> attached;    ///< (part, dof): held by a connection, so it may join nothing by its label
+  bool apart = false;                      ///< every part keeps its own dofs (dual assembly)
+  std::set<std::pair<int, int>> released;  ///< (part, dof): not joined
+  std::set<std::pair<int, int>>
+      attached;  ///< (part, dof): held by a connection, so it may join nothing by its label
 };
 
 /// Interface dofs of one label, joined or to be joined.

@@ -32,10 +32,12 @@ Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {
 void appendBoundary(const reduction::Boundary& boundary, Piece& piece) {
   auto m = std::make_shared<SecondOrderModel>(*piece.model);
   const Eigen::Index n = m->size(), all = n + static_cast<Eigen::Index>(boundary.dofs.size());
-  if (boundary.rows.rows() != all - n || boundary.rows.cols() != n || boundary.offset.size() != all - n || boundary.forces < 0 ||
+  if (boundary.rows.rows() != all - n || boundary.rows.cols() != n ||
+      boundary.offset.size() != all - n || boundary.forces < 0 ||
       (boundary.forces > 0 && boundary.forces != all - n))
-    throw ModelError("Part \"" + piece.name + "\": the rows of its interface do not match its " + std::to_string(all - n) + " interface dofs and " +
-                     std::to_string(n) + " coordinates.");
+    throw ModelError("Part \"" + piece.name + "\": the rows of its interface do not match its " +
+                     std::to_string(all - n) + " interface dofs and " + std::to_string(n) +
+                     " coordinates.");
   changeEachMatrix(*m, [&](model::SharedSparse& A) { A = extended(A, all, all); });
   for (auto& load : m->loads) load.vector.conservativeResizeLike(Vector::Zero(all));
   for (auto& set : m->points) set.rows = extended(set.rows, set.rows.rows(), all);
@@ -98,14 +100,17 @@ void alignComponents(std::vector<Piece>& pieces) {
   for (auto& piece : pieces) {
     const auto& names = piece.model->componentNames;
     if (names == first) continue;
-    if (names.size() != first.size() || !std::is_permutation(names.begin(), names.end(), first.begin()))
+    if (names.size() != first.size() ||
+        !std::is_permutation(names.begin(), names.end(), first.begin()))
       throw ModelError("Parts \"" + pieces.front().name + "\" and \"" + piece.name +
-                       "\" do not speak of the same dofs: the components of a node are " + quotedList(first) + " in the first and " +
-                       quotedList(names) + " in the second.");
+                       "\" do not speak of the same dofs: the components of a node are " +
+                       quotedList(first) + " in the first and " + quotedList(names) +
+                       " in the second.");
     auto m = std::make_shared<SecondOrderModel>(*piece.model);
     const int width = static_cast<int>(first.size());
     std::vector<int> to;  // of each component of the part
-    for (const auto& name : names) to.push_back(static_cast<int>(std::find(first.begin(), first.end(), name) - first.begin()));
+    for (const auto& name : names)
+      to.push_back(static_cast<int>(std::find(first.begin(), first.end(), name) - first.begin()));
     for (auto& label : m->dofs)
       if (label.kind == DofLabel::Kind::Physical) label.component = to[at(label.component)];
     Triplets rows, order;
@@ -114,7 +119,8 @@ void alignComponents(std::vector<Piece>& pieces) {
       const int row = i / width * width + to[at(i % width)];
       offset[row] = m->recoveryOffset[i];
       order.emplace_back(row, i, 1.0);
-      for (model::SharedSparse::InnerIterator it(m->recovery, i); it; ++it) rows.emplace_back(row, static_cast<int>(it.col()), it.value());
+      for (model::SharedSparse::InnerIterator it(m->recovery, i); it; ++it)
+        rows.emplace_back(row, static_cast<int>(it.col()), it.value());
     }
     m->recovery.setFromTriplets(rows.begin(), rows.end());
     m->recoveryOffset = offset;
@@ -155,18 +161,26 @@ class PartFrames {
 };
 
 void checkRotation(const Frame& frame) {
-  const double defect = (frame.axes.transpose() * frame.axes - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  const std::string who = "The frame of " + (frame.node == 0 ? std::string("all nodes") : "node " + std::to_string(frame.node)) + " of part \"" + frame.part + "\"";
+  const double defect =
+      (frame.axes.transpose() * frame.axes - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  const std::string who =
+      "The frame of " +
+      (frame.node == 0 ? std::string("all nodes") : "node " + std::to_string(frame.node)) +
+      " of part \"" + frame.part + "\"";
   if (!(defect <= 1e-8))
-    throw ModelError(who + " is no rotation: its axes are not orthonormal, |axes' axes - 1| = " + formatNumber(defect) +
+    throw ModelError(who + " is no rotation: its axes are not orthonormal, |axes' axes - 1| = " +
+                     formatNumber(defect) +
                      ". Give three unit vectors at right angles, as columns.");
-  if (frame.axes.determinant() < 0) throw ModelError(who + " is no rotation: its axes are left-handed. Turn one of them round, or swap two.");
+  if (frame.axes.determinant() < 0)
+    throw ModelError(
+        who + " is no rotation: its axes are left-handed. Turn one of them round, or swap two.");
 }
 
 /// Turns one part.
 class Turning {
  public:
-  Turning(Piece& piece, const PartFrames& frames) : piece_(piece), frames_(frames), axes_(componentAxes(piece.model->componentNames)) {}
+  Turning(Piece& piece, const PartFrames& frames)
+      : piece_(piece), frames_(frames), axes_(componentAxes(piece.model->componentNames)) {}
 
   void run() {
     checkNodes();
@@ -174,10 +188,14 @@ class Turning {
     const Sparse T = dofTurn();
     const Sparse back = T.transpose();
     turnRecovery(*m);
-    substitute(*m, {T, Vector::Zero(T.rows()), m->dofs, back * m->initialDisplacement, back * m->initialVelocity});
+    substitute(*m, {T, Vector::Zero(T.rows()), m->dofs, back * m->initialDisplacement,
+                    back * m->initialVelocity});
     piece_.offset = back * piece_.offset;
     const Eigen::Index n = piece_.coordinates, more = T.rows() - n;
-    if (more > 0) piece_.boundaryRows = Sparse(Sparse(back.bottomRightCorner(more, more)) * piece_.boundaryRows) * Sparse(T.topLeftCorner(n, n));
+    if (more > 0)
+      piece_.boundaryRows =
+          Sparse(Sparse(back.bottomRightCorner(more, more)) * piece_.boundaryRows) *
+          Sparse(T.topLeftCorner(n, n));
     piece_.turn = T;
     piece_.own = m;
     piece_.model = m.get();
@@ -186,9 +204,13 @@ class Turning {
  private:
   void checkNodes() const {
     for (const auto& [node, axes] : frames_.nodes()) {
-      bool known = std::find(piece_.model->recoveryNodes.begin(), piece_.model->recoveryNodes.end(), node) != piece_.model->recoveryNodes.end();
-      for (const auto& label : piece_.model->dofs) known = known || (label.kind == DofLabel::Kind::Physical && label.entity == node);
-      if (!known) throw ModelError("A frame is given for node " + std::to_string(node) + " of part \"" + piece_.name + "\", but the part has no such node.");
+      bool known = std::find(piece_.model->recoveryNodes.begin(), piece_.model->recoveryNodes.end(),
+                             node) != piece_.model->recoveryNodes.end();
+      for (const auto& label : piece_.model->dofs)
+        known = known || (label.kind == DofLabel::Kind::Physical && label.entity == node);
+      if (!known)
+        throw ModelError("A frame is given for node " + std::to_string(node) + " of part \"" +
+                         piece_.name + "\", but the part has no such node.");
     }
   }
 
@@ -197,12 +219,14 @@ class Turning {
     const auto& dofs = piece_.model->dofs;
     std::map<std::int64_t, std::map<int, int>> nodes;  // node -> component -> position
     for (std::size_t i = 0; i < dofs.size(); ++i)
-      if (dofs[i].kind == DofLabel::Kind::Physical) nodes[dofs[i].entity][dofs[i].component] = static_cast<int>(i);
+      if (dofs[i].kind == DofLabel::Kind::Physical)
+        nodes[dofs[i].entity][dofs[i].component] = static_cast<int>(i);
     Triplets entries;
     std::vector<char> turned(dofs.size(), 0);
     for (const auto& [node, positions] : nodes)
       if (const Matrix3* axes = frames_.of(node))
-        for (const auto& vector : {axes_.translation, axes_.rotation}) turnVector(node, positions, vector, *axes, entries, turned);
+        for (const auto& vector : {axes_.translation, axes_.rotation})
+          turnVector(node, positions, vector, *axes, entries, turned);
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (!turned[i]) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
     Sparse T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
@@ -210,20 +234,24 @@ class Turning {
     return T;
   }
 
-  /// One of the two vectors of a node: the components the names have, among those the dofs the part has.
-  void turnVector(std::int64_t node, const std::map<int, int>& positions, const std::array<int, 3>& vector, const Matrix3& axes,
-                  Triplets& entries, std::vector<char>& turned) {
+  /// One of the two vectors of a node: the components the names have, among those the dofs the part
+  /// has.
+  void turnVector(std::int64_t node, const std::map<int, int>& positions,
+                  const std::array<int, 3>& vector, const Matrix3& axes, Triplets& entries,
+                  std::vector<char>& turned) {
     std::vector<int> have;  // axes
     for (int a = 0; a < 3; ++a)
       if (vector[at(a)] >= 0 && positions.count(vector[at(a)]) > 0) have.push_back(a);
     if (have.empty()) return;
     Matrix R(have.size(), have.size());
     for (std::size_t i = 0; i < have.size(); ++i)
-      for (std::size_t j = 0; j < have.size(); ++j) R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = axes(have[j], have[i]);
+      for (std::size_t j = 0; j < have.size(); ++j)
+        R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = axes(have[j], have[i]);
     const auto position = [&](std::size_t i) { return positions.at(vector[at(have[i])]); };
     if ((R * R.transpose() - Matrix::Identity(R.rows(), R.cols())).cwiseAbs().maxCoeff() > 1e-8) {
       refusePartial(node, positions, vector, have);
-      for (std::size_t i = 0; i < have.size(); ++i) piece_.unturned.insert(piece_.model->dofs[at(position(i))]);
+      for (std::size_t i = 0; i < have.size(); ++i)
+        piece_.unturned.insert(piece_.model->dofs[at(position(i))]);
       return;
     }
     for (std::size_t i = 0; i < have.size(); ++i) {
@@ -236,16 +264,23 @@ class Turning {
   }
 
   /// A frame mixes dofs of an interface with ones the part does not have.
-  void refusePartial(std::int64_t node, const std::map<int, int>& positions, const std::array<int, 3>& vector, const std::vector<int>& have) const {
+  void refusePartial(std::int64_t node, const std::map<int, int>& positions,
+                     const std::array<int, 3>& vector, const std::vector<int>& have) const {
     const auto& names = piece_.model->componentNames;
     std::vector<std::string> missing;
     for (int a = 0; a < 3; ++a)
-      if (std::find(have.begin(), have.end(), a) == have.end()) missing.push_back(vector[at(a)] >= 0 ? names[at(vector[at(a)])] : "component along axis " + std::to_string(a + 1));
+      if (std::find(have.begin(), have.end(), a) == have.end())
+        missing.push_back(vector[at(a)] >= 0 ? names[at(vector[at(a)])]
+                                             : "component along axis " + std::to_string(a + 1));
     for (int a : have) {
       const int position = positions.at(vector[at(a)]);
-      if (std::find(piece_.interface.begin(), piece_.interface.end(), position) == piece_.interface.end()) continue;
-      throw ModelError("The frame of node " + std::to_string(node) + " of part \"" + piece_.name + "\" mixes " + names[at(vector[at(a)])] + " with " +
-                       quotedList(missing) + ", which the part does not have there as an interface or retained dof. Make all of them interface dofs, or give a "
+      if (std::find(piece_.interface.begin(), piece_.interface.end(), position) ==
+          piece_.interface.end())
+        continue;
+      throw ModelError("The frame of node " + std::to_string(node) + " of part \"" + piece_.name +
+                       "\" mixes " + names[at(vector[at(a)])] + " with " + quotedList(missing) +
+                       ", which the part does not have there as an interface or retained dof. Make "
+                       "all of them interface dofs, or give a "
                        "frame that turns only among those it has.");
     }
   }
@@ -264,7 +299,8 @@ class Turning {
           if (vector[at(a)] < 0) continue;
           done[at(vector[at(a)])] = 1;
           for (int b = 0; b < 3; ++b)
-            if (vector[at(b)] >= 0 && (*axes)(a, b) != 0.0) entries.emplace_back(first + vector[at(a)], first + vector[at(b)], (*axes)(a, b));
+            if (vector[at(b)] >= 0 && (*axes)(a, b) != 0.0)
+              entries.emplace_back(first + vector[at(a)], first + vector[at(b)], (*axes)(a, b));
         }
       for (int c = 0; c < width; ++c)
         if (!done[at(c)]) entries.emplace_back(first + c, first + c, 1.0);
@@ -290,7 +326,8 @@ void turn(std::vector<Piece>& pieces, const std::vector<Frame>& frames) {
   for (const auto& frame : frames) {
     if (std::find(names.begin(), names.end(), frame.part) == names.end()) {
       const auto meant = closest(frame.part, names);
-      throw ModelError("A frame names part \"" + frame.part + "\", but there is no such part." + (meant.empty() ? "" : " Did you mean \"" + meant + "\"?"));
+      throw ModelError("A frame names part \"" + frame.part + "\", but there is no such part." +
+                       (meant.empty() ? "" : " Did you mean \"" + meant + "\"?"));
     }
     checkRotation(frame);
     byPart[frame.part].set(frame);

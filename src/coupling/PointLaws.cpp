@@ -18,7 +18,9 @@ using model::Channel;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require(bool good, const std::string& what, double found, const std::string& expected) {
-  if (!good) throw ModelError("The " + what + " is " + formatNumber(found) + "; it must be " + expected + ".");
+  if (!good)
+    throw ModelError("The " + what + " is " + formatNumber(found) + "; it must be " + expected +
+                     ".");
 }
 
 /// A batch of points of one kind, each with its own parameters.
@@ -43,11 +45,12 @@ class Batch : public model::PointLaw {
 class Springs final : public Batch<SpringParameters, Springs> {
  public:
   using Batch::Batch;
-  void evaluate(double, const std::vector<int>& active, const double* d, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const override {
     for (int p : active) f[p] = force(p, d[p], v[p]);
   }
-  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v,
+                           double* f, double* dfdd, double* dfdv) const override {
     for (int p : active) {
       const auto& s = points_[at(p)];
       f[p] = force(p, d[p], v[p]);
@@ -58,7 +61,8 @@ class Springs final : public Batch<SpringParameters, Springs> {
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d,
+              const double* v) const override {
     Power sum;
     for (int p : points) {
       const auto& s = points_[at(p)];
@@ -99,16 +103,19 @@ Normal normal(const StopParameters& s, double d, double v) {
   if (g == 0.0) return {0, 0, 0};
   const double factor = 1 - s.damping * v;
   if (factor <= 0) return {0, 0, 0};
-  return {s.stiffness * g * factor, -s.stiffness * rampSlope(p, s.smoothing) * factor, -s.stiffness * g * s.damping};
+  return {s.stiffness * g * factor, -s.stiffness * rampSlope(p, s.smoothing) * factor,
+          -s.stiffness * g * s.damping};
 }
 
 /// Coordinates (separation, tangential displacements); friction only with tangents.
 class Stops final : public Batch<StopParameters, Stops>, public model::Frictional {
  public:
-  Stops(std::vector<StopParameters> points, int tangents) : Batch(std::move(points)), tangents_(tangents) {}
+  Stops(std::vector<StopParameters> points, int tangents)
+      : Batch(std::move(points)), tangents_(tangents) {}
   int width() const override { return 1 + tangents_; }
 
-  void evaluate(double, const std::vector<int>& active, const double* d, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const override {
     const int w = width();
     for (int p : active) {
       const auto& s = points_[at(p)];
@@ -119,8 +126,8 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
     }
   }
 
-  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v,
+                           double* f, double* dfdd, double* dfdv) const override {
     const int w = width();
     for (int p : active) {
       const auto& s = points_[at(p)];
@@ -141,7 +148,8 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
         C[t * w] = -s.friction * n.dv * direction;
         // d(v_t / |v|_r) / dv_u = (delta_tu - v_t v_u / |v|_r^2) / |v|_r
         for (int u = 1; u < w; ++u)
-          C[t * w + u] = -s.friction * n.force * ((t == u ? 1.0 : 0.0) - direction * velocity[u] / slip) / slip;
+          C[t * w + u] = -s.friction * n.force *
+                         ((t == u ? 1.0 : 0.0) - direction * velocity[u] / slip) / slip;
       }
     }
   }
@@ -158,7 +166,8 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
     for (int p : points) gap[p] = d[p * width()] + points_[at(p)].gap - points_[at(p)].smoothing;
   }
 
-  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d,
+              const double* v) const override {
     Power sum;
     const int w = width();
     for (int p : points) {
@@ -168,15 +177,18 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
       sum.stored += s.stiffness * rampIntegral(depth, s.smoothing);
       sum.damping += (n.force - s.stiffness * ramp(depth, s.smoothing)) * rate;
       const double slip = slipSize(s, v + p * w);
-      for (int t = 1; t < w; ++t) sum.friction += s.friction * n.force * v[p * w + t] * v[p * w + t] / slip;
+      for (int t = 1; t < w; ++t)
+        sum.friction += s.friction * n.force * v[p * w + t] * v[p * w + t] / slip;
     }
     return sum;
   }
 
   std::vector<Channel> channels() const override {
-    std::vector<Channel> list{{"stop_force", "N", "Force of the stop, positive when it pushes its sides apart"},
-                              {"stop_gap", "m", "Distance left at the stop, negative when it is met"}};
-    if (tangents_ > 0) list.push_back({"friction_force", "N", "Friction force in the plane of the stop"});
+    std::vector<Channel> list{
+        {"stop_force", "N", "Force of the stop, positive when it pushes its sides apart"},
+        {"stop_gap", "m", "Distance left at the stop, negative when it is met"}};
+    if (tangents_ > 0)
+      list.push_back({"friction_force", "N", "Friction force in the plane of the stop"});
     return list;
   }
   void record(double, const double* d, const double* v, double* out) const override {
@@ -188,7 +200,9 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
       out[n + p] = d[p * w] + s.gap;
       if (tangents_ == 0) continue;
       const double slip = slipSize(s, v + p * w);
-      out[2 * n + p] = s.friction * force * std::sqrt(std::max(0.0, slip * slip - s.slipVelocity * s.slipVelocity)) / slip;
+      out[2 * n + p] = s.friction * force *
+                       std::sqrt(std::max(0.0, slip * slip - s.slipVelocity * s.slipVelocity)) /
+                       slip;
     }
   }
 
@@ -206,11 +220,12 @@ class Stops final : public Batch<StopParameters, Stops>, public model::Frictiona
 class Frictions final : public Batch<FrictionParameters, Frictions> {
  public:
   using Batch::Batch;
-  void evaluate(double, const std::vector<int>& active, const double*, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double*, const double* v,
+                double* f) const override {
     for (int p : active) f[p] = force(p, v[p]);
   }
-  void evaluateWithTangent(double, const std::vector<int>& active, const double*, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double, const std::vector<int>& active, const double*, const double* v,
+                           double* f, double* dfdd, double* dfdv) const override {
     for (int p : active) {
       const auto& s = points_[at(p)];
       const double square = v[p] * v[p] + s.slipVelocity * s.slipVelocity;
@@ -222,12 +237,15 @@ class Frictions final : public Batch<FrictionParameters, Frictions> {
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const std::vector<int>& points, const double*, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double*,
+              const double* v) const override {
     Power sum;
     for (int p : points) sum.friction -= force(p, v[p]) * v[p];
     return sum;
   }
-  std::vector<Channel> channels() const override { return {{"friction_force", "N", "Friction force along its coordinate"}}; }
+  std::vector<Channel> channels() const override {
+    return {{"friction_force", "N", "Friction force along its coordinate"}};
+  }
   void record(double, const double*, const double* v, double* out) const override {
     for (int p = 0; p < size(); ++p) out[p] = force(p, v[p]);
   }
@@ -254,7 +272,8 @@ void check(const std::vector<StopParameters>& points) {
 std::shared_ptr<const model::PointLaw> springs(const std::vector<SpringParameters>& points) {
   for (const auto& s : points) {
     require(s.stiffness >= 0, "stiffness of a spring", s.stiffness, "zero or positive");
-    require(s.cubicStiffness >= 0, "cubic stiffness of a spring", s.cubicStiffness, "zero or positive");
+    require(s.cubicStiffness >= 0, "cubic stiffness of a spring", s.cubicStiffness,
+            "zero or positive");
     require(s.damping >= 0, "damping of a dashpot", s.damping, "zero or positive");
   }
   return std::make_shared<Springs>(points);
@@ -265,10 +284,12 @@ std::shared_ptr<const model::PointLaw> stops(const std::vector<StopParameters>& 
   return std::make_shared<Stops>(points, 0);
 }
 
-std::shared_ptr<const model::PointLaw> slidingStops(const std::vector<StopParameters>& points, int tangents) {
+std::shared_ptr<const model::PointLaw> slidingStops(const std::vector<StopParameters>& points,
+                                                    int tangents) {
   check(points);
   if (tangents < 1 || tangents > 2)
-    throw ModelError("A sliding stop has one or two tangential coordinates; " + std::to_string(tangents) + " were asked for.");
+    throw ModelError("A sliding stop has one or two tangential coordinates; " +
+                     std::to_string(tangents) + " were asked for.");
   return std::make_shared<Stops>(points, tangents);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Point laws between two dofs, of one part or of two: the coordinate d is their separation (coupling::separation), f the force
-/// that acts along it, and -f on the other side by the same row.
+/// Point laws between two dofs, of one part or of two: the coordinate d is their separation
+/// (coupling::separation), f the force that acts along it, and -f on the other side by the same
+/// row.
 #pragma once
 
 #include <memory>
@@ -26,18 +27,20 @@ std::shared_ptr<const model::PointLaw> springs(const std::vector<SpringParameter
 ///
 /// chi is the damping of K. H. Hunt and F. R. E. Crossley (1975). Never pulls.
 struct StopParameters {
-  double gap = 0;        ///< [m]; separation left at rest
-  double stiffness = 0;  ///< k [N/m], > 0
-  double damping = 0;    ///< chi [s/m], >= 0
-  double smoothing = 0;  ///< s [m], >= 0
-  double friction = 0;   ///< mu of slidingStops
+  double gap = 0;              ///< [m]; separation left at rest
+  double stiffness = 0;        ///< k [N/m], > 0
+  double damping = 0;          ///< chi [s/m], >= 0
+  double smoothing = 0;        ///< s [m], >= 0
+  double friction = 0;         ///< mu of slidingStops
   double slipVelocity = 1e-3;  ///< v_r of slidingStops [m/s], > 0
 };
 /// Width 1. Channels stop_force, stop_gap.
 std::shared_ptr<const model::PointLaw> stops(const std::vector<StopParameters>& points);
-/// Stops with Coulomb friction: coordinates are the separation and one (width 2) or two (width 3) tangential displacements,
-/// friction -mu f w / sqrt(|w|^2 + v_r^2) with the tangential velocity w. Channels stop_force, stop_gap, friction_force.
-std::shared_ptr<const model::PointLaw> slidingStops(const std::vector<StopParameters>& points, int tangents);
+/// Stops with Coulomb friction: coordinates are the separation and one (width 2) or two (width 3)
+/// tangential displacements, friction -mu f w / sqrt(|w|^2 + v_r^2) with the tangential velocity w.
+/// Channels stop_force, stop_gap, friction_force.
+std::shared_ptr<const model::PointLaw> slidingStops(const std::vector<StopParameters>& points,
+                                                    int tangents);
 
 /// f = -F d' / sqrt(d'^2 + v_r^2): Coulomb friction of constant size, regularised.
 struct FrictionParameters {

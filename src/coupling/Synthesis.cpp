@@ -14,7 +14,8 @@ namespace {
 
 /// Couples reduced parts and lets the basis improve them.
 Synthesis join(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-               const reduction::ReductionOptions& options, CouplingOptions coupling, std::vector<reduction::ReducedSubstructure> reduced) {
+               const reduction::ReductionOptions& options, CouplingOptions coupling,
+               std::vector<reduction::ReducedSubstructure> reduced) {
   Synthesis result;
   result.parts = std::move(reduced);
   for (const auto& part : result.parts)
@@ -28,10 +29,16 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
       bases.back().rows = part.basisRows();
     }
     bool improved = false;
-    parallel::agree([&] { improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases); });
+    parallel::agree([&] {
+      improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases);
+    });
     if (!improved) {
-      parallel::agree([&] { follow(result.coupled, basis.follow(result.coupled.model, result.coupled.maps, parts, bases)); });
-      if (options.interface) parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
+      parallel::agree([&] {
+        follow(result.coupled,
+               basis.follow(result.coupled.model, result.coupled.maps, parts, bases));
+      });
+      if (options.interface)
+        parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
       return result;
     }
     parallel::agree([&] {
@@ -40,8 +47,8 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
     });
     result.coupled = coupleWithPositions(result.parts, coupling);
   }
-  throw ConvergenceError("The basis \"" + options.basis + "\" still changed after " + std::to_string(rounds) +
-                         " rounds of improvement with the coupled model.");
+  throw ConvergenceError("The basis \"" + options.basis + "\" still changed after " +
+                         std::to_string(rounds) + " rounds of improvement with the coupled model.");
 }
 
 }  // namespace
@@ -52,11 +59,13 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduct
 }
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache, const CouplingOptions& coupling) {
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
+                     const CouplingOptions& coupling) {
   return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options, cache));
 }
 
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction, const CouplingOptions& coupling) {
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const Teuchos::ParameterList& reduction, const CouplingOptions& coupling) {
   const auto options = reduction::readOptions(reduction, static_cast<int>(parts.size()));
   return synthesise(parts, *reduction::makeBasis(options.basis, reduction), options, coupling);
 }

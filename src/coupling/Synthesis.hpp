@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Component mode synthesis in one call: reduce, couple, and let the basis improve itself with the coupled model.
+/// Component mode synthesis in one call: reduce, couple, and let the basis improve itself with the
+/// coupled model.
 #pragma once
 
 #include <vector>
@@ -16,16 +17,20 @@ struct Synthesis {
   Coupling coupled;
 };
 
-/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else ConvergenceError), then
-/// the interface reduction of the options. Bases with interface forces as coordinates are assembled dual whatever `coupling` says. Collective.
+/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else
+/// ConvergenceError), then the interface reduction of the options. Bases with interface forces as
+/// coordinates are assembled dual whatever `coupling` says. Collective.
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options, const CouplingOptions& coupling = {});
+                     const reduction::ReductionOptions& options,
+                     const CouplingOptions& coupling = {});
 
 /// The same in rounds over the same parts, which share what they have reduced.
 Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache, const CouplingOptions& coupling = {});
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
+                     const CouplingOptions& coupling = {});
 
 /// The same from the deck list "Reduction".
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction, const CouplingOptions& coupling = {});
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const Teuchos::ParameterList& reduction, const CouplingOptions& coupling = {});
 
 }  // namespace tooljoint::coupling

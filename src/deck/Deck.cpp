@@ -35,7 +35,9 @@ namespace {
 
 void requireConsistent(const ListSpec& spec) {
   const std::vector<std::string> faults = spec.inconsistencies();
-  if (!faults.empty()) throw std::logic_error("The description of a deck contradicts itself: " + join(faults, "; ") + ".");
+  if (!faults.empty())
+    throw std::logic_error("The description of a deck contradicts itself: " + join(faults, "; ") +
+                           ".");
 }
 
 /// "is required" continues a path, "The bit ..." does not.
@@ -52,7 +54,8 @@ Deck Deck::parse(const std::string& text, const std::string& file, const ListSpe
   std::vector<Finding> findings;
   applyOverrides(tree, scene, overrides, findings);
   auto map = std::make_shared<Map>();
-  auto list = std::make_shared<Teuchos::ParameterList>(validate(tree, scene, findings, map->places));
+  auto list =
+      std::make_shared<Teuchos::ParameterList>(validate(tree, scene, findings, map->places));
   raise(std::move(findings), file);
 
   Deck deck;
@@ -66,7 +69,8 @@ Deck Deck::parse(const std::string& text, const std::string& file, const ListSpe
   return deck;
 }
 
-Deck Deck::read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides) {
+Deck Deck::read(const std::string& file, const ListSpec& scene,
+                const std::vector<std::string>& overrides) {
   std::string text;
   parallel::agree([&] {
     if (parallel::rank() == 0) text = readTextFile(file);
@@ -75,7 +79,8 @@ Deck Deck::read(const std::string& file, const ListSpec& scene, const std::vecto
   return parse(text, file, scene, overrides);
 }
 
-std::vector<std::string> Deck::lists(const std::string& file, const std::vector<std::string>& overrides) {
+std::vector<std::string> Deck::lists(const std::string& file,
+                                     const std::vector<std::string>& overrides) {
   std::string text;
   parallel::agree([&] {
     if (parallel::rank() == 0) text = readTextFile(file);
@@ -85,14 +90,16 @@ std::vector<std::string> Deck::lists(const std::string& file, const std::vector<
   try {
     const RawList tree = readXml(text, file);
     for (const RawList& list : tree.lists())
-      if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end()) names.push_back(list.name);
+      if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end())
+        names.push_back(list.name);
   } catch (const DeckError&) {
     return {};
   }
   return names;
 }
 
-Deck Deck::readNamed(const std::string& path, const std::string& name, const ListSpec& library) const {
+Deck Deck::readNamed(const std::string& path, const std::string& name,
+                     const ListSpec& library) const {
   try {
     return read(resolve(name), library);
   } catch (const FileError& fault) {
@@ -123,7 +130,9 @@ std::string Deck::relative(const std::string& path) const {
   return bare == name_ ? "" : bare.substr(prefix.size());
 }
 
-bool Deck::gives(const std::string& path) const { return places_->places.count(relative(path)) != 0; }
+bool Deck::gives(const std::string& path) const {
+  return places_->places.count(relative(path)) != 0;
+}
 
 std::string Deck::where(const std::string& path) const {
   const std::string below = relative(path);
@@ -143,14 +152,17 @@ std::string Deck::located(const std::string& message) const {
     const std::string full = root + (path.empty() ? "" : "/" + path);
     if (full.size() >= best.size() && message.compare(0, full.size(), full) == 0) best = full;
   }
-  if (best.empty() || (best == root && message.size() > root.size() && message[root.size()] != '/' &&
-                       message[root.size()] != ' ' && message[root.size()] != ':')) {
+  if (best.empty() ||
+      (best == root && message.size() > root.size() && message[root.size()] != '/' &&
+       message[root.size()] != ' ' && message[root.size()] != ':')) {
     return message;
   }
   return places_->nearest(relative(best)).text(file_) + ": " + message;
 }
 
-void Problems::add(const std::string& path, const std::string& sentence) { add(deck_, path, sentence); }
+void Problems::add(const std::string& path, const std::string& sentence) {
+  add(deck_, path, sentence);
+}
 
 void Problems::add(const Deck& library, const std::string& path, const std::string& sentence) {
   const Place& place = library.places_->nearest(library.relative(path));
@@ -184,12 +196,14 @@ Teuchos::ParameterList defaults(const ListSpec& spec) {
   return result;
 }
 
-Teuchos::ParameterList variantList(const Teuchos::ParameterList& list, const std::string& variant, const ListSpec& parameters) {
+Teuchos::ParameterList variantList(const Teuchos::ParameterList& list, const std::string& variant,
+                                   const ListSpec& parameters) {
   if (list.isSublist(variant)) return list.sublist(variant);
   try {
     return defaults(parameters.named(variant)).setName(list.name() + "/" + variant);
   } catch (const DeckError&) {
-    throw DeckError(list.name() + " needs the list \"" + variant + "\", since some of its parameters are required.");
+    throw DeckError(list.name() + " needs the list \"" + variant +
+                    "\", since some of its parameters are required.");
   }
 }
 

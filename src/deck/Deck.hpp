@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A deck that has been read, strictly: the values in SI with all defaults, and the place each came from.
+/// A deck that has been read, strictly: the values in SI with all defaults, and the place each came
+/// from.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -14,24 +15,28 @@ namespace tooljoint::deck {
 
 /// One XML file read against one description: a scene, or a library of named things.
 ///
-/// Reading stops with a DeckError after the first phase that found faults, and that error holds all of them, sorted by line:
-/// (1) lexical: malformed XML, unknown tags and attributes, duplicates, values that are not wholly what their type says;
-/// (2) names, types, units, ranges, choices, required parameters. Phase 3, the sense of it all, is class Problems.
+/// Reading stops with a DeckError after the first phase that found faults, and that error holds all
+/// of them, sorted by line: (1) lexical: malformed XML, unknown tags and attributes, duplicates,
+/// values that are not wholly what their type says; (2) names, types, units, ranges, choices,
+/// required parameters. Phase 3, the sense of it all, is class Problems.
 ///
 /// Lists know their path: list().sublist("Contact").name() is "/helical_170m/Contact".
 class Deck {
  public:
-  /// Read `file` on rank 0 and hand its text to all ranks, so that all see the same and fail alike. Collective.
-  /// `overrides` are "PATH=VALUE", or "!PATH" to take a list out. Throws FileError (file missing, a folder, unreadable), DeckError,
-  /// UsageError (override without "=").
-  static Deck read(const std::string& file, const ListSpec& scene, const std::vector<std::string>& overrides = {});
+  /// Read `file` on rank 0 and hand its text to all ranks, so that all see the same and fail alike.
+  /// Collective. `overrides` are "PATH=VALUE", or "!PATH" to take a list out. Throws FileError
+  /// (file missing, a folder, unreadable), DeckError, UsageError (override without "=").
+  static Deck read(const std::string& file, const ListSpec& scene,
+                   const std::vector<std::string>& overrides = {});
 
-  /// Names of the lists that stand in the root list of a file, overrides "!NAME" taken out: what kind of deck is it? Nothing is checked, and of a file that
-  /// is no deck there are none. Collective. Throws FileError as read() does.
-  static std::vector<std::string> lists(const std::string& file, const std::vector<std::string>& overrides = {});
+  /// Names of the lists that stand in the root list of a file, overrides "!NAME" taken out: what
+  /// kind of deck is it? Nothing is checked, and of a file that is no deck there are none.
+  /// Collective. Throws FileError as read() does.
+  static std::vector<std::string> lists(const std::string& file,
+                                        const std::vector<std::string>& overrides = {});
 
-  /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder. Collective. A file that
-  /// cannot be opened is then a DeckError that points at the parameter.
+  /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder.
+  /// Collective. A file that cannot be opened is then a DeckError that points at the parameter.
   Deck readNamed(const std::string& path, const std::string& name, const ListSpec& library) const;
 
   /// The same from a text in memory; `file` is what errors call it. Not collective.
@@ -40,8 +45,8 @@ class Deck {
 
   const Teuchos::ParameterList& list() const { return *list_; }
   const std::string& name() const { return name_; }  ///< of the root list
-  std::string text() const { return text_; }         ///< of the file as it was read, overrides not applied
-  std::string sha256() const;                        ///< of text()
+  std::string text() const { return text_; }  ///< of the file as it was read, overrides not applied
+  std::string sha256() const;                 ///< of text()
   std::string file() const { return file_; }
   std::string folder() const;  ///< that holds the file; "." when its name has none
   const std::vector<std::string>& overrides() const { return overrides_; }
@@ -49,20 +54,25 @@ class Deck {
   /// A file name of the deck, relative to the deck's folder unless absolute.
   std::string resolve(const std::string& name) const;
 
-  /// True when the deck or an override gave this list or parameter (not a default). For paths see where().
+  /// True when the deck or an override gave this list or parameter (not a default). For paths see
+  /// where().
   bool gives(const std::string& path) const;
 
-  /// "deck.xml:42: /Scene/Contact/Stiffness"; for a default the line of the list it would stand in, for an override
-  /// "--set Contact/Stiffness=1: /Scene/Contact/Stiffness". `path` is "Contact/Stiffness" or a full one,
+  /// "deck.xml:42: /Scene/Contact/Stiffness"; for a default the line of the list it would stand in,
+  /// for an override
+  /// "--set Contact/Stiffness=1: /Scene/Contact/Stiffness". `path` is "Contact/Stiffness" or a full
+  /// one,
   /// "/Scene/Contact/Stiffness".
   std::string where(const std::string& path) const;
 
-  /// where(path) + ": " + sentence, or + " " + sentence when the sentence continues the path with a verb in lower case ("is
+  /// where(path) + ": " + sentence, or + " " + sentence when the sentence continues the path with a
+  /// verb in lower case ("is
   /// ...").
   std::string error(const std::string& path, const std::string& sentence) const;
 
-  /// A message that begins with a full path of this deck ("/Scene/Contact/Stiffness is ..."), with file and line in front; any
-  /// other message as it is. Lets rooms throw a DeckError from nothing but list.name().
+  /// A message that begins with a full path of this deck ("/Scene/Contact/Stiffness is ..."), with
+  /// file and line in front; any other message as it is. Lets rooms throw a DeckError from nothing
+  /// but list.name().
   std::string located(const std::string& message) const;
 
  private:
@@ -91,7 +101,8 @@ class Problems {
 
   bool empty() const { return items_.empty(); }
 
-  /// Throws one DeckError with a line for each fault, sorted by file and line; returns when there are none.
+  /// Throws one DeckError with a line for each fault, sorted by file and line; returns when there
+  /// are none.
   void raise() const;
 
  private:
@@ -105,11 +116,13 @@ class Problems {
   std::vector<Item> items_;
 };
 
-/// A list with the defaults of its description alone, for a list a deck may leave out. Required sublists are filled too; a
-/// required parameter is a DeckError, since it has no default.
+/// A list with the defaults of its description alone, for a list a deck may leave out. Required
+/// sublists are filled too; a required parameter is a DeckError, since it has no default.
 Teuchos::ParameterList defaults(const ListSpec& spec);
 
-/// The sublist that holds a variant's own parameters (named after the variant), or its defaults when the deck gives none.
-Teuchos::ParameterList variantList(const Teuchos::ParameterList& list, const std::string& variant, const ListSpec& parameters);
+/// The sublist that holds a variant's own parameters (named after the variant), or its defaults
+/// when the deck gives none.
+Teuchos::ParameterList variantList(const Teuchos::ParameterList& list, const std::string& variant,
+                                   const ListSpec& parameters);
 
 }  // namespace tooljoint::deck

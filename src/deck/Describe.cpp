@@ -16,7 +16,8 @@ std::string braces(const std::vector<T>& values, Write write) {
   return "{" + result + "}";
 }
 
-/// "The axial load." -> "the axial load"; "WOB at the bit" and "RK4 step" keep their capitals, and so does "Young's modulus".
+/// "The axial load." -> "the axial load"; "WOB at the bit" and "RK4 step" keep their capitals, and
+/// so does "Young's modulus".
 std::string clause(const std::string& doc) {
   std::string text = trim(doc);
   while (!text.empty() && text.back() == '.') text.pop_back();
@@ -27,10 +28,12 @@ std::string clause(const std::string& doc) {
   return text;
 }
 
-/// What a person is told about a thing that was named: "It is the ..." where the words begin with an article.
+/// What a person is told about a thing that was named: "It is the ..." where the words begin with
+/// an article.
 std::string introduce(const std::string& name, const std::string& words) {
   for (const char* article : {"the ", "a ", "an "}) {
-    if (words.compare(0, std::char_traits<char>::length(article), article) == 0) return "It is " + words + ".";
+    if (words.compare(0, std::char_traits<char>::length(article), article) == 0)
+      return "It is " + words + ".";
   }
   return "\"" + name + "\": " + words + ".";
 }
@@ -77,8 +80,8 @@ std::string describe(const Range& range) {
   const bool low = std::isfinite(range.min);
   const bool high = std::isfinite(range.max);
   if (low && high) {
-    return std::string("in ") + (range.openMin ? "(" : "[") + formatNumber(range.min) + ", " + formatNumber(range.max) +
-           (range.openMax ? ")" : "]");
+    return std::string("in ") + (range.openMin ? "(" : "[") + formatNumber(range.min) + ", " +
+           formatNumber(range.max) + (range.openMax ? ")" : "]");
   }
   if (low) return (range.openMin ? "> " : ">= ") + formatNumber(range.min);
   if (high) return (range.openMax ? "< " : "<= ") + formatNumber(range.max);
@@ -120,12 +123,15 @@ std::string describe(const ParameterSpec& parameter) {
   return end == std::string::npos ? text : text + words.substr(end);
 }
 
-std::string introduce(const ParameterSpec& parameter) { return introduce(parameter.name, describe(parameter)); }
+std::string introduce(const ParameterSpec& parameter) {
+  return introduce(parameter.name, describe(parameter));
+}
 
 std::string introduce(const ListSpec& list) { return introduce(list.name(), clause(list.doc())); }
 
 std::string exampleValue(const ParameterSpec& parameter) {
-  if (!std::holds_alternative<Required>(parameter.value) && !std::holds_alternative<Optional>(parameter.value)) {
+  if (!std::holds_alternative<Required>(parameter.value) &&
+      !std::holds_alternative<Optional>(parameter.value)) {
     return describe(parameter.value);
   }
   switch (parameter.kind) {
@@ -144,7 +150,8 @@ std::string exampleValue(const ParameterSpec& parameter) {
     case Kind::IntegerArray:
       return "{" + formatNumber(exampleNumber(parameter.range, true)) + "}";
     case Kind::TextArray:
-      return "{" + (parameter.choices.empty() ? std::string("...") : parameter.choices.front()) + "}";
+      return "{" + (parameter.choices.empty() ? std::string("...") : parameter.choices.front()) +
+             "}";
   }
   return "";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Deck descriptions in words: shared by error messages, the manual and the templates, so that all say the same.
+/// Deck descriptions in words: shared by error messages, the manual and the templates, so that all
+/// say the same.
 #pragma once
 
 #include <string>
@@ -16,20 +17,22 @@ std::string typeName(Kind kind);
 std::string describe(const Range& range);
 bool contains(const Range& range, double value);
 
-/// The value as a deck writes it: 0.5, true, {1, 2}; "required" and "none" for the two that hold nothing.
+/// The value as a deck writes it: 0.5, true, {1, 2}; "required" and "none" for the two that hold
+/// nothing.
 std::string describe(const Default& value);
 std::string describe(double value);
 
-/// First sentence, unit, range or choices of a parameter in one clause, further sentences behind it:
-/// "the nominal contact stiffness, N/m, > 0".
+/// First sentence, unit, range or choices of a parameter in one clause, further sentences behind
+/// it: "the nominal contact stiffness, N/m, > 0".
 std::string describe(const ParameterSpec& parameter);
 
-/// `It is the nominal contact stiffness, N/m, > 0.`, or `"Modes": number of modes, >= 0.` when the sentence does not begin with
-/// an article.
+/// `It is the nominal contact stiffness, N/m, > 0.`, or `"Modes": number of modes, >= 0.` when the
+/// sentence does not begin with an article.
 std::string introduce(const ParameterSpec& parameter);
 std::string introduce(const ListSpec& list);
 
-/// A value that lies in range and among the choices, as a deck writes it: the default if there is one.
+/// A value that lies in range and among the choices, as a deck writes it: the default if there is
+/// one.
 std::string exampleValue(const ParameterSpec& parameter);
 
 }  // namespace tooljoint::deck

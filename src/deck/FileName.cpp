@@ -9,8 +9,10 @@ namespace tooljoint::deck {
 void markOrigin(Teuchos::ParameterList& list, const std::string& file) {
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string& name = list.name(it);
-    if (list.isSublist(name)) markOrigin(list.sublist(name), file);
-    else if (list.isType<std::string>(name)) list.getEntry(name).setDocString(file);
+    if (list.isSublist(name))
+      markOrigin(list.sublist(name), file);
+    else if (list.isType<std::string>(name))
+      list.getEntry(name).setDocString(file);
   }
 }
 

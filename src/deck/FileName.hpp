@@ -11,11 +11,12 @@ class ParameterList;
 
 namespace tooljoint::deck {
 
-/// Notes in every text parameter of a list, and of the lists in it, the deck file it was read from (as the documentation string of the entry).
+/// Notes in every text parameter of a list, and of the lists in it, the deck file it was read from
+/// (as the documentation string of the entry).
 void markOrigin(Teuchos::ParameterList& list, const std::string& file);
 
-/// The file a text parameter names, relative to the folder of the deck it was read from unless absolute; a list made by a program has none, and the name stays
-/// as it is.
+/// The file a text parameter names, relative to the folder of the deck it was read from unless
+/// absolute; a list made by a program has none, and the name stays as it is.
 std::string fileName(const Teuchos::ParameterList& list, const std::string& parameter);
 
 }  // namespace tooljoint::deck

@@ -14,7 +14,8 @@ namespace {
 /// Whole numbers may stand for real defaults in the builder's calls: real("Length", "m", 1, ...).
 Default asReal(Default value) {
   if (const int* whole = std::get_if<int>(&value)) return static_cast<double>(*whole);
-  if (const auto* wholes = std::get_if<std::vector<int>>(&value)) return std::vector<double>(wholes->begin(), wholes->end());
+  if (const auto* wholes = std::get_if<std::vector<int>>(&value))
+    return std::vector<double>(wholes->begin(), wholes->end());
   return value;
 }
 
@@ -49,7 +50,8 @@ std::vector<double> numbersOf(const Default& value) {
   if (const double* real = std::get_if<double>(&value)) return {*real};
   if (const int* whole = std::get_if<int>(&value)) return {static_cast<double>(*whole)};
   if (const auto* reals = std::get_if<std::vector<double>>(&value)) return *reals;
-  if (const auto* wholes = std::get_if<std::vector<int>>(&value)) return {wholes->begin(), wholes->end()};
+  if (const auto* wholes = std::get_if<std::vector<int>>(&value))
+    return {wholes->begin(), wholes->end()};
   return {};
 }
 
@@ -59,19 +61,24 @@ std::vector<std::string> textsOf(const Default& value) {
   return {};
 }
 
-void inspect(const ParameterSpec& parameter, const std::string& path, std::vector<std::string>& faults) {
+void inspect(const ParameterSpec& parameter, const std::string& path,
+             std::vector<std::string>& faults) {
   const std::string where = path + "/" + parameter.name;
   if (parameter.name.empty() || trim(parameter.name) != parameter.name)
     faults.push_back(where + " has an empty name, or blanks around it");
   if (parameter.doc.empty()) faults.push_back(where + " has no sentence that documents it");
-  if (!fits(parameter.kind, parameter.value)) faults.push_back(where + " has a default of another type than its own");
+  if (!fits(parameter.kind, parameter.value))
+    faults.push_back(where + " has a default of another type than its own");
   for (const double number : numbersOf(parameter.value)) {
-    if (!contains(parameter.range, number)) faults.push_back(where + " has a default outside its range");
+    if (!contains(parameter.range, number))
+      faults.push_back(where + " has a default outside its range");
   }
-  if (parameter.kind == Kind::Choice && parameter.choices.empty()) faults.push_back(where + " has no choices");
+  if (parameter.kind == Kind::Choice && parameter.choices.empty())
+    faults.push_back(where + " has no choices");
   if (parameter.choices.empty()) return;
   for (const std::string& text : textsOf(parameter.value)) {
-    if (std::find(parameter.choices.begin(), parameter.choices.end(), text) == parameter.choices.end()) {
+    if (std::find(parameter.choices.begin(), parameter.choices.end(), text) ==
+        parameter.choices.end()) {
       faults.push_back(where + " has a default that is not one of its choices");
     }
   }
@@ -90,17 +97,29 @@ void inspect(const ListSpec& list, const std::string& path, std::vector<std::str
     claim(sublist.name());
     inspect(sublist, path + "/" + sublist.name(), faults);
   }
-  if (list.pattern() != nullptr) inspect(*list.pattern(), path + "/<" + list.pattern()->name() + ">", faults);
+  if (list.pattern() != nullptr)
+    inspect(*list.pattern(), path + "/<" + list.pattern()->name() + ">", faults);
 }
 
 }  // namespace
 
-ListSpec& ListSpec::real(std::string name, std::string unit, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Real, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc), {}, {}, {}});
+ListSpec& ListSpec::real(std::string name, std::string unit, Default value, Range range,
+                         std::string doc) {
+  parameters_.push_back({std::move(name),
+                         Kind::Real,
+                         std::move(unit),
+                         asReal(std::move(value)),
+                         range,
+                         {},
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
-ListSpec& ListSpec::radius(const std::string& name, Default value, Range range, const std::string& doc) {
+ListSpec& ListSpec::radius(const std::string& name, Default value, Range range,
+                           const std::string& doc) {
   const std::string ending = "Radius";
   const std::string diameter = name.substr(0, name.size() - ending.size()) + "Diameter";
   real(name, "m", std::move(value), range, doc);
@@ -109,44 +128,95 @@ ListSpec& ListSpec::radius(const std::string& name, Default value, Range range, 
   return *this;
 }
 
-ListSpec& ListSpec::unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf) {
+ListSpec& ListSpec::unitBy(std::string parameter,
+                           std::function<std::string(const std::string&)> unitOf) {
   parameters_.back().unitFrom = std::move(parameter);
   parameters_.back().unitOf = std::move(unitOf);
   return *this;
 }
 
 ListSpec& ListSpec::integer(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Integer, "", std::move(value), range, {}, std::move(doc), {}, {}, {}});
+  parameters_.push_back({std::move(name),
+                         Kind::Integer,
+                         "",
+                         std::move(value),
+                         range,
+                         {},
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
 ListSpec& ListSpec::boolean(std::string name, Default value, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
+  parameters_.push_back(
+      {std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
 ListSpec& ListSpec::text(std::string name, Default value, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
+  parameters_.push_back(
+      {std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
   return *this;
 }
 
-ListSpec& ListSpec::choice(std::string name, Default value, std::vector<std::string> choices, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::Choice, "", std::move(value), {}, std::move(choices), std::move(doc), {}, {}, {}});
+ListSpec& ListSpec::choice(std::string name, Default value, std::vector<std::string> choices,
+                           std::string doc) {
+  parameters_.push_back({std::move(name),
+                         Kind::Choice,
+                         "",
+                         std::move(value),
+                         {},
+                         std::move(choices),
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
-ListSpec& ListSpec::realArray(std::string name, std::string unit, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::RealArray, std::move(unit), asReal(std::move(value)), range, {}, std::move(doc), {}, {}, {}});
+ListSpec& ListSpec::realArray(std::string name, std::string unit, Default value, Range range,
+                              std::string doc) {
+  parameters_.push_back({std::move(name),
+                         Kind::RealArray,
+                         std::move(unit),
+                         asReal(std::move(value)),
+                         range,
+                         {},
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
 ListSpec& ListSpec::integerArray(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::IntegerArray, "", std::move(value), range, {}, std::move(doc), {}, {}, {}});
+  parameters_.push_back({std::move(name),
+                         Kind::IntegerArray,
+                         "",
+                         std::move(value),
+                         range,
+                         {},
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
-ListSpec& ListSpec::textArray(std::string name, Default value, std::vector<std::string> choices, std::string doc) {
-  parameters_.push_back({std::move(name), Kind::TextArray, "", std::move(value), {}, std::move(choices), std::move(doc), {}, {}, {}});
+ListSpec& ListSpec::textArray(std::string name, Default value, std::vector<std::string> choices,
+                              std::string doc) {
+  parameters_.push_back({std::move(name),
+                         Kind::TextArray,
+                         "",
+                         std::move(value),
+                         {},
+                         std::move(choices),
+                         std::move(doc),
+                         {},
+                         {},
+                         {}});
   return *this;
 }
 
@@ -182,7 +252,8 @@ ListSpec& ListSpec::merge(const ListSpec& other) {
     }
   }
   for (const ListSpec& sublist : other.lists_) {
-    const auto mine = std::find_if(lists_.begin(), lists_.end(), [&](const ListSpec& l) { return l.name_ == sublist.name_; });
+    const auto mine = std::find_if(lists_.begin(), lists_.end(),
+                                   [&](const ListSpec& l) { return l.name_ == sublist.name_; });
     if (mine == lists_.end()) {
       lists_.push_back(sublist);
     } else {
@@ -201,17 +272,20 @@ ListSpec ListSpec::named(std::string name) const {
 }
 
 const ParameterSpec* ListSpec::findParameter(const std::string& name) const {
-  const auto it = std::find_if(parameters_.begin(), parameters_.end(), [&](const ParameterSpec& p) { return p.name == name; });
+  const auto it = std::find_if(parameters_.begin(), parameters_.end(),
+                               [&](const ParameterSpec& p) { return p.name == name; });
   return it == parameters_.end() ? nullptr : &*it;
 }
 
 const ParameterSpec* ListSpec::diameterOf(const std::string& radius) const {
-  const auto it = std::find_if(parameters_.begin(), parameters_.end(), [&](const ParameterSpec& p) { return p.radius == radius; });
+  const auto it = std::find_if(parameters_.begin(), parameters_.end(),
+                               [&](const ParameterSpec& p) { return p.radius == radius; });
   return it == parameters_.end() ? nullptr : &*it;
 }
 
 const ListSpec* ListSpec::findList(const std::string& name) const {
-  const auto it = std::find_if(lists_.begin(), lists_.end(), [&](const ListSpec& l) { return l.name_ == name; });
+  const auto it = std::find_if(lists_.begin(), lists_.end(),
+                               [&](const ListSpec& l) { return l.name_ == name; });
   return it == lists_.end() ? pattern() : &*it;
 }
 

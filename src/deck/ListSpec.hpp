@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Description of one deck list: its parameters with type, unit, range, default and a sentence, and its sublists.
-/// The strict reader, the manual (`tooljoint doc`) and the templates all walk these objects, so they cannot drift apart.
+/// Description of one deck list: its parameters with type, unit, range, default and a sentence, and
+/// its sublists. The strict reader, the manual (`tooljoint doc`) and the templates all walk these
+/// objects, so they cannot drift apart.
 #pragma once
 
 #include <functional>
@@ -23,28 +24,36 @@ struct Range {
   bool openMax = false;
   static Range any() { return {}; }
   static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
-  static Range nonNegative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range nonNegative() {
+    return {0.0, std::numeric_limits<double>::infinity(), false, false};
+  }
   static Range between(double lo, double hi) { return {lo, hi, false, false}; }
-  static Range atLeast(double lo) { return {lo, std::numeric_limits<double>::infinity(), false, false}; }
+  static Range atLeast(double lo) {
+    return {lo, std::numeric_limits<double>::infinity(), false, false};
+  }
 };
 
 /// What stands in the tree when the deck gives nothing.
 struct Required {};  ///< an error when absent
 struct Optional {};  ///< absent stays absent: ask with isParameter()
-using Default = std::variant<Required, Optional, bool, int, double, std::string, std::vector<int>, std::vector<double>,
-                             std::vector<std::string>>;
+using Default = std::variant<Required, Optional, bool, int, double, std::string, std::vector<int>,
+                             std::vector<double>, std::vector<std::string>>;
 
 struct ParameterSpec {
   std::string name;
   Kind kind = Kind::Real;
-  std::string unit;  ///< SI unit of a Real or RealArray, "" when it has none; also decides which unit strings are accepted
+  std::string unit;  ///< SI unit of a Real or RealArray, "" when it has none; also decides which
+                     ///< unit strings are accepted
   Default value = Required{};
   Range range;                       ///< numbers, and every entry of number arrays
   std::vector<std::string> choices;  ///< Choice, and every entry of a TextArray when not empty
   std::string doc;                   ///< one sentence
-  std::string radius;                ///< of a diameter: the parameter it is twice of; that one alone stands in the tree
-  std::string unitFrom;              ///< parameter of the same list that decides the unit; `unit` names all of them then
-  std::function<std::string(const std::string&)> unitOf;  ///< SI unit for the text of `unitFrom`, "" when that is absent
+  std::string
+      radius;  ///< of a diameter: the parameter it is twice of; that one alone stands in the tree
+  std::string unitFrom;  ///< parameter of the same list that decides the unit; `unit` names all of
+                         ///< them then
+  std::function<std::string(const std::string&)>
+      unitOf;  ///< SI unit for the text of `unitFrom`, "" when that is absent
 };
 
 /// Builder and description of a list. Order of declaration is the order of the manual.
@@ -54,24 +63,29 @@ class ListSpec {
   ListSpec(std::string name, std::string doc) : name_(std::move(name)), doc_(std::move(doc)) {}
 
   ListSpec& real(std::string name, std::string unit, Default value, Range range, std::string doc);
-  /// A length `name` = "... Radius" and beside it "... Diameter", twice as long. A deck gives one of them; the tree always holds the
-  /// radius. A required radius may be given by its diameter.
+  /// A length `name` = "... Radius" and beside it "... Diameter", twice as long. A deck gives one
+  /// of them; the tree always holds the radius. A required radius may be given by its diameter.
   ListSpec& radius(const std::string& name, Default value, Range range, const std::string& doc);
-  /// The unit of the parameter declared last depends on the text of another one: N for a force, N m for a torque.
+  /// The unit of the parameter declared last depends on the text of another one: N for a force, N m
+  /// for a torque.
   ListSpec& unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf);
   ListSpec& integer(std::string name, Default value, Range range, std::string doc);
   ListSpec& boolean(std::string name, Default value, std::string doc);
   ListSpec& text(std::string name, Default value, std::string doc);
-  ListSpec& choice(std::string name, Default value, std::vector<std::string> choices, std::string doc);
-  ListSpec& realArray(std::string name, std::string unit, Default value, Range range, std::string doc);
+  ListSpec& choice(std::string name, Default value, std::vector<std::string> choices,
+                   std::string doc);
+  ListSpec& realArray(std::string name, std::string unit, Default value, Range range,
+                      std::string doc);
   ListSpec& integerArray(std::string name, Default value, Range range, std::string doc);
-  ListSpec& textArray(std::string name, Default value, std::vector<std::string> choices, std::string doc);
+  ListSpec& textArray(std::string name, Default value, std::vector<std::string> choices,
+                      std::string doc);
 
   /// A sublist that may be absent; an absent list is not built, stored or evaluated.
   ListSpec& list(ListSpec sublist);
   /// A sublist that must be there.
   ListSpec& requiredList(ListSpec sublist);
-  /// Sublists whose names the user chooses, all described by `pattern` (component definitions, depth intervals, ...).
+  /// Sublists whose names the user chooses, all described by `pattern` (component definitions,
+  /// depth intervals, ...).
   ListSpec& namedLists(ListSpec pattern);
   /// A sublist handed on to a Trilinos package as it is (names and types are checked there).
   ListSpec& passThrough(std::string name, std::string doc);
@@ -90,10 +104,12 @@ class ListSpec {
   const ParameterSpec* findParameter(const std::string& name) const;
   /// The diameter that may stand for this radius; null when there is none.
   const ParameterSpec* diameterOf(const std::string& radius) const;
-  const ListSpec* findList(const std::string& name) const;  ///< declared sublist, or the pattern if there is one
+  const ListSpec* findList(
+      const std::string& name) const;  ///< declared sublist, or the pattern if there is one
 
-  /// Faults of the description itself, for developers: names declared twice, defaults of another type, outside the range or not
-  /// among the choices, parameters without a sentence. Empty when all is well; Deck::read refuses a description with faults.
+  /// Faults of the description itself, for developers: names declared twice, defaults of another
+  /// type, outside the range or not among the choices, parameters without a sentence. Empty when
+  /// all is well; Deck::read refuses a description with faults.
   std::vector<std::string> inconsistencies() const;
 
  private:

@@ -19,10 +19,13 @@ using Json = nlohmann::ordered_json;
 const std::string unitsTopic = "Units";
 
 const std::string unitsIntroduction =
-    "Units of quantities written with one, as in `type=\"string\" value=\"5 in\"`, and in the header of a survey. They combine: "
-    "`kg/m3`, `lb/gal`, `bbl/min`, `N s/m`, `ft lbf`, `ft-lbf`, `ft.lbf`, `deg/30m`, `W/(m s)`. `t`, `lb` and `klb` are masses, "
+    "Units of quantities written with one, as in `type=\"string\" value=\"5 in\"`, and in the "
+    "header of a survey. They combine: "
+    "`kg/m3`, `lb/gal`, `bbl/min`, `N s/m`, `ft lbf`, `ft-lbf`, `ft.lbf`, `deg/30m`, `W/(m s)`. "
+    "`t`, `lb` and `klb` are masses, "
     "and "
-    "where a force or torque is asked for the weight of that mass under standard gravity, 9.80665 m/s2. `sg` is the density "
+    "where a force or torque is asked for the weight of that mass under standard gravity, 9.80665 "
+    "m/s2. `sg` is the density "
     "referred to 1000 kg/m3.";
 
 /// A list with its path; the root's path is its name.
@@ -36,7 +39,8 @@ std::string patternName(const ListSpec& pattern) { return "<" + pattern.name() +
 void collect(const ListSpec& list, const std::string& path, std::vector<Located>& all) {
   all.push_back({&list, path});
   for (const ListSpec& sublist : list.lists()) collect(sublist, path + "/" + sublist.name(), all);
-  if (list.pattern() != nullptr) collect(*list.pattern(), path + "/" + patternName(*list.pattern()), all);
+  if (list.pattern() != nullptr)
+    collect(*list.pattern(), path + "/" + patternName(*list.pattern()), all);
 }
 
 std::vector<Located> collect(const ListSpec& root) {
@@ -55,12 +59,16 @@ bool matches(const std::string& path, const std::string& topic) {
   const std::string whole = lower(path);
   const std::string end = lower(topic);
   if (whole == end || lower(lastName(path)) == end) return true;
-  return whole.size() > end.size() && whole.compare(whole.size() - end.size() - 1, std::string::npos, "/" + end) == 0;
+  return whole.size() > end.size() &&
+         whole.compare(whole.size() - end.size() - 1, std::string::npos, "/" + end) == 0;
 }
 
-bool startsWith(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
-/// Lists of a topic: those named so with all below them, else those that hold a parameter of that name.
+/// Lists of a topic: those named so with all below them, else those that hold a parameter of that
+/// name.
 std::vector<Located> select(const std::vector<Located>& all, const std::string& rawTopic) {
   std::string topic = trim(rawTopic);
   while (!topic.empty() && topic.front() == '/') topic.erase(0, 1);
@@ -68,7 +76,8 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
   std::vector<Located> found;
   for (const Located& item : all) {
     const bool below = std::any_of(all.begin(), all.end(), [&](const Located& top) {
-      return matches(top.path, topic) && (item.path == top.path || startsWith(item.path, top.path + "/"));
+      return matches(top.path, topic) &&
+             (item.path == top.path || startsWith(item.path, top.path + "/"));
     });
     if (below) found.push_back(item);
   }
@@ -76,7 +85,8 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
   for (const Located& item : all) {
     const auto& parameters = item.list->parameters();
     const bool holds =
-        std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) { return lower(p.name) == lower(topic); });
+        std::any_of(parameters.begin(), parameters.end(),
+                    [&](const ParameterSpec& p) { return lower(p.name) == lower(topic); });
     if (holds) found.push_back(item);
   }
   return found;
@@ -91,11 +101,14 @@ std::vector<Located> select(const std::vector<Located>& all, const std::string& 
   std::vector<std::string> candidates = names;
   candidates.push_back(unitsTopic);
   for (const Located& item : all) {
-    for (const ParameterSpec& parameter : item.list->parameters()) candidates.push_back(parameter.name);
+    for (const ParameterSpec& parameter : item.list->parameters())
+      candidates.push_back(parameter.name);
   }
   const std::string near = closest(topic, candidates);
-  throw UsageError("The manual has no topic \"" + topic + "\"." + (near.empty() ? "" : " Did you mean \"" + near + "\"?") +
-                   " Topics are the lists " + quotedList(names) + ", the names of parameters, and \"" + unitsTopic + "\".");
+  throw UsageError("The manual has no topic \"" + topic + "\"." +
+                   (near.empty() ? "" : " Did you mean \"" + near + "\"?") +
+                   " Topics are the lists " + quotedList(names) +
+                   ", the names of parameters, and \"" + unitsTopic + "\".");
 }
 
 /// Text of a table cell: "|" and line ends would break the table, "<" would start HTML.
@@ -134,19 +147,21 @@ std::string sentence(const std::string& doc) {
 std::string markdown(const Located& item, int headingLevel) {
   const ListSpec& list = *item.list;
   const auto depth = static_cast<int>(std::count(item.path.begin(), item.path.end(), '/'));
-  std::string text =
-      std::string(static_cast<std::size_t>(std::min(6, headingLevel + depth)), '#') + " " + cell(item.path) + "\n\n";
+  std::string text = std::string(static_cast<std::size_t>(std::min(6, headingLevel + depth)), '#') +
+                     " " + cell(item.path) + "\n\n";
   text += sentence(list.doc());
   if (list.required()) text += " Required.";
   if (list.passesThrough()) text += " Handed on to Trilinos as it is.";
   if (list.pattern() != nullptr)
-    text += " Holds lists with names of your own, each described under " + cell(patternName(*list.pattern())) + ".";
+    text += " Holds lists with names of your own, each described under " +
+            cell(patternName(*list.pattern())) + ".";
   text += "\n\n";
   if (list.parameters().empty()) return text;
   text += "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n";
   for (const ParameterSpec& parameter : list.parameters()) {
-    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " + cell(parameter.unit) + " | " +
-            cell(rangeOrChoices(parameter)) + " | " + defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
+    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " +
+            cell(parameter.unit) + " | " + cell(rangeOrChoices(parameter)) + " | " +
+            defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
   }
   return text + "\n";
 }
@@ -221,7 +236,8 @@ std::vector<Located> selectOrRefuse(const std::vector<Located>& all, const std::
   return found;
 }
 
-std::string printMarkdown(const std::vector<Located>& all, const std::string& topic, int headingLevel) {
+std::string printMarkdown(const std::vector<Located>& all, const std::string& topic,
+                          int headingLevel) {
   std::string text;
   for (const Located& item : selectOrRefuse(all, topic)) text += markdown(item, headingLevel);
   while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
@@ -248,16 +264,22 @@ std::string manualMarkdown(const ListSpec& root, const std::string& topic, int h
   return printMarkdown(collect(root), topic, headingLevel);
 }
 
-std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string& topic, int headingLevel) {
+std::string manualMarkdown(const std::vector<ListSpec>& roots, const std::string& topic,
+                           int headingLevel) {
   return printMarkdown(collect(roots), topic, headingLevel);
 }
 
-std::string manualJson(const ListSpec& root, const std::string& topic) { return printJson(collect(root), topic); }
+std::string manualJson(const ListSpec& root, const std::string& topic) {
+  return printJson(collect(root), topic);
+}
 
-std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic) { return printJson(collect(roots), topic); }
+std::string manualJson(const std::vector<ListSpec>& roots, const std::string& topic) {
+  return printJson(collect(roots), topic);
+}
 
 std::string unitsMarkdown(int headingLevel) {
-  std::string text = std::string(static_cast<std::size_t>(headingLevel), '#') + " " + unitsTopic + "\n\n" + unitsIntroduction +
+  std::string text = std::string(static_cast<std::size_t>(headingLevel), '#') + " " + unitsTopic +
+                     "\n\n" + unitsIntroduction +
                      "\n\n| Quantity | Unit | Also written | Value in SI |\n|---|---|---|---|\n";
   for (const UnitSymbol& symbol : unitSymbols()) {
     std::vector<std::string> also;
@@ -272,8 +294,10 @@ std::string unitsJson() {
   Json quantities = Json::array();
   for (const UnitSymbol& symbol : unitSymbols()) {
     if (quantities.empty() || quantities.back()["quantity"] != symbol.quantity)
-      quantities.push_back({{"quantity", symbol.quantity}, {"si", symbol.si}, {"units", Json::array()}});
-    quantities.back()["units"].push_back({{"unit", symbol.symbol}, {"also", symbol.synonyms}, {"factor", symbol.unit.factor}});
+      quantities.push_back(
+          {{"quantity", symbol.quantity}, {"si", symbol.si}, {"units", Json::array()}});
+    quantities.back()["units"].push_back(
+        {{"unit", symbol.symbol}, {"also", symbol.synonyms}, {"factor", symbol.unit.factor}});
   }
   return quantities.dump(2) + "\n";
 }

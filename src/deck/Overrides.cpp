@@ -34,7 +34,8 @@ Override parseOverride(const std::string& text, int number) {
   if (result.removes && (path.empty() || path == "/"))
     throw UsageError("--without needs the path of a list, for example --without Reduction.");
   if (equals == std::string::npos || path.empty() || path == "/") {
-    throw UsageError("--set " + text + ": write --set PATH=VALUE, for example --set \"Transient/End Time=20\".");
+    throw UsageError("--set " + text +
+                     ": write --set PATH=VALUE, for example --set \"Transient/End Time=20\".");
   }
   result.path = split(path[0] == '/' ? path.substr(1) : path, '/');
   if (!result.removes) result.value = text.substr(equals + 1);
@@ -43,13 +44,15 @@ Override parseOverride(const std::string& text, int number) {
   return result;
 }
 
-/// The type attribute of an override: what the description asks for, or a string when the text is a quantity with a unit.
+/// The type attribute of an override: what the description asks for, or a string when the text is a
+/// quantity with a unit.
 std::string typeFor(const ParameterSpec& parameter, const std::string& text) {
   const std::string type = typeName(parameter.kind);
   std::string ignored;
   if (parameter.unit.empty() || parseValue(type, text, ignored)) return type;
   if (parameter.kind == Kind::Real && !trim(text).empty()) return "string";
-  if (parameter.kind == Kind::RealArray && parseValue("Array(string)", text, ignored)) return "Array(string)";
+  if (parameter.kind == Kind::RealArray && parseValue("Array(string)", text, ignored))
+    return "Array(string)";
   return type;
 }
 
@@ -66,7 +69,10 @@ std::string tailOf(const std::string& text) {
   const std::string whole = trim(text);
   double number = 0.0;
   const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), number);
-  return error == std::errc() ? trim(std::string_view(end, static_cast<std::size_t>(whole.data() + whole.size() - end))) : "";
+  return error == std::errc()
+             ? trim(std::string_view(end,
+                                     static_cast<std::size_t>(whole.data() + whole.size() - end)))
+             : "";
 }
 
 class Applier {
@@ -85,7 +91,9 @@ class Applier {
         return;
       }
       if (item.path[i].size() > longestQuote) {
-        findings_.push_back({item.place, "the path has a name of " + std::to_string(item.path[i].size()) + " characters; the longest one has " +
+        findings_.push_back({item.place, "the path has a name of " +
+                                             std::to_string(item.path[i].size()) +
+                                             " characters; the longest one has " +
                                              std::to_string(longestQuote) + "."});
         return;
       }
@@ -105,13 +113,16 @@ class Applier {
  private:
   void stripSceneName(std::vector<std::string>& path) const {
     const bool named = path.size() > 1 && (path[0] == scene_.name || path[0] == spec_.name());
-    if (named && declaredList(spec_, path[0]) == nullptr && !scene_.holdsList(path[0])) path.erase(path.begin());
+    if (named && declaredList(spec_, path[0]) == nullptr && !scene_.holdsList(path[0]))
+      path.erase(path.begin());
   }
 
   /// Step into the list `name`; false (and a finding) when there is no such list.
-  bool enter(const Override& item, const std::string& name, std::string& path, RawList*& list, const ListSpec*& spec) {
+  bool enter(const Override& item, const std::string& name, std::string& path, RawList*& list,
+             const ListSpec*& spec) {
     const ListSpec* next = spec == nullptr ? nullptr : declaredList(*spec, name);
-    const bool ownName = spec != nullptr && next == nullptr && spec->pattern() != nullptr && list->holdsList(name);
+    const bool ownName =
+        spec != nullptr && next == nullptr && spec->pattern() != nullptr && list->holdsList(name);
     if (ownName) next = spec->pattern();
     if (spec != nullptr && next == nullptr) {
       findings_.push_back({item.place, unknownList(spec_, *spec, path, name, *list)});
@@ -129,18 +140,21 @@ class Applier {
     return true;
   }
 
-  /// Take a list, or a parameter, out; one that the deck could hold but does not is no fault, so that a switch works on every deck.
+  /// Take a list, or a parameter, out; one that the deck could hold but does not is no fault, so
+  /// that a switch works on every deck.
   void remove(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {
     const std::string& name = item.path.back();
     if (list.removeList(name) || list.removeParameter(name)) return;
-    if (spec == nullptr || spec->findParameter(name) == nullptr) missing(item, path, name, list, spec);
+    if (spec == nullptr || spec->findParameter(name) == nullptr)
+      missing(item, path, name, list, spec);
   }
 
-  void missing(const Override& item, const std::string& path, const std::string& name, const RawList& list,
-               const ListSpec* spec) {
+  void missing(const Override& item, const std::string& path, const std::string& name,
+               const RawList& list, const ListSpec* spec) {
     if (spec != nullptr && declaredList(*spec, name) != nullptr) return;
-    findings_.push_back(
-        {item.place, spec == nullptr ? path + " holds no list " + name + "." : unknownList(spec_, *spec, path, name, list)});
+    findings_.push_back({item.place, spec == nullptr
+                                         ? path + " holds no list " + name + "."
+                                         : unknownList(spec_, *spec, path, name, list)});
   }
 
   void assign(const Override& item, const std::string& path, RawList& list, const ListSpec* spec) {
@@ -158,9 +172,12 @@ class Applier {
     std::string fault;
     const std::optional<Value> value = parseValue(type, item.value, fault);
     if (!value) {
-      const bool unitless = spec != nullptr && type == "double" && parseUnit(tailOf(item.value)).has_value();
-      if (unitless && !tailOf(item.value).empty()) fault = "is not a number: this parameter has no unit";
-      findings_.push_back({item.place, path + "/" + name + ": value=" + inQuotes(item.value) + " " + fault + "."});
+      const bool unitless =
+          spec != nullptr && type == "double" && parseUnit(tailOf(item.value)).has_value();
+      if (unitless && !tailOf(item.value).empty())
+        fault = "is not a number: this parameter has no unit";
+      findings_.push_back(
+          {item.place, path + "/" + name + ": value=" + inQuotes(item.value) + " " + fault + "."});
       return;
     }
     RawParameter fresh{name, type, item.value, *value, item.place};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// name -> {factory, documented parameters, one sentence}. A new basis, integrator, trajectory or law is one new file
-/// that registers itself; nobody else is edited.
+/// name -> {factory, documented parameters, one sentence}. A new basis, integrator, trajectory or
+/// law is one new file that registers itself; nobody else is edited.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,15 @@
 
 namespace tooljoint::deck {
 
-/// Registry of the variants of Base, created from Args... (usually a `const Teuchos::ParameterList&` with the variant's
-/// own parameters first).
+/// Registry of the variants of Base, created from Args... (usually a `const
+/// Teuchos::ParameterList&` with the variant's own parameters first).
 template <class Base, class... Args>
 class Registry {
  public:
   struct Entry {
     std::string doc;      ///< one sentence: what it is, and the source it follows
-    ListSpec parameters;  ///< the sublist named after the variant; empty when it has no parameters of its own
+    ListSpec parameters;  ///< the sublist named after the variant; empty when it has no parameters
+                          ///< of its own
     std::function<std::unique_ptr<Base>(Args...)> make;
   };
 
@@ -32,14 +33,18 @@ class Registry {
     return registry;
   }
 
-  /// Call from a namespace-scope constant in the variant's own file: `const bool registered = Registry<...>::instance().add(...)`.
-  bool add(const std::string& name, Entry entry) { return entries_.emplace(name, std::move(entry)).second; }
+  /// Call from a namespace-scope constant in the variant's own file: `const bool registered =
+  /// Registry<...>::instance().add(...)`.
+  bool add(const std::string& name, Entry entry) {
+    return entries_.emplace(name, std::move(entry)).second;
+  }
 
   const Entry& find(const std::string& name) const {
     const auto it = entries_.find(name);
     if (it == entries_.end()) {
       std::string known;
-      for (const auto& [key, entry] : entries_) known += (known.empty() ? "\"" : ", \"") + key + "\"";
+      for (const auto& [key, entry] : entries_)
+        known += (known.empty() ? "\"" : ", \"") + key + "\"";
       throw DeckError("\"" + name + "\" is not known here; known are " + known + ".");
     }
     return it->second;

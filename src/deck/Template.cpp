@@ -34,7 +34,8 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// A sentence inside a comment: "--" would end it, and a leading "<" would make it a commented-out line.
+/// A sentence inside a comment: "--" would end it, and a leading "<" would make it a commented-out
+/// line.
 std::string remark(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -64,7 +65,9 @@ class Writer {
   /// First path of an example in the list `path`, which ends in "/"; "" without one.
   std::string exampleIn(const std::string& path) const {
     const auto found = examples_.lower_bound(path);
-    return found != examples_.end() && found->first.compare(0, path.size(), path) == 0 ? found->first : "";
+    return found != examples_.end() && found->first.compare(0, path.size(), path) == 0
+               ? found->first
+               : "";
   }
   std::string valueOf(const ParameterSpec& parameter, const std::string& path) const {
     const auto* given = example(path + parameter.name);
@@ -75,46 +78,64 @@ class Writer {
     text_ += std::string(static_cast<std::size_t>(2 * depth), ' ') + content + "\n";
   }
 
-  /// `active` lines stand as they are, the others are commented out (an XML comment must not hold "--").
-  void element(int depth, const std::string& content, bool active) { line(depth, active ? content : "<!-- " + content + " -->"); }
+  /// `active` lines stand as they are, the others are commented out (an XML comment must not hold
+  /// "--").
+  void element(int depth, const std::string& content, bool active) {
+    line(depth, active ? content : "<!-- " + content + " -->");
+  }
 
   static bool asksForSomething(const ListSpec& list) {
     const auto& parameters = list.parameters();
-    return std::any_of(parameters.begin(), parameters.end(),
-                       [](const ParameterSpec& p) { return std::holds_alternative<Required>(p.value); }) ||
-           std::any_of(list.lists().begin(), list.lists().end(), [](const ListSpec& l) { return l.required(); });
+    return std::any_of(
+               parameters.begin(), parameters.end(),
+               [](const ParameterSpec& p) { return std::holds_alternative<Required>(p.value); }) ||
+           std::any_of(list.lists().begin(), list.lists().end(),
+                       [](const ListSpec& l) { return l.required(); });
   }
 
-  /// Does the example of a choice in `list` name the variant `sublist`, which cannot do without values?
+  /// Does the example of a choice in `list` name the variant `sublist`, which cannot do without
+  /// values?
   bool chosen(const ListSpec& list, const ListSpec& sublist, const std::string& path) const {
     const auto& parameters = list.parameters();
-    return asksForSomething(sublist) && std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) {
-             return p.kind == Kind::Choice && !std::holds_alternative<Optional>(p.value) && valueOf(p, path) == sublist.name();
+    return asksForSomething(sublist) &&
+           std::any_of(parameters.begin(), parameters.end(), [&](const ParameterSpec& p) {
+             return p.kind == Kind::Choice && !std::holds_alternative<Optional>(p.value) &&
+                    valueOf(p, path) == sublist.name();
            });
   }
 
   /// `path`: of the list, with "/" at its end; "" of the root.
-  void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth, bool active) {
+  void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth,
+                 bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
     for (const ParameterSpec& parameter : list.parameters())
-      if (parameter.radius.empty()) writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
+      if (parameter.radius.empty())
+        writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
-      line(depth + 1, remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") + sublist.doc()));
+      line(depth + 1,
+           remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") +
+                  sublist.doc()));
       const std::string below = path + sublist.name() + "/";
-      writeList(sublist, sublist.name(), below, depth + 1, active && (sublist.required() || chosen(list, sublist, path) || !exampleIn(below).empty()));
+      writeList(sublist, sublist.name(), below, depth + 1,
+                active && (sublist.required() || chosen(list, sublist, path) ||
+                           !exampleIn(below).empty()));
     }
     if (list.pattern() != nullptr) {
-      line(depth + 1, remark("any number of lists with names of your own: " + list.pattern()->doc()));
+      line(depth + 1,
+           remark("any number of lists with names of your own: " + list.pattern()->doc()));
       const std::string given = exampleIn(path);
       const bool stands = active && !path.empty() && !given.empty();
-      const std::string own = stands ? given.substr(path.size(), given.find('/', path.size()) - path.size()) : "my " + list.pattern()->name();
+      const std::string own =
+          stands ? given.substr(path.size(), given.find('/', path.size()) - path.size())
+                 : "my " + list.pattern()->name();
       writeList(*list.pattern(), own, path + own + "/", depth + 1, stands);
     }
     element(depth, "</ParameterList>", active);
   }
 
   /// `diameter`: what may be given instead of a radius, or null.
-  void writeParameter(const ParameterSpec& parameter, const ParameterSpec* diameter, const std::string& path, int depth, bool active) {
+  void writeParameter(const ParameterSpec& parameter, const ParameterSpec* diameter,
+                      const std::string& path, int depth, bool active) {
     const bool required = std::holds_alternative<Required>(parameter.value);
     const bool stands = required || example(path + parameter.name) != nullptr;
     std::string note = describe(parameter);
@@ -123,10 +144,10 @@ class Writer {
     if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";
     line(depth, remark(note));
     const std::string value = escaped(valueOf(parameter, path));
-    element(
-        depth,
-        "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" + typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
-        active && stands);
+    element(depth,
+            "<Parameter name=\"" + escaped(parameter.name) + "\" type=\"" +
+                typeName(parameter.kind) + "\" value=\"" + value + "\"/>",
+            active && stands);
   }
 
   const Examples& examples_;
@@ -143,9 +164,10 @@ std::string uncommented(const std::string& templateText) {
   std::string result;
   for (const std::string& whole : split(templateText, '\n')) {
     const std::string content = trim(whole);
-    const bool commented = content.size() > openMark.size() + closeMark.size() &&
-                           content.compare(0, openMark.size(), openMark) == 0 &&
-                           content.compare(content.size() - closeMark.size(), closeMark.size(), closeMark) == 0;
+    const bool commented =
+        content.size() > openMark.size() + closeMark.size() &&
+        content.compare(0, openMark.size(), openMark) == 0 &&
+        content.compare(content.size() - closeMark.size(), closeMark.size(), closeMark) == 0;
     if (commented) {
       const std::string indent = whole.substr(0, whole.find('<'));
       result += indent + content.substr(5, content.size() - 9) + "\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A deck after its lexical reading: lists and parameters with the place each came from, before anybody asked whether the
-/// names mean something. Internal to src/deck.
+/// A deck after its lexical reading: lists and parameters with the place each came from, before
+/// anybody asked whether the names mean something. Internal to src/deck.
 #pragma once
 
 #include <string>
@@ -20,11 +20,14 @@ struct Place {
   std::string overrideText;
 
   bool before(const Place& other) const {
-    return overrideNumber != other.overrideNumber ? overrideNumber < other.overrideNumber : line < other.line;
+    return overrideNumber != other.overrideNumber ? overrideNumber < other.overrideNumber
+                                                  : line < other.line;
   }
   /// "deck.xml:42", or "--set Transient/Step=1"
   std::string text(const std::string& file) const {
-    if (overrideNumber > 0) return overrideText[0] == '!' ? "--without " + excerpt(overrideText.substr(1)) : "--set " + excerpt(overrideText);
+    if (overrideNumber > 0)
+      return overrideText[0] == '!' ? "--without " + excerpt(overrideText.substr(1))
+                                    : "--set " + excerpt(overrideText);
     return line > 0 ? file + ":" + std::to_string(line) : file;
   }
 };
@@ -58,7 +61,9 @@ class RawList {
     const auto it = listIndex_.find(wanted);
     return it == listIndex_.end() ? nullptr : &lists_[it->second];
   }
-  bool holdsParameter(const std::string& wanted) const { return parameterIndex_.count(wanted) != 0; }
+  bool holdsParameter(const std::string& wanted) const {
+    return parameterIndex_.count(wanted) != 0;
+  }
   bool holdsList(const std::string& wanted) const { return listIndex_.count(wanted) != 0; }
 
   RawParameter& add(RawParameter parameter) {
@@ -86,7 +91,8 @@ class RawList {
     if (it == parameterIndex_.end()) return false;
     parameters_.erase(parameters_.begin() + static_cast<std::ptrdiff_t>(it->second));
     parameterIndex_.clear();
-    for (std::size_t i = 0; i < parameters_.size(); ++i) parameterIndex_.emplace(parameters_[i].name, i);
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      parameterIndex_.emplace(parameters_[i].name, i);
     return true;
   }
 
@@ -103,8 +109,8 @@ struct Finding {
   std::string text;
 };
 
-/// All findings in the order of their places, one line each, as one DeckError (of more than a hundred the first
-/// hundred); returns when there are none.
+/// All findings in the order of their places, one line each, as one DeckError (of more than a
+/// hundred the first hundred); returns when there are none.
 void raise(std::vector<Finding> findings, const std::string& file);
 
 }  // namespace tooljoint::deck

@@ -22,7 +22,8 @@ constexpr double gallon = 231.0 * inch * inch * inch;  // US gallon, 231 cubic i
 constexpr double rotation = 2.0 * pi;
 
 constexpr double barrel = 42.0 * gallon;
-constexpr double waterDensity = 1000.0;  // kg/m3, what specific gravities of drilling fluids refer to
+constexpr double waterDensity =
+    1000.0;  // kg/m3, what specific gravities of drilling fluids refer to
 
 constexpr Dimension none{0, 0, 0, 0, 0};
 
@@ -49,12 +50,15 @@ constexpr Quantity dynamicViscosity{"dynamic viscosity", "Pa s", {-1, 1, -1, 0, 
 constexpr Quantity rotarySpeed{"rotary speed", "rad/s", {0, 0, -1, 1, 0}};
 constexpr Quantity frequency{"frequency", "Hz", {0, 0, -1, 0, 1}};
 
-/// What the table is made of, kept apart from the compound units that people look for in a manual. Quantities stand together.
-/// Inch, foot, pound, gallon and standard gravity are exact by definition (NIST SP 811, appendix B).
+/// What the table is made of, kept apart from the compound units that people look for in a manual.
+/// Quantities stand together. Inch, foot, pound, gallon and standard gravity are exact by
+/// definition (NIST SP 811, appendix B).
 std::vector<UnitSymbol> makeSymbols() {
   std::vector<UnitSymbol> table;
-  const auto add = [&table](const Quantity& quantity, const char* symbol, double factor, std::vector<std::string> synonyms = {}) {
-    table.push_back({symbol, std::move(synonyms), quantity.name, quantity.si, {factor, quantity.dimension}});
+  const auto add = [&table](const Quantity& quantity, const char* symbol, double factor,
+                            std::vector<std::string> synonyms = {}) {
+    table.push_back(
+        {symbol, std::move(synonyms), quantity.name, quantity.si, {factor, quantity.dimension}});
   };
   add(length, "m", 1.0, {"meter", "meters", "metre", "metres"});
   add(length, "mm", 1e-3);
@@ -116,11 +120,13 @@ Unit multiply(const Unit& a, const Unit& b, int power_) {
   Unit result = a;
   const double scale = std::pow(b.factor, std::abs(power_));
   result.factor = power_ < 0 ? result.factor / scale : result.factor * scale;
-  for (std::size_t i = 0; i < result.dimension.size(); ++i) result.dimension[i] += power_ * b.dimension[i];
+  for (std::size_t i = 0; i < result.dimension.size(); ++i)
+    result.dimension[i] += power_ * b.dimension[i];
   return result;
 }
 
-/// number * factor, by a division where the factor is one over a whole number (12.5 mm is 12.5 / 1000, the nearest double).
+/// number * factor, by a division where the factor is one over a whole number (12.5 mm is 12.5 /
+/// 1000, the nearest double).
 double scaled(double number, double factor) {
   const double inverse = std::round(1.0 / factor);
   const bool whole = inverse > 1.0 && std::abs(factor * inverse - 1.0) < 1e-14;
@@ -128,7 +134,9 @@ double scaled(double number, double factor) {
 }
 
 /// Letters, and the bytes of characters that are not ASCII (the degree sign).
-bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80; }
+bool isLetter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80;
+}
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 bool isNamed(const UnitSymbol& symbol, const std::string& name) {
@@ -136,7 +144,8 @@ bool isNamed(const UnitSymbol& symbol, const std::string& name) {
   return symbol.symbol == name || std::find(also.begin(), also.end(), name) != also.end();
 }
 
-/// The table's entry of this name; of a symbol of mass and force the one that `reading` wants. Null when there is none.
+/// The table's entry of this name; of a symbol of mass and force the one that `reading` wants. Null
+/// when there is none.
 const UnitSymbol* findSymbol(const std::string& name, Reading reading) {
   const UnitSymbol* found = nullptr;
   for (const UnitSymbol& symbol : unitSymbols())
@@ -154,7 +163,8 @@ std::string meantUnit(const std::string& name) {
   return closest(name, known);
 }
 
-/// Recursive descent over the grammar of the header: product of factors, "/" applies to the one factor after it.
+/// Recursive descent over the grammar of the header: product of factors, "/" applies to the one
+/// factor after it.
 class UnitParser {
  public:
   UnitParser(std::string_view text, Reading reading) : text_(text), reading_(reading) {}
@@ -163,7 +173,8 @@ class UnitParser {
     std::optional<Unit> unit = product();
     skipBlanks();
     if (unit && at_ < text_.size())
-      return fail(inQuotes(std::string(text_.substr(at_))) + " is not understood in the unit " + inQuotes(trim(text_)));
+      return fail(inQuotes(std::string(text_.substr(at_))) + " is not understood in the unit " +
+                  inQuotes(trim(text_)));
     return unit;
   }
 
@@ -181,7 +192,8 @@ class UnitParser {
 
   /// "-" or "." between two symbols: "ft-lbf", "N.m"
   bool joins(std::size_t at) const {
-    return at + 1 < text_.size() && (text_[at] == '-' || text_[at] == '.') && isLetter(text_[at + 1]);
+    return at + 1 < text_.size() && (text_[at] == '-' || text_[at] == '.') &&
+           isLetter(text_[at + 1]);
   }
 
   /// product := factor { ("*" | "-" | "." | blank) factor | "/" factor }
@@ -194,7 +206,8 @@ class UnitParser {
       const bool divide = text_[at_] == '/';
       if (divide || text_[at_] == '*' || joins(at_)) ++at_;
       if (divided && !divide)
-        return fail("the unit " + inQuotes(trim(text_)) + " is ambiguous: write parentheses around what it divides by");
+        return fail("the unit " + inQuotes(trim(text_)) +
+                    " is ambiguous: write parentheses around what it divides by");
       const std::optional<Unit> next = factor();
       if (!next) return next;
       result = multiply(*result, *next, divide ? -1 : 1);
@@ -217,7 +230,8 @@ class UnitParser {
     ++at_;
     std::optional<Unit> inner = product();
     if (!inner) return inner;
-    if (at_ >= text_.size() || text_[at_] != ')') return fail("a \")\" is missing in the unit " + inQuotes(trim(text_)));
+    if (at_ >= text_.size() || text_[at_] != ')')
+      return fail("a \")\" is missing in the unit " + inQuotes(trim(text_)));
     ++at_;
     --depth_;
     return power(*inner);
@@ -226,8 +240,10 @@ class UnitParser {
   /// "1/s", and the "30m" of "deg/30m"
   std::optional<Unit> number() {
     int value = 0;
-    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc() || value == 0) return fail("the number in the unit " + inQuotes(trim(text_)) + " is not usable");
+    const auto [end, error] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (error != std::errc() || value == 0)
+      return fail("the number in the unit " + inQuotes(trim(text_)) + " is not usable");
     at_ = static_cast<std::size_t>(end - text_.data());
     Unit result;
     result.factor = value;
@@ -244,7 +260,8 @@ class UnitParser {
     if (const UnitSymbol* known = findSymbol(name, reading_)) return power(known->unit);
     if (name.empty()) return fail(inQuotes(trim(text_.substr(begin))) + " is not a unit");
     const std::string near = meantUnit(name);
-    return fail(inQuotes(name) + " is not a known unit" + (near.empty() ? "" : " (did you mean " + inQuotes(near) + "?)"));
+    return fail(inQuotes(name) + " is not a known unit" +
+                (near.empty() ? "" : " (did you mean " + inQuotes(near) + "?)"));
   }
 
   /// exponent := ["^"] ["-"] digit
@@ -256,12 +273,14 @@ class UnitParser {
     const bool minus = at < text_.size() && text_[at] == '-';
     if (minus) ++at;
     if (at >= text_.size() || !isDigit(text_[at])) {
-      if (caret || minus) return fail("an exponent is missing in the unit " + inQuotes(trim(text_)));
+      if (caret || minus)
+        return fail("an exponent is missing in the unit " + inQuotes(trim(text_)));
       return base;
     }
     const int exponent = text_[at] - '0';
     at_ = at + 1;
-    if (at_ < text_.size() && isDigit(text_[at_])) return fail("an exponent in the unit " + inQuotes(trim(text_)) + " is too large");
+    if (at_ < text_.size() && isDigit(text_[at_]))
+      return fail("an exponent in the unit " + inQuotes(trim(text_)) + " is too large");
     return multiply(Unit{}, base, minus ? -exponent : exponent);
   }
 
@@ -289,10 +308,11 @@ std::optional<Unit> parseUnit(std::string_view text, std::string* fault, Reading
 
 std::vector<std::string> unitsLike(const std::string& si) {
   static const std::vector<std::string> compounds = {
-      "m/s",    "ft/s",    "m/h",     "ft/h",    "m/s2",    "m2",    "mm2",   "in2",       "kg/m3", "g/cm3", "kg/m",
-      "lbm/ft", "lb/gal",  "bbl/min", "kft lbf", "N/m",     "kN/m",  "MN/m",  "N s/m",     "N m",   "kN m",  "ft lbf",
-      "kg m",   "1/m",     "rad/m",   "deg/m",   "deg/30m", "rad/s", "deg/s", "rad/s2",    "1/s",   "m3/s",  "l/min",
-      "m2/s",   "N m/rad", "Pa s",    "m4",      "mm4",     "in4",   "kg m2", "N m s/rad", "m3"};
+      "m/s",   "ft/s",  "m/h",    "ft/h",   "m/s2",      "m2",      "mm2",   "in2",     "kg/m3",
+      "g/cm3", "kg/m",  "lbm/ft", "lb/gal", "bbl/min",   "kft lbf", "N/m",   "kN/m",    "MN/m",
+      "N s/m", "N m",   "kN m",   "ft lbf", "kg m",      "1/m",     "rad/m", "deg/m",   "deg/30m",
+      "rad/s", "deg/s", "rad/s2", "1/s",    "m3/s",      "l/min",   "m2/s",  "N m/rad", "Pa s",
+      "m4",    "mm4",   "in4",    "kg m2",  "N m s/rad", "m3"};
   std::vector<std::string> result;
   const std::optional<Unit> wanted = parseUnit(si);
   if (!wanted) return result;
@@ -302,7 +322,8 @@ std::vector<std::string> unitsLike(const std::string& si) {
     const std::optional<Unit> unit = parseUnit(compound);
     if (unit && unit->dimension == wanted->dimension) result.push_back(compound);
   }
-  if (std::find(result.begin(), result.end(), si) == result.end()) result.insert(result.begin(), si);
+  if (std::find(result.begin(), result.end(), si) == result.end())
+    result.insert(result.begin(), si);
   return result;
 }
 
@@ -310,11 +331,13 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
   const std::string whole = trim(text);
   const std::optional<Unit> wanted = parseUnit(si);
   if (!wanted || si.empty()) {
-    fault = si.empty() ? "stands where a plain number is expected" : "must be a plain number in " + si;
+    fault =
+        si.empty() ? "stands where a plain number is expected" : "must be a plain number in " + si;
     return std::nullopt;
   }
   const std::string expected = "a number and a unit such as " + quotedList(unitsLike(si));
-  const char* begin = whole.data() + (whole.size() > 1 && whole[0] == '+' && whole[1] != '-' ? 1 : 0);
+  const char* begin =
+      whole.data() + (whole.size() > 1 && whole[0] == '+' && whole[1] != '-' ? 1 : 0);
   double number = 0.0;
   const auto [end, error] = std::from_chars(begin, whole.data() + whole.size(), number);
   if (error == std::errc::invalid_argument || !std::isfinite(number)) {
@@ -325,7 +348,8 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
     fault = "is a number too large or too small for a double";
     return std::nullopt;
   }
-  const std::string rest = trim(std::string_view(end, static_cast<std::size_t>(whole.data() + whole.size() - end)));
+  const std::string rest =
+      trim(std::string_view(end, static_cast<std::size_t>(whole.data() + whole.size() - end)));
   if (rest.empty()) {
     fault = "has no unit; expected is " + expected;
     return std::nullopt;
@@ -343,7 +367,8 @@ std::optional<double> toSi(std::string_view text, const std::string& si, std::st
     return std::nullopt;
   }
   if (unit->dimension != wanted->dimension) {
-    fault = "has the unit " + inQuotes(rest) + ", which does not measure what is asked for here (" + si + "); expected is " + expected;
+    fault = "has the unit " + inQuotes(rest) + ", which does not measure what is asked for here (" +
+            si + "); expected is " + expected;
     return std::nullopt;
   }
   const double value = scaled(number, unit->factor / wanted->factor);

@@ -35,10 +35,12 @@ void setValue(Teuchos::ParameterList& list, const std::string& name, const Value
   std::visit(Setter{list, name}, value);
 }
 
-/// A text in the type `kind` asks for that says what the person most probably meant; "" when there is none.
+/// A text in the type `kind` asks for that says what the person most probably meant; "" when there
+/// is none.
 std::string rewritten(Kind kind, const RawParameter& given) {
   std::vector<std::string> candidates = {given.text, "{" + given.text + "}"};
-  if (const double* real = std::get_if<double>(&given.value)) candidates.push_back(formatNumber(*real));
+  if (const double* real = std::get_if<double>(&given.value))
+    candidates.push_back(formatNumber(*real));
   std::string ignored;
   for (const std::string& candidate : candidates) {
     if (parseValue(typeName(kind), candidate, ignored)) return candidate;
@@ -46,7 +48,8 @@ std::string rewritten(Kind kind, const RawParameter& given) {
   return "";
 }
 
-/// Checks one parameter against its description: a clause that says what is wrong, or the value in SI.
+/// Checks one parameter against its description: a clause that says what is wrong, or the value in
+/// SI.
 class ParameterCheck {
  public:
   /// `unit` is the SI unit of the value, which may depend on another parameter.
@@ -70,8 +73,10 @@ class ParameterCheck {
   std::optional<Value> converted() {
     if (given_.type == typeName(spec_.kind)) return given_.value;
     const bool quantity = !spec_.unit.empty();
-    if (spec_.kind == Kind::Real && quantity && given_.type == "string") return fromUnit(given_.text);
-    if (spec_.kind == Kind::RealArray && quantity && given_.type == "Array(string)") return fromUnits();
+    if (spec_.kind == Kind::Real && quantity && given_.type == "string")
+      return fromUnit(given_.text);
+    if (spec_.kind == Kind::RealArray && quantity && given_.type == "Array(string)")
+      return fromUnits();
     const std::string better = rewritten(spec_.kind, given_);
     const std::string wanted = "type=\"" + typeName(spec_.kind) + "\"";
     fault_ = " must be " + wanted + ", not type=" + inQuotes(given_.type);
@@ -94,7 +99,8 @@ class ParameterCheck {
       std::string why;
       const std::optional<double> value = toSi(entry, unit_, why);
       if (!value) {
-        fault_ = ": the entry " + inQuotes(entry) + " (number " + std::to_string(values.size() + 1) + ") " + why + ".";
+        fault_ = ": the entry " + inQuotes(entry) + " (number " +
+                 std::to_string(values.size() + 1) + ") " + why + ".";
         return std::nullopt;
       }
       values.push_back(*value);
@@ -122,7 +128,9 @@ class ParameterCheck {
   bool inRange(double number, std::size_t entry) {
     if (contains(spec_.range, number)) return true;
     const bool convertedUnit = given_.type == "string";
-    fault_ = entry == 0 ? quoted() : ": entry number " + std::to_string(entry) + ", " + formatNumber(number) + ", ";
+    fault_ = entry == 0
+                 ? quoted()
+                 : ": entry number " + std::to_string(entry) + ", " + formatNumber(number) + ", ";
     fault_ += (convertedUnit ? "(" + formatNumber(number) + " " + unit_ + ") " : std::string()) +
               "is out of range: it must be " + describe(spec_.range) + ". " + introduce(spec_);
     return false;
@@ -134,11 +142,13 @@ class ParameterCheck {
     if (const auto* text = std::get_if<std::string>(&value)) texts = {*text};
     if (const auto* array = std::get_if<std::vector<std::string>>(&value)) texts = *array;
     for (const std::string& text : texts) {
-      if (std::find(spec_.choices.begin(), spec_.choices.end(), text) != spec_.choices.end()) continue;
+      if (std::find(spec_.choices.begin(), spec_.choices.end(), text) != spec_.choices.end())
+        continue;
       const std::string near = closest(text, spec_.choices);
       const bool alone = spec_.kind == Kind::Choice;
       fault_ = alone ? quoted() : ": the entry " + inQuotes(text) + " ";
-      fault_ += "is not one of " + quotedList(spec_.choices) + "." + (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
+      fault_ += "is not one of " + quotedList(spec_.choices) + "." +
+                (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
       return false;
     }
     return true;
@@ -155,16 +165,18 @@ class Validation {
   Validation(const ListSpec& root, std::vector<Finding>& findings, Places& places)
       : root_(root), findings_(findings), places_(places) {}
 
-  /// `path` is the full one, `key` the one below the scene; `spec` is null inside a list that passes through.
-  void fill(const RawList& given, const ListSpec* spec, const std::string& path, const std::string& key,
-            Teuchos::ParameterList& out) {
+  /// `path` is the full one, `key` the one below the scene; `spec` is null inside a list that
+  /// passes through.
+  void fill(const RawList& given, const ListSpec* spec, const std::string& path,
+            const std::string& key, Teuchos::ParameterList& out) {
     out.setName(path);
     places_[key] = given.place;
     const std::string below = key.empty() ? "" : key + "/";
     for (const RawParameter& parameter : given.parameters()) {
       places_[below + parameter.name] = parameter.place;
       const ParameterSpec* known = spec == nullptr ? nullptr : spec->findParameter(parameter.name);
-      if (known != nullptr && !known->radius.empty()) places_.emplace(below + known->radius, parameter.place);
+      if (known != nullptr && !known->radius.empty())
+        places_.emplace(below + known->radius, parameter.place);
       fillParameter(parameter, given, spec, path, out);
     }
     for (const RawList& sublist : given.lists()) {
@@ -174,7 +186,8 @@ class Validation {
         continue;
       }
       const bool described = next != nullptr && !next->passesThrough();
-      fill(sublist, described ? next : nullptr, path + "/" + sublist.name, below + sublist.name, out.sublist(sublist.name));
+      fill(sublist, described ? next : nullptr, path + "/" + sublist.name, below + sublist.name,
+           out.sublist(sublist.name));
     }
     if (spec != nullptr) complete(given, *spec, path, out);
   }
@@ -189,8 +202,8 @@ class Validation {
     return parameter.unitOf(decides == nullptr ? "" : decides->text);
   }
 
-  void fillParameter(const RawParameter& given, const RawList& list, const ListSpec* spec, const std::string& path,
-                     Teuchos::ParameterList& out) {
+  void fillParameter(const RawParameter& given, const RawList& list, const ListSpec* spec,
+                     const std::string& path, Teuchos::ParameterList& out) {
     if (spec == nullptr) {
       setValue(out, given.name, given.value);
       return;
@@ -207,27 +220,36 @@ class Validation {
     } else if (parameter->radius.empty()) {
       setValue(out, given.name, *value);
     } else if (list.holdsParameter(parameter->radius)) {
-      add(given.place, path + "/" + given.name + " and " + parameter->radius + " are both given: give one of them.");
+      add(given.place, path + "/" + given.name + " and " + parameter->radius +
+                           " are both given: give one of them.");
     } else {
       out.set(parameter->radius, std::get<double>(*value) / 2.0);
     }
   }
 
   /// Required things that are missing, and defaults of the parameters that were not given.
-  void complete(const RawList& given, const ListSpec& spec, const std::string& path, Teuchos::ParameterList& out) {
+  void complete(const RawList& given, const ListSpec& spec, const std::string& path,
+                Teuchos::ParameterList& out) {
     for (const ParameterSpec& parameter : spec.parameters()) {
       if (given.holdsParameter(parameter.name) || given.holdsList(parameter.name)) continue;
       const ParameterSpec* diameter = spec.diameterOf(parameter.name);
       if (diameter != nullptr && given.holdsParameter(diameter->name)) continue;
       if (std::holds_alternative<Required>(parameter.value)) {
-        add(given.place, path + "/" + parameter.name + " is required but missing: write <Parameter name=" + inQuotes(parameter.name) + " type=\"" + typeName(parameter.kind) + "\" value=\"...\"/>" +
-                             (diameter == nullptr ? "" : ", or give " + diameter->name) + ". " + introduce(parameter));
+        add(given.place,
+            path + "/" + parameter.name + " is required but missing: write <Parameter name=" +
+                inQuotes(parameter.name) + " type=\"" + typeName(parameter.kind) +
+                "\" value=\"...\"/>" + (diameter == nullptr ? "" : ", or give " + diameter->name) +
+                ". " + introduce(parameter));
       }
       setDefault(out, parameter);
     }
     for (const ListSpec& sublist : spec.lists()) {
-      if (!sublist.required() || given.holdsList(sublist.name()) || given.holdsParameter(sublist.name())) continue;
-      add(given.place, path + "/" + sublist.name() + " is required but missing: write <ParameterList name=" + inQuotes(sublist.name()) + ">...</ParameterList>. " + introduce(sublist));
+      if (!sublist.required() || given.holdsList(sublist.name()) ||
+          given.holdsParameter(sublist.name()))
+        continue;
+      add(given.place,
+          path + "/" + sublist.name() + " is required but missing: write <ParameterList name=" +
+              inQuotes(sublist.name()) + ">...</ParameterList>. " + introduce(sublist));
     }
   }
 
@@ -242,7 +264,8 @@ void setDefault(Teuchos::ParameterList& list, const ParameterSpec& parameter) {
   std::visit(Setter{list, parameter.name}, parameter.value);
 }
 
-Teuchos::ParameterList validate(const RawList& scene, const ListSpec& spec, std::vector<Finding>& findings, Places& places) {
+Teuchos::ParameterList validate(const RawList& scene, const ListSpec& spec,
+                                std::vector<Finding>& findings, Places& places) {
   Teuchos::ParameterList result;
   Validation(spec, findings, places).fill(scene, &spec, "/" + scene.name, "", result);
   return result;

@@ -18,9 +18,11 @@ std::string trailing(const std::string& text, const std::string& rest, bool inAr
   const bool quantity = unit && unit->dimension != Dimension{};
   if (rest[0] == ',') return "is not a number: write a decimal point, not a comma";
   if (!inArray && quantity) {
-    return "is not a number. A quantity with a unit is written type=\"string\" value=" + inQuotes(text);
+    return "is not a number. A quantity with a unit is written type=\"string\" value=" +
+           inQuotes(text);
   }
-  if (inArray && quantity) return "is not a number. Quantities with a unit are written type=\"Array(string)\"";
+  if (inArray && quantity)
+    return "is not a number. Quantities with a unit are written type=\"Array(string)\"";
   return "is not a number: " + inQuotes(rest) + " is left over";
 }
 
@@ -66,7 +68,8 @@ std::optional<int> parseInteger(const std::string& raw, std::string& fault) {
   } else if (parseReal(text, ignored)) {
     fault = "is not a whole number";
   } else if (error == std::errc()) {
-    fault = "is not a whole number: \"" + std::string(end, text.data() + text.size()) + "\" is left over";
+    fault = "is not a whole number: \"" + std::string(end, text.data() + text.size()) +
+            "\" is left over";
   } else {
     fault = "is not a whole number";
   }
@@ -89,7 +92,8 @@ std::optional<std::vector<std::string>> parseEntries(const std::string& raw, std
   const std::string text = trim(raw);
   if (text.size() < 2 || text.front() != '{' || text.back() != '}') {
     fault = "is not an array: write the entries in braces, \"{" + trim(text) + "}\"";
-    if (text.find_first_of("{}[]()") != std::string::npos || text.empty()) fault = "is not an array: write \"{a, b, c}\"";
+    if (text.find_first_of("{}[]()") != std::string::npos || text.empty())
+      fault = "is not an array: write \"{a, b, c}\"";
     return std::nullopt;
   }
   const std::string inner = text.substr(1, text.size() - 2);
@@ -118,7 +122,8 @@ std::optional<Value> parseArray(const std::string& text, std::string& fault, Par
     std::string why;
     const std::optional<T> value = parse(entry, why);
     if (!value) {
-      fault = "has the entry " + inQuotes(entry) + " (number " + std::to_string(values.size() + 1) + "), which " + why;
+      fault = "has the entry " + inQuotes(entry) + " (number " + std::to_string(values.size() + 1) +
+              "), which " + why;
       return std::nullopt;
     }
     values.push_back(*value);
@@ -135,17 +140,18 @@ std::optional<Value> wrap(std::optional<T> value) {
 }  // namespace
 
 const std::vector<std::string>& typeNames() {
-  static const std::vector<std::string> names = {"double",        "int",        "bool",         "string",
-                                                 "Array(double)", "Array(int)", "Array(string)"};
+  static const std::vector<std::string> names = {
+      "double", "int", "bool", "string", "Array(double)", "Array(int)", "Array(string)"};
   return names;
 }
 
 std::string meantType(const std::string& type) {
   static const std::map<std::string, std::string> others = {
-      {"float", "double"},  {"real", "double"},  {"number", "double"}, {"quantity", "string"}, {"integer", "int"},
-      {"long", "int"},      {"longlong", "int"}, {"unsigned", "int"},  {"size_t", "int"},      {"short", "int"},
-      {"boolean", "bool"},  {"logical", "bool"}, {"text", "string"},   {"char", "string"},     {"str", "string"},
-      {"double", "double"}, {"int", "int"},      {"bool", "bool"},     {"string", "string"}};
+      {"float", "double"}, {"real", "double"}, {"number", "double"}, {"quantity", "string"},
+      {"integer", "int"},  {"long", "int"},    {"longlong", "int"},  {"unsigned", "int"},
+      {"size_t", "int"},   {"short", "int"},   {"boolean", "bool"},  {"logical", "bool"},
+      {"text", "string"},  {"char", "string"}, {"str", "string"},    {"double", "double"},
+      {"int", "int"},      {"bool", "bool"},   {"string", "string"}};
   std::string small;
   for (const char c : lower(type)) {
     if (c != ' ') small += c;
@@ -160,24 +166,32 @@ std::string meantType(const std::string& type) {
   return "Array(" + it->second + ")";
 }
 
-std::optional<Value> parseValue(const std::string& type, const std::string& text, std::string& fault) {
+std::optional<Value> parseValue(const std::string& type, const std::string& text,
+                                std::string& fault) {
   if (type == "double") return wrap(parseReal(text, fault));
   if (type == "int") return wrap(parseInteger(text, fault));
   if (type == "bool") return wrap(parseBoolean(text, fault));
   if (type == "string") return Value(text);
   if (type == "Array(double)") {
-    return parseArray<double>(text, fault, [](const std::string& e, std::string& why) { return parseReal(e, why, true); });
+    return parseArray<double>(text, fault, [](const std::string& e, std::string& why) {
+      return parseReal(e, why, true);
+    });
   }
   if (type == "Array(int)") return parseArray<int>(text, fault, parseInteger);
   if (type == "Array(string)") {
-    return parseArray<std::string>(text, fault, [](const std::string& e, std::string&) { return std::optional<std::string>(e); });
+    return parseArray<std::string>(text, fault, [](const std::string& e, std::string&) {
+      return std::optional<std::string>(e);
+    });
   }
   const std::string meant = meantType(type);
-  fault = "has the type " + inQuotes(type) + ", which is not known; known are " + quotedList(typeNames());
+  fault = "has the type " + inQuotes(type) + ", which is not known; known are " +
+          quotedList(typeNames());
   if (!meant.empty()) fault += ". Did you mean type=" + inQuotes(meant) + "?";
   return std::nullopt;
 }
 
-std::string typeOf(const Value& value) { return typeNames()[std::vector<std::size_t>{2, 1, 0, 3, 5, 4, 6}[value.index()]]; }
+std::string typeOf(const Value& value) {
+  return typeNames()[std::vector<std::size_t>{2, 1, 0, 3, 5, 4, 6}[value.index()]];
+}
 
 }  // namespace tooljoint::deck

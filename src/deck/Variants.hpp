@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Puts the registered variants of one kind into a list's description: a choice that names the variant, and for each variant with
-/// parameters of its own an optional sublist with the variant's name.
+/// Puts the registered variants of one kind into a list's description: a choice that names the
+/// variant, and for each variant with parameters of its own an optional sublist with the variant's
+/// name.
 #pragma once
 
 #include <string>
@@ -11,10 +12,11 @@
 
 namespace tooljoint::deck {
 
-/// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time integrator.")`. The sentence of the
-/// choice is followed by what each variant is.
+/// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time
+/// integrator.")`. The sentence of the choice is followed by what each variant is.
 template <class Base, class... Args>
-ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default chosen, const std::string& doc) {
+ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default chosen,
+                          const std::string& doc) {
   const auto& registry = Registry<Base, Args...>::instance();
   std::string sentence = doc;
   for (const auto& [name, entry] : registry.entries()) sentence += " " + name + ": " + entry.doc;

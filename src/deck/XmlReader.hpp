@@ -12,11 +12,12 @@ namespace tooljoint::deck {
 /// Largest deck that is read; anything longer is no deck.
 constexpr std::size_t largestDeck = 64UL * 1024UL * 1024UL;
 
-/// The whole text of a file. Throws FileError when it is missing, no regular file, not readable or longer than largestDeck.
+/// The whole text of a file. Throws FileError when it is missing, no regular file, not readable or
+/// longer than largestDeck.
 std::string readTextFile(const std::string& file);
 
-/// Lexical reading of a deck; all faults are collected in one DeckError. Document type definitions and entities are refused,
-/// nothing is loaded from anywhere else.
+/// Lexical reading of a deck; all faults are collected in one DeckError. Document type definitions
+/// and entities are refused, nothing is loaded from anywhere else.
 RawList readXml(const std::string& text, const std::string& file);
 
 }  // namespace tooljoint::deck

@@ -25,10 +25,12 @@ constexpr double hopeless = 2.0;
 constexpr double known = 0.5;
 /// A part that would get this fraction of its modes is kept whole.
 constexpr double nearlyAll = 0.75;
-/// Likewise one whose matrices, full with modes, would have so many times the entries of its own stiffness: the longer steps an
-/// explicit integrator may take without the highest modes do not make up for more.
+/// Likewise one whose matrices, full with modes, would have so many times the entries of its own
+/// stiffness: the longer steps an explicit integrator may take without the highest modes do not
+/// make up for more.
 constexpr double tooFull = 10.0;
-/// Rounds after which something is wrong: each adds two modes at least and half of what there is to some part.
+/// Rounds after which something is wrong: each adds two modes at least and half of what there is to
+/// some part.
 constexpr int mostRounds = 60;
 
 double since(std::chrono::steady_clock::time_point start) {
@@ -60,9 +62,16 @@ double entries(const model::Substructure& part) {
 /// The rounds of a tolerance.
 class Rounds {
  public:
-  Rounds(const std::vector<model::Substructure>& parts, const reduction::Basis& basis, const reduction::ReductionOptions& options,
-         const EstimateOptions& estimates, const MotionProbe& probe, const coupling::CouplingOptions& coupling)
-      : parts_(parts), basis_(basis), rule_(options.modes), options_(options), estimates_(estimates), probe_(probe), coupling_(coupling) {
+  Rounds(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+         const reduction::ReductionOptions& options, const EstimateOptions& estimates,
+         const MotionProbe& probe, const coupling::CouplingOptions& coupling)
+      : parts_(parts),
+        basis_(basis),
+        rule_(options.modes),
+        options_(options),
+        estimates_(estimates),
+        probe_(probe),
+        coupling_(coupling) {
     options_.modes.kind = reduction::ModeRule::Kind::PerPart;
     options_.modes.counts.assign(parts.size(), firstModes);
   }
@@ -72,10 +81,12 @@ class Rounds {
       outcome_.synthesis = coupling::synthesise(parts_, basis_, options_, cache_, coupling_);
       outcome_.rounds.emplace_back();
       outcome_.rounds.back().modes = modes();
-      outcome_.rounds.back().whole = static_cast<int>(std::count(options_.modes.counts.begin(), options_.modes.counts.end(), reduction::ModeRule::whole));
+      outcome_.rounds.back().whole = static_cast<int>(std::count(
+          options_.modes.counts.begin(), options_.modes.counts.end(), reduction::ModeRule::whole));
       std::vector<char> wanted(parts_.size(), 0);
       if (rule_.frequencyTolerance > 0) lookAtFrequencies(wanted);
-      if (rule_.motionTolerance > 0 && std::count(wanted.begin(), wanted.end(), 1) == 0) lookAtMotion(wanted);
+      if (rule_.motionTolerance > 0 && std::count(wanted.begin(), wanted.end(), 1) == 0)
+        lookAtMotion(wanted);
       if (std::count(wanted.begin(), wanted.end(), 1) == 0) return std::move(outcome_);
       if (!grow(wanted)) refuse();
     }
@@ -117,23 +128,30 @@ class Rounds {
     outcome_.wall += since(start);
     if (estimate.error <= allowed) return;
     const auto marked = mark(estimate.byPart, 0.1 * estimate.byPart.sum());
-    if (marked.empty()) std::fill(wanted.begin(), wanted.end(), 1);  // it comes from the initial state, or is not a number
+    if (marked.empty())
+      std::fill(wanted.begin(), wanted.end(),
+                1);  // it comes from the initial state, or is not a number
     for (std::size_t p : marked) wanted[p] = 1;
   }
 
-  /// Half as many modes again (as many again while the error is ten times too large, three times as many while it is a hundred
-  /// times), two at least; the whole part where that is nearly all. False when every wanted part has all it has.
+  /// Half as many modes again (as many again while the error is ten times too large, three times as
+  /// many while it is a hundred times), two at least; the whole part where that is nearly all.
+  /// False when every wanted part has all it has.
   bool grow(const std::vector<char>& wanted) {
     const auto& round = outcome_.rounds.back();
-    const double off = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300), round.motionError / std::max(rule_.motionTolerance, 1e-300));
+    const double off = std::max(round.frequencyError / std::max(rule_.frequencyTolerance, 1e-300),
+                                round.motionError / std::max(rule_.motionTolerance, 1e-300));
     bool grown = false;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const auto& reduced = outcome_.synthesis.parts[p];
       const int interior = reduced.report.interior;
       if (!wanted[p] || reduced.modes >= interior) continue;
-      const int more = std::max(2, off > 100 ? 3 * reduced.modes : off > 10 ? reduced.modes : (reduced.modes + 1) / 2);
+      const int more = std::max(2, off > 100  ? 3 * reduced.modes
+                                   : off > 10 ? reduced.modes
+                                              : (reduced.modes + 1) / 2);
       const int next = std::min(interior, reduced.modes + more);
-      options_.modes.counts[p] = rule_.motionTolerance > 0 && dearerThanWhole(p, next) ? reduction::ModeRule::whole : next;
+      options_.modes.counts[p] =
+          rule_.motionTolerance > 0 && dearerThanWhole(p, next) ? reduction::ModeRule::whole : next;
       grown = true;
     }
     return grown;
@@ -149,11 +167,18 @@ class Rounds {
   [[noreturn]] void refuse() const {
     const auto& round = outcome_.rounds.back();
     std::string what;
-    if (round.frequencyError >= 0) what += "of the frequencies " + formatNumber(round.frequencyError);
-    if (round.motionError >= 0) what += std::string(what.empty() ? "" : ", ") + "of the motion " + formatNumber(round.motionError);
-    throw ConvergenceError("The tolerance of the reduction is not met although its parts have all the modes that would lower the estimate: "
-                           "errors " + what + " with " + std::to_string(round.modes) + " modes after " + std::to_string(outcome_.rounds.size()) +
-                           " rounds. Allow a larger tolerance, or retain more nodes.");
+    if (round.frequencyError >= 0)
+      what += "of the frequencies " + formatNumber(round.frequencyError);
+    if (round.motionError >= 0)
+      what += std::string(what.empty() ? "" : ", ") + "of the motion " +
+              formatNumber(round.motionError);
+    throw ConvergenceError(
+        "The tolerance of the reduction is not met although its parts have all the modes that "
+        "would lower the estimate: "
+        "errors " +
+        what + " with " + std::to_string(round.modes) + " modes after " +
+        std::to_string(outcome_.rounds.size()) +
+        " rounds. Allow a larger tolerance, or retain more nodes.");
   }
 
   const std::vector<model::Substructure>& parts_;
@@ -165,14 +190,16 @@ class Rounds {
   const coupling::CouplingOptions& coupling_;
   reduction::ReductionCache cache_;
   Outcome outcome_;
-  double motion_ = 0;  ///< MotionEstimate::motion of the last model that went to the end with an error up to `known`; 0 before
+  double motion_ = 0;  ///< MotionEstimate::motion of the last model that went to the end with an
+                       ///< error up to `known`; 0 before
 };
 
 }  // namespace
 
 double largestError(const std::vector<FrequencyEstimate>& estimates) {
   double largest = 0;
-  for (const auto& e : estimates) largest = std::max({largest, std::abs(e.error), e.definite ? 0.0 : 1.0});
+  for (const auto& e : estimates)
+    largest = std::max({largest, std::abs(e.error), e.definite ? 0.0 : 1.0});
   return largest;
 }
 
@@ -181,28 +208,36 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
   const auto& choice = list.get<std::string>("Error Estimate");
   options.frequencies = choice == "Frequencies" || choice == "Both";
   options.motion = choice == "Transient" || choice == "Both";
-  const bool tolerance = list.isParameter("Frequency Tolerance") || list.isParameter("Motion Tolerance");
-  if ((options.frequencies || options.motion || tolerance) && list.isParameter("Interface Reduction") &&
+  const bool tolerance =
+      list.isParameter("Frequency Tolerance") || list.isParameter("Motion Tolerance");
+  if ((options.frequencies || options.motion || tolerance) &&
+      list.isParameter("Interface Reduction") &&
       list.get<std::string>("Interface Reduction") != "None")
-    throw DeckError("Reduction gives \"Interface Reduction\" together with " + std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
-                    ", but estimates do not see what an interface reduction leaves out. Give one of the two.");
+    throw DeckError(
+        "Reduction gives \"Interface Reduction\" together with " +
+        std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
+        ", but estimates do not see what an interface reduction leaves out. Give one of the two.");
   options.window.count = list.get<int>("Estimated Frequencies");
   if (list.isParameter("Estimated Below")) {
     options.window.belowHz = list.get<double>("Estimated Below");
     if (!options.frequencies && !list.isParameter("Frequency Tolerance"))
-      throw DeckError("Reduction gives \"Estimated Below\", but nothing looks at frequencies: set \"Error Estimate\" to \"Frequencies\", give a "
-                      "\"Frequency Tolerance\", or leave it out.");
+      throw DeckError(
+          "Reduction gives \"Estimated Below\", but nothing looks at frequencies: set \"Error "
+          "Estimate\" to \"Frequencies\", give a "
+          "\"Frequency Tolerance\", or leave it out.");
   }
   return options;
 }
 
 Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe,
-                   const coupling::CouplingOptions& coupling) {
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates,
+                   const MotionProbe& probe, const coupling::CouplingOptions& coupling) {
   Outcome outcome;
   if (options.modes.kind == reduction::ModeRule::Kind::Tolerance) {
     if (options.modes.motionTolerance > 0 && !probe)
-      throw DeckError("\"Motion Tolerance\" needs a motion: give the scene a Transient list, or take \"Frequency Tolerance\".");
+      throw DeckError(
+          "\"Motion Tolerance\" needs a motion: give the scene a Transient list, or take "
+          "\"Frequency Tolerance\".");
     outcome = Rounds(parts, basis, options, estimates, probe, coupling).run();
   } else {
     outcome.synthesis = coupling::synthesise(parts, basis, options, coupling);
@@ -214,14 +249,18 @@ Outcome synthesise(const std::vector<model::Substructure>& parts, const reductio
   return outcome;
 }
 
-Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& list, const MotionProbe& probe,
+Outcome synthesise(const std::vector<model::Substructure>& parts,
+                   const Teuchos::ParameterList& list, const MotionProbe& probe,
                    const coupling::CouplingOptions& coupling) {
   const auto options = reduction::readOptions(list, static_cast<int>(parts.size()));
-  return synthesise(parts, *reduction::makeBasis(options.basis, list), options, readEstimateOptions(list), probe, coupling);
+  return synthesise(parts, *reduction::makeBasis(options.basis, list), options,
+                    readEstimateOptions(list), probe, coupling);
 }
 
 std::string roundTable(const std::vector<Round>& rounds) {
-  std::string text = "Modes by tolerance:\n  round   modes   parts kept whole   error of frequencies   error of motion\n";
+  std::string text =
+      "Modes by tolerance:\n  round   modes   parts kept whole   error of frequencies   error of "
+      "motion\n";
   const auto number = [](double value) {
     char field[32];
     std::snprintf(field, sizeof field, value < 0 ? "-" : "%.2e", value);
@@ -229,8 +268,10 @@ std::string roundTable(const std::vector<Round>& rounds) {
   };
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     char line[160], note[64] = "";
-    if (rounds[i].reached < 1) std::snprintf(note, sizeof note, ", given up after %.2g of the window", rounds[i].reached);
-    std::snprintf(line, sizeof line, "  %5zu  %6d  %17d  %21s  %16s%s\n", i + 1, rounds[i].modes, rounds[i].whole, number(rounds[i].frequencyError).c_str(),
+    if (rounds[i].reached < 1)
+      std::snprintf(note, sizeof note, ", given up after %.2g of the window", rounds[i].reached);
+    std::snprintf(line, sizeof line, "  %5zu  %6d  %17d  %21s  %16s%s\n", i + 1, rounds[i].modes,
+                  rounds[i].whole, number(rounds[i].frequencyError).c_str(),
                   number(rounds[i].motionError).c_str(), note);
     text += line;
   }

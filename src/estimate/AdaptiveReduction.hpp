@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Reduction with what the deck asks for beyond it: error estimates, and modes chosen by a tolerance.
+/// Reduction with what the deck asks for beyond it: error estimates, and modes chosen by a
+/// tolerance.
 #pragma once
 
 #include <functional>
@@ -28,11 +29,12 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& reduction);
 
 /// One round of the choice of modes by a tolerance.
 struct Round {
-  int modes = 0;              ///< of all parts
-  double frequencyError = -1;  ///< largest estimate over the window; negative when it was not looked at
-  double motionError = -1;     ///< estimate of dyn, likewise
-  double reached = 1;          ///< fraction of the window of the motion that was looked at
-  int whole = 0;               ///< parts that are not reduced
+  int modes = 0;  ///< of all parts
+  double frequencyError =
+      -1;  ///< largest estimate over the window; negative when it was not looked at
+  double motionError = -1;  ///< estimate of dyn, likewise
+  double reached = 1;       ///< fraction of the window of the motion that was looked at
+  int whole = 0;            ///< parts that are not reduced
 };
 
 struct Outcome {
@@ -42,27 +44,32 @@ struct Outcome {
   double wall = 0;                             ///< of the estimates [s]
 };
 
-/// Moves the coupled model through the window of the scene, or until the error exceeds the limit (watchMotion), and returns the
-/// estimated error of that motion.
+/// Moves the coupled model through the window of the scene, or until the error exceeds the limit
+/// (watchMotion), and returns the estimated error of that motion.
 using MotionProbe = std::function<MotionEstimate(const coupling::Synthesis&, const MotionLimit&)>;
 
-/// Reduces, couples and estimates. With ModeRule::Kind::Tolerance every part starts with few modes; then the coupled frequencies are
-/// estimated (and, with a motion tolerance, the motion is computed and estimated by `probe`), and the parts that
-/// contribute most get more modes until the estimate times the safety factor is below the tolerance: those without which the rest
-/// would make half of it (W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124). Only parts whose number of modes changes are reduced
-/// again. Motions go to the end of the window until one has an estimate below 1/2, which tells how large the motion is; later ones are
-/// given up as soon as their error is twice what is allowed of that. With a motion tolerance a part that would get three quarters of
-/// its modes, or whose matrices would have ten times the entries of its own stiffness, is kept whole (reduction::wholePart): it is
-/// exact, and cheaper to move. The motion of a model of whole parts is not looked at: it is the full one.
-/// The same on every rank; collective. ConvergenceError when the tolerance is not met with all modes.
+/// Reduces, couples and estimates. With ModeRule::Kind::Tolerance every part starts with few modes;
+/// then the coupled frequencies are estimated (and, with a motion tolerance, the motion is computed
+/// and estimated by `probe`), and the parts that contribute most get more modes until the estimate
+/// times the safety factor is below the tolerance: those without which the rest would make half of
+/// it (W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124). Only parts whose number of modes
+/// changes are reduced again. Motions go to the end of the window until one has an estimate below
+/// 1/2, which tells how large the motion is; later ones are given up as soon as their error is
+/// twice what is allowed of that. With a motion tolerance a part that would get three quarters of
+/// its modes, or whose matrices would have ten times the entries of its own stiffness, is kept
+/// whole (reduction::wholePart): it is exact, and cheaper to move. The motion of a model of whole
+/// parts is not looked at: it is the full one. The same on every rank; collective. ConvergenceError
+/// when the tolerance is not met with all modes.
 Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-                   const reduction::ReductionOptions& options, const EstimateOptions& estimates, const MotionProbe& probe = {},
-                   const coupling::CouplingOptions& coupling = {});
-/// The same from the deck list "Reduction".
-Outcome synthesise(const std::vector<model::Substructure>& parts, const Teuchos::ParameterList& reduction,
+                   const reduction::ReductionOptions& options, const EstimateOptions& estimates,
                    const MotionProbe& probe = {}, const coupling::CouplingOptions& coupling = {});
+/// The same from the deck list "Reduction".
+Outcome synthesise(const std::vector<model::Substructure>& parts,
+                   const Teuchos::ParameterList& reduction, const MotionProbe& probe = {},
+                   const coupling::CouplingOptions& coupling = {});
 
-/// Largest error of the estimates, 0 for none. Where a part lacks a mode below a frequency it counts as 1 at least.
+/// Largest error of the estimates, 0 for none. Where a part lacks a mode below a frequency it
+/// counts as 1 at least.
 double largestError(const std::vector<FrequencyEstimate>& estimates);
 
 /// A table of the rounds.

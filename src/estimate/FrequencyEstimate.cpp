@@ -30,15 +30,16 @@ struct Share {
 };
 constexpr Eigen::Index numbers = sizeof(Share) / sizeof(double);
 
-std::vector<Share> shares(const model::Substructure& part, const reduction::BasisResult& basis, const Matrix& shapes,
-                          const Vector& eigenvalues) {
+std::vector<Share> shares(const model::Substructure& part, const reduction::BasisResult& basis,
+                          const Matrix& shapes, const Vector& eigenvalues) {
   const Sparse K = coupling::undampedStiffness(part.model);
   const ResidualFlexibility flexibility(part, basis, K);
   const Matrix inertia = part.model.mass * shapes;
   const Matrix residual = K * shapes - inertia * eigenvalues.asDiagonal();
   const auto interior = [&](const Matrix& rows, Eigen::Index j) {
     Vector inner(static_cast<Eigen::Index>(flexibility.interior().size()));
-    for (Eigen::Index i = 0; i < inner.size(); ++i) inner[i] = rows(flexibility.interior()[static_cast<std::size_t>(i)], j);
+    for (Eigen::Index i = 0; i < inner.size(); ++i)
+      inner[i] = rows(flexibility.interior()[static_cast<std::size_t>(i)], j);
     return inner;
   };
   std::vector<Share> result(static_cast<std::size_t>(shapes.cols()));
@@ -57,12 +58,15 @@ void exchange(std::vector<Share>& values, Eigen::Index count, int owner) {
   Vector raw(count * numbers);
   if (count > 0) std::memcpy(raw.data(), values.data(), sizeof(Share) * values.size());
   parallel::broadcast(raw, owner);
-  if (count > 0) std::memcpy(static_cast<void*>(values.data()), raw.data(), sizeof(Share) * values.size());
+  if (count > 0)
+    std::memcpy(static_cast<void*>(values.data()), raw.data(), sizeof(Share) * values.size());
 }
 
-/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole: Rayleigh-Ritz on the mode and the
-/// Krylov vectors of all parts. The left side minus the right one falls from plus to minus there.
-double improvedEigenvalue(double lambda, double mass, const std::vector<ResidualFlexibility::Step>& steps) {
+/// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole:
+/// Rayleigh-Ritz on the mode and the Krylov vectors of all parts. The left side minus the right one
+/// falls from plus to minus there.
+double improvedEigenvalue(double lambda, double mass,
+                          const std::vector<ResidualFlexibility::Step>& steps) {
   double pole = std::numeric_limits<double>::infinity();
   double first = 0;
   for (const auto& step : steps) pole = std::min(pole, step.pole());
@@ -83,9 +87,11 @@ double improvedEigenvalue(double lambda, double mass, const std::vector<Residual
   return low;
 }
 
-/// f / f_full - 1 of the eigenvalues; where they differ in sign, their difference in units of `full` itself.
+/// f / f_full - 1 of the eigenvalues; where they differ in sign, their difference in units of
+/// `full` itself.
 double signedRatio(double lambda, double full) {
-  if (lambda * full > 0) return std::copysign(1.0, lambda) * (std::expm1(0.5 * std::log1p((lambda - full) / full)));
+  if (lambda * full > 0)
+    return std::copysign(1.0, lambda) * (std::expm1(0.5 * std::log1p((lambda - full) / full)));
   return (lambda - full) / (2.0 * std::abs(lambda));
 }
 
@@ -98,8 +104,8 @@ double smallestEigenvalue(const Sparse& K, const Sparse& M) {
 }
 
 /// z' K z per mode of the point laws that join parts, which no part has in its own stiffness.
-Vector workOfConnectors(const std::vector<model::Substructure>& parts, const model::SecondOrderModel& coupled,
-                        const Matrix& modes) {
+Vector workOfConnectors(const std::vector<model::Substructure>& parts,
+                        const model::SecondOrderModel& coupled, const Matrix& modes) {
   std::size_t own = 0;
   for (const auto& part : parts) own += part.model.points.size();
   if (own >= coupled.points.size()) return Vector::Zero(modes.cols());
@@ -108,7 +114,8 @@ Vector workOfConnectors(const std::vector<model::Substructure>& parts, const mod
 }
 
 /// Error and its shares of the j-th mode. \param work D' K D of what belongs to no part
-void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all, double work) {
+void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<Share>>& all,
+            double work) {
   const double lambda = e.eigenvalue;
   double mass = 0;
   std::vector<ResidualFlexibility::Step> steps;
@@ -121,7 +128,8 @@ void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<
   }
   const double mu = improvedEigenvalue(lambda, mass, steps);
   double sum = 0;
-  for (std::size_t p = 0; p < steps.size(); ++p) sum += e.byPart[static_cast<Eigen::Index>(p)] = steps[p].excess(lambda, mu);
+  for (std::size_t p = 0; p < steps.size(); ++p)
+    sum += e.byPart[static_cast<Eigen::Index>(p)] = steps[p].excess(lambda, mu);
   // f = sqrt(lambda): f / f_full - 1 with lambda_full = mu + D' (K - lambda M) D / D' M D
   const double full = mu + work / mass;
   const double truncation = signedRatio(lambda, mu);
@@ -131,16 +139,20 @@ void assess(FrequencyEstimate& e, Eigen::Index j, const std::vector<std::vector<
 
 }  // namespace
 
-double FrequencyEstimate::frequency() const { return std::copysign(std::sqrt(std::abs(eigenvalue)) / twoPi, eigenvalue); }
+double FrequencyEstimate::frequency() const {
+  return std::copysign(std::sqrt(std::abs(eigenvalue)) / twoPi, eigenvalue);
+}
 
 std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Substructure>& parts,
-                                                   const coupling::Synthesis& synthesis, const FrequencyWindow& window) {
+                                                   const coupling::Synthesis& synthesis,
+                                                   const FrequencyWindow& window) {
   requireRitz(synthesis);
   const auto& coupled = synthesis.coupled.model;
   const Sparse K = coupling::undampedStiffness(coupled);
   const Sparse M = reduction::symmetricPart(coupled.mass);
-  const auto pairs = window.belowHz > 0 ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
-                                        : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
+  const auto pairs = window.belowHz > 0
+                         ? linalg::lowestModesBelow(K, M, twoPi * window.belowHz)
+                         : coupling::lowestModes(coupled, std::min(window.count, coupled.size()));
   std::vector<int> weights;
   for (const auto& part : parts) weights.push_back(part.model.size());
   const auto owners = reduction::assignOwners(weights, parallel::size());
@@ -148,7 +160,8 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   parallel::agree([&] {
     for (std::size_t p = 0; p < parts.size(); ++p)
       if (owners[p] == parallel::rank()) {
-        const Matrix shapes = synthesis.parts[p].basis->vectors * synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
+        const Matrix shapes = synthesis.parts[p].basis->vectors *
+                              synthesis.coupled.local(static_cast<int>(p), pairs.vectors);
         all[p] = shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values);
       }
   });
@@ -167,15 +180,21 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
   return estimates;
 }
 
-std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates, const std::vector<model::Substructure>& parts) {
-  std::string text = "Estimated errors of the coupled frequencies:\n  mode    coupled [Hz]   estimated error   most of it from\n";
+std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates,
+                           const std::vector<model::Substructure>& parts) {
+  std::string text =
+      "Estimated errors of the coupled frequencies:\n  mode    coupled [Hz]   estimated error   "
+      "most of it from\n";
   for (std::size_t j = 0; j < estimates.size(); ++j) {
     const auto& e = estimates[j];
     Eigen::Index worst = 0;
     if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
     char line[256];
-    std::snprintf(line, sizeof line, "  %4zu  %14.8g  %16.2e   %s%s\n", j + 1, e.frequency(), e.error,
-                  e.byPart.size() > 0 && e.byPart[worst] > 0 ? parts[static_cast<std::size_t>(worst)].name.c_str() : "-",
+    std::snprintf(line, sizeof line, "  %4zu  %14.8g  %16.2e   %s%s\n", j + 1, e.frequency(),
+                  e.error,
+                  e.byPart.size() > 0 && e.byPart[worst] > 0
+                      ? parts[static_cast<std::size_t>(worst)].name.c_str()
+                      : "-",
                   e.definite ? "" : " (a part lacks a mode below this frequency)");
     text += line;
   }

@@ -23,8 +23,9 @@ using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 constexpr double twoPi = 6.28318530717958647692;
-/// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled modes beyond the full ones, among
-/// which a shape is looked for: the rigid-body motions of one body.
+/// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled
+/// modes beyond the full ones, among which a shape is looked for: the rigid-body motions of one
+/// body.
 constexpr int moreModes = 6;
 
 /// -sum R' (df/dv) R of the point laws about the initial state.
@@ -36,12 +37,14 @@ Sparse pointDamping(const model::SecondOrderModel& model, double t) {
     const int width = set.law->width();
     const Vector d = set.offset + set.rows * model.initialDisplacement;
     const Vector v = set.rows * model.initialVelocity;
-    Vector f = Vector::Zero(d.size()), dfdd = Vector::Zero(d.size() * width), dfdv = Vector::Zero(d.size() * width);
+    Vector f = Vector::Zero(d.size()), dfdd = Vector::Zero(d.size() * width),
+           dfdv = Vector::Zero(d.size() * width);
     set.law->evaluateWithTangent(t, active, d.data(), v.data(), f.data(), dfdd.data(), dfdv.data());
     Triplets entries;
     for (int row = 0; row < d.size(); ++row)
       for (int c = 0; c < width; ++c)
-        if (dfdv[row * width + c] != 0) entries.emplace_back(row, row / width * width + c, dfdv[row * width + c]);
+        if (dfdv[row * width + c] != 0)
+          entries.emplace_back(row, row / width * width + c, dfdv[row * width + c]);
     Sparse tangent(d.size(), d.size());
     tangent.setFromTriplets(entries.begin(), entries.end());
     sum -= Sparse(Sparse(set.rows.transpose()) * Sparse(tangent * set.rows));
@@ -50,7 +53,8 @@ Sparse pointDamping(const model::SecondOrderModel& model, double t) {
 }
 
 /// Coordinates of part p.
-ComplexMatrix localShapes(const coupling::Synthesis& synthesis, std::size_t p, const ComplexMatrix& shapes) {
+ComplexMatrix localShapes(const coupling::Synthesis& synthesis, std::size_t p,
+                          const ComplexMatrix& shapes) {
   return synthesis.coupled.maps[p].cast<Complex>() * shapes;
 }
 
@@ -65,10 +69,10 @@ ComplexVector answer(const ResidualFlexibility& flexibility, const ComplexVector
   return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
 }
 
-/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic flexibility, summed as a geometric
-/// series.
-Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass, const ComplexVector& l, const ComplexVector& r,
-                      Complex s) {
+/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic
+/// flexibility, summed as a geometric series.
+Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass,
+                      const ComplexVector& l, const ComplexVector& r, Complex s) {
   const ComplexVector first = answer(flexibility, r);
   const Complex still = l.cwiseProduct(first).sum();
   const Complex next = -s * s * l.cwiseProduct(answer(flexibility, times(mass, first))).sum();
@@ -76,21 +80,25 @@ Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass
 }
 
 /// s - s_full per coupled mode.
-ComplexVector dampedErrors(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
-                           const linalg::QuadraticModes& right, const ComplexMatrix& left, double t) {
+ComplexVector dampedErrors(const std::vector<model::Substructure>& parts,
+                           const coupling::Synthesis& synthesis,
+                           const linalg::QuadraticModes& right, const ComplexMatrix& left,
+                           double t) {
   const auto count = right.values.size();
   ComplexVector work = ComplexVector::Zero(count);
   ComplexVector slope = ComplexVector::Zero(count);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& basis = *synthesis.parts[p].basis;
     const Linearised part = linearise(parts[p].model, t);
-    const ResidualFlexibility flexibility(parts[p], basis, reduction::symmetricPart(part.stiffness));
+    const ResidualFlexibility flexibility(parts[p], basis,
+                                          reduction::symmetricPart(part.stiffness));
     const auto& interior = flexibility.interior();
     const Sparse mass = reduction::block(part.mass, interior, interior);
     const Sparse damping = part.damping.transpose(), stiffness = part.stiffness.transpose();
     const auto rows = [&](const ComplexVector& x) {
       ComplexVector inner(static_cast<Eigen::Index>(interior.size()));
-      for (std::size_t i = 0; i < interior.size(); ++i) inner[static_cast<Eigen::Index>(i)] = x[interior[i]];
+      for (std::size_t i = 0; i < interior.size(); ++i)
+        inner[static_cast<Eigen::Index>(i)] = x[interior[i]];
       return inner;
     };
     const ComplexMatrix y = localShapes(synthesis, p, right.vectors);
@@ -100,28 +108,35 @@ ComplexVector dampedErrors(const std::vector<model::Substructure>& parts, const 
       const ComplexVector D = times(basis.vectors, y.col(j)), E = times(basis.vectors, z.col(j));
       const ComplexVector MD = times(part.mass, D), CD = times(part.damping, D);
       const ComplexVector r = s * s * MD + s * CD + times(part.stiffness, D);
-      const ComplexVector l = s * s * times(part.mass, E) + s * times(damping, E) + times(stiffness, E);
+      const ComplexVector l =
+          s * s * times(part.mass, E) + s * times(damping, E) + times(stiffness, E);
       slope[j] += E.cwiseProduct(2.0 * s * MD + CD).sum();
-      if (flexibility.truncated() > 0) work[j] += truncatedWork(flexibility, mass, rows(l), rows(r), s);
+      if (flexibility.truncated() > 0)
+        work[j] += truncatedWork(flexibility, mass, rows(l), rows(r), s);
     }
   }
-  for (Eigen::Index j = 0; j < count; ++j) work[j] = slope[j] != 0.0 ? -work[j] / slope[j] : Complex(0);
+  for (Eigen::Index j = 0; j < count; ++j)
+    work[j] = slope[j] != 0.0 ? -work[j] / slope[j] : Complex(0);
   return work;
 }
 
-/// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest value.
+/// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest
+/// value.
 ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right) {
   const int count = static_cast<int>(right.values.size());
-  const auto modes = linalg::lowestDampedModes(m.mass, Sparse(m.damping.transpose()), Sparse(m.stiffness.transpose()), count);
+  const auto modes = linalg::lowestDampedModes(m.mass, Sparse(m.damping.transpose()),
+                                               Sparse(m.stiffness.transpose()), count);
   ComplexMatrix left(right.vectors.rows(), count);
   std::vector<char> taken(static_cast<std::size_t>(modes.values.size()), 0);
   for (Eigen::Index j = 0; j < count; ++j) {
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < modes.values.size(); ++i)
       if (!taken[static_cast<std::size_t>(i)] &&
-          (best < 0 || std::abs(modes.values[i] - right.values[j]) < std::abs(modes.values[best] - right.values[j])))
+          (best < 0 || std::abs(modes.values[i] - right.values[j]) <
+                           std::abs(modes.values[best] - right.values[j])))
         best = i;
-    if (best < 0) {  // repeated zeros may be told apart on one side only; they have no relative error
+    if (best <
+        0) {  // repeated zeros may be told apart on one side only; they have no relative error
       left.col(j).setZero();
       continue;
     }
@@ -133,14 +148,19 @@ ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& righ
 
 }  // namespace
 
-double ModeComparison::fullHz() const { return (full.imag() < 0 ? -1.0 : 1.0) * std::abs(full) / twoPi; }
-double ModeComparison::coupledHz() const { return (coupled.imag() < 0 ? -1.0 : 1.0) * std::abs(coupled) / twoPi; }
+double ModeComparison::fullHz() const {
+  return (full.imag() < 0 ? -1.0 : 1.0) * std::abs(full) / twoPi;
+}
+double ModeComparison::coupledHz() const {
+  return (coupled.imag() < 0 ? -1.0 : 1.0) * std::abs(coupled) / twoPi;
+}
 double ModeComparison::fullImHz() const { return full.imag() / twoPi; }
 double ModeComparison::coupledImHz() const { return coupled.imag() / twoPi; }
 
 Linearised linearise(const model::SecondOrderModel& model, double t) {
   return {reduction::symmetricPart(model.mass), model.dampingAt(t) + pointDamping(model, t),
-          model.stiffnessAt(t) + model.pointStiffness(t, model.initialDisplacement, model.initialVelocity)};
+          model.stiffnessAt(t) +
+              model.pointStiffness(t, model.initialDisplacement, model.initialVelocity)};
 }
 
 namespace {
@@ -153,13 +173,15 @@ ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const Compl
   for (std::size_t p = 0; p < maps.size(); ++p) {
     const Eigen::SparseMatrix<double> transposed = maps[p].transpose();
     normal += Eigen::SparseMatrix<double>(transposed * maps[p]);
-    const ComplexMatrix D = synthesis.parts[p].basis->vectors.cast<Complex>() * localShapes(synthesis, p, shapes);
+    const ComplexMatrix D =
+        synthesis.parts[p].basis->vectors.cast<Complex>() * localShapes(synthesis, p, shapes);
     right.real() += transposed * D.real();
     right.imag() += transposed * D.imag();
   }
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
   if (solver.info() != Eigen::Success)
-    throw ModelError("A dof of the full model is in no part, so full and coupled modes cannot be compared.");
+    throw ModelError(
+        "A dof of the full model is in no part, so full and coupled modes cannot be compared.");
   ComplexMatrix z(size, shapes.cols());
   z.real() = solver.solve(Matrix(right.real()));
   z.imag() = solver.solve(Matrix(right.imag()));
@@ -168,11 +190,14 @@ ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const Compl
 
 }  // namespace
 
-ComplexMatrix recover(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                      const coupling::Synthesis& synthesis, const ComplexMatrix& shapes, const std::vector<Sparse>& maps) {
+ComplexMatrix recover(const model::SecondOrderModel& full,
+                      const std::vector<model::Substructure>& parts,
+                      const coupling::Synthesis& synthesis, const ComplexMatrix& shapes,
+                      const std::vector<Sparse>& maps) {
   if (!maps.empty()) return fitted(full.size(), synthesis, shapes, maps);
   std::map<model::DofLabel, Eigen::Index> position;
-  for (std::size_t i = 0; i < full.dofs.size(); ++i) position[full.dofs[i]] = static_cast<Eigen::Index>(i);
+  for (std::size_t i = 0; i < full.dofs.size(); ++i)
+    position[full.dofs[i]] = static_cast<Eigen::Index>(i);
   ComplexMatrix out = ComplexMatrix::Zero(full.size(), shapes.cols());
   std::vector<char> found(full.dofs.size(), 0);
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -196,7 +221,8 @@ linalg::EigenPairs modesToCompare(const model::SecondOrderModel& full, int count
   return coupling::lowestModes(full, std::min(count + moreModes, full.size()));
 }
 
-ComplexVector undampedValues(const Sparse& K, const Sparse& M, const Vector& eigenvalues, const Matrix& shapes) {
+ComplexVector undampedValues(const Sparse& K, const Sparse& M, const Vector& eigenvalues,
+                             const Matrix& shapes) {
   ComplexVector values(eigenvalues.size());
   for (Eigen::Index j = 0; j < values.size(); ++j) {
     const Vector phi = shapes.col(j);
@@ -206,25 +232,32 @@ ComplexVector undampedValues(const Sparse& K, const Sparse& M, const Vector& eig
   return values;
 }
 
-std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                         const coupling::Synthesis& synthesis, int count, const std::vector<Sparse>& maps) {
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
+                                         const std::vector<model::Substructure>& parts,
+                                         const coupling::Synthesis& synthesis, int count,
+                                         const std::vector<Sparse>& maps) {
   return compareModes(full, modesToCompare(full, count), count, parts, synthesis, maps);
 }
 
-std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, const linalg::EigenPairs& exact, int count,
-                                         const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
+                                         const linalg::EigenPairs& exact, int count,
+                                         const std::vector<model::Substructure>& parts,
+                                         const coupling::Synthesis& synthesis,
                                          const std::vector<Sparse>& maps) {
-  const Sparse mass = reduction::symmetricPart(full.mass), stiffness = coupling::undampedStiffness(full);
+  const Sparse mass = reduction::symmetricPart(full.mass),
+               stiffness = coupling::undampedStiffness(full);
   const auto& coupled = synthesis.coupled.model;
   const int looked = std::min(exact.count() + moreModes, coupled.size());
   const auto pairs = coupling::lowestPhysicalModes(coupled, looked);
   const bool estimated = isRitz(synthesis);
-  const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0}) : std::vector<FrequencyEstimate>();
+  const auto estimates = estimated ? estimateFrequencies(parts, synthesis, {looked, 0})
+                                   : std::vector<FrequencyEstimate>();
   const ComplexMatrix shapes = recover(full, parts, synthesis, pairs.vectors.cast<Complex>(), maps);
   const ComplexVector values = undampedValues(stiffness, mass, exact.values, exact.vectors);
   const ComplexVector coupledValues = undampedValues(stiffness, mass, pairs.values, shapes.real());
   const auto matches = matchModes(mass, values, exact.vectors.cast<Complex>(), shapes);
-  std::vector<ModeComparison> modes(static_cast<std::size_t>(std::min<Eigen::Index>(count, values.size())));
+  std::vector<ModeComparison> modes(
+      static_cast<std::size_t>(std::min<Eigen::Index>(count, values.size())));
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
     mode.full = values[static_cast<Eigen::Index>(i)];
@@ -246,7 +279,8 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full, co
 namespace {
 
 /// What rounding leaves of the energy of a coupled shape: that of the parts it was projected from.
-linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis) {
+linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts,
+                                       const coupling::Synthesis& synthesis) {
   std::vector<Sparse> absolute, shapes;
   std::vector<double> fractions;
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -266,7 +300,8 @@ linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& p
 }
 
 /// The damped modes of smallest |s| that are not spurious.
-linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model, const Linearised& m, int count,
+linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
+                                           const Linearised& m, int count,
                                            const linalg::EnergyRounding& rounding) {
   for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
     auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked, {}, rounding);
@@ -289,20 +324,23 @@ linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
 
 }  // namespace
 
-std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full, const std::vector<model::Substructure>& parts,
-                                               const coupling::Synthesis& synthesis, int count, double t,
-                                               const std::vector<Sparse>& maps) {
+std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
+                                               const std::vector<model::Substructure>& parts,
+                                               const coupling::Synthesis& synthesis, int count,
+                                               double t, const std::vector<Sparse>& maps) {
   const Linearised whole = linearise(full, t), small = linearise(synthesis.coupled.model, t);
-  const auto exact =
-      linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness, std::min(count + moreModes, full.size()));
-  const auto coupled =
-      physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes, roundingOfParts(parts, synthesis));
+  const auto exact = linalg::lowestDampedModes(whole.mass, whole.damping, whole.stiffness,
+                                               std::min(count + moreModes, full.size()));
+  const auto coupled = physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes,
+                                           roundingOfParts(parts, synthesis));
   const bool estimated = isRitz(synthesis);
   const ComplexVector errors =
-      estimated ? dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t) : ComplexVector();
-  const auto matches =
-      matchModes(whole.mass, exact.values, exact.vectors, recover(full, parts, synthesis, coupled.vectors, maps));
-  std::vector<ModeComparison> modes(static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));
+      estimated ? dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t)
+                : ComplexVector();
+  const auto matches = matchModes(whole.mass, exact.values, exact.vectors,
+                                  recover(full, parts, synthesis, coupled.vectors, maps));
+  std::vector<ModeComparison> modes(
+      static_cast<std::size_t>(std::min<Eigen::Index>(count, exact.values.size())));
   for (std::size_t i = 0; i < modes.size(); ++i) {
     ModeComparison& mode = modes[i];
     mode.full = exact.values[static_cast<Eigen::Index>(i)];
@@ -313,28 +351,36 @@ std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& fu
     if (mode.coupledMode < 0) continue;
     mode.coupled = coupled.values[mode.coupledMode];
     mode.error = mode.full == 0.0 ? 0.0 : std::abs(mode.coupled - mode.full) / std::abs(mode.full);
-    if (estimated) mode.estimate = mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
+    if (estimated)
+      mode.estimate =
+          mode.coupled == 0.0 ? 0.0 : std::abs(errors[mode.coupledMode]) / std::abs(mode.coupled);
   }
   return modes;
 }
 
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped) {
-  std::string text = damped ? "  mode  full |s| [Hz]  full Im s [Hz]   coupled |s| [Hz]  coupled Im s [Hz]   damping full / "
-                              "coupled         MAC       error    estimate\n"
-                            : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
+  std::string text =
+      damped ? "  mode  full |s| [Hz]  full Im s [Hz]   coupled |s| [Hz]  coupled Im s [Hz]   "
+               "damping full / "
+               "coupled         MAC       error    estimate\n"
+             : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
     char line[240], estimate[16] = "         -";
     if (m.estimated) std::snprintf(estimate, sizeof estimate, "%10.2e", m.estimate);
     if (m.coupledMode < 0)
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  no coupled mode is left for it\n", i + 1, m.fullHz());
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  no coupled mode is left for it\n", i + 1,
+                    m.fullHz());
     else if (damped)
-      std::snprintf(line, sizeof line, "  %4zu %14.8g  %14.8g     %14.8g     %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %s\n", i + 1,
-                    m.fullHz(), m.fullImHz(), m.coupledHz(), m.coupledImHz(), m.fullDamping(), m.coupledDamping(), m.mac, m.error,
-                    estimate);
+      std::snprintf(
+          line, sizeof line,
+          "  %4zu %14.8g  %14.8g     %14.8g     %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %s\n",
+          i + 1, m.fullHz(), m.fullImHz(), m.coupledHz(), m.coupledImHz(), m.fullDamping(),
+          m.coupledDamping(), m.mac, m.error, estimate);
     else
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1, m.fullHz(), m.coupledHz(), m.mac,
-                    m.error, estimate, m.definite ? "" : "  (a part lacks a mode below)");
+      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1,
+                    m.fullHz(), m.coupledHz(), m.mac, m.error, estimate,
+                    m.definite ? "" : "  (a part lacks a mode below)");
     text += line;
   }
   return text;

@@ -13,7 +13,8 @@ using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
 
-/// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan chain agree.
+/// Of a unit vector, what is left beside the others below this is rounding: shapes of a Jordan
+/// chain agree.
 constexpr double dependent = 1e-6;
 
 ComplexMatrix times(const Sparse& M, const ComplexMatrix& x) {
@@ -23,7 +24,9 @@ ComplexMatrix times(const Sparse& M, const ComplexMatrix& x) {
   return y;
 }
 
-double length(const ComplexVector& x, const ComplexVector& Mx) { return std::sqrt(std::max(0.0, x.dot(Mx).real())); }
+double length(const ComplexVector& x, const ComplexVector& Mx) {
+  return std::sqrt(std::max(0.0, x.dot(Mx).real()));
+}
 
 /// M-orthonormal basis of the span.
 ComplexMatrix orthonormal(const Sparse& M, const ComplexMatrix& shapes) {
@@ -51,11 +54,13 @@ struct Cluster {
   std::vector<int> partners;
 };
 
-std::vector<Cluster> clusters(const Sparse& M, const ComplexVector& values, const ComplexMatrix& shapes) {
+std::vector<Cluster> clusters(const Sparse& M, const ComplexVector& values,
+                              const ComplexMatrix& shapes) {
   std::vector<Cluster> found;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const bool repeated =
-        i > 0 && std::abs(values[i] - values[i - 1]) <= repeatedWithin * std::max(std::abs(values[i]), std::abs(values[i - 1]));
+        i > 0 && std::abs(values[i] - values[i - 1]) <=
+                     repeatedWithin * std::max(std::abs(values[i]), std::abs(values[i - 1]));
     if (!repeated) found.emplace_back();
     found.back().members.push_back(i);
   }
@@ -68,7 +73,8 @@ std::vector<Cluster> clusters(const Sparse& M, const ComplexVector& values, cons
   return found;
 }
 
-/// Least squared cosine of the principal angles between the span of the cluster and that of its partners.
+/// Least squared cosine of the principal angles between the span of the cluster and that of its
+/// partners.
 double leastCosine(const Sparse& M, const Cluster& cluster, const ComplexMatrix& others) {
   ComplexMatrix theirs(others.rows(), static_cast<Eigen::Index>(cluster.partners.size()));
   for (std::size_t k = 0; k < cluster.partners.size(); ++k)
@@ -84,13 +90,15 @@ double leastCosine(const Sparse& M, const Cluster& cluster, const ComplexMatrix&
 Matrix modalAssurance(const Sparse& M, const ComplexMatrix& a, const ComplexMatrix& b) {
   const ComplexMatrix Mb = times(M, b), Ma = times(M, a);
   Matrix mac = (a.adjoint() * Mb).cwiseAbs2();
-  for (Eigen::Index i = 0; i < a.cols(); ++i) mac.row(i) /= std::max(a.col(i).dot(Ma.col(i)).real(), 1e-300);
-  for (Eigen::Index j = 0; j < b.cols(); ++j) mac.col(j) /= std::max(b.col(j).dot(Mb.col(j)).real(), 1e-300);
+  for (Eigen::Index i = 0; i < a.cols(); ++i)
+    mac.row(i) /= std::max(a.col(i).dot(Ma.col(i)).real(), 1e-300);
+  for (Eigen::Index j = 0; j < b.cols(); ++j)
+    mac.col(j) /= std::max(b.col(j).dot(Mb.col(j)).real(), 1e-300);
   return mac;
 }
 
-std::vector<ModeMatch> matchModes(const Sparse& M, const ComplexVector& values, const ComplexMatrix& shapes,
-                                  const ComplexMatrix& others) {
+std::vector<ModeMatch> matchModes(const Sparse& M, const ComplexVector& values,
+                                  const ComplexMatrix& shapes, const ComplexMatrix& others) {
   auto found = clusters(M, values, shapes);
   struct Pair {
     double share;  ///< cos^2 of the angle between the candidate and the span of the cluster
@@ -103,13 +111,17 @@ std::vector<ModeMatch> matchModes(const Sparse& M, const ComplexVector& values, 
     const ComplexMatrix projections = found[g].weighted.adjoint() * others;
     for (Eigen::Index j = 0; j < others.cols(); ++j)
       pairs.push_back(
-          {projections.col(j).squaredNorm() / std::max(others.col(j).dot(Mo.col(j)).real(), 1e-300), g, static_cast<int>(j)});
+          {projections.col(j).squaredNorm() / std::max(others.col(j).dot(Mo.col(j)).real(), 1e-300),
+           g, static_cast<int>(j)});
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.share > b.share; });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.share > b.share; });
   std::vector<char> taken(static_cast<std::size_t>(others.cols()), 0);
   for (const Pair& pair : pairs) {
     auto& cluster = found[pair.cluster];
-    if (taken[static_cast<std::size_t>(pair.candidate)] || cluster.partners.size() == cluster.members.size()) continue;
+    if (taken[static_cast<std::size_t>(pair.candidate)] ||
+        cluster.partners.size() == cluster.members.size())
+      continue;
     taken[static_cast<std::size_t>(pair.candidate)] = 1;
     cluster.partners.push_back(pair.candidate);
   }

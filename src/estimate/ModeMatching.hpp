@@ -15,19 +15,21 @@ struct ModeMatch {
   double mac = 0;    ///< cos^2 of the (largest principal) angle between the two, M-weighted
 };
 
-/// Values closer than this, relatively, are one repeated value: their shapes are any basis of their subspace.
+/// Values closer than this, relatively, are one repeated value: their shapes are any basis of their
+/// subspace.
 constexpr double repeatedWithin = 1e-3;
 
-/// M-weighted modal assurance criterion (R. J. Allemang and D. L. Brown, Proc. IMAC 1 (1982) 110-116), rows: columns of a,
-/// columns: of b.
+/// M-weighted modal assurance criterion (R. J. Allemang and D. L. Brown, Proc. IMAC 1 (1982)
+/// 110-116), rows: columns of a, columns: of b.
 Matrix modalAssurance(const Sparse& M, const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
-/// Partners of the modes (values, shapes) among the columns of `others`, each taken once. Consecutive values within
-/// repeatedWithin, and zeros, form a cluster. Every candidate is compared with the span of every cluster, the best pairs are
-/// taken first, and a cluster takes as many as it has modes, in the order of the candidates. For a cluster of several modes `mac`
-/// is the least squared cosine of the principal angles (A. Bjorck and G. H. Golub, Math. Comp. 27 (1973) 579-594) between its
-/// span and that of its partners; for a single mode it is the MAC.
-std::vector<ModeMatch> matchModes(const Sparse& M, const Eigen::VectorXcd& values, const Eigen::MatrixXcd& shapes,
-                                  const Eigen::MatrixXcd& others);
+/// Partners of the modes (values, shapes) among the columns of `others`, each taken once.
+/// Consecutive values within repeatedWithin, and zeros, form a cluster. Every candidate is compared
+/// with the span of every cluster, the best pairs are taken first, and a cluster takes as many as
+/// it has modes, in the order of the candidates. For a cluster of several modes `mac` is the least
+/// squared cosine of the principal angles (A. Bjorck and G. H. Golub, Math. Comp. 27 (1973)
+/// 579-594) between its span and that of its partners; for a single mode it is the MAC.
+std::vector<ModeMatch> matchModes(const Sparse& M, const Eigen::VectorXcd& values,
+                                  const Eigen::MatrixXcd& shapes, const Eigen::MatrixXcd& others);
 
 }  // namespace tooljoint::estimate

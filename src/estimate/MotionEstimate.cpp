@@ -17,13 +17,15 @@ namespace tooljoint::estimate {
 
 namespace {
 
-/// So many samples are seen before a motion is given up: which part the error comes from is not known at its start.
+/// So many samples are seen before a motion is given up: which part the error comes from is not
+/// known at its start.
 constexpr long fewSamples = 10;
 
 /// LU of a matrix on the pattern of a compiled model; vectors in positions.
 class Factor {
  public:
-  explicit Factor(const linalg::BlockPattern& pattern) : factor_(pattern), storage_(pattern.storage()) {}
+  explicit Factor(const linalg::BlockPattern& pattern)
+      : factor_(pattern), storage_(pattern.storage()) {}
   /// The matrix to fill, all zero.
   double* clear() {
     std::fill(factor_.values(), factor_.values() + storage_, 0.0);
@@ -43,7 +45,8 @@ class Factor {
 }  // namespace
 
 struct MotionEstimator::Impl {
-  Impl(const std::vector<model::Substructure>& parts_, const coupling::Synthesis& synthesis_, Vector rest_, MotionOptions options_)
+  Impl(const std::vector<model::Substructure>& parts_, const coupling::Synthesis& synthesis_,
+       Vector rest_, MotionOptions options_)
       : parts(parts_),
         model(synthesis_.coupled.model),
         rest(std::move(rest_)),
@@ -52,15 +55,22 @@ struct MotionEstimator::Impl {
         mass(compiled.pattern()),
         step(compiled.pattern()) {
     requireRitz(synthesis_);
-    if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.followers > 0 || !synthesis_.coupled.multipliers.empty())
-      throw ModelError("The error of the motion is estimated only where the coordinates of the parts are those of the coupled model: without interface reduction, "
-                       "coordinates that follow others (\"Residual Coordinates\" = \"Tied\") and dual assembly. Leave \"Error Estimate\" at \"Frequencies\".");
+    if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.followers > 0 ||
+        !synthesis_.coupled.multipliers.empty())
+      throw ModelError(
+          "The error of the motion is estimated only where the coordinates of the parts are those "
+          "of the coupled model: without interface reduction, "
+          "coordinates that follow others (\"Residual Coordinates\" = \"Tied\") and dual assembly. "
+          "Leave \"Error Estimate\" at \"Frequencies\".");
     std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p], synthesis_.coupled.offsets[p]);
+      residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p],
+                             synthesis_.coupled.offsets[p]);
       const Sparse& turn = synthesis_.coupled.recoveryTurns[p];
-      recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery) : Sparse(parts[p].model.recovery));
-      for (const auto& points : parts[p].model.points) pointSets.push_back({p, &points.rows, set++, {}, {}});
+      recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery)
+                                         : Sparse(parts[p].model.recovery));
+      for (const auto& points : parts[p].model.points)
+        pointSets.push_back({p, &points.rows, set++, {}, {}});
     }
     energies.assign(parts.size(), 0.0);
     w.assign(parts.size(), Vector());
@@ -68,8 +78,10 @@ struct MotionEstimator::Impl {
     compiled.combine(1, 0, 0, mass.clear());
     const int bad = mass.factor();
     if (bad >= 0)
-      throw ModelError("The error of the motion cannot be estimated: the mass matrix of the coupled model is singular at " +
-                       compiled.dofName(bad) + ". Leave \"Error Estimate\" at \"Frequencies\".");
+      throw ModelError(
+          "The error of the motion cannot be estimated: the mass matrix of the coupled model is "
+          "singular at " +
+          compiled.dofName(bad) + ". Leave \"Error Estimate\" at \"Frequencies\".");
     mapRecovery();
     u = uDot = s = Vector::Zero(model.size());
   }
@@ -78,7 +90,8 @@ struct MotionEstimator::Impl {
   void mapRecovery() {
     const auto width = static_cast<int>(model.componentNames.size());
     std::map<std::int64_t, int> first;
-    for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i) first[model.recoveryNodes[i]] = static_cast<int>(i) * width;
+    for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i)
+      first[model.recoveryNodes[i]] = static_cast<int>(i) * width;
     for (const auto& part : parts) {
       std::vector<int> rows;
       for (auto node : part.model.recoveryNodes)
@@ -127,12 +140,14 @@ struct MotionEstimator::Impl {
   Vector pull(double t, double h, const std::vector<Vector>& wNew, const Vector& sNew);
 };
 
-MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis, Vector rest,
+MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts,
+                                 const coupling::Synthesis& synthesis, Vector rest,
                                  MotionOptions options)
     : impl_(std::make_unique<Impl>(parts, synthesis, std::move(rest), std::move(options))) {}
 MotionEstimator::~MotionEstimator() = default;
 
-void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot, const Vector& /*qDDot*/) {
+void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
+                             const Vector& /*qDDot*/) {
   const auto start = std::chrono::steady_clock::now();
   Impl& m = *impl_;
   if (m.samples > 0 && t > m.time) m.advance(t, q, qDot);
@@ -159,7 +174,8 @@ void MotionEstimator::Impl::begin(double t) {
 }
 
 /// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
-Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>& wNew, const Vector& sNew) {
+Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>& wNew,
+                                   const Vector& sNew) {
   const bool rated = samples > 1;  // there is an interval before
   const Vector sDot = rated ? Vector((sNew - s) / h) : Vector(Vector::Zero(s.size()));
   Vector own = Vector::Zero(model.size());
@@ -188,7 +204,8 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
       for (int i = 0; i < width; ++i)
         for (int j = 0; j < width; ++j) {
           const int entry = (point * width + i) * width + j;
-          f[point * width + i] -= batch.dfdd()[entry] * points.motion[point * width + j] + batch.dfdv()[entry] * points.rate[point * width + j];
+          f[point * width + i] -= batch.dfdd()[entry] * points.motion[point * width + j] +
+                                  batch.dfdv()[entry] * points.rate[point * width + j];
         }
     batch.scatter(batch.active(), f.data(), force.data());
   }
@@ -198,7 +215,8 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
 void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& qDotNew) {
   const double h = t - time;
   const double middle = 0.5 * (time + t);
-  // Means over the interval: of the acceleration and the velocity exactly, of the displacement by the Hermite cubic.
+  // Means over the interval: of the acceleration and the velocity exactly, of the displacement by
+  // the Hermite cubic.
   const Vector acceleration = (qDotNew - qDot) / h;
   const Vector velocity = (qNew - q) / h;
   const Vector displacement = 0.5 * (q + qNew) - h / 12.0 * (qDotNew - qDot);
@@ -208,7 +226,8 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   Vector g = Vector::Zero(model.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (residuals[p].complete()) continue;
-    wNew[p] = residuals[p].truncated(middle, residuals[p].motion(displacement, velocity, acceleration));
+    wNew[p] =
+        residuals[p].truncated(middle, residuals[p].motion(displacement, velocity, acceleration));
     if (w[p].size() == 0) w[p] = wNew[p];
     energies[p] += h * residuals[p].energy(wNew[p]);
     residuals[p].scatter(parts[p].model.mass * wNew[p], g);
@@ -233,7 +252,8 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   }
   const int bad = step.factor();
   if (bad >= 0)
-    throw ConvergenceError("The error equation of the motion is singular at t = " + formatNumber(t) + " s, " + compiled.dofName(bad) + ".");
+    throw ConvergenceError("The error equation of the motion is singular at t = " +
+                           formatNumber(t) + " s, " + compiled.dofName(bad) + ".");
   Vector minus = -u;
   compiled.addStiffness(minus.data(), force.data());
   for (auto& batch : compiled.points()) {
@@ -258,7 +278,8 @@ void MotionEstimator::Impl::measure(const Vector& qNew) {
   for (std::size_t p = 0; p < w.size(); ++p) {
     if (w[p].size() == 0) continue;
     const Vector local = recovery[p] * w[p];
-    for (std::size_t i = 0; i < recovered[p].size(); ++i) error[recovered[p][i]] += local[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < recovered[p].size(); ++i)
+      error[recovered[p][i]] += local[static_cast<Eigen::Index>(i)];
   }
   const Vector motion = model.recoveryOffset + model.recovery * qNew - rest;
   const auto width = static_cast<Eigen::Index>(model.componentNames.size());
@@ -284,27 +305,36 @@ MotionEstimate MotionEstimator::result() const {
     estimate.error = std::sqrt(m.errors / m.motions);
     estimate.largest = std::sqrt(m.worst * static_cast<double>(m.samples) / m.motions);
   }
-  estimate.byPart = Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
-  if (estimate.byPart.size() > 0 && estimate.byPart.sum() > 0) estimate.byPart /= estimate.byPart.sum();
+  estimate.byPart =
+      Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
+  if (estimate.byPart.size() > 0 && estimate.byPart.sum() > 0)
+    estimate.byPart /= estimate.byPart.sum();
   return estimate;
 }
 
 bool MotionEstimator::exceeds(const MotionLimit& limit) const {
-  return std::isfinite(limit.error) && impl_->samples >= fewSamples && impl_->errors > limit.error * limit.error * std::max(limit.motion, impl_->motions);
+  return std::isfinite(limit.error) && impl_->samples >= fewSamples &&
+         impl_->errors > limit.error * limit.error * std::max(limit.motion, impl_->motions);
 }
 
-MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model, const transient::TransientOptions& options,
-                           const MotionLimit& limit, const std::string& title) {
+MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model,
+                           const transient::TransientOptions& options, const MotionLimit& limit,
+                           const std::string& title) {
   transient::RunHooks hooks;
   hooks.title = title;
   hooks.stop = [&] { return interruptRequested() || estimator.exceeds(limit); };
   const auto report = transient::integrate(model, options, estimator, hooks);
   auto estimate = estimator.result();
   if (!report.interrupted) return estimate;
-  if (interruptRequested()) throw InterruptedError("Interrupted at " + formatNumber(report.end) + " s of a motion from which the modes are chosen.");
+  if (interruptRequested())
+    throw InterruptedError("Interrupted at " + formatNumber(report.end) +
+                           " s of a motion from which the modes are chosen.");
   estimate.reached = (report.end - options.start) / (options.end - options.start);
-  // errors / reached over the motion expected in the end; estimate.error is that over the motion so far
-  const double soFar = estimate.motion > 0 ? std::min(1.0, estimate.motion / std::max(limit.motion, estimate.motion)) : 1.0;
+  // errors / reached over the motion expected in the end; estimate.error is that over the motion so
+  // far
+  const double soFar =
+      estimate.motion > 0 ? std::min(1.0, estimate.motion / std::max(limit.motion, estimate.motion))
+                          : 1.0;
   estimate.error *= std::sqrt(soFar / estimate.reached);
   return estimate;
 }

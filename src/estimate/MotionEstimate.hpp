@@ -15,47 +15,58 @@ namespace tooljoint::estimate {
 
 struct MotionOptions {
   std::vector<int> components{0, 1};  ///< of the recovered nodes that are measured: u and v
-  double damping = 0.5;               ///< weight of the end of an interval in the error equation, 0.5 to 1; 0.5 has no damping
+  double damping = 0.5;  ///< weight of the end of an interval in the error equation, 0.5 to 1; 0.5
+                         ///< has no damping
 };
 
 /// What is known at the end of a motion.
 struct MotionEstimate {
-  double error = 0;       ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the estimate of dyn
-  double largest = 0;     ///< the same for the worst sample, against the mean of |x - x_static| over the samples
-  Vector byPart;          ///< size of the motion that each part leaves out, squared, as a fraction of the sum over the parts
+  double error = 0;  ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the
+                     ///< estimate of dyn
+  double largest =
+      0;  ///< the same for the worst sample, against the mean of |x - x_static| over the samples
+  Vector byPart;  ///< size of the motion that each part leaves out, squared, as a fraction of the
+                  ///< sum over the parts
   long samples = 0;
-  double motion = 0;      ///< |x - x_static|^2, summed over all recovered nodes and samples
-  double reached = 1;     ///< fraction of the window that was looked at, below 1 where the motion was given up
-  double wall = 0;        ///< what it cost [s]
+  double motion = 0;  ///< |x - x_static|^2, summed over all recovered nodes and samples
+  double reached =
+      1;  ///< fraction of the window that was looked at, below 1 where the motion was given up
+  double wall = 0;  ///< what it cost [s]
 };
 
-/// An error that is too large whatever follows: sum |x - x_full|^2 so far exceeds error^2 sum |x - x_static|^2, with the latter the
-/// larger of what it is so far and of what it is expected to be in the end.
+/// An error that is too large whatever follows: sum |x - x_full|^2 so far exceeds error^2 sum |x -
+/// x_static|^2, with the latter the larger of what it is so far and of what it is expected to be in
+/// the end.
 struct MotionLimit {
   double error = std::numeric_limits<double>::infinity();
   double motion = 0;  ///< MotionEstimate::motion of a model that went to the end, 0: unknown
 };
 
-/// Watches a motion and integrates its error on the side. With D = Phi q the motion of all parts and the residual
-/// r = M D'' + C D' + K D - F - f_c of the full equations, r is zero in the coupled coordinates and the error obeys
+/// Watches a motion and integrates its error on the side. With D = Phi q the motion of all parts
+/// and the residual r = M D'' + C D' + K D - F - f_c of the full equations, r is zero in the
+/// coupled coordinates and the error obeys
 ///
 ///     M e'' + C e' + (K - df_c/dD) e = -r,   e = Phi z + w.
 ///
-/// w, what the basis cannot represent, follows statically: w = -F r with the residual flexibility of each part. It pulls on the
-/// coupled model, and with u = z + P w, P = m^-1 Phi' M, no derivative of w is needed:
+/// w, what the basis cannot represent, follows statically: w = -F r with the residual flexibility
+/// of each part. It pulls on the coupled model, and with u = z + P w, P = m^-1 Phi' M, no
+/// derivative of w is needed:
 ///
 ///     m u'' + c u' + k u = Phi' (K s + C s'),   e = Phi u - s,   s = Phi P w - w,
 ///
-/// k and c with the tangents of the point laws along the motion. One step per sample, residuals as means over the interval (M D''
-/// is M times the change of velocity), all matrices those of the model at that time. What it cannot see: motion faster than the
-/// samples, and the error of the time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
-/// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the forward form.
+/// k and c with the tangents of the point laws along the motion. One step per sample, residuals as
+/// means over the interval (M D'' is M times the change of velocity), all matrices those of the
+/// model at that time. What it cannot see: motion faster than the samples, and the error of the
+/// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
+/// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the
+/// forward form.
 class MotionEstimator : public transient::SampleSink {
  public:
-  /// All arguments must outlive the estimator. Throws ModelError when the mass of the coupled model is singular.
-  /// \param rest recovered displacement at rest, rows of the recovery of the coupled model
-  MotionEstimator(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis, Vector rest,
-                  MotionOptions options = {});
+  /// All arguments must outlive the estimator. Throws ModelError when the mass of the coupled model
+  /// is singular. \param rest recovered displacement at rest, rows of the recovery of the coupled
+  /// model
+  MotionEstimator(const std::vector<model::Substructure>& parts,
+                  const coupling::Synthesis& synthesis, Vector rest, MotionOptions options = {});
   ~MotionEstimator() override;
   MotionEstimator(const MotionEstimator&) = delete;
   MotionEstimator& operator=(const MotionEstimator&) = delete;
@@ -69,10 +80,13 @@ class MotionEstimator : public transient::SampleSink {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the limit. The error of a motion that
-/// was given up is what it would become if its square went on to grow at its mean rate: at least sqrt(1 / reached) times the limit.
-/// Throws InterruptedError when the user stops it, and what transient::integrate throws.
-MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model, const transient::TransientOptions& options,
-                           const MotionLimit& limit = {}, const std::string& title = "choice of modes");
+/// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the
+/// limit. The error of a motion that was given up is what it would become if its square went on to
+/// grow at its mean rate: at least sqrt(1 / reached) times the limit. Throws InterruptedError when
+/// the user stops it, and what transient::integrate throws.
+MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model,
+                           const transient::TransientOptions& options,
+                           const MotionLimit& limit = {},
+                           const std::string& title = "choice of modes");
 
 }  // namespace tooljoint::estimate

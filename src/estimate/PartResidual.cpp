@@ -9,7 +9,9 @@ namespace tooljoint::estimate {
 
 namespace {
 
-bool ownMass(const reduction::ReducedSubstructure& part) { return part.basis->inertial.size() == 0 && part.basis->forces() == 0; }
+bool ownMass(const reduction::ReducedSubstructure& part) {
+  return part.basis->inertial.size() == 0 && part.basis->forces() == 0;
+}
 
 }  // namespace
 
@@ -20,12 +22,17 @@ bool isRitz(const coupling::Synthesis& synthesis) {
 void requireRitz(const coupling::Synthesis& synthesis) {
   for (const auto& part : synthesis.parts)
     if (!ownMass(part))
-      throw ModelError("The errors of the basis \"" + part.report.basis + "\" (part \"" + part.name +
-                       "\") cannot be estimated: its mass or its interfaces are not those of the motions it can make, and residuals do not tell the error then. "
-                       "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and tolerances out.");
+      throw ModelError("The errors of the basis \"" + part.report.basis + "\" (part \"" +
+                       part.name +
+                       "\") cannot be estimated: its mass or its interfaces are not those of the "
+                       "motions it can make, and residuals do not tell the error then. "
+                       "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and "
+                       "tolerances out.");
 }
 
-PartResidual::PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, const Sparse& map, const Vector& mapOffset)
+PartResidual::PartResidual(const model::Substructure& part,
+                           const reduction::ReducedSubstructure& reduced, const Sparse& map,
+                           const Vector& mapOffset)
     : part_(part),
       reduced_(reduced),
       constant_(reduction::constantStiffness(part.model)),
@@ -53,18 +60,23 @@ Vector PartResidual::dampingTimes(double t, const Vector& x) const {
 }
 
 Vector PartResidual::truncated(double t, const PartMotion& mean) const {
-  Vector r = part_.model.mass * mean.acceleration + dampingTimes(t, mean.velocity) + stiffnessTimes(t, mean.displacement);
+  Vector r = part_.model.mass * mean.acceleration + dampingTimes(t, mean.velocity) +
+             stiffnessTimes(t, mean.displacement);
   for (const auto& load : part_.model.loads) r -= law(load.law, t) * load.vector;
   r -= part_.model.pointForce(t, mean.displacement, mean.velocity);
   const auto& interior = flexibility_.interior();
   Vector inner(static_cast<Eigen::Index>(interior.size()));
-  for (std::size_t i = 0; i < interior.size(); ++i) inner[static_cast<Eigen::Index>(i)] = r[interior[i]];
+  for (std::size_t i = 0; i < interior.size(); ++i)
+    inner[static_cast<Eigen::Index>(i)] = r[interior[i]];
   const Vector answer = flexibility_.apply(inner);
   Vector w = Vector::Zero(r.size());
-  for (std::size_t i = 0; i < interior.size(); ++i) w[interior[i]] = -answer[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < interior.size(); ++i)
+    w[interior[i]] = -answer[static_cast<Eigen::Index>(i)];
   return w;
 }
 
-void PartResidual::scatter(const Vector& force, Vector& coupled) const { coupled += transposed_ * force; }
+void PartResidual::scatter(const Vector& force, Vector& coupled) const {
+  coupled += transposed_ * force;
+}
 
 }  // namespace tooljoint::estimate

@@ -10,8 +10,8 @@
 
 namespace tooljoint::estimate {
 
-/// Estimates rest on residuals of Rayleigh-Ritz: throws ModelError, naming the basis, where mass or interfaces of a part are not those of the space (MacNeal,
-/// dual Craig-Bampton).
+/// Estimates rest on residuals of Rayleigh-Ritz: throws ModelError, naming the basis, where mass or
+/// interfaces of a part are not those of the space (MacNeal, dual Craig-Bampton).
 void requireRitz(const coupling::Synthesis& synthesis);
 /// False where requireRitz throws.
 bool isRitz(const coupling::Synthesis& synthesis);
@@ -25,7 +25,8 @@ struct PartMotion {
 class PartResidual {
  public:
   /// \param map coordinates of the part = map * coupled dofs + mapOffset
-  PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced, const Sparse& map, const Vector& mapOffset);
+  PartResidual(const model::Substructure& part, const reduction::ReducedSubstructure& reduced,
+               const Sparse& map, const Vector& mapOffset);
 
   bool complete() const { return flexibility_.truncated() == 0; }
   const model::Substructure& part() const { return part_; }
@@ -33,7 +34,8 @@ class PartResidual {
 
   /// D = offset + Phi q and its derivatives from coupled coordinates.
   PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
-  /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where dofs are kept.
+  /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where
+  /// dofs are kept.
   Vector truncated(double t, const PartMotion& mean) const;
   /// Phi' (M w), Phi' (K(t) w) and so on: into coupled dofs.
   void scatter(const Vector& force, Vector& coupled) const;
@@ -44,7 +46,9 @@ class PartResidual {
   double energy(const Vector& w) const { return w.dot(constant_ * w); }
 
  private:
-  double law(int index, double t) const { return part_.model.laws[static_cast<std::size_t>(index)].value(t); }
+  double law(int index, double t) const {
+    return part_.model.laws[static_cast<std::size_t>(index)].value(t);
+  }
 
   const model::Substructure& part_;
   const reduction::ReducedSubstructure& reduced_;

@@ -9,13 +9,15 @@
 
 namespace tooljoint::estimate {
 
-ResidualFlexibility::ResidualFlexibility(const model::Substructure& part, const reduction::BasisResult& basis,
+ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
+                                         const reduction::BasisResult& basis,
                                          const Sparse& stiffness)
     : interior_(basis.partition.interior) {
   const int size = static_cast<int>(interior_.size());
   std::vector<int> columns;
   for (int k = 0; k < basis.modes(); ++k)
-    if (basis.modeKind[static_cast<std::size_t>(k)] != reduction::followingKind) columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
+    if (basis.modeKind[static_cast<std::size_t>(k)] != reduction::followingKind)
+      columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
   truncated_ = std::max(0, size - static_cast<int>(columns.size()));
   if (truncated_ == 0) return;
   stiffness_ = reduction::block(stiffness, interior_, interior_);
@@ -24,7 +26,8 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part, const 
   factor_->compute(Eigen::SparseMatrix<double>(stiffness_));
   if (factor_->info() != Eigen::Success)
     throw ModelError("Part \"" + part.name +
-                     "\": its interior is a mechanism while its interface and retained dofs are held, so the error of its reduction cannot be "
+                     "\": its interior is a mechanism while its interface and retained dofs are "
+                     "held, so the error of its reduction cannot be "
                      "estimated. Retain more dofs there, or leave \"Error Estimate\" out.");
   if (columns.empty()) return;
   modes_ = reduction::block(basis.vectors, interior_, columns);
@@ -70,7 +73,9 @@ double ResidualFlexibility::Step::excess(double lambda, double mu) const {
 double ResidualFlexibility::Step::pole() const {
   if (mass(0, 0) == 0) return std::numeric_limits<double>::infinity();
   if (mass(1, 1) == 0) return stiffness(0, 0) / mass(0, 0);
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(stiffness, mass,
+                                                                   Eigen::EigenvaluesOnly)
+      .eigenvalues()[0];
 }
 
 }  // namespace tooljoint::estimate

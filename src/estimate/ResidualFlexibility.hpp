@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the modes left out of a basis would add to the interior of one part: its residual flexibility.
+/// What the modes left out of a basis would add to the interior of one part: its residual
+/// flexibility.
 #pragma once
 
 #include <Eigen/Dense>
@@ -13,14 +14,16 @@
 
 namespace tooljoint::estimate {
 
-/// F = K_II^-1 - W (W' K_II W)^-1 W', W the modal columns of the basis on the interior (S. Rubin, AIAA Journal 13 (1975) 995-1006;
-/// with fixed-interface modes it is the residual flexibility of J.-G. Kim and P.-S. Lee, Int. J. Numer. Meth. Engng 100 (2014)
-/// 581-598). F r is the static answer, with all kept dofs held, of what the basis cannot represent. One factorisation a part.
+/// F = K_II^-1 - W (W' K_II W)^-1 W', W the modal columns of the basis on the interior (S. Rubin,
+/// AIAA Journal 13 (1975) 995-1006; with fixed-interface modes it is the residual flexibility of
+/// J.-G. Kim and P.-S. Lee, Int. J. Numer. Meth. Engng 100 (2014) 581-598). F r is the static
+/// answer, with all kept dofs held, of what the basis cannot represent. One factorisation a part.
 class ResidualFlexibility {
  public:
   /// \param stiffness of the part, dofs x dofs; regular on the interior
   /// Throws ModelError naming the part when its interior is a mechanism.
-  ResidualFlexibility(const model::Substructure& part, const reduction::BasisResult& basis, const Sparse& stiffness);
+  ResidualFlexibility(const model::Substructure& part, const reduction::BasisResult& basis,
+                      const Sparse& stiffness);
 
   /// Positions in the part of the rows of all vectors here.
   const std::vector<int>& interior() const { return interior_; }
@@ -30,16 +33,20 @@ class ResidualFlexibility {
   /// F r, interior x columns.
   Matrix apply(const Matrix& r) const;
 
-  /// The part's share of a Rayleigh-Ritz step from a motion D with the residual r = (K - lambda M) D and the inertia g = M D, both
-  /// on the interior: projections on the two Krylov vectors V = (F r, F M_II F r) of what the basis left out.
+  /// The part's share of a Rayleigh-Ritz step from a motion D with the residual r = (K - lambda M)
+  /// D and the inertia g = M D, both on the interior: projections on the two Krylov vectors V = (F
+  /// r, F M_II F r) of what the basis left out.
   struct Step {
-    Eigen::Vector2d residual = Eigen::Vector2d::Zero();    ///< V' r
-    Eigen::Vector2d inertia = Eigen::Vector2d::Zero();     ///< V' g
-    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();   ///< V' K_II V
-    Eigen::Matrix2d mass = Eigen::Matrix2d::Zero();        ///< V' M_II V; zero rows where there is no vector
-    /// b' (V' (K - mu M) V)^-1 b with b = V' (r + (lambda - mu) g), by which m (lambda - mu) is too large.
+    Eigen::Vector2d residual = Eigen::Vector2d::Zero();   ///< V' r
+    Eigen::Vector2d inertia = Eigen::Vector2d::Zero();    ///< V' g
+    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  ///< V' K_II V
+    Eigen::Matrix2d mass =
+        Eigen::Matrix2d::Zero();  ///< V' M_II V; zero rows where there is no vector
+    /// b' (V' (K - mu M) V)^-1 b with b = V' (r + (lambda - mu) g), by which m (lambda - mu) is too
+    /// large.
     double excess(double lambda, double mu) const;
-    /// Lowest eigenvalue of (V' K V, V' M V): where `excess` has its first pole. Infinite without vectors.
+    /// Lowest eigenvalue of (V' K V, V' M V): where `excess` has its first pole. Infinite without
+    /// vectors.
     double pole() const;
   };
   Step step(const Vector& r, const Vector& g) const;

@@ -20,8 +20,9 @@ std::string quoted(const std::string& text) {
 
 void requireCount(std::size_t given, std::size_t wanted) {
   if (given != wanted) {
-    throw Error(ExitCode::Internal,
-                "A table of " + std::to_string(wanted) + " columns was given a row of " + std::to_string(given) + ".");
+    throw Error(ExitCode::Internal, "A table of " + std::to_string(wanted) +
+                                        " columns was given a row of " + std::to_string(given) +
+                                        ".");
   }
 }
 
@@ -40,8 +41,8 @@ void Csv::row(const std::vector<double>& values) {
   requireCount(values.size(), columns_.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
-      throw Error(ExitCode::Internal, "The table column \"" + columns_[i].name + "\" was given " + formatNumber(values[i]) +
-                                          ", which is never written.");
+      throw Error(ExitCode::Internal, "The table column \"" + columns_[i].name + "\" was given " +
+                                          formatNumber(values[i]) + ", which is never written.");
     }
     text_ += (i > 0 ? "," : "") + formatNumber(values[i]);
   }

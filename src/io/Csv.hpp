@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Tables for spreadsheets: a header `name [unit]`, then one line per row, numbers that read back as the same doubles.
+/// Tables for spreadsheets: a header `name [unit]`, then one line per row, numbers that read back
+/// as the same doubles.
 #pragma once
 
 #include <string>
@@ -14,12 +15,14 @@ class Csv {
  public:
   struct Column {
     std::string name;
-    std::string unit;  ///< SI unit; "" or "1" for a pure number or a text, then the header has the name alone
+    std::string unit;  ///< SI unit; "" or "1" for a pure number or a text, then the header has the
+                       ///< name alone
   };
 
   explicit Csv(std::vector<Column> columns);
 
-  /// Add a row, one number per column. Error(Internal) for a wrong count or a number that is not finite.
+  /// Add a row, one number per column. Error(Internal) for a wrong count or a number that is not
+  /// finite.
   void row(const std::vector<double>& values);
   /// Add a row of texts; a text with a comma, a quote or a line end is quoted.
   void row(const std::vector<std::string>& values);

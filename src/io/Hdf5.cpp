@@ -22,7 +22,8 @@ herr_t collect(unsigned /*n*/, const H5E_error2_t* error, void* data) {
   auto& reason = *static_cast<Reason*>(data);
   const std::string text = error->desc != nullptr ? error->desc : "";
   if (reason.innermost.empty()) reason.innermost = text;
-  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ..."
+  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf =
+  // ..."
   const std::string mark = "error message = '";
   const auto begin = text.find(mark);
   if (reason.system.empty() && begin != std::string::npos) {
@@ -37,7 +38,8 @@ std::string& noted() {
   return reason;
 }
 
-/// HDF5 calls this when one of its functions fails, while the error stack is still whole (the next call clears it).
+/// HDF5 calls this when one of its functions fails, while the error stack is still whole (the next
+/// call clears it).
 herr_t note(hid_t stack, void* /*data*/) {
   Reason reason;
   H5Ewalk2(stack, H5E_WALK_UPWARD, collect, &reason);
@@ -55,7 +57,8 @@ int descriptorOf(hid_t file) {
 bool putScalar(hid_t object, const std::string& name, hid_t type, const void* value) {
   if (H5Aexists(object, name.c_str()) > 0 && H5Adelete(object, name.c_str()) < 0) return false;
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   return attribute.valid() && H5Awrite(attribute.get(), type, value) >= 0;
 }
 
@@ -69,11 +72,13 @@ bool reserve(hid_t file) {
   const int descriptor = descriptorOf(file);
   hsize_t end = 0;
   struct stat now {};
-  if (descriptor < 0 || H5Fget_filesize(file, &end) < 0 || ::fstat(descriptor, &now) != 0) return true;  // nothing to tell
+  if (descriptor < 0 || H5Fget_filesize(file, &end) < 0 || ::fstat(descriptor, &now) != 0)
+    return true;  // nothing to tell
   const auto wanted = static_cast<off_t>(end);
   if (now.st_size >= wanted) return true;
   int error = ::posix_fallocate(descriptor, now.st_size, wanted - now.st_size);
-  if (error != 0 && error != ENOSPC && error != EFBIG && error != EDQUOT) {  // this file system cannot: try a byte at the end
+  if (error != 0 && error != ENOSPC && error != EFBIG &&
+      error != EDQUOT) {  // this file system cannot: try a byte at the end
     error = ::pwrite(descriptor, "", 1, wanted - 1) == 1 ? 0 : errno;
   }
   if (error != 0) noted() = std::strerror(error);
@@ -81,10 +86,13 @@ bool reserve(hid_t file) {
 }
 
 bool fits(hid_t file, std::size_t bytes) {
-  constexpr hsize_t structure = 1U << 18U;  ///< more than headers and indices grow by between two calls
+  constexpr hsize_t structure =
+      1U << 18U;  ///< more than headers and indices grow by between two calls
   rlimit limit{};
   hsize_t end = 0;
-  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || H5Fget_filesize(file, &end) < 0) return true;
+  if (::getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      H5Fget_filesize(file, &end) < 0)
+    return true;
   if (end + bytes + structure <= limit.rlim_cur) return true;
   noted() = std::strerror(EFBIG);
   return false;
@@ -106,7 +114,8 @@ Handle textType() {
 }
 
 bool hasLink(hid_t file, const std::string& path) {
-  for (std::size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1)) {
+  for (std::size_t end = path.find('/', 1); end != std::string::npos;
+       end = path.find('/', end + 1)) {
     if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
   }
   return H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0;
@@ -119,6 +128,8 @@ bool putAttribute(hid_t object, const std::string& name, const std::string& valu
 bool putAttribute(hid_t object, const std::string& name, double value) {
   return putScalar(object, name, H5T_NATIVE_DOUBLE, &value);
 }
-bool putAttribute(hid_t object, const std::string& name, int value) { return putScalar(object, name, H5T_NATIVE_INT, &value); }
+bool putAttribute(hid_t object, const std::string& name, int value) {
+  return putScalar(object, name, H5T_NATIVE_INT, &value);
+}
 
 }  // namespace tooljoint::io::hdf5

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// RAII and error texts over the HDF5 C API, shared by writer and reader. Not for other rooms: include ResultsFile.hpp.
+/// RAII and error texts over the HDF5 C API, shared by writer and reader. Not for other rooms:
+/// include ResultsFile.hpp.
 #pragma once
 
 #include <cstddef>
@@ -38,25 +39,30 @@ class Handle {
 /// Keep HDF5 from printing its own error stack; its reasons are noted instead, for our sentences.
 void silence();
 
-/// Reason of the last failed call: the system's text ("No space left on device") when there is one, else HDF5's innermost.
+/// Reason of the last failed call: the system's text ("No space left on device") when there is one,
+/// else HDF5's innermost.
 std::string lastReason();
 
-/// Make the disk hold a place for everything the file will have once flushed; false, with the reason noted, when it has no
-/// room. A flush that fails half-way leaves HDF5 1.10 unable to close the file, so it must not be tried then.
+/// Make the disk hold a place for everything the file will have once flushed; false, with the
+/// reason noted, when it has no room. A flush that fails half-way leaves HDF5 1.10 unable to close
+/// the file, so it must not be tried then.
 bool reserve(hid_t file);
 
-/// Whether a file that grows by so many bytes stays within the largest size of a file of this process (RLIMIT_FSIZE); false, with the reason
-/// noted. Ask before HDF5 allocates: what it holds must fit even into the memory of letGo(), to which the limit applies too.
+/// Whether a file that grows by so many bytes stays within the largest size of a file of this
+/// process (RLIMIT_FSIZE); false, with the reason noted. Ask before HDF5 allocates: what it holds
+/// must fit even into the memory of letGo(), to which the limit applies too.
 bool fits(hid_t file, std::size_t bytes);
 
-/// Close a file that can no longer be written. HDF5 would try to write what it still holds, fail, keep the file open and crash
-/// at the end of the process; so its descriptor is first turned to anonymous memory, and the file stays as last flushed.
+/// Close a file that can no longer be written. HDF5 would try to write what it still holds, fail,
+/// keep the file open and crash at the end of the process; so its descriptor is first turned to
+/// anonymous memory, and the file stays as last flushed.
 void letGo(hid_t file);
 
 /// Variable-length UTF-8 string type.
 Handle textType();
 
-/// Is there an object of this path? Every group on the way is looked at, so a missing one is no error.
+/// Is there an object of this path? Every group on the way is looked at, so a missing one is no
+/// error.
 bool hasLink(hid_t file, const std::string& path);
 
 /// Write (or replace) a scalar text or number attribute; false when HDF5 refuses.

@@ -33,7 +33,8 @@ struct Entries {
 
   void operator()(int i, int j, double value, bool given = true) {
     if (i < 1 || i > rows || j < 1 || j > columns)
-      throw std::out_of_range("stands outside of the " + std::to_string(rows) + " x " + std::to_string(columns) + " matrix");
+      throw std::out_of_range("stands outside of the " + std::to_string(rows) + " x " +
+                              std::to_string(columns) + " matrix");
     if (given && i != j) (i > j ? below : above) = true;
     triplets.emplace_back(i - 1, j - 1, value);
   }
@@ -72,7 +73,8 @@ class File {
     entries_ = Teuchos::rcp(new Entries);
     entries_->rows = static_cast<int>(sizes[0]);
     entries_->columns = static_cast<int>(sizes[1]);
-    requireRoom(array ? sizes[0] * (symmetric() ? sizes[0] - 1 : 2 * sizes[1]) / 2 : sizes[2], array ? shortestNumber : shortestEntry);
+    requireRoom(array ? sizes[0] * (symmetric() ? sizes[0] - 1 : 2 * sizes[1]) / 2 : sizes[2],
+                array ? shortestNumber : shortestEntry);
     if (banner_->symmType() != "general" && sizes[0] != sizes[1])
       fail("is " + size() + " and " + banner_->symmType() + "; only a square matrix can be that");
     if (array)
@@ -86,14 +88,18 @@ class File {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw MatrixFileError(path_ + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what + ".");
+    throw MatrixFileError(path_ + (line_ > 0 ? ":" + std::to_string(line_) : "") + " " + what +
+                          ".");
   }
   [[noreturn]] void failAt(int row, int column, const std::string& what) const {
-    throw MatrixFileError(path_ + ":" + std::to_string(line_) + ": the entry in row " + std::to_string(row) + ", column " + std::to_string(column) +
-                              " " + what + ".",
+    throw MatrixFileError(path_ + ":" + std::to_string(line_) + ": the entry in row " +
+                              std::to_string(row) + ", column " + std::to_string(column) + " " +
+                              what + ".",
                           row - 1, column - 1);
   }
-  std::string size() const { return std::to_string(entries_->rows) + " x " + std::to_string(entries_->columns); }
+  std::string size() const {
+    return std::to_string(entries_->rows) + " x " + std::to_string(entries_->columns);
+  }
   bool symmetric() const { return banner_->symmType() != "general"; }
 
   /// The next line that is no comment and not empty.
@@ -108,15 +114,23 @@ class File {
 
   void readBanner() {
     ++line_;
-    if (!in_.line(text_, longestLine)) fail("is empty; it should begin with the line \"%%MatrixMarket matrix coordinate real general\"");
+    if (!in_.line(text_, longestLine))
+      fail(
+          "is empty; it should begin with the line \"%%MatrixMarket matrix coordinate real "
+          "general\"");
     try {
       banner_.emplace(trim(text_));
     } catch (const std::exception&) {
-      fail("does not begin with a Matrix Market banner such as \"%%MatrixMarket matrix coordinate real general\": found " + inQuotes(trim(text_)));
+      fail(
+          "does not begin with a Matrix Market banner such as \"%%MatrixMarket matrix coordinate "
+          "real general\": found " +
+          inQuotes(trim(text_)));
     }
     if (banner_->dataType() != "real" && banner_->dataType() != "integer")
-      fail("holds a matrix of the kind " + inQuotes(banner_->dataType()) + "; only real or integer ones can be used");
-    if (banner_->symmType() == "hermitian") fail("is hermitian; a real matrix is general, symmetric or skew-symmetric");
+      fail("holds a matrix of the kind " + inQuotes(banner_->dataType()) +
+           "; only real or integer ones can be used");
+    if (banner_->symmType() == "hermitian")
+      fail("is hermitian; a real matrix is general, symmetric or skew-symmetric");
   }
 
   std::vector<long> readSizes(std::size_t count) {
@@ -128,9 +142,13 @@ class File {
       std::string rest;
       if (words >> rest) sizes.clear();
     }
-    const bool good = sizes.size() == count && sizes[0] >= 1 && sizes[1] >= 1 && sizes.back() >= 0 && sizes[0] <= largestDimension && sizes[1] <= largestDimension;
-    if (!good) fail(std::string("should give the sizes here, ") + (count == 2 ? "\"rows columns\"" : "\"rows columns entries\"") + ", with at most " + std::to_string(largestDimension) +
-                    " rows and columns: found " + inQuotes(text_));
+    const bool good = sizes.size() == count && sizes[0] >= 1 && sizes[1] >= 1 &&
+                      sizes.back() >= 0 && sizes[0] <= largestDimension &&
+                      sizes[1] <= largestDimension;
+    if (!good)
+      fail(std::string("should give the sizes here, ") +
+           (count == 2 ? "\"rows columns\"" : "\"rows columns entries\"") + ", with at most " +
+           std::to_string(largestDimension) + " rows and columns: found " + inQuotes(text_));
     return sizes;
   }
 
@@ -138,27 +156,35 @@ class File {
   void requireRoom(long announced, long bytesEach) const {
     const auto possible = static_cast<long>(in_.size()) / bytesEach + 1;
     if (announced > possible || announced > std::numeric_limits<int>::max())
-      fail("announces " + std::to_string(announced) + " entries, for which the file of " + std::to_string(in_.size()) + " bytes is too short");
+      fail("announces " + std::to_string(announced) + " entries, for which the file of " +
+           std::to_string(in_.size()) + " bytes is too short");
   }
 
   void readCoordinates(long count) {
     Lines lines(Teuchos::rcp(new Adder(entries_, banner_->symmType())));
     long seen = 0;
     while (next()) {
-      if (++seen > count) fail("is one entry more than the " + std::to_string(count) + " announced");
+      if (++seen > count)
+        fail("is one entry more than the " + std::to_string(count) + " announced");
       readEntry(lines);
     }
-    if (seen < count) fail("is the last line, but only " + std::to_string(seen) + " of the " + std::to_string(count) + " entries announced were there");
+    if (seen < count)
+      fail("is the last line, but only " + std::to_string(seen) + " of the " +
+           std::to_string(count) + " entries announced were there");
     if (symmetric() && entries_->below && entries_->above)
-      fail("ends a " + banner_->symmType() + " matrix with entries above and below its diagonal; give one triangle, or call it general");
+      fail("ends a " + banner_->symmType() +
+           " matrix with entries above and below its diagonal; give one triangle, or call it "
+           "general");
   }
 
   void readEntry(Lines& lines) {
     std::istringstream words(text_);
     int row = 0, column = 0;
     std::string value, rest;
-    if (!(words >> row >> column >> value) || words >> rest) fail("should be \"row column value\": found " + inQuotes(text_));
-    if (banner_->symmType() == "skew-symmetric" && row == column) failAt(row, column, "is on the diagonal of a skew-symmetric matrix");
+    if (!(words >> row >> column >> value) || words >> rest)
+      fail("should be \"row column value\": found " + inQuotes(text_));
+    if (banner_->symmType() == "skew-symmetric" && row == column)
+      failAt(row, column, "is on the diagonal of a skew-symmetric matrix");
     try {
       if (isNumber(value) && lines.readLine(text_, static_cast<std::size_t>(line_), false)) return;
     } catch (const std::out_of_range& outside) {
@@ -175,7 +201,9 @@ class File {
     const int first = banner_->symmType() == "skew-symmetric" ? 1 : 0;
     for (int j = 1; j <= entries_->columns; ++j)
       for (int i = symmetric() ? j + first : 1; i <= entries_->rows; ++i) {
-        if (!next()) fail("is the last line, but the " + size() + " matrix has no entry for row " + std::to_string(i) + ", column " + std::to_string(j));
+        if (!next())
+          fail("is the last line, but the " + size() + " matrix has no entry for row " +
+               std::to_string(i) + ", column " + std::to_string(j));
         if (!isNumber(text_)) failAt(i, j, "is " + inQuotes(text_) + ", which is no finite number");
         const double value = std::stod(text_);
         if (value != 0) add(i, j, value);
@@ -208,24 +236,29 @@ Matrix readMatrixMarketDense(const std::string& path) {
 }
 
 void requireDense(const std::string& who, const Sparse& matrix, std::uint64_t fileSize) {
-  const auto numbers = static_cast<std::uint64_t>(matrix.rows()) * static_cast<std::uint64_t>(matrix.cols());
+  const auto numbers =
+      static_cast<std::uint64_t>(matrix.rows()) * static_cast<std::uint64_t>(matrix.cols());
   if (numbers > std::max(smallDense, fileSize))
-    throw MatrixFileError(who + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
-                          ", too large for a matrix that is needed with all its zeros: " + std::to_string(smallDense) +
-                          " numbers, or as many as the file has bytes, are the most.");
+    throw MatrixFileError(
+        who + " is " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) +
+        ", too large for a matrix that is needed with all its zeros: " +
+        std::to_string(smallDense) + " numbers, or as many as the file has bytes, are the most.");
 }
 
 std::string matrixMarketText(const Sparse& matrix) {
-  std::string text = "%%MatrixMarket matrix coordinate real general\n" + std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " +
+  std::string text = "%%MatrixMarket matrix coordinate real general\n" +
+                     std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " +
                      std::to_string(matrix.nonZeros()) + "\n";
   for (int k = 0; k < matrix.outerSize(); ++k)
     for (Sparse::InnerIterator it(matrix, k); it; ++it)
-      text += std::to_string(it.row() + 1) + " " + std::to_string(it.col() + 1) + " " + formatNumber(it.value()) + "\n";
+      text += std::to_string(it.row() + 1) + " " + std::to_string(it.col() + 1) + " " +
+              formatNumber(it.value()) + "\n";
   return text;
 }
 
 std::string matrixMarketText(const Matrix& matrix) {
-  std::string text = "%%MatrixMarket matrix array real general\n" + std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + "\n";
+  std::string text = "%%MatrixMarket matrix array real general\n" + std::to_string(matrix.rows()) +
+                     " " + std::to_string(matrix.cols()) + "\n";
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) text += formatNumber(matrix(i, j)) + "\n";
   return text;

@@ -24,16 +24,20 @@ namespace {
 
 std::string megabytes(double bytes) { return formatNumber(std::ceil(bytes / 1048576.0)) + " MB"; }
 
-bool isPlain(const std::string& name) { return !name.empty() && name.find('/') == std::string::npos; }
+bool isPlain(const std::string& name) {
+  return !name.empty() && name.find('/') == std::string::npos;
+}
 
 }  // namespace
 
-OutputFolder::OutputFolder(const std::string& folder, OldCheckpoint old) : folder_(folder), active_(parallel::rank() == 0) {
+OutputFolder::OutputFolder(const std::string& folder, OldCheckpoint old)
+    : folder_(folder), active_(parallel::rank() == 0) {
   if (!active_) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) {
-    throw FileError("The output folder " + folder_ + " cannot be made: " + error.message() + ". Name another one with --output.");
+    throw FileError("The output folder " + folder_ + " cannot be made: " + error.message() +
+                    ". Name another one with --output.");
   }
   lock_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ < 0) {
@@ -72,27 +76,34 @@ void OutputFolder::prove() const {
   ::unlink((probe + ".part").c_str());
 }
 
-/// A checkpoint and its samples stay together. Finished results of a run before are not of the interrupted one, and stay.
+/// A checkpoint and its samples stay together. Finished results of a run before are not of the
+/// interrupted one, and stay.
 void OutputFolder::setAside() {
   namespace fs = std::filesystem;
   const fs::path here(folder_);
   if (!fs::exists(here / checkpointName)) return;
-  std::vector<std::string> names{checkpointName, checkpointSamplesName, std::string(resultsName) + ".part"};
+  std::vector<std::string> names{checkpointName, checkpointSamplesName,
+                                 std::string(resultsName) + ".part"};
   if (!finished_) {
     names.insert(names.end(), previousFiles_.begin(), previousFiles_.end());
     names.insert(names.end(), {resultsName, summaryName});
     previousFiles_.clear();
   }
   fs::path aside = here / "interrupted";
-  for (int number = 2; fs::exists(aside); ++number) aside = here / ("interrupted_" + std::to_string(number));
+  for (int number = 2; fs::exists(aside); ++number)
+    aside = here / ("interrupted_" + std::to_string(number));
   std::error_code error;
   fs::create_directory(aside, error);
   for (const auto& name : names)
-    if (!error && isPlain(name) && fs::exists(here / name)) fs::rename(here / name, aside / name, error);
+    if (!error && isPlain(name) && fs::exists(here / name))
+      fs::rename(here / name, aside / name, error);
   if (error)
-    throw FileError("The output folder " + folder_ + " holds the checkpoint of an interrupted run, which cannot be moved to " + aside.string() + ": " +
-                    error.message() + ". Name another folder with --output.");
-  log::warn("The output folder " + folder_ + " held the checkpoint of an interrupted run. It is now in " + aside.string() +
+    throw FileError("The output folder " + folder_ +
+                    " holds the checkpoint of an interrupted run, which cannot be moved to " +
+                    aside.string() + ": " + error.message() +
+                    ". Name another folder with --output.");
+  log::warn("The output folder " + folder_ +
+            " held the checkpoint of an interrupted run. It is now in " + aside.string() +
             "; that run goes on with --restart " + aside.string() + ".");
 }
 
@@ -101,7 +112,8 @@ void OutputFolder::requireSpace(double bytes) const {
   std::error_code error;
   const auto space = std::filesystem::space(folder_, error);
   if (error || static_cast<double>(space.available) >= bytes) return;
-  throw FileError("The output folder " + folder_ + " has room for " + megabytes(static_cast<double>(space.available)) +
+  throw FileError("The output folder " + folder_ + " has room for " +
+                  megabytes(static_cast<double>(space.available)) +
                   ", but the results need about " + megabytes(bytes) +
                   ". Make room, record less, or name another folder with --output.");
 }
@@ -113,7 +125,9 @@ std::string OutputFolder::file(const std::string& name) {
   const std::string path = folder_ + "/" + name;
   if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
     names_.push_back(name);
-    if (active_) ::unlink((path + ".part").c_str());  // left by a run that was killed: never to be taken for ours
+    if (active_)
+      ::unlink(
+          (path + ".part").c_str());  // left by a run that was killed: never to be taken for ours
   }
   return path;
 }
@@ -126,7 +140,8 @@ std::vector<std::string> OutputFolder::files() const {
 
 void OutputFolder::renameAll() {
   // summary.json is the mark of a complete set: it goes last
-  std::stable_partition(names_.begin(), names_.end(), [](const std::string& name) { return name != summaryName; });
+  std::stable_partition(names_.begin(), names_.end(),
+                        [](const std::string& name) { return name != summaryName; });
   for (const auto& name : names_) {
     const std::string path = folder_ + "/" + name;
     if (std::filesystem::exists(path + ".part")) publishStaged(path);
@@ -137,7 +152,8 @@ void OutputFolder::publish() {
   if (!active_) return;
   renameAll();
   for (const auto& name : previousFiles_) {
-    if (isPlain(name) && std::find(names_.begin(), names_.end(), name) == names_.end()) ::unlink((folder_ + "/" + name).c_str());
+    if (isPlain(name) && std::find(names_.begin(), names_.end(), name) == names_.end())
+      ::unlink((folder_ + "/" + name).c_str());
   }
   finished_ = true;
 }

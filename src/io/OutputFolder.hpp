@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The folder a run leaves its files in. During the run every file is called NAME.part; only a run that ended well
-/// gives them their names, so a finished result is never overwritten by a failed run.
+/// The folder a run leaves its files in. During the run every file is called NAME.part; only a run
+/// that ended well gives them their names, so a finished result is never overwritten by a failed
+/// run.
 #pragma once
 
 #include <string>
@@ -13,20 +14,23 @@ inline constexpr const char* summaryName = "summary.json";
 inline constexpr const char* resultsName = "results.h5";
 /// The state an interrupted run goes on from.
 inline constexpr const char* checkpointName = "checkpoint.bin";
-/// The samples before that state, from the start of the run that goes on until its own file holds them.
+/// The samples before that state, from the start of the run that goes on until its own file holds
+/// them.
 inline constexpr const char* checkpointSamplesName = "checkpoint.h5";
 
 /// What happens to the checkpoint of an interrupted run that the folder holds.
 enum class OldCheckpoint {
-  SetAside,  ///< it moves with its samples and tables into a folder of its own, "interrupted", and a warning says so
+  SetAside,  ///< it moves with its samples and tables into a folder of its own, "interrupted", and
+             ///< a warning says so
   GoOn,      ///< this run goes on from it
 };
 
-/// Rank 0 does all the work, the other ranks only know the names (wrap calls in parallel::agree to end alike).
+/// Rank 0 does all the work, the other ranks only know the names (wrap calls in parallel::agree to
+/// end alike).
 class OutputFolder {
  public:
-  /// Make the folder if need be, lock it against a second run, and prove that a file can be written there: call before
-  /// anything is computed. FileError with the system's reason.
+  /// Make the folder if need be, lock it against a second run, and prove that a file can be written
+  /// there: call before anything is computed. FileError with the system's reason.
   explicit OutputFolder(const std::string& folder, OldCheckpoint old = OldCheckpoint::SetAside);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -36,21 +40,23 @@ class OutputFolder {
   /// True when a run that ended with status "finished" left its results here.
   bool hasFinishedResults() const { return finished_; }
 
-  /// FileError when the file system has less room than `bytes`: a full disk is better found before a long run.
+  /// FileError when the file system has less room than `bytes`: a full disk is better found before
+  /// a long run.
   void requireSpace(double bytes) const;
 
-  /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), to be handed to a writer that stages it as .part.
-  /// A .part of that name left by an earlier run is removed.
+  /// Path for a file of this run ("results.h5" -> "DIR/results.h5"), to be handed to a writer that
+  /// stages it as .part. A .part of that name left by an earlier run is removed.
   std::string file(const std::string& name);
   /// Names asked for with file(), sorted, without .part: the summary lists them.
   std::vector<std::string> files() const;
 
-  /// The run ended well: give every staged file its name, summary.json last; files of the run before that this one did not write
-  /// are removed.
+  /// The run ended well: give every staged file its name, summary.json last; files of the run
+  /// before that this one did not write are removed.
   void publish();
 
-  /// The run failed or was interrupted. Without finished results here, the files get their names (their summary says
-  /// what happened); with them, they stay NAME.part beside the old results. Returns true in the first case.
+  /// The run failed or was interrupted. Without finished results here, the files get their names
+  /// (their summary says what happened); with them, they stay NAME.part beside the old results.
+  /// Returns true in the first case.
   bool publishUnfinished();
 
  private:

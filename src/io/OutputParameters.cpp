@@ -15,19 +15,25 @@ bool OutputSettings::hasField(const std::string& name) const {
 deck::ListSpec parameters() {
   using deck::Range;
   const OutputSettings defaults;
-  return deck::ListSpec("Output", "What a run leaves behind; results.h5 and summary.json are always written.")
+  return deck::ListSpec("Output",
+                        "What a run leaves behind; results.h5 and summary.json are always written.")
       .text("Folder", deck::Optional{},
-            "Folder for the results, relative to where the program runs; --output on the command line goes first.")
-      .textArray("Fields", defaults.fields, {"displacement", "velocity", "acceleration", "normal_force"},
+            "Folder for the results, relative to where the program runs; --output on the command "
+            "line goes first.")
+      .textArray("Fields", defaults.fields,
+                 {"displacement", "velocity", "acceleration", "normal_force"},
                  "Motions and forces of all nodes recorded at every sample; {} records none.")
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
       .boolean("XDMF", defaults.xdmf,
-               "Write results.xdmf for ParaView: the string in its well, coloured by contact force and speed.")
+               "Write results.xdmf for ParaView: the string in its well, coloured by contact force "
+               "and speed.")
       .real("XDMF Interval", "s", defaults.xdmfInterval, Range::positive(),
             "Time between two pictures in results.xdmf, at least the sampling interval.")
-      .boolean("Reduced Bases", defaults.reducedBases, "Store the basis of every reduced part in results.h5.")
+      .boolean("Reduced Bases", defaults.reducedBases,
+               "Store the basis of every reduced part in results.h5.")
       .choice("Export Parts", std::string("None"), {"None", "HDF5", "Matrix Market"},
-              "Write every reduced part with its basis into the folder parts of the results, to be used again as an imported part: one HDF5 file, or a "
+              "Write every reduced part with its basis into the folder parts of the results, to be "
+              "used again as an imported part: one HDF5 file, or a "
               "folder of Matrix Market files each.")
       .integer("Compression", defaults.compression, Range::between(0, 9),
                "Deflate level of the time series in results.h5; 0 is off and fastest.");
@@ -38,14 +44,17 @@ OutputSettings readOutput(const Teuchos::ParameterList& list) {
   if (list.isParameter("Folder")) s.folder = list.get<std::string>("Folder");
   s.fields = list.get<Teuchos::Array<std::string>>("Fields").toVector();
   for (auto it = s.fields.begin(); it != s.fields.end(); ++it) {
-    if (std::find(s.fields.begin(), it, *it) != it) throw DeckError("Output/Fields names \"" + *it + "\" twice.");
+    if (std::find(s.fields.begin(), it, *it) != it)
+      throw DeckError("Output/Fields names \"" + *it + "\" twice.");
   }
   s.csv = list.get<bool>("CSV");
   s.xdmf = list.get<bool>("XDMF");
   s.xdmfInterval = list.get<double>("XDMF Interval");
   s.reducedBases = list.get<bool>("Reduced Bases");
   const auto& kind = list.get<std::string>("Export Parts");
-  s.exportFormat = kind == "HDF5" ? ExportFormat::Hdf5 : kind == "Matrix Market" ? ExportFormat::MatrixMarket : ExportFormat::None;
+  s.exportFormat = kind == "HDF5"            ? ExportFormat::Hdf5
+                   : kind == "Matrix Market" ? ExportFormat::MatrixMarket
+                                             : ExportFormat::None;
   s.compression = list.get<int>("Compression");
   return s;
 }

@@ -26,7 +26,9 @@ namespace {
 /// Bytes of one chunk of a time series, about.
 constexpr std::size_t chunkBytes = 1U << 18U;
 
-[[noreturn]] void wrongUse(const std::string& sentence) { throw Error(ExitCode::Internal, sentence); }
+[[noreturn]] void wrongUse(const std::string& sentence) {
+  throw Error(ExitCode::Internal, sentence);
+}
 
 std::size_t product(const Shape& shape) {
   std::size_t count = 1;
@@ -35,10 +37,11 @@ std::size_t product(const Shape& shape) {
 }
 
 void requireFinite(const std::string& path, const double* values, std::size_t count) {
-  const double* bad = std::find_if(values, values + count, [](double x) { return !std::isfinite(x); });
+  const double* bad =
+      std::find_if(values, values + count, [](double x) { return !std::isfinite(x); });
   if (bad != values + count) {
-    wrongUse("The result " + path + " holds " + formatNumber(*bad) + " at position " + std::to_string(bad - values) +
-             ", which is never written.");
+    wrongUse("The result " + path + " holds " + formatNumber(*bad) + " at position " +
+             std::to_string(bad - values) + ", which is never written.");
   }
 }
 
@@ -51,8 +54,9 @@ std::string now() {
   return text;
 }
 
-/// Access properties under which the file on disk changes its structure only in flush(): no metadata is evicted from the
-/// cache in between, so that what a killed process leaves is the state of the last flush.
+/// Access properties under which the file on disk changes its structure only in flush(): no
+/// metadata is evicted from the cache in between, so that what a killed process leaves is the state
+/// of the last flush.
 Handle accessProperties() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5AC_cache_config_t cache;
@@ -67,8 +71,9 @@ Handle accessProperties() {
   return access;
 }
 
-/// Creation properties of a dataset. `early`: its place in the file is known before its values are written, so that it can
-/// be reserved (not for compressed data and texts, whose size is not known before).
+/// Creation properties of a dataset. `early`: its place in the file is known before its values are
+/// written, so that it can be reserved (not for compressed data and texts, whose size is not known
+/// before).
 Handle creationProperties(bool early) {
   Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (early) {
@@ -80,18 +85,21 @@ Handle creationProperties(bool early) {
 
 }  // namespace
 
-// ---------------------------------------------------------------------------------------------------------------- TimeSeries
+// -------------------------------------------------------------------------------------------------
+// TimeSeries
 
 TimeSeries::TimeSeries(ResultsFile& file, std::string path, const Shape& rowShape)
     : file_(file), path_(std::move(path)), rowShape_(rowShape), rowSize_(product(rowShape)) {
-  chunkRows_ = std::clamp<std::size_t>(chunkBytes / (std::max<std::size_t>(rowSize_, 1) * sizeof(double)), 1, 1024);
+  chunkRows_ = std::clamp<std::size_t>(
+      chunkBytes / (std::max<std::size_t>(rowSize_, 1) * sizeof(double)), 1, 1024);
 }
 
 TimeSeries::~TimeSeries() = default;
 
 void TimeSeries::append(const double* row) {
   if (!file_.active_) return;
-  if (file_.file_ < 0) wrongUse("The results file " + file_.path_ + " is closed; " + path_ + " cannot grow.");
+  if (file_.file_ < 0)
+    wrongUse("The results file " + file_.path_ + " is closed; " + path_ + " cannot grow.");
   requireFinite(path_, row, rowSize_);
   buffer_.insert(buffer_.end(), row, row + rowSize_);
   ++rows_;
@@ -114,13 +122,16 @@ void TimeSeries::writeBuffer() {
   good = good && H5Dset_extent(dataset_, extent.data()) >= 0 && hdf5::reserve(file_.file_);
   const Handle onDisk(H5Dget_space(dataset_), H5Sclose);
   const Handle inMemory(H5Screate_simple(rank, block.data(), nullptr), H5Sclose);
-  good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) >= 0;
-  good = good && H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT, buffer_.data()) >= 0;
+  good = good && H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr,
+                                     block.data(), nullptr) >= 0;
+  good = good && H5Dwrite(dataset_, H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT,
+                          buffer_.data()) >= 0;
   if (!good) file_.fail("writing " + path_);
   buffer_.clear();
 }
 
-// --------------------------------------------------------------------------------------------------------------- ResultsFile
+// -------------------------------------------------------------------------------------------------
+// ResultsFile
 
 struct ResultsFile::DatasetRequest {
   const std::string& path;
@@ -132,11 +143,13 @@ struct ResultsFile::DatasetRequest {
   const std::string& longName;
 };
 
-ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance, const ResultsOptions& options)
+ResultsFile::ResultsFile(const std::string& path, const Provenance& provenance,
+                         const ResultsOptions& options)
     : path_(path), options_(options), active_(parallel::rank() == 0) {
   if (!active_) return;
   hdf5::silence();
-  stageText(path_, std::string(4096, '\0'));  // a full disk shows here, with less ado than inside HDF5
+  stageText(path_,
+            std::string(4096, '\0'));  // a full disk shows here, with less ado than inside HDF5
   file_ = H5Fcreate(partPath().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, accessProperties().get());
   if (file_ < 0) fail("creating it");
   try {
@@ -174,12 +187,16 @@ void ResultsFile::fail(const std::string& doing) {
   abandon();
   std::string advice = "Make room or name another folder with --output.";
   if (reason == std::strerror(EAGAIN)) {
-    advice = "Another run seems to be writing there; where the file system cannot lock files, set HDF5_USE_FILE_LOCKING=FALSE.";
+    advice =
+        "Another run seems to be writing there; where the file system cannot lock files, set "
+        "HDF5_USE_FILE_LOCKING=FALSE.";
   }
-  throw FileError("The results file " + partPath() + " cannot be written (" + doing + "): " + reason + ". " + advice);
+  throw FileError("The results file " + partPath() + " cannot be written (" + doing +
+                  "): " + reason + ". " + advice);
 }
 
-/// Give up what is buffered and let go of the file; that closes its datasets too (H5F_CLOSE_STRONG).
+/// Give up what is buffered and let go of the file; that closes its datasets too
+/// (H5F_CLOSE_STRONG).
 void ResultsFile::abandon() noexcept {
   for (auto& s : series_) {
     s->buffer_.clear();
@@ -189,88 +206,103 @@ void ResultsFile::abandon() noexcept {
 }
 
 std::int64_t ResultsFile::createDataset(const DatasetRequest& request) {
-  if (file_ < 0) wrongUse("The results file " + path_ + " is closed; " + request.path + " cannot be written.");
+  if (file_ < 0)
+    wrongUse("The results file " + path_ + " is closed; " + request.path + " cannot be written.");
   if (request.longName.empty()) wrongUse("The result " + request.path + " has no long name.");
   const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
-  const hid_t dataset =
-      H5Dcreate2(file_, request.path.c_str(), request.type, request.space, link.get(), request.creation, request.access);
+  const hid_t dataset = H5Dcreate2(file_, request.path.c_str(), request.type, request.space,
+                                   link.get(), request.creation, request.access);
   if (dataset < 0) {
-    if (hdf5::hasLink(file_, request.path)) wrongUse("The result " + request.path + " is written twice.");
+    if (hdf5::hasLink(file_, request.path))
+      wrongUse("The result " + request.path + " is written twice.");
     fail("making " + request.path);
   }
-  if (!hdf5::putAttribute(dataset, "units", request.unit) || !hdf5::putAttribute(dataset, "long_name", request.longName)) {
+  if (!hdf5::putAttribute(dataset, "units", request.unit) ||
+      !hdf5::putAttribute(dataset, "long_name", request.longName)) {
     H5Dclose(dataset);
     fail("making " + request.path);
   }
   return dataset;
 }
 
-void ResultsFile::writeValues(const std::string& path, std::int64_t type, const void* values, std::size_t count,
-                              const Shape& shape, const std::string& unit, const std::string& longName) {
+void ResultsFile::writeValues(const std::string& path, std::int64_t type, const void* values,
+                              std::size_t count, const Shape& shape, const std::string& unit,
+                              const std::string& longName) {
   if (product(shape) != count) {
-    wrongUse("The result " + path + " has " + std::to_string(count) + " values, but its shape asks for " +
-             std::to_string(product(shape)) + ".");
+    wrongUse("The result " + path + " has " + std::to_string(count) +
+             " values, but its shape asks for " + std::to_string(product(shape)) + ".");
   }
   if (file_ >= 0 && !hdf5::fits(file_, count * sizeof(double))) fail("making " + path);
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(
-      shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+      shape.empty() ? H5Screate(H5S_SCALAR)
+                    : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
       H5Sclose);
   const Handle creation = creationProperties(H5Tis_variable_str(type) <= 0);
-  const Handle dataset(createDataset({path, type, space.get(), creation.get(), H5P_DEFAULT, unit, longName}), H5Dclose);
+  const Handle dataset(
+      createDataset({path, type, space.get(), creation.get(), H5P_DEFAULT, unit, longName}),
+      H5Dclose);
   if (!hdf5::reserve(file_)) fail("writing " + path);
-  if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail("writing " + path);
+  if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    fail("writing " + path);
 }
 
-void ResultsFile::write(const std::string& path, const double* values, const Shape& shape, const std::string& unit,
-                        const std::string& longName) {
+void ResultsFile::write(const std::string& path, const double* values, const Shape& shape,
+                        const std::string& unit, const std::string& longName) {
   if (!active_) return;
   if (unit.empty()) wrongUse("The result " + path + " has no unit; \"1\" is that of pure numbers.");
   requireFinite(path, values, product(shape));
   writeValues(path, H5T_NATIVE_DOUBLE, values, product(shape), shape, unit, longName);
 }
 
-void ResultsFile::write(const std::string& path, const std::vector<double>& values, const Shape& shape, const std::string& unit,
-                        const std::string& longName) {
+void ResultsFile::write(const std::string& path, const std::vector<double>& values,
+                        const Shape& shape, const std::string& unit, const std::string& longName) {
   if (product(shape) != values.size()) {
-    wrongUse("The result " + path + " has " + std::to_string(values.size()) + " values, but its shape asks for " +
-             std::to_string(product(shape)) + ".");
+    wrongUse("The result " + path + " has " + std::to_string(values.size()) +
+             " values, but its shape asks for " + std::to_string(product(shape)) + ".");
   }
   write(path, values.data(), shape, unit, longName);
 }
 
-void ResultsFile::write(const std::string& path, const Vector& values, const Shape& shape, const std::string& unit,
-                        const std::string& longName) {
-  write(path, std::vector<double>(values.data(), values.data() + values.size()), shape, unit, longName);
+void ResultsFile::write(const std::string& path, const Vector& values, const Shape& shape,
+                        const std::string& unit, const std::string& longName) {
+  write(path, std::vector<double>(values.data(), values.data() + values.size()), shape, unit,
+        longName);
 }
 
-void ResultsFile::write(const std::string& path, const std::vector<int>& values, const Shape& shape, const std::string& unit,
-                        const std::string& longName) {
+void ResultsFile::write(const std::string& path, const std::vector<int>& values, const Shape& shape,
+                        const std::string& unit, const std::string& longName) {
   if (!active_) return;
   if (unit.empty()) wrongUse("The result " + path + " has no unit; \"1\" is that of pure numbers.");
   writeValues(path, H5T_NATIVE_INT, values.data(), values.size(), shape, unit, longName);
 }
 
-void ResultsFile::write(const std::string& path, const std::vector<std::string>& values, const std::string& longName) {
+void ResultsFile::write(const std::string& path, const std::vector<std::string>& values,
+                        const std::string& longName) {
   if (!active_) return;
   std::vector<const char*> texts;
   texts.reserve(values.size());
   for (const auto& value : values) texts.push_back(value.c_str());
-  writeValues(path, hdf5::textType().get(), texts.data(), texts.size(), {texts.size()}, "", longName);
+  writeValues(path, hdf5::textType().get(), texts.data(), texts.size(), {texts.size()}, "",
+              longName);
 }
 
-void ResultsFile::write(const std::string& path, const Matrix& values, const std::string& unit, const std::string& longName) {
+void ResultsFile::write(const std::string& path, const Matrix& values, const std::string& unit,
+                        const std::string& longName) {
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values;
-  write(path, rows.data(), {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())}, unit, longName);
+  write(path, rows.data(),
+        {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())}, unit,
+        longName);
 }
 
-void ResultsFile::write(const std::string& path, double value, const std::string& unit, const std::string& longName) {
+void ResultsFile::write(const std::string& path, double value, const std::string& unit,
+                        const std::string& longName) {
   write(path, &value, Shape{}, unit, longName);
 }
 
-TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape, const std::string& unit,
-                                const std::string& longName) {
+TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape,
+                                const std::string& unit, const std::string& longName) {
   series_.push_back(std::unique_ptr<TimeSeries>(new TimeSeries(*this, path, rowShape)));
   TimeSeries& result = *series_.back();
   if (!active_) return result;
@@ -294,19 +326,22 @@ TimeSeries& ResultsFile::series(const std::string& path, const Shape& rowShape, 
   // no chunk cache: the rows are buffered here, and what is written is on the disk or has failed
   const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access.get(), 0, 0, 0.0);
-  result.dataset_ = createDataset({path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), access.get(), unit, longName});
+  result.dataset_ = createDataset(
+      {path, H5T_NATIVE_DOUBLE, space.get(), creation.get(), access.get(), unit, longName});
   result.buffer_.reserve(result.chunkRows_ * result.rowSize_);
   const std::size_t carried = earlierRows_.count(path) > 0 ? earlierRows_.at(path) : 0;
   for (std::size_t first = 0; first < carried; first += result.chunkRows_) {
     const std::size_t count = std::min(result.chunkRows_, carried - first);
     const auto rows = earlier_->rows(path, first, count);
-    if (rows.size() != count * result.rowSize_) throw FileError("The results to go on from have another " + path + ".");
+    if (rows.size() != count * result.rowSize_)
+      throw FileError("The results to go on from have another " + path + ".");
     for (std::size_t i = 0; i < count; ++i) result.append(rows.data() + i * result.rowSize_);
   }
   return result;
 }
 
-void ResultsFile::continueFrom(const std::string& file, const std::map<std::string, std::uint64_t>& rows) {
+void ResultsFile::continueFrom(const std::string& file,
+                               const std::map<std::string, std::uint64_t>& rows) {
   if (!active_) return;
   earlier_ = std::make_unique<ResultsReader>(file);
   earlierRows_ = rows;
@@ -314,7 +349,8 @@ void ResultsFile::continueFrom(const std::string& file, const std::map<std::stri
 
 std::vector<double> ResultsFile::carried(const std::string& path) const {
   const auto found = earlierRows_.find(path);
-  return found == earlierRows_.end() ? std::vector<double>() : earlier_->rows(path, 0, found->second);
+  return found == earlierRows_.end() ? std::vector<double>()
+                                     : earlier_->rows(path, 0, found->second);
 }
 
 std::map<std::string, std::uint64_t> ResultsFile::rows() const {
@@ -326,21 +362,26 @@ std::map<std::string, std::uint64_t> ResultsFile::rows() const {
 namespace {
 
 template <class Value>
-bool attributeOf(hid_t file, const std::string& object, const std::string& name, const Value& value) {
+bool attributeOf(hid_t file, const std::string& object, const std::string& name,
+                 const Value& value) {
   const Handle target(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose);
   return target.valid() && hdf5::putAttribute(target.get(), name, value);
 }
 
 }  // namespace
 
-void ResultsFile::attribute(const std::string& object, const std::string& name, const std::string& value) {
-  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+void ResultsFile::attribute(const std::string& object, const std::string& name,
+                            const std::string& value) {
+  if (active_ && !attributeOf(file_, object, name, value))
+    fail("attribute " + name + " of " + object);
 }
 void ResultsFile::attribute(const std::string& object, const std::string& name, double value) {
-  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+  if (active_ && !attributeOf(file_, object, name, value))
+    fail("attribute " + name + " of " + object);
 }
 void ResultsFile::attribute(const std::string& object, const std::string& name, int value) {
-  if (active_ && !attributeOf(file_, object, name, value)) fail("attribute " + name + " of " + object);
+  if (active_ && !attributeOf(file_, object, name, value))
+    fail("attribute " + name + " of " + object);
 }
 
 void ResultsFile::flush() {
@@ -365,7 +406,8 @@ void ResultsFile::finish() {
   if (failed_) wrongUse("The results file " + path_ + " failed before and cannot be finished.");
   close();
   if (std::rename(partPath().c_str(), path_.c_str()) != 0) {
-    throw FileError("The results file " + partPath() + " cannot be renamed to " + path_ + ": " + std::strerror(errno) + ".");
+    throw FileError("The results file " + partPath() + " cannot be renamed to " + path_ + ": " +
+                    std::strerror(errno) + ".");
   }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Writing results.h5: datasets with units and long names, growing time series, provenance. docs/file-formats.md
-/// describes the layout. Only rank 0 writes; on the other ranks every call returns at once, so callers need no rank test
-/// (but a FileError appears on rank 0 alone: use parallel::agree where all ranks must end together).
+/// Writing results.h5: datasets with units and long names, growing time series, provenance.
+/// docs/file-formats.md describes the layout. Only rank 0 writes; on the other ranks every call
+/// returns at once, so callers need no rank test (but a FileError appears on rank 0 alone: use
+/// parallel::agree where all ranks must end together).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,8 @@
 
 namespace tooljoint::io {
 
-/// Version of the layout of results.h5, first number of docs/file-formats.md: raised when a reader must change.
+/// Version of the layout of results.h5, first number of docs/file-formats.md: raised when a reader
+/// must change.
 constexpr int resultsFormatVersion = 1;
 
 using Shape = std::vector<std::size_t>;
@@ -44,8 +46,8 @@ class TimeSeries {
   TimeSeries(const TimeSeries&) = delete;
   TimeSeries& operator=(const TimeSeries&) = delete;
 
-  /// Add one row of rowSize() numbers. FileError when the file cannot be written, Error(Internal) naming the dataset when
-  /// a number is not finite.
+  /// Add one row of rowSize() numbers. FileError when the file cannot be written, Error(Internal)
+  /// naming the dataset when a number is not finite.
   void append(const double* row);
   void append(double value) { append(&value); }
   std::size_t rowSize() const { return rowSize_; }
@@ -67,43 +69,50 @@ class TimeSeries {
   std::int64_t dataset_ = -1;
 };
 
-/// An HDF5 results file under construction. It is written as `path`.part and takes its own name in finish(), so that a
-/// file called `path` is always a complete one. After flush() the .part can be read even if the process is killed.
+/// An HDF5 results file under construction. It is written as `path`.part and takes its own name in
+/// finish(), so that a file called `path` is always a complete one. After flush() the .part can be
+/// read even if the process is killed.
 class ResultsFile {
  public:
-  /// Create `path`.part and write the provenance. FileError with the system's reason when that is not possible.
-  ResultsFile(const std::string& path, const Provenance& provenance, const ResultsOptions& options = {});
+  /// Create `path`.part and write the provenance. FileError with the system's reason when that is
+  /// not possible.
+  ResultsFile(const std::string& path, const Provenance& provenance,
+              const ResultsOptions& options = {});
   /// Closes what is open; the .part stays and is readable.
   ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
-  /// Write a dataset; groups on the way are made. `shape` multiplies to the number of values, row-major; {} is a scalar.
-  /// `unit` is the SI unit ("1" for pure numbers, "" for text), `longName` a sentence. FileError on a write error,
-  /// Error(Internal) for a path that is already there, a wrong shape, a missing unit or long name, or a number that is not
-  /// finite.
-  void write(const std::string& path, const double* values, const Shape& shape, const std::string& unit,
-             const std::string& longName);
-  void write(const std::string& path, const std::vector<double>& values, const Shape& shape, const std::string& unit,
-             const std::string& longName);
-  void write(const std::string& path, std::initializer_list<double> values, const Shape& shape, const std::string& unit,
-             const std::string& longName) {
+  /// Write a dataset; groups on the way are made. `shape` multiplies to the number of values,
+  /// row-major; {} is a scalar. `unit` is the SI unit ("1" for pure numbers, "" for text),
+  /// `longName` a sentence. FileError on a write error, Error(Internal) for a path that is already
+  /// there, a wrong shape, a missing unit or long name, or a number that is not finite.
+  void write(const std::string& path, const double* values, const Shape& shape,
+             const std::string& unit, const std::string& longName);
+  void write(const std::string& path, const std::vector<double>& values, const Shape& shape,
+             const std::string& unit, const std::string& longName);
+  void write(const std::string& path, std::initializer_list<double> values, const Shape& shape,
+             const std::string& unit, const std::string& longName) {
     write(path, std::vector<double>(values), shape, unit, longName);
   }
-  void write(const std::string& path, const Vector& values, const Shape& shape, const std::string& unit,
+  void write(const std::string& path, const Vector& values, const Shape& shape,
+             const std::string& unit, const std::string& longName);
+  void write(const std::string& path, const std::vector<int>& values, const Shape& shape,
+             const std::string& unit, const std::string& longName);
+  void write(const std::string& path, const std::vector<std::string>& values,
              const std::string& longName);
-  void write(const std::string& path, const std::vector<int>& values, const Shape& shape, const std::string& unit,
-             const std::string& longName);
-  void write(const std::string& path, const std::vector<std::string>& values, const std::string& longName);
   /// A matrix as rows x columns.
-  void write(const std::string& path, const Matrix& values, const std::string& unit, const std::string& longName);
-  void write(const std::string& path, double value, const std::string& unit, const std::string& longName);
+  void write(const std::string& path, const Matrix& values, const std::string& unit,
+             const std::string& longName);
+  void write(const std::string& path, double value, const std::string& unit,
+             const std::string& longName);
 
   /// A new growing dataset, samples x rowShape. The reference lives as long as this file.
-  TimeSeries& series(const std::string& path, const Shape& rowShape, const std::string& unit, const std::string& longName);
+  TimeSeries& series(const std::string& path, const Shape& rowShape, const std::string& unit,
+                     const std::string& longName);
 
-  /// Series made from now on begin with rows of an earlier results file, so many as `rows` says for each path. FileError when they
-  /// cannot be read.
+  /// Series made from now on begin with rows of an earlier results file, so many as `rows` says for
+  /// each path. FileError when they cannot be read.
   void continueFrom(const std::string& file, const std::map<std::string, std::uint64_t>& rows);
   /// The rows that a series of this path begins with, row-major.
   std::vector<double> carried(const std::string& path) const;
@@ -129,8 +138,9 @@ class ResultsFile {
   friend class TimeSeries;
   struct DatasetRequest;
   std::int64_t createDataset(const DatasetRequest& request);
-  void writeValues(const std::string& path, std::int64_t type, const void* values, std::size_t count, const Shape& shape,
-                   const std::string& unit, const std::string& longName);
+  void writeValues(const std::string& path, std::int64_t type, const void* values,
+                   std::size_t count, const Shape& shape, const std::string& unit,
+                   const std::string& longName);
   [[noreturn]] void fail(const std::string& doing);
   void abandon() noexcept;
 

@@ -16,10 +16,13 @@ namespace {
 
 constexpr double largestDataset = 2147483648.0;  // values: 16 GB of numbers
 constexpr double smallDataset = 8388608.0;       // bytes that a dataset may always announce
-constexpr hsize_t largestTexts = 1U << 30U;      // bytes; many texts may refer to the same stored one
-constexpr double bestCompression = 1032.0;       // bytes that a byte of deflate can stand for (zlib: technical details)
+constexpr hsize_t largestTexts = 1U << 30U;  // bytes; many texts may refer to the same stored one
+constexpr double bestCompression =
+    1032.0;  // bytes that a byte of deflate can stand for (zlib: technical details)
 
-Handle openDataset(hid_t file, const std::string& path) { return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose}; }
+Handle openDataset(hid_t file, const std::string& path) {
+  return {H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose};
+}
 
 std::vector<std::size_t> extents(hid_t dataset) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -50,7 +53,8 @@ double fileSize(hid_t file) {
 }
 
 herr_t visit(hid_t /*file*/, const char* name, const H5O_info_t* info, void* data) {
-  if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
+  if (info->type == H5O_TYPE_DATASET)
+    static_cast<std::vector<std::string>*>(data)->push_back("/" + std::string(name));
   return 0;
 }
 
@@ -71,9 +75,11 @@ bool isClass(const Handle& type, H5T_class_t a, H5T_class_t b) {
 ResultsReader::ResultsReader(const std::string& path) : path_(path) {
   hdf5::silence();
   const std::string reason = whyUnreadable(path);
-  if (!reason.empty()) throw FileError("The results file " + path + " cannot be read: " + reason + ".");
+  if (!reason.empty())
+    throw FileError("The results file " + path + " cannot be read: " + reason + ".");
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file_ < 0) throw FileError("The results file " + path + " cannot be read: " + hdf5::lastReason() + ".");
+  if (file_ < 0)
+    throw FileError("The results file " + path + " cannot be read: " + hdf5::lastReason() + ".");
 }
 
 ResultsReader::~ResultsReader() {
@@ -85,15 +91,19 @@ void ResultsReader::fail(const std::string& what) const {
 }
 
 std::size_t ResultsReader::count(const std::string& path, std::int64_t dataset) const {
-  if (isElsewhere(dataset)) throw FileError("The results file " + path_ + " has the values of " + path + " in other files; they must stand in itself.");
+  if (isElsewhere(dataset))
+    throw FileError("The results file " + path_ + " has the values of " + path +
+                    " in other files; they must stand in itself.");
   const double values = product(extents(dataset));
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const double bytes = values * static_cast<double>(H5Tget_size(type.get()));
-  const double stored = std::min(static_cast<double>(H5Dget_storage_size(dataset)), fileSize(file_));
+  const double stored =
+      std::min(static_cast<double>(H5Dget_storage_size(dataset)), fileSize(file_));
   const bool small = bytes <= smallDataset;
   if (values > largestDataset || !(small || bytes <= bestCompression * stored))
-    throw FileError("The results file " + path_ + " announces " + formatNumber(values) + " values in " + path + ", for which it stores " +
-                    formatNumber(stored) + " bytes: it is damaged, or no file of this program.");
+    throw FileError("The results file " + path_ + " announces " + formatNumber(values) +
+                    " values in " + path + ", for which it stores " + formatNumber(stored) +
+                    " bytes: it is damaged, or no file of this program.");
   return static_cast<std::size_t>(values);
 }
 
@@ -117,13 +127,15 @@ std::vector<double> ResultsReader::numbers(const std::string& path) const {
   std::vector<double> values(count(path, dataset.get()));
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   if (!isClass(type, H5T_FLOAT, H5T_INTEGER) ||
-      (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+      (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                  values.data()) < 0)) {
     fail("readable numbers in " + path);
   }
   return values;
 }
 
-std::vector<double> ResultsReader::rows(const std::string& path, std::size_t first, std::size_t count) const {
+std::vector<double> ResultsReader::rows(const std::string& path, std::size_t first,
+                                        std::size_t count) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);
   const std::vector<std::size_t> whole = extents(dataset.get());
@@ -140,9 +152,11 @@ std::vector<double> ResultsReader::rows(const std::string& path, std::size_t fir
   std::vector<double> values(size);
   if (size == 0) return values;
   const Handle onDisk(H5Dget_space(dataset.get()), H5Sclose);
-  const Handle inMemory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose);
+  const Handle inMemory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                        H5Sclose);
   H5Sselect_hyperslab(onDisk.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
-  if (H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT, values.data()) < 0) {
+  if (H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, inMemory.get(), onDisk.get(), H5P_DEFAULT,
+              values.data()) < 0) {
     fail("readable numbers in " + path);
   }
   return values;
@@ -154,7 +168,8 @@ std::vector<int> ResultsReader::integers(const std::string& path) const {
   std::vector<int> values(count(path, dataset.get()));
   const Handle type(H5Dget_type(dataset.get()), H5Tclose);
   if (!isClass(type, H5T_INTEGER, H5T_INTEGER) ||
-      (!values.empty() && H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+      (!values.empty() &&
+       H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
     fail("readable integers in " + path);
   }
   return values;
@@ -168,10 +183,13 @@ std::vector<std::string> ResultsReader::texts(const std::string& path) const {
   const Handle text = hdf5::textType();
   const Handle all(H5Dget_space(dataset.get()), H5Sclose);
   hsize_t bytes = 0;
-  if (H5Tis_variable_str(type.get()) > 0 && H5Dvlen_get_buf_size(dataset.get(), type.get(), all.get(), &bytes) >= 0 && bytes > largestTexts)
+  if (H5Tis_variable_str(type.get()) > 0 &&
+      H5Dvlen_get_buf_size(dataset.get(), type.get(), all.get(), &bytes) >= 0 &&
+      bytes > largestTexts)
     fail("texts of less than 1 GB in " + path);
   if (!isClass(type, H5T_STRING, H5T_STRING) ||
-      (!raw.empty() && H5Dread(dataset.get(), text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)) {
+      (!raw.empty() &&
+       H5Dread(dataset.get(), text.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) < 0)) {
     fail("readable texts in " + path);
   }
   std::vector<std::string> values;
@@ -186,11 +204,13 @@ bool ResultsReader::hasAttribute(const std::string& object, const std::string& n
 }
 
 std::string ResultsReader::textAttribute(const std::string& object, const std::string& name) const {
-  const Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(
+      H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail("attribute " + name + " of " + object);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   char* raw = nullptr;
-  if (!isClass(type, H5T_STRING, H5T_STRING) || !isSingle(attribute) || H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {
+  if (!isClass(type, H5T_STRING, H5T_STRING) || !isSingle(attribute) ||
+      H5Aread(attribute.get(), hdf5::textType().get(), &raw) < 0) {
     fail("text in the attribute " + name + " of " + object);
   }
   std::string value = raw != nullptr ? raw : "";
@@ -199,11 +219,13 @@ std::string ResultsReader::textAttribute(const std::string& object, const std::s
 }
 
 double ResultsReader::numberAttribute(const std::string& object, const std::string& name) const {
-  const Handle attribute(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle attribute(
+      H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail("attribute " + name + " of " + object);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose);
   double value = 0.0;
-  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || !isSingle(attribute) || H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
+  if (!isClass(type, H5T_FLOAT, H5T_INTEGER) || !isSingle(attribute) ||
+      H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) < 0) {
     fail("number in the attribute " + name + " of " + object);
   }
   return value;

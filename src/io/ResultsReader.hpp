@@ -10,8 +10,8 @@
 
 namespace tooljoint::io {
 
-/// An open results file, finished or .part. Every method throws FileError naming file and dataset when something is not
-/// there or of another type.
+/// An open results file, finished or .part. Every method throws FileError naming file and dataset
+/// when something is not there or of another type.
 class ResultsReader {
  public:
   explicit ResultsReader(const std::string& path);
@@ -38,8 +38,8 @@ class ResultsReader {
   double numberAttribute(const std::string& object, const std::string& name) const;
 
  private:
-  /// Number of values of an open dataset. FileError when they stand in other files, or are more than what is stored can hold: nothing is allocated
-  /// for what a file only announces.
+  /// Number of values of an open dataset. FileError when they stand in other files, or are more
+  /// than what is stored can hold: nothing is allocated for what a file only announces.
   std::size_t count(const std::string& path, std::int64_t dataset) const;
   [[noreturn]] void fail(const std::string& what) const;
   std::string path_;

@@ -184,8 +184,8 @@ Json skeleton() {
 
 void requireFinite(const std::string& path, double value) {
   if (!std::isfinite(value)) {
-    throw Error(ExitCode::Internal,
-                "The summary key \"" + path + "\" was given " + formatNumber(value) + ", which is never written.");
+    throw Error(ExitCode::Internal, "The summary key \"" + path + "\" was given " +
+                                        formatNumber(value) + ", which is never written.");
   }
 }
 
@@ -247,7 +247,9 @@ void Summary::set(const std::string& path, double value) {
 void Summary::set(const std::string& path, long value) { data_->at(path) = value; }
 void Summary::set(const std::string& path, bool value) { data_->at(path) = value; }
 void Summary::set(const std::string& path, const std::string& value) { data_->at(path) = value; }
-void Summary::set(const std::string& path, const std::vector<std::string>& values) { data_->at(path) = values; }
+void Summary::set(const std::string& path, const std::vector<std::string>& values) {
+  data_->at(path) = values;
+}
 
 void Summary::append(const std::string& path, const SummaryRow& row) {
   const std::string prefix = path + "[].";
@@ -268,7 +270,8 @@ void Summary::append(const std::string& path, const SummaryRow& row) {
 std::vector<std::string> Summary::keys() { return documentedKeys(); }
 
 std::string Summary::text() const {
-  // texts from the outside (file names, messages) may hold bytes that are no UTF-8: replaced, never a failure
+  // texts from the outside (file names, messages) may hold bytes that are no UTF-8: replaced, never
+  // a failure
   return data_->json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -285,7 +288,8 @@ PreviousRun readPreviousRun(const std::string& path) {
   }
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object()) return run;
-  if (json.contains("status") && json["status"].is_string()) run.status = json["status"].get<std::string>();
+  if (json.contains("status") && json["status"].is_string())
+    run.status = json["status"].get<std::string>();
   if (json.contains("files") && json["files"].is_array()) {
     for (const auto& name : json["files"]) {
       if (name.is_string()) run.files.push_back(name.get<std::string>());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// summary.json: every number a script or a person asks for first. All documented keys are always there, null where a
-/// stage did not run; docs/file-formats.md lists them.
+/// summary.json: every number a script or a person asks for first. All documented keys are always
+/// there, null where a stage did not run; docs/file-formats.md lists them.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,8 @@ namespace tooljoint::io {
 /// Version of the layout of summary.json.
 constexpr int summaryFormatVersion = 1;
 
-/// One entry of an array of the summary ("reduction.substructures", "study"): keys in the order they are set.
+/// One entry of an array of the summary ("reduction.substructures", "study"): keys in the order
+/// they are set.
 class SummaryRow {
  public:
   SummaryRow();
@@ -27,7 +28,9 @@ class SummaryRow {
   SummaryRow& set(const std::string& key, int value) { return set(key, static_cast<long>(value)); }
   SummaryRow& set(const std::string& key, bool value);
   SummaryRow& set(const std::string& key, const std::string& value);
-  SummaryRow& set(const std::string& key, const char* value) { return set(key, std::string(value)); }
+  SummaryRow& set(const std::string& key, const char* value) {
+    return set(key, std::string(value));
+  }
   SummaryRow& setNull(const std::string& key);
 
  private:
@@ -44,8 +47,9 @@ class Summary {
   Summary(const Summary&) = delete;
   Summary& operator=(const Summary&) = delete;
 
-  /// Set one number or text; `path` is the keys joined by dots ("static.contact_nodes"). Error(Internal) for a key that is not
-  /// documented (so that the list of keys is stable) and for a number that is not finite.
+  /// Set one number or text; `path` is the keys joined by dots ("static.contact_nodes").
+  /// Error(Internal) for a key that is not documented (so that the list of keys is stable) and for
+  /// a number that is not finite.
   void set(const std::string& path, double value);
   void set(const std::string& path, long value);
   void set(const std::string& path, int value) { set(path, static_cast<long>(value)); }
@@ -54,7 +58,8 @@ class Summary {
   void set(const std::string& path, const char* value) { set(path, std::string(value)); }
   void set(const std::string& path, const std::vector<std::string>& values);
 
-  /// Add a row to an array. Its keys must be those documented for the array, missing ones become null.
+  /// Add a row to an array. Its keys must be those documented for the array, missing ones become
+  /// null.
   void append(const std::string& path, const SummaryRow& row);
 
   /// All documented keys in dotted form; array rows as "reduction.substructures[].name".
@@ -72,7 +77,8 @@ class Summary {
   std::unique_ptr<Data> data_;
 };
 
-/// What an existing summary.json says of its run: `status` ("" when there is no readable file) and its `files`.
+/// What an existing summary.json says of its run: `status` ("" when there is no readable file) and
+/// its `files`.
 struct PreviousRun {
   std::string status;
   std::vector<std::string> files;

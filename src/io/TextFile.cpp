@@ -46,7 +46,8 @@ void publishStaged(const std::string& path) {
   if (parallel::rank() != 0) return;
   const std::string part = path + ".part";
   if (std::rename(part.c_str(), path.c_str()) != 0) {
-    throw FileError("The file " + part + " cannot be renamed to " + path + ": " + std::strerror(errno) + ".");
+    throw FileError("The file " + part + " cannot be renamed to " + path + ": " +
+                    std::strerror(errno) + ".");
   }
 }
 
@@ -55,8 +56,6 @@ void writeText(const std::string& path, const std::string& text) {
   publishStaged(path);
 }
 
-std::string readText(const std::string& path) {
-  return readInput(path, largestText);
-}
+std::string readText(const std::string& path) { return readInput(path, largestText); }
 
 }  // namespace tooljoint::io

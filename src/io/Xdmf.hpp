@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Pictures for ParaView: a chain of nodes moving inside its channel, in the global frame. The numbers stand in the group
-/// /xdmf of results.h5, results.xdmf tells a reader where.
+/// Pictures for ParaView: a chain of nodes moving inside its channel, in the global frame. The
+/// numbers stand in the group /xdmf of results.h5, results.xdmf tells a reader where.
 #pragma once
 
 #include <string>
@@ -30,8 +30,9 @@ struct XdmfFrame {
   double rotarySpeed = 0.0;              ///< speed of the frame theta_z is measured in [rad/s]
 };
 
-/// Collects pictures at intervals of at least `interval` into an open results file. Vectors are rotated into the global
-/// frame: displacement (nodes x 3), speed = length of the translational velocity, spin = rotarySpeed + dtheta_z/dt.
+/// Collects pictures at intervals of at least `interval` into an open results file. Vectors are
+/// rotated into the global frame: displacement (nodes x 3), speed = length of the translational
+/// velocity, spin = rotarySpeed + dtheta_z/dt.
 class XdmfRecorder {
  public:
   /// Error(Internal) for sizes that do not match.
@@ -44,8 +45,8 @@ class XdmfRecorder {
 
   std::size_t pictures() const { return times_.size(); }
 
-  /// Append / take back the times of the pictures, for a results file whose series continue those of another; `frame` has the fields of a
-  /// picture, no numbers.
+  /// Append / take back the times of the pictures, for a results file whose series continue those
+  /// of another; `frame` has the fields of a picture, no numbers.
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory, const XdmfFrame& frame);
 

@@ -18,10 +18,15 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t word = 64;  // bits
 
-void set(std::vector<std::uint64_t>& bits, std::size_t i) { bits[i / word] |= std::uint64_t{1} << (i % word); }
-void clear(std::vector<std::uint64_t>& bits, std::size_t i) { bits[i / word] &= ~(std::uint64_t{1} << (i % word)); }
+void set(std::vector<std::uint64_t>& bits, std::size_t i) {
+  bits[i / word] |= std::uint64_t{1} << (i % word);
+}
+void clear(std::vector<std::uint64_t>& bits, std::size_t i) {
+  bits[i / word] &= ~(std::uint64_t{1} << (i % word));
+}
 
-/// act(i) for each bit i that is set, upwards or downwards; those that act() sets further on are met too.
+/// act(i) for each bit i that is set, upwards or downwards; those that act() sets further on are
+/// met too.
 template <class Act>
 TOOLJOINT_INLINED void upwards(const std::vector<std::uint64_t>& bits, const Act& act) {
   for (std::size_t w = 0; w < bits.size(); ++w)
@@ -43,9 +48,11 @@ TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const A
 
 }  // namespace
 
-/// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one that waited longest, which makes
-/// a chain shrink from both ends in turn and so gives the processor two independent sweeps.
-void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const {
+/// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one
+/// that waited longest, which makes a chain shrink from both ends in turn and so gives the
+/// processor two independent sweeps.
+void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
+                        std::vector<std::vector<int>>& later) const {
   const int n = pattern.blocks();
   std::vector<std::set<int>> graph(z(n));
   for (int b = 0; b < n; ++b)
@@ -54,7 +61,8 @@ void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
   const auto work = [&](int b) {
     double neighbours = 0;
     for (int c : graph[z(b)]) neighbours += pattern.width(c);
-    return static_cast<long>(graph[z(b)].size() < 2 ? 0 : pattern.width(b) * neighbours * neighbours);
+    return static_cast<long>(graph[z(b)].size() < 2 ? 0
+                                                    : pattern.width(b) * neighbours * neighbours);
   };
   std::set<std::tuple<long, int, int>> queue;  // work, waiting since, block
   std::vector<std::tuple<long, int, int>> key(z(n));
@@ -108,7 +116,9 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     pivot.couplingEnd = static_cast<int>(couplings_.size());
     for (int a = pivot.couplingBegin; a < pivot.couplingEnd; ++a)
       for (int b = pivot.couplingBegin; b < pivot.couplingEnd; ++b)
-        updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)], later[z(k)][z(b - pivot.couplingBegin)]), a, b});
+        updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)],
+                                  later[z(k)][z(b - pivot.couplingBegin)]),
+                            a, b});
     elimination.updateEnd = static_cast<int>(updates_.size());
     pivots_.push_back(pivot);
     eliminations_.push_back(elimination);
@@ -129,16 +139,21 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
 void BlockFactor::pack() {
   std::size_t down = 0, up = 0;
   const auto take = [](std::size_t& next, int rows, int columns) {
-    if (next > std::numeric_limits<Offset>::max()) throw ModelError("The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes or fewer kept nodes.");
+    if (next > std::numeric_limits<Offset>::max())
+      throw ModelError(
+          "The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes "
+          "or fewer kept nodes.");
     const auto here = static_cast<Offset>(next);
     next += (z(rows) * z(columns) + 3) / 4 * 4;
     return here;
   };
   for (const Pivot& p : pivots_)
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) couplings_[z(c)].down = take(down, couplings_[z(c)].width, p.width);
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+      couplings_[z(c)].down = take(down, couplings_[z(c)].width, p.width);
   for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
     p->up = take(up, p->width, p->width);
-    for (int c = p->couplingBegin; c < p->couplingEnd; ++c) couplings_[z(c)].up = take(up, p->width, couplings_[z(c)].width);
+    for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
+      couplings_[z(c)].up = take(up, p->width, couplings_[z(c)].width);
   }
   down_.assign(down, 0.0);
   up_.assign(up, 0.0);
@@ -146,7 +161,8 @@ void BlockFactor::pack() {
 
 void BlockFactor::findEarlier() {
   pivotOf_.resize(pivots_.size());
-  for (std::size_t k = 0; k < pivots_.size(); ++k) pivotOf_[z(pivots_[k].block)] = static_cast<int>(k);
+  for (std::size_t k = 0; k < pivots_.size(); ++k)
+    pivotOf_[z(pivots_[k].block)] = static_cast<int>(k);
   std::vector<std::vector<int>> earlier(pivots_.size());
   for (std::size_t k = 0; k < pivots_.size(); ++k)
     for (int c = pivots_[k].couplingBegin; c < pivots_[k].couplingEnd; ++c)
@@ -177,7 +193,8 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
   for (std::size_t k = 0; k < pivots_.size(); ++k) {
     const Pivot& p = pivots_[k];
     double* D = values + eliminations_[k].diagonal;
-    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(), &swaps_[z(p.start)], panel_.data());
+    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(),
+                                        &swaps_[z(p.start)], panel_.data());
     if (bad >= 0) return p.start + bad;
     eliminate(k);
   }
@@ -205,7 +222,8 @@ TOOLJOINT_CLONES void BlockFactor::eliminate(std::size_t k) {
     const Update& update = updates_[z(u)];
     const Coupling& i = couplings_[z(update.i)];
     const Coupling& j = couplings_[z(update.j)];
-    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[z(update.i)].lower, up_.data() + j.up, values + update.target);
+    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[z(update.i)].lower,
+                             up_.data() + j.up, values + update.target);
   }
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
     const Coupling& at = couplings_[z(c)];
@@ -240,7 +258,8 @@ TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
     kernel::addPairs(6, up_.data() + p.up, target, even, odd);
     for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
       if (far_) kernel::fetchAhead(up_.data() + couplings[c].up, 6 * couplings[c].width);
-      kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start, even, odd);
+      kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start,
+                           even, odd);
     }
     even.a += odd.a, even.b += odd.b;
     even.to(target);
@@ -252,7 +271,8 @@ TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
     kernel::multiplyAdd(p.width, p.width, up_.data() + p.up, copy, target);
   }
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-    kernel::multiplySubtract(p.width, couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start, target);
+    kernel::multiplySubtract(p.width, couplings[c].width, up_.data() + couplings[c].up,
+                             x + couplings[c].start, target);
 }
 
 TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
@@ -260,10 +280,12 @@ TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
   for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) sweepUp(*p, x);
 }
 
-TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live, const double* weight, double small) const {
+TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
+                                             const double* weight, double small) const {
   const auto isSmall = [&](const Pivot& p, bool weighted) __attribute__((always_inline)) {
     double size = 0;
-    for (int i = p.start; i < p.start + p.width; ++i) size = std::max(size, std::abs(x[i]) * (weighted ? weight[i] : 1.0));
+    for (int i = p.start; i < p.start + p.width; ++i)
+      size = std::max(size, std::abs(x[i]) * (weighted ? weight[i] : 1.0));
     return size <= small;
   };
   const auto drop = [&](std::size_t k) {
@@ -271,19 +293,23 @@ TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live, 
     clear(reached_, k);
   };
   for (int block : live) set(reached_, z(pivotOf_[z(block)]));
-  upwards(reached_, [&](std::size_t k) __attribute__((always_inline)) {
-    const Pivot& p = pivots_[k];
-    if (isSmall(p, true)) return drop(k);
-    sweepDown(p, x);
-    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) set(reached_, z(pivotOf_[z(couplings_[z(c)].block)]));
-  });
+  upwards(
+      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+        const Pivot& p = pivots_[k];
+        if (isSmall(p, true)) return drop(k);
+        sweepDown(p, x);
+        for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+          set(reached_, z(pivotOf_[z(couplings_[z(c)].block)]));
+      });
   live.clear();
-  downwards(reached_, [&](std::size_t k) __attribute__((always_inline)) {
-    sweepUp(pivots_[k], x);
-    if (isSmall(pivots_[k], false)) return drop(k);
-    live.push_back(pivots_[k].block);
-    for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e) set(reached_, z(earlier_[z(e)]));
-  });
+  downwards(
+      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+        sweepUp(pivots_[k], x);
+        if (isSmall(pivots_[k], false)) return drop(k);
+        live.push_back(pivots_[k].block);
+        for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e)
+          set(reached_, z(earlier_[z(e)]));
+      });
   std::fill(reached_.begin(), reached_.end(), 0);
 }
 
@@ -322,7 +348,8 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
     kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[z(p.start)], diagonal);
   }
   const int count = p.couplingEnd - p.couplingBegin;
-  const Update* updates = updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
+  const Update* updates =
+      updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
   for (int a = 0; a < count; ++a) {
     const std::size_t c = z(p.couplingBegin + a);
     const int size = couplings_[c].width * w;
@@ -341,14 +368,17 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
     for (int a = 0; a < count; ++a) {
       const Coupling& to = couplings_[z(p.couplingBegin + a)];
       const double* Zab = Z + updates[a * count + b].target;
-      kernel::multiplySubtract(to.width, from.width, w, Zab, L, Z + places_[z(p.couplingBegin + a)].lower);
-      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab, Z + places_[z(p.couplingBegin + b)].upper);
+      kernel::multiplySubtract(to.width, from.width, w, Zab, L,
+                               Z + places_[z(p.couplingBegin + a)].lower);
+      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab,
+                               Z + places_[z(p.couplingBegin + b)].upper);
     }
   }
   // Z_kk = D_k^-1 - sum_b W_kb Z_bk
   for (int b = 0; b < count; ++b) {
     const Coupling& at = couplings_[z(p.couplingBegin + b)];
-    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up, Z + places_[z(p.couplingBegin + b)].lower, diagonal);
+    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up,
+                             Z + places_[z(p.couplingBegin + b)].lower, diagonal);
   }
 }
 

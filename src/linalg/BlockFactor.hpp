@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// LU of a block-sparse matrix with partial pivoting inside diagonal blocks. Order and fill are found once; factor() and solve()
-/// allocate nothing. The elimination order takes blocks of least work first, so a chain becomes a block-tridiagonal sweep from
-/// both ends, modes that hang between two nodes are eliminated before the sweep, a loop or a star costs its own small fill,
-/// and any other graph still factors correctly.
+/// LU of a block-sparse matrix with partial pivoting inside diagonal blocks. Order and fill are
+/// found once; factor() and solve() allocate nothing. The elimination order takes blocks of least
+/// work first, so a chain becomes a block-tridiagonal sweep from both ends, modes that hang between
+/// two nodes are eliminated before the sweep, a loop or a star costs its own small fill, and any
+/// other graph still factors correctly.
 #pragma once
 
 #include <cstdint>
@@ -24,20 +25,22 @@ class BlockFactor {
   /// Values to fill before factor(), laid out as in the pattern (BlockPattern::storage() doubles).
   double* values() { return values_.data(); }
 
-  /// Factor what stands in values() (destroyed). Returns -1, or the position of the dof whose pivot vanished (nothing usable is
-  /// left then).
+  /// Factor what stands in values() (destroyed). Returns -1, or the position of the dof whose pivot
+  /// vanished (nothing usable is left then).
   int factor();
 
   /// x := A^-1 x, in positions.
   void solve(double* x) const;
 
-  /// The same for an x that is zero outside the blocks `live` (any order, repeated or not). What falls below `small` in units of
-  /// `weight` (forces on the way down, displacements on the way up) is dropped, so that the cost is that of the blocks a local force
-  /// reaches; `live` then holds those where x is not zero, each once. In a stiff chain that is a few neighbours.
+  /// The same for an x that is zero outside the blocks `live` (any order, repeated or not). What
+  /// falls below `small` in units of `weight` (forces on the way down, displacements on the way up)
+  /// is dropped, so that the cost is that of the blocks a local force reaches; `live` then holds
+  /// those where x is not zero, each once. In a stiff chain that is a few neighbours.
   void solveNear(double* x, std::vector<int>& live, const double* weight, double small) const;
 
-  /// Blocks of A^-1 on the pattern, for what `wanted` asks of the diagonal blocks (and everything that takes): the recursion of
-  /// Takahashi, Fagan and Chen (1973), which never leaves the fill. After factor(); costs about as much.
+  /// Blocks of A^-1 on the pattern, for what `wanted` asks of the diagonal blocks (and everything
+  /// that takes): the recursion of Takahashi, Fagan and Chen (1973), which never leaves the fill.
+  /// After factor(); costs about as much.
   ///
   ///     Z_Lk = -Z_LL A_Lk D_k^-1,   Z_kL = -W_kL Z_LL,   Z_kk = D_k^-1 - W_kL Z_Lk
   void invert(const std::vector<char>& wanted);
@@ -52,7 +55,8 @@ class BlockFactor {
   std::size_t fill() const { return values_.size() - patternStorage_; }
 
  private:
-  // What solve() reads is kept apart from what only factor() and invert() do, and short: beside blocks of six it is a tenth of all.
+  // What solve() reads is kept apart from what only factor() and invert() do, and short: beside
+  // blocks of six it is a tenth of all.
   using Offset = std::uint32_t;  ///< in down_ or up_, doubles
   struct Coupling {
     int block;
@@ -91,19 +95,22 @@ class BlockFactor {
   void sweepUp(const Pivot& pivot, double* x) const;
   void invertPivot(std::size_t k);
   void findEarlier();
-  void order(const BlockPattern& pattern, std::vector<int>& sequence, std::vector<std::vector<int>>& later) const;
+  void order(const BlockPattern& pattern, std::vector<int>& sequence,
+             std::vector<std::vector<int>>& later) const;
 
   std::vector<Pivot> pivots_;
   std::vector<Coupling> couplings_;
   std::vector<Elimination> eliminations_;  ///< of pivots_
   std::vector<Place> places_;              ///< of couplings_
   std::vector<Update> updates_;
-  std::vector<int> pivotOf_;                     ///< of each block
-  std::vector<int> earlierBegin_, earlier_;      ///< per pivot: those before it that couple to its block
-  mutable std::vector<std::uint64_t> reached_;  ///< solveNear(): one bit per pivot, none between calls
+  std::vector<int> pivotOf_;  ///< of each block
+  std::vector<int> earlierBegin_,
+      earlier_;  ///< per pivot: those before it that couple to its block
+  mutable std::vector<std::uint64_t>
+      reached_;  ///< solveNear(): one bit per pivot, none between calls
   BlockValues values_;
   BlockValues down_, up_;       ///< what the two sweeps of a solve read, in the order they read it
-  BlockValues inverse_;        ///< allocated by the first invert()
+  BlockValues inverse_;         ///< allocated by the first invert()
   std::vector<char> inverted_;  ///< per pivot: taken along by invert()
   std::vector<double> scale_;
   std::vector<double> workScale_;

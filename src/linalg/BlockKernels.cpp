@@ -57,7 +57,8 @@ int factorLarge(int n, double* a, const double* scale, double* workScale, int* p
       }
     const Eigen::OuterStride<> stride(n);
     Strided(&at(a, n, end, end), rest, rest, stride).noalias() -=
-        Strided(&at(a, n, end, begin), rest, end - begin, stride) * Strided(&at(a, n, begin, end), end - begin, rest, stride);
+        Strided(&at(a, n, end, begin), rest, end - begin, stride) *
+        Strided(&at(a, n, begin, end), end - begin, rest, stride);
   }
   return -1;
 }
@@ -74,7 +75,8 @@ void solveLarge(int n, int columns, const double* lu, const int* pivots, double*
   }
 }
 
-int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel) {
+int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots,
+                double* panel) {
   const int bad = factorLarge(n, a, scale, workScale, pivots);
   if (bad >= 0) return bad;
   std::fill(panel, panel + n * n, 0.0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The few dense operations block solvers are made of, on raw column-major storage. Blocks of 6 x 6 (one node of a spatial
-/// beam) are unrolled; blocks up to 64 keep an explicit inverse, larger ones a pivoted LU. Nothing here allocates for blocks
-/// below about 600 rows.
+/// The few dense operations block solvers are made of, on raw column-major storage. Blocks of 6 x 6
+/// (one node of a spatial beam) are unrolled; blocks up to 64 keep an explicit inverse, larger ones
+/// a pivoted LU. Nothing here allocates for blocks below about 600 rows.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,10 @@ namespace tooljoint::linalg::kernel {
 /// Blocks up to this size are inverted explicitly: a product is faster than two triangular solves.
 constexpr int largestInverse = 64;
 
-// Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one with AVX2 and FMA, and the
-// loader chooses. The two differ in the last bit.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// Functions that spend their time in these kernels are compiled twice, for any x86-64 and for one
+// with AVX2 and FMA, and the loader chooses. The two differ in the last bit.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define TOOLJOINT_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
 #else
 #define TOOLJOINT_CLONES
@@ -36,7 +37,8 @@ using Quad = double __attribute__((vector_size(32), aligned(8), may_alias));
 struct Six {
   Quad a;
   Pair b;
-  explicit Six(const double* x) : a(*reinterpret_cast<const Quad*>(x)), b(*reinterpret_cast<const Pair*>(x + 4)) {}
+  explicit Six(const double* x)
+      : a(*reinterpret_cast<const Quad*>(x)), b(*reinterpret_cast<const Pair*>(x + 4)) {}
   Six() : a{0, 0, 0, 0}, b{0, 0} {}
   void to(double* x) const { *reinterpret_cast<Quad*>(x) = a, *reinterpret_cast<Pair*>(x + 4) = b; }
   /// y += factor this.
@@ -71,7 +73,8 @@ struct Six {
 
 /// even + odd += sign A x, A of six rows: two sums in the time of one.
 template <int sign = 1>
-TOOLJOINT_INLINED void addPairs(int columns, const double* A, const double* x, Six& even, Six& odd) {
+TOOLJOINT_INLINED void addPairs(int columns, const double* A, const double* x, Six& even,
+                                Six& odd) {
   int j = 0;
   for (; j + 2 <= columns; j += 2) {
     even.addColumn(A + 6 * j, sign * x[j]);
@@ -93,16 +96,21 @@ TOOLJOINT_INLINED void addSixTransposed(const double* A, const double* x, Six& y
   for (int j = 4; j < 6; ++j) y.b[j - 4] += (p[j][0] + p[j][1]) + (p[j][2] + p[j][3]);
 #else
   using Order = long long __attribute__((vector_size(32)));
-  for (int j = 0; j < 6; j += 2) p[j] = __builtin_shuffle(p[j], p[j + 1], Order{0, 4, 2, 6}) + __builtin_shuffle(p[j], p[j + 1], Order{1, 5, 3, 7});
-  y.a += __builtin_shuffle(p[0], p[2], Order{0, 1, 4, 5}) + __builtin_shuffle(p[0], p[2], Order{2, 3, 6, 7});
+  for (int j = 0; j < 6; j += 2)
+    p[j] = __builtin_shuffle(p[j], p[j + 1], Order{0, 4, 2, 6}) +
+           __builtin_shuffle(p[j], p[j + 1], Order{1, 5, 3, 7});
+  y.a += __builtin_shuffle(p[0], p[2], Order{0, 1, 4, 5}) +
+         __builtin_shuffle(p[0], p[2], Order{2, 3, 6, 7});
   y.b += Pair{p[4][0], p[4][1]} + Pair{p[4][2], p[4][3]};
 #endif
 }
 
-/// Matrices of more doubles than this (4 MB) are asked for ahead: shorter ones stay in caches that are fast enough, and asking costs time.
+/// Matrices of more doubles than this (4 MB) are asked for ahead: shorter ones stay in caches that
+/// are fast enough, and asking costs time.
 constexpr std::size_t nearCache = std::size_t{1} << 19;
 
-/// Ask for what a sweep over a long array reads some blocks (8 kB) after `A`; beyond its end that does nothing.
+/// Ask for what a sweep over a long array reads some blocks (8 kB) after `A`; beyond its end that
+/// does nothing.
 TOOLJOINT_INLINED void fetchAhead(const double* A, int count) {
 #if defined(__GNUC__)
   constexpr int ahead = 1024, line = 8;  // doubles
@@ -119,7 +127,8 @@ using MutableSegment = Eigen::Map<Eigen::VectorXd>;
 
 /// y += sign A x by four columns at a time.
 template <int sign>
-TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
+TOOLJOINT_INLINED void addColumns(int rows, int columns, const double* __restrict A,
+                                  const double* __restrict x, double* __restrict y) {
   int j = 0;
   for (; j + 4 <= columns; j += 4) {
     const double a = sign * x[j], b = sign * x[j + 1], c = sign * x[j + 2], d = sign * x[j + 3];
@@ -141,12 +150,14 @@ TOOLJOINT_INLINED void addFewRows(int columns, const double* A, const double* x,
   constexpr int quads = rows / 4, rest = rows % 4;
   Quad even[quads + 1], odd[quads + 1];
   double last[2][3] = {};
-  for (int k = 0; k < quads; ++k) even[k] = *reinterpret_cast<const Quad*>(y + 4 * k), odd[k] = Quad{0, 0, 0, 0};
+  for (int k = 0; k < quads; ++k)
+    even[k] = *reinterpret_cast<const Quad*>(y + 4 * k), odd[k] = Quad{0, 0, 0, 0};
   for (int i = 0; i < rest; ++i) last[0][i] = y[4 * quads + i];
-  const auto add = [&](Quad* sum, double* tail, int j) __attribute__((always_inline)) {
+  const auto add = [&](Quad * sum, double* tail, int j) __attribute__((always_inline)) {
     const double factor = sign * x[j];
     const double* column = A + rows * j;
-    for (int k = 0; k < quads; ++k) sum[k] += *reinterpret_cast<const Quad*>(column + 4 * k) * factor;
+    for (int k = 0; k < quads; ++k)
+      sum[k] += *reinterpret_cast<const Quad*>(column + 4 * k) * factor;
     for (int i = 0; i < rest; ++i) tail[i] += column[4 * quads + i] * factor;
   };
   int j = 0;
@@ -165,9 +176,11 @@ TOOLJOINT_INLINED void addSixRows(int columns, const double* A, const double* x,
   even.to(y);
 }
 
-/// y += sign A x; y and x do not overlap. Nodes have six dofs, and modes of a straight run come in pairs, one for each plane of bending.
+/// y += sign A x; y and x do not overlap. Nodes have six dofs, and modes of a straight run come in
+/// pairs, one for each plane of bending.
 template <int sign>
-TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const double* x, double* y) {
+TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const double* x,
+                                  double* y) {
   switch (rows) {
     case 2:
       return addFewRows<2, sign>(columns, A, x, y);
@@ -191,10 +204,14 @@ TOOLJOINT_INLINED void addProduct(int rows, int columns, const double* A, const 
 }
 
 /// y += A x; y and x do not overlap.
-TOOLJOINT_INLINED void multiplyAdd(int rows, int columns, const double* A, const double* x, double* y) { addProduct<1>(rows, columns, A, x, y); }
+TOOLJOINT_INLINED void multiplyAdd(int rows, int columns, const double* A, const double* x,
+                                   double* y) {
+  addProduct<1>(rows, columns, A, x, y);
+}
 
 /// y += A' x, A rows x columns; y and x do not overlap.
-TOOLJOINT_INLINED void multiplyTransposedAdd(int rows, int columns, const double* __restrict A, const double* __restrict x, double* __restrict y) {
+TOOLJOINT_INLINED void multiplyTransposedAdd(int rows, int columns, const double* __restrict A,
+                                             const double* __restrict x, double* __restrict y) {
   for (int j = 0; j < columns; ++j) {
     double sum = 0;
     for (int i = 0; i < rows; ++i) sum += A[j * rows + i] * x[i];
@@ -203,10 +220,14 @@ TOOLJOINT_INLINED void multiplyTransposedAdd(int rows, int columns, const double
 }
 
 /// y -= A x; y and x do not overlap.
-TOOLJOINT_INLINED void multiplySubtract(int rows, int columns, const double* A, const double* x, double* y) { addProduct<-1>(rows, columns, A, x, y); }
+TOOLJOINT_INLINED void multiplySubtract(int rows, int columns, const double* A, const double* x,
+                                        double* y) {
+  addProduct<-1>(rows, columns, A, x, y);
+}
 
 /// C -= A B with A rows x inner, B inner x columns.
-TOOLJOINT_INLINED void multiplySubtract(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+TOOLJOINT_INLINED void multiplySubtract(int rows, int inner, int columns, const double* A,
+                                        const double* B, double* C) {
   if (rows == 6 && inner == 6) {
     for (int j = 0; j < columns; ++j) {
       Six s(C + 6 * j);
@@ -222,31 +243,37 @@ TOOLJOINT_INLINED void multiplySubtract(int rows, int inner, int columns, const 
       const int n = inner - k < slice ? inner - k : slice;
       MutableBlock(C, rows, columns).noalias() -=
           ConstBlock(A + static_cast<std::ptrdiff_t>(k) * rows, rows, n) *
-          Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(B + k, n, columns, Eigen::OuterStride<>(inner));
+          Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(B + k, n, columns,
+                                                                     Eigen::OuterStride<>(inner));
     }
   }
 }
 
 /// C += A B with A rows x inner, B inner x columns.
-TOOLJOINT_INLINED void multiplyAddTo(int rows, int inner, int columns, const double* A, const double* B, double* C) {
+TOOLJOINT_INLINED void multiplyAddTo(int rows, int inner, int columns, const double* A,
+                                     const double* B, double* C) {
   if (rows <= 64 && inner <= 64) {
     for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
   } else {
-    MutableBlock(C, rows, columns).noalias() += ConstBlock(A, rows, inner) * ConstBlock(B, inner, columns);
+    MutableBlock(C, rows, columns).noalias() +=
+        ConstBlock(A, rows, inner) * ConstBlock(B, inner, columns);
   }
 }
 
 /// C = A B, both small enough for an explicit inverse.
-TOOLJOINT_INLINED void multiplySmall(int rows, int inner, int columns, const double* A, const double* B, double* C) {
-  std::memset(C, 0, sizeof(double) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+TOOLJOINT_INLINED void multiplySmall(int rows, int inner, int columns, const double* A,
+                                     const double* B, double* C) {
+  std::memset(C, 0,
+              sizeof(double) * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   for (int j = 0; j < columns; ++j) multiplyAdd(rows, inner, A, B + j * inner, C + j * rows);
 }
 
 /// Pivots smaller than this times the scale of their row count as zero.
 constexpr double smallestPivot = 1e-14;
 
-/// Replace the N x N block a by its inverse: Gauss-Jordan with pivoting on scaled rows. scale[i] > 0 is the size of row and
-/// column i before elimination. Returns -1, or the position of the first unusable pivot.
+/// Replace the N x N block a by its inverse: Gauss-Jordan with pivoting on scaled rows. scale[i] >
+/// 0 is the size of row and column i before elimination. Returns -1, or the position of the first
+/// unusable pivot.
 template <int N>
 int invert(double* a, const double* scale) {
   int swapped[N];
@@ -281,18 +308,21 @@ int invert(double* a, const double* scale) {
   return -1;
 }
 
-/// PA = LU in place, unblocked within panels of 24 columns. pivots has n entries. Returns as invert().
+/// PA = LU in place, unblocked within panels of 24 columns. pivots has n entries. Returns as
+/// invert().
 int factorLarge(int n, double* a, const double* scale, double* workScale, int* pivots);
 /// B := A^-1 B with the factors of factorLarge; B is n x columns.
 void solveLarge(int n, int columns, const double* lu, const int* pivots, double* B);
 
 /// Replace a by its inverse through its LU.
-int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel);
+int invertLarge(int n, double* a, const double* scale, double* workScale, int* pivots,
+                double* panel);
 
-/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), by Gauss and Jordan at once where widths
-/// are common (nodes, modes in pairs), LU above. Returns -1 or the
-/// position of the bad pivot.
-inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots, double* panel) {
+/// Factor a diagonal block: explicit inverse up to largestInverse (panel has room for n x n), by
+/// Gauss and Jordan at once where widths are common (nodes, modes in pairs), LU above. Returns -1
+/// or the position of the bad pivot.
+inline int factorBlock(int n, double* a, const double* scale, double* workScale, int* pivots,
+                       double* panel) {
   switch (n) {
     case 1:
       return invert<1>(a, scale);
@@ -319,7 +349,8 @@ inline int factorBlock(int n, double* a, const double* scale, double* workScale,
     case 16:
       return invert<16>(a, scale);
     default:
-      return n <= largestInverse ? invertLarge(n, a, scale, workScale, pivots, panel) : factorLarge(n, a, scale, workScale, pivots);
+      return n <= largestInverse ? invertLarge(n, a, scale, workScale, pivots, panel)
+                                 : factorLarge(n, a, scale, workScale, pivots);
   }
 }
 

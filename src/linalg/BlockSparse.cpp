@@ -36,11 +36,13 @@ class Families {
 /// Number per dof of the block it belongs to, in order of first appearance.
 int number(const std::vector<std::pair<int, int>>& key, std::vector<int>& block) {
   std::map<std::pair<int, int>, int> seen;
-  for (std::size_t i = 0; i < key.size(); ++i) block[i] = seen.emplace(key[i], static_cast<int>(seen.size())).first->second;
+  for (std::size_t i = 0; i < key.size(); ++i)
+    block[i] = seen.emplace(key[i], static_cast<int>(seen.size())).first->second;
   return static_cast<int>(seen.size());
 }
 
-std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices, const std::vector<int>& block, int blocks) {
+std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices,
+                                      const std::vector<int>& block, int blocks) {
   std::vector<std::set<int>> graph(z(blocks));
   for (int b = 0; b < blocks; ++b) graph[z(b)].insert(b);
   for (const Sparse* matrix : matrices)
@@ -58,8 +60,8 @@ std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices
 
 }  // namespace
 
-BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group,
-                             const std::vector<int>& kind) {
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
+                             const std::vector<int>& group, const std::vector<int>& kind) {
   const int n = static_cast<int>(group.size());
   Families families(n);
   for (const Sparse* matrix : matrices)
@@ -80,7 +82,8 @@ BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const s
   std::vector<int> leader(z(groups));
   for (int b = 0; b < groups; ++b) {
     std::vector<int> neighbours(graph[z(b)].begin(), graph[z(b)].end());
-    leader[z(b)] = first.emplace(std::make_pair(kindOf[z(b)], std::move(neighbours)), b).first->second;
+    leader[z(b)] =
+        first.emplace(std::make_pair(kindOf[z(b)], std::move(neighbours)), b).first->second;
   }
   for (int i = 0; i < n; ++i) key[z(i)] = {leader[z(block[z(i)])], 0};
   const int blocks = number(key, block);
@@ -135,27 +138,35 @@ int BlockPattern::find(int row, int column) const {
 std::size_t BlockPattern::address(int rowPosition, int columnPosition) const {
   const int row = blockOf(rowPosition);
   const int col = blockOf(columnPosition);
-  return offset(find(row, col)) + z(columnPosition - start(col)) * z(width(row)) + z(rowPosition - start(row));
+  return offset(find(row, col)) + z(columnPosition - start(col)) * z(width(row)) +
+         z(rowPosition - start(row));
 }
 
 void BlockPattern::add(const Sparse& matrix, double factor, BlockValues& values) const {
   for (int i = 0; i < matrix.outerSize(); ++i)
     for (Sparse::InnerIterator it(matrix, i); it; ++it)
       if (it.value() != 0.0)
-        values[address(partition_.position[z(i)], partition_.position[z(static_cast<int>(it.col()))])] += factor * it.value();
+        values[address(partition_.position[z(i)],
+                       partition_.position[z(static_cast<int>(it.col()))])] += factor * it.value();
 }
 
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
   std::vector<BlockRange> runs;
   for (int b = 0; b < pattern.blocks(); ++b) {
-    if (runs.empty() || pattern.start(b + 1) - pattern.start(runs.back().begin) > positions) runs.push_back({b, b});
+    if (runs.empty() || pattern.start(b + 1) - pattern.start(runs.back().begin) > positions)
+      runs.push_back({b, b});
     runs.back().end = b + 1;
   }
   return runs;
 }
 
-BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, const BlockProduct* like) {
-  if (pattern.storage() > std::numeric_limits<std::uint32_t>::max()) throw ModelError("A matrix of the model would take more than 32 GB. Take a coarser mesh, fewer modes or fewer kept nodes.");
+BlockProduct::BlockProduct(const BlockPattern& pattern,
+                           const std::vector<const BlockValues*>& samples,
+                           const BlockProduct* like) {
+  if (pattern.storage() > std::numeric_limits<std::uint32_t>::max())
+    throw ModelError(
+        "A matrix of the model would take more than 32 GB. Take a coarser mesh, fewer modes or "
+        "fewer kept nodes.");
   far_ = pattern.storage() > kernel::nearCache;
   findSymmetry(pattern, samples);
   int widest = 0;
@@ -175,7 +186,8 @@ BlockProduct::BlockProduct(const BlockPattern& pattern, const std::vector<const 
 }
 
 /// The entries of a block row that are not zero in all samples.
-BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, int block,
+BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern,
+                                        const std::vector<const BlockValues*>& samples, int block,
                                         std::vector<Entry>& entries) const {
   const auto offset = [&pattern](int e) { return static_cast<std::uint32_t>(pattern.offset(e)); };
   const int rows = pattern.width(block);
@@ -193,7 +205,8 @@ BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern, const std::
             offDiagonal = offDiagonal || i != j;
           }
     if (!any) continue;
-    Entry entry{offset(e), pattern.start(pattern.column(e)), columns, offDiagonal ? Form::Dense : Form::Diagonal};
+    Entry entry{offset(e), pattern.start(pattern.column(e)), columns,
+                offDiagonal ? Form::Dense : Form::Diagonal};
     row.inSix = row.inSix && (columns == 6 || !far_);
     if (pattern.column(e) < block) {
       if (far_ && mirrored_ && offDiagonal) {
@@ -208,22 +221,26 @@ BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern, const std::
   return row;
 }
 
-void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples) {
+void BlockProduct::findSymmetry(const BlockPattern& pattern,
+                                const std::vector<const BlockValues*>& samples) {
   constexpr double rounding = 1e-12;
   symmetric_ = mirrored_ = true;
   Vector root(pattern.size());  // sqrt |A_ii|
   for (const BlockValues* sample : samples) {
     const double* A = sample->data();
-    for (int p = 0; p < pattern.size(); ++p) root[p] = std::sqrt(std::abs(A[pattern.address(p, p)]));
+    for (int p = 0; p < pattern.size(); ++p)
+      root[p] = std::sqrt(std::abs(A[pattern.address(p, p)]));
     for (int b = 0; b < pattern.blocks(); ++b)
-      for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1) && pattern.column(e) <= b; ++e) {
+      for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1) && pattern.column(e) <= b;
+           ++e) {
         const int c = pattern.column(e), rows = pattern.width(b), columns = pattern.width(c);
         const double* here = A + pattern.offset(e);
         const double* there = A + pattern.offset(pattern.find(c, b));
         for (int j = 0; j < columns; ++j)
           for (int i = 0; i < rows; ++i) {
             const double difference = std::abs(here[j * rows + i] - there[i * columns + j]);
-            const bool same = difference <= rounding * root[pattern.start(b) + i] * root[pattern.start(c) + j];  // false for NaN
+            const bool same = difference <= rounding * root[pattern.start(b) + i] *
+                                                root[pattern.start(c) + j];  // false for NaN
             if (!same) (c < b ? mirrored_ : symmetric_) = false;
           }
       }
@@ -232,7 +249,9 @@ void BlockProduct::findSymmetry(const BlockPattern& pattern, const std::vector<c
 }
 
 /// sum += A_ij x_j over some entries of a row.
-TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const {
+TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int end,
+                                                const double* values, const double* x,
+                                                double* sum) const {
   const Entry* entries = layout_->entries.data();
   for (int e = begin; e < end; ++e) {
     const double* block = values + entries[e].offset;
@@ -247,7 +266,9 @@ TOOLJOINT_INLINED void BlockProduct::addEntries(const Row& row, int begin, int e
 }
 
 /// even + odd += A_ij x_j over some entries of a row of six.
-TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const {
+TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* values,
+                                            const double* x, kernel::Six& even,
+                                            kernel::Six& odd) const {
   const Entry* last = layout_->entries.data() + end;
   for (const Entry* entry = layout_->entries.data() + begin; entry != last; ++entry) {
     const double* block = values + entry->offset;
@@ -264,7 +285,8 @@ TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* va
   }
 }
 
-TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const {
+TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values,
+                                            const double* x, double* y, double factor) const {
   const Row* last = layout_->rows.data() + end;
   for (const Row* at = layout_->rows.data() + begin; at != last; ++at) {
     const Row row = *at;
@@ -285,10 +307,12 @@ TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* va
 }
 
 /// x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or x_i'sum_j A_ij x_j
-TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* values, const double* x) const {
+TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* values,
+                                               const double* x) const {
   kernel::Six even, odd;
   if (mirrored_) {
-    const bool own = row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
+    const bool own =
+        row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
     const int beyond = own ? row.diagonal + 1 : row.diagonal;
     addSix(row.diagonal, beyond, values, x, even, odd);
     even.a += odd.a, even.b += odd.b;
@@ -305,7 +329,8 @@ TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* val
 }
 
 /// sum_i x_i'(A_ii x_i + 2 sum_(j > i) A_ij x_j), or sum_ij x_i'A_ij x_j
-TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double* values, const double* x) const {
+TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double* values,
+                                               const double* x) const {
   const Row* last = layout_->rows.data() + end;
   double* sum = sum_.data();
   double whole = 0;
@@ -317,7 +342,8 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
     }
     std::fill(sum, sum + row.width, 0.0);
     if (mirrored_) {
-      const bool own = row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
+      const bool own =
+          row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
       const int beyond = own ? row.diagonal + 1 : row.diagonal;
       addEntries(row, beyond, row.end, values, x, sum);
       for (int i = 0; i < row.width; ++i) sum[i] *= 2.0;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Square matrices made of dense blocks of varying size on one symmetric pattern: how dofs are gathered into blocks, where a
-/// block stands in storage, and products that skip blocks which are zero or only diagonal.
+/// Square matrices made of dense blocks of varying size on one symmetric pattern: how dofs are
+/// gathered into blocks, where a block stands in storage, and products that skip blocks which are
+/// zero or only diagonal.
 ///
-/// All matrices of a model share one pattern, hence one storage layout: a sum of matrices is a sum of arrays.
+/// All matrices of a model share one pattern, hence one storage layout: a sum of matrices is a sum
+/// of arrays.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +31,16 @@ struct BlockPartition {
   int blocks() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// Gather dofs into blocks. Dofs of one group (a node, the modes of a part) stay together unless the matrices do not couple
-/// them at all, in which case each family (lateral, axial ...) gets blocks of its own; groups of one class that see exactly the
-/// same neighbours (a dense interface) become one block.
-/// \param matrices  patterns to unite, all of one size
-/// \param group     group number per dof
-/// \param kind      class per dof; only groups of one class may be merged
-BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices, const std::vector<int>& group,
-                             const std::vector<int>& kind);
+/// Gather dofs into blocks. Dofs of one group (a node, the modes of a part) stay together unless
+/// the matrices do not couple them at all, in which case each family (lateral, axial ...) gets
+/// blocks of its own; groups of one class that see exactly the same neighbours (a dense interface)
+/// become one block. \param matrices  patterns to unite, all of one size \param group     group
+/// number per dof \param kind      class per dof; only groups of one class may be merged
+BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
+                             const std::vector<int>& group, const std::vector<int>& kind);
 
-/// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row then column.
+/// Symmetric pattern of dense column-major blocks, diagonal blocks included, sorted by row then
+/// column.
 class BlockPattern {
  public:
   BlockPattern() = default;
@@ -80,18 +82,22 @@ struct BlockRange {
   int begin, end;
 };
 
-/// Blocks in runs of about so many positions, a length at which several vectors stay in a near cache.
+/// Blocks in runs of about so many positions, a length at which several vectors stay in a near
+/// cache.
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
-/// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is symmetric, is found once, from
-/// samples that have every nonzero the products will see. Matrices that do not fit a near cache are asked for ahead, and where
-/// blocks below the diagonal mirror those above they are not read: they were seen a row ago. That is so for stiffness under
-/// varying torque too, whose skew part stands in the diagonal blocks of beams.
+/// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is
+/// symmetric, is found once, from samples that have every nonzero the products will see. Matrices
+/// that do not fit a near cache are asked for ahead, and where blocks below the diagonal mirror
+/// those above they are not read: they were seen a row ago. That is so for stiffness under varying
+/// torque too, whose skew part stands in the diagonal blocks of beams.
 class BlockProduct {
  public:
   BlockProduct() = default;
-  /// \param like  another product on the pattern: where both read the same blocks alike, they share the list of these
-  BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, const BlockProduct* like = nullptr);
+  /// \param like  another product on the pattern: where both read the same blocks alike, they share
+  /// the list of these
+  BlockProduct(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples,
+               const BlockProduct* like = nullptr);
   bool empty() const { return layout_ == nullptr || layout_->rows.empty(); }
   /// Whether both have one list of blocks, which is then read once where they follow each other.
   bool shares(const BlockProduct& other) const { return layout_ == other.layout_; }
@@ -102,10 +108,12 @@ class BlockProduct {
     if (!empty()) addRows(0, static_cast<int>(layout_->rows.size()), values, x, y, factor);
   }
   /// The same for the rows of these blocks alone.
-  void addTo(const double* values, const double* x, double* y, double factor, BlockRange range) const {
+  void addTo(const double* values, const double* x, double* y, double factor,
+             BlockRange range) const {
     if (!empty()) addRows(firstRow(range.begin), firstRow(range.end), values, x, y, factor);
   }
-  /// x' A x, and the part of it that the rows of some blocks add: of a symmetric A half the blocks are read.
+  /// x' A x, and the part of it that the rows of some blocks add: of a symmetric A half the blocks
+  /// are read.
   double form(const double* values, const double* x) const {
     return empty() ? 0.0 : formRows(0, static_cast<int>(layout_->rows.size()), values, x);
   }
@@ -117,11 +125,14 @@ class BlockProduct {
   struct Row;
   int firstRow(int block) const { return layout_->firstRow[static_cast<std::size_t>(block)]; }
   double formRows(int begin, int end, const double* values, const double* x) const;
-  void addEntries(const Row& row, int begin, int end, const double* values, const double* x, double* sum) const;
-  void addSix(int begin, int end, const double* values, const double* x, kernel::Six& even, kernel::Six& odd) const;
+  void addEntries(const Row& row, int begin, int end, const double* values, const double* x,
+                  double* sum) const;
+  void addSix(int begin, int end, const double* values, const double* x, kernel::Six& even,
+              kernel::Six& odd) const;
   double sixForm(const Row& row, const double* values, const double* x) const;
   void findSymmetry(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples);
-  void addRows(int begin, int end, const double* values, const double* x, double* y, double factor) const;
+  void addRows(int begin, int end, const double* values, const double* x, double* y,
+               double factor) const;
   enum class Form : std::uint8_t { Dense, Diagonal, Transposed };
   struct Entry {
     std::uint32_t offset;  ///< of the block, doubles
@@ -129,7 +140,8 @@ class BlockProduct {
     int width;
     Form form;
     bool operator==(const Entry& other) const {
-      return offset == other.offset && column == other.column && width == other.width && form == other.form;
+      return offset == other.offset && column == other.column && width == other.width &&
+             form == other.form;
     }
   };
   struct Row {
@@ -138,10 +150,11 @@ class BlockProduct {
     int begin;
     int end;
     int diagonal;  ///< first entry on or above the diagonal
-    bool inSix;    ///< six rows, summed in registers (where blocks are asked for ahead, all of six columns)
+    bool inSix;    ///< six rows, summed in registers (where blocks are asked for ahead, all of six
+                   ///< columns)
     bool operator==(const Row& other) const {
-      return start == other.start && width == other.width && begin == other.begin && end == other.end && diagonal == other.diagonal &&
-             inSix == other.inSix;
+      return start == other.start && width == other.width && begin == other.begin &&
+             end == other.end && diagonal == other.diagonal && inSix == other.inSix;
     }
   };
   /// What is read beside the values: as much as an eighth of them.
@@ -149,13 +162,16 @@ class BlockProduct {
     std::vector<Row> rows;
     std::vector<int> firstRow;  ///< block -> first of rows from there on
     std::vector<Entry> entries;
-    bool operator==(const Layout& other) const { return rows == other.rows && firstRow == other.firstRow && entries == other.entries; }
+    bool operator==(const Layout& other) const {
+      return rows == other.rows && firstRow == other.firstRow && entries == other.entries;
+    }
   };
-  Row listRow(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples, int block, std::vector<Entry>& entries) const;
+  Row listRow(const BlockPattern& pattern, const std::vector<const BlockValues*>& samples,
+              int block, std::vector<Entry>& entries) const;
   std::shared_ptr<const Layout> layout_;
   bool symmetric_ = false;
   bool mirrored_ = false;  ///< A_ij = A_ji' for i != j; diagonal blocks need not be symmetric
-  bool far_ = false;  ///< matrices are longer than a near cache
+  bool far_ = false;       ///< matrices are longer than a near cache
   mutable std::vector<double> sum_;
 };
 

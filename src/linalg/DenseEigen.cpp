@@ -15,7 +15,8 @@ namespace tooljoint::linalg {
 EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name) {
   const Sparse k = symmetricPart(K.sparseView(0.0, 0.0), "stiffness", name),
                m = symmetricPart(M.sparseView(0.0, 0.0), "mass", name);
-  if (k.rows() != m.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
+  if (k.rows() != m.rows())
+    throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
   requirePositiveDefinite(m, name);
   EigenPairs modes;
   modes.method = "dense symmetric pencil (Cholesky, tridiagonal QR)";
@@ -35,11 +36,15 @@ EigenPairs symmetricModes(const Matrix& K, const Matrix& M, const DofNamer& name
 
 namespace {
 
-double maxNorm(const Matrix& A) { return A.size() == 0 ? 0.0 : A.cwiseAbs().rowwise().sum().maxCoeff(); }
+double maxNorm(const Matrix& A) {
+  return A.size() == 0 ? 0.0 : A.cwiseAbs().rowwise().sum().maxCoeff();
+}
 
-/// |Im s|, then Re s, then the negative imaginary part first; values that agree to rounding are equal.
+/// |Im s|, then Re s, then the negative imaginary part first; values that agree to rounding are
+/// equal.
 bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, double rounding) {
-  if (std::abs(std::abs(a.imag()) - std::abs(b.imag())) > rounding) return std::abs(a.imag()) < std::abs(b.imag());
+  if (std::abs(std::abs(a.imag()) - std::abs(b.imag())) > rounding)
+    return std::abs(a.imag()) < std::abs(b.imag());
   if (std::abs(a.real() - b.real()) > rounding) return a.real() < b.real();
   return a.imag() < b.imag();
 }
@@ -49,30 +54,39 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
 QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
   const auto n = M.rows();
   if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
-    throw ModelError("The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and of one size.");
+    throw ModelError(
+        "The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and "
+        "of one size.");
   if (!M.allFinite() || !C.allFinite() || !K.allFinite())
     throw ModelError("A matrix of a quadratic eigenproblem has an entry that is not finite.");
   QuadraticModes modes;
   if (n == 0) return modes;
   const Eigen::FullPivLU<Matrix> mass(M);
-  if (!mass.isInvertible()) throw ModelError("The mass matrix of a quadratic eigenproblem is singular.");
-  // s = gamma mu balances the blocks: mu [x; y] = [0 I; -M^-1 K / gamma^2, -M^-1 C / gamma] [x; y], y = mu x
+  if (!mass.isInvertible())
+    throw ModelError("The mass matrix of a quadratic eigenproblem is singular.");
+  // s = gamma mu balances the blocks: mu [x; y] = [0 I; -M^-1 K / gamma^2, -M^-1 C / gamma] [x; y],
+  // y = mu x
   const Matrix stiff = mass.solve(K), damp = mass.solve(C);
-  const double gamma = std::max({std::sqrt(maxNorm(stiff)), maxNorm(damp), std::numeric_limits<double>::min()});
+  const double gamma =
+      std::max({std::sqrt(maxNorm(stiff)), maxNorm(damp), std::numeric_limits<double>::min()});
   Matrix A = Matrix::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -stiff / (gamma * gamma);
   A.bottomRightCorner(n, n) = -damp / gamma;
   const Eigen::EigenSolver<Matrix> solver(A);
-  if (solver.info() != Eigen::Success) throw ConvergenceError("The QR iteration of a quadratic eigenproblem did not converge.");
+  if (solver.info() != Eigen::Success)
+    throw ConvergenceError("The QR iteration of a quadratic eigenproblem did not converge.");
 
   std::vector<Eigen::Index> order(static_cast<std::size_t>(2 * n));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   const auto mu = solver.eigenvalues();
-  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return comesFirst(mu[a], mu[b], 0.0); });
-  // Equal up to rounding: an insertion sort keeps conjugates and repeated values in a defined order.
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return comesFirst(mu[a], mu[b], 0.0); });
+  // Equal up to rounding: an insertion sort keeps conjugates and repeated values in a defined
+  // order.
   for (std::size_t i = 1; i < order.size(); ++i)
-    for (std::size_t j = i; j > 0 && comesFirst(mu[order[j]], mu[order[j - 1]], 1e-11); --j) std::swap(order[j], order[j - 1]);
+    for (std::size_t j = i; j > 0 && comesFirst(mu[order[j]], mu[order[j - 1]], 1e-11); --j)
+      std::swap(order[j], order[j - 1]);
 
   modes.values.resize(2 * n);
   modes.vectors.resize(n, 2 * n);
@@ -81,7 +95,8 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     const Eigen::Index from = order[static_cast<std::size_t>(j)];
     const std::complex<double> s = gamma * mu[from];
     // Of x and y = mu x the larger one is the more accurate shape.
-    const Eigen::VectorXcd top = solver.eigenvectors().col(from).head(n), bottom = solver.eigenvectors().col(from).tail(n);
+    const Eigen::VectorXcd top = solver.eigenvectors().col(from).head(n),
+                           bottom = solver.eigenvectors().col(from).tail(n);
     Eigen::VectorXcd phi = std::abs(mu[from]) > 1.0 ? bottom : top;
     Eigen::Index largest = 0;
     phi.cwiseAbs().maxCoeff(&largest);
@@ -92,8 +107,8 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     modes.vectors.col(j) = phi;
     modes.residuals[j] = size > 0.0 ? residual.cwiseAbs().maxCoeff() / size : 0.0;
     if (!(modes.residuals[j] <= 1e-8))
-      throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " + scientific(modes.residuals[j]) +
-                             ".");
+      throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " +
+                             scientific(modes.residuals[j]) + ".");
   }
   return modes;
 }

@@ -9,7 +9,8 @@
 
 namespace tooljoint::linalg {
 
-/// rows x columns numbers in [-1, 1), a function of the arguments alone (splitmix64, Steele et al. 2014).
+/// rows x columns numbers in [-1, 1), a function of the arguments alone (splitmix64, Steele et al.
+/// 2014).
 inline Matrix scatteredNumbers(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   Matrix numbers(rows, columns);
   std::uint64_t state = seed;

@@ -15,31 +15,38 @@
 
 namespace tooljoint::linalg {
 
-std::string nameOf(const DofNamer& name, int i) { return name ? name(i) : "dof " + std::to_string(i + 1); }
+std::string nameOf(const DofNamer& name, int i) {
+  return name ? name(i) : "dof " + std::to_string(i + 1);
+}
 
 namespace {
 
 void requireSquareAndFinite(const Sparse& A, const DofNamer& name) {
   if (A.rows() != A.cols())
-    throw ModelError("A matrix of " + std::to_string(A.rows()) + " rows and " + std::to_string(A.cols()) +
-                     " columns cannot be factored: it must be square.");
+    throw ModelError("A matrix of " + std::to_string(A.rows()) + " rows and " +
+                     std::to_string(A.cols()) + " columns cannot be factored: it must be square.");
   for (int row = 0; row < A.rows(); ++row)
     for (Sparse::InnerIterator it(A, row); it; ++it)
       if (!std::isfinite(it.value()))
-        throw ModelError("The matrix has an entry that is not finite, in the row of " + nameOf(name, row) +
-                         " and the column of " + nameOf(name, static_cast<int>(it.col())) + ".");
+        throw ModelError("The matrix has an entry that is not finite, in the row of " +
+                         nameOf(name, row) + " and the column of " +
+                         nameOf(name, static_cast<int>(it.col())) + ".");
 }
 
-/// Factors R and C of the equilibrated matrix R A C, whose rows and columns are of order one; 1 for empty ones.
+/// Factors R and C of the equilibrated matrix R A C, whose rows and columns are of order one; 1 for
+/// empty ones.
 struct Equilibration {
   Vector rows, columns;
 
-  explicit Equilibration(const Sparse& A) : rows(Vector::Zero(A.rows())), columns(Vector::Zero(A.cols())) {
+  explicit Equilibration(const Sparse& A)
+      : rows(Vector::Zero(A.rows())), columns(Vector::Zero(A.cols())) {
     for (int row = 0; row < A.rows(); ++row)
-      for (Sparse::InnerIterator it(A, row); it; ++it) columns[it.col()] = std::max(columns[it.col()], std::abs(it.value()));
+      for (Sparse::InnerIterator it(A, row); it; ++it)
+        columns[it.col()] = std::max(columns[it.col()], std::abs(it.value()));
     columns = columns.unaryExpr([](double m) { return m > 0.0 ? 1.0 / std::sqrt(m) : 1.0; });
     for (int row = 0; row < A.rows(); ++row)
-      for (Sparse::InnerIterator it(A, row); it; ++it) rows[row] = std::max(rows[row], std::abs(it.value()) * columns[it.col()]);
+      for (Sparse::InnerIterator it(A, row); it; ++it)
+        rows[row] = std::max(rows[row], std::abs(it.value()) * columns[it.col()]);
     rows = rows.unaryExpr([](double m) { return m > 0.0 ? 1.0 / m : 1.0; });
   }
 };
@@ -94,12 +101,14 @@ struct WeakMotion {
 };
 
 /// Inverse iteration y <- (R A C)^-1 y with the factors of A (or of A slightly shifted).
-WeakMotion weakestMotion(const Sparse& A, const Klu2& factors, const Equilibration& scale, int iterations) {
+WeakMotion weakestMotion(const Sparse& A, const Klu2& factors, const Equilibration& scale,
+                         int iterations) {
   Vector y = scatteredNumbers(A.rows(), 1, 20200105);
   for (int k = 0; k < iterations; ++k) {
     Vector next = factors.solve(y.cwiseQuotient(scale.rows)).col(0).cwiseQuotient(scale.columns);
     const double size = next.cwiseAbs().maxCoeff();
-    if (!std::isfinite(size) || size == 0.0) break;  // overflow: the last good y already points the way
+    if (!std::isfinite(size) || size == 0.0)
+      break;  // overflow: the last good y already points the way
     y = next / size;
   }
   const Vector v = y.cwiseProduct(scale.columns);
@@ -109,21 +118,25 @@ WeakMotion weakestMotion(const Sparse& A, const Klu2& factors, const Equilibrati
 }
 
 [[noreturn]] void throwSingular(const std::string& dof, const std::string& why) {
-  throw ModelError("The matrix is singular (" + why + "): nothing resists a motion that is largest at " + dof +
+  throw ModelError("The matrix is singular (" + why +
+                   "): nothing resists a motion that is largest at " + dof +
                    ". Hold or connect that degree of freedom, or give it a stiffness.");
 }
 
-/// The matrix has an exactly zero pivot: names the dof by inverse iteration with a small shift, A + s (R C)^-1.
+/// The matrix has an exactly zero pivot: names the dof by inverse iteration with a small shift, A +
+/// s (R C)^-1.
 [[noreturn]] void explainZeroPivot(const Sparse& A, const DofNamer& name) {
   for (int row = 0; row < A.rows(); ++row) {
     double largest = 0.0;
-    for (Sparse::InnerIterator it(A, row); it; ++it) largest = std::max(largest, std::abs(it.value()));
+    for (Sparse::InnerIterator it(A, row); it; ++it)
+      largest = std::max(largest, std::abs(it.value()));
     if (largest == 0.0) throwSingular(nameOf(name, row), "its row is empty");
   }
   const Equilibration scale(A);
   Sparse diagonal(A.rows(), A.cols());
   diagonal.setIdentity();
-  for (int i = 0; i < A.rows(); ++i) diagonal.coeffRef(i, i) = 1.0 / (scale.rows[i] * scale.columns[i]);
+  for (int i = 0; i < A.rows(); ++i)
+    diagonal.coeffRef(i, i) = 1.0 / (scale.rows[i] * scale.columns[i]);
   for (const double shift : {1e-10, -1e-10, 1e-7, -1e-7}) {
     Klu2 shifted;
     if (!shifted.factor(Sparse(A + shift * diagonal))) continue;
@@ -131,7 +144,8 @@ WeakMotion weakestMotion(const Sparse& A, const Klu2& factors, const Equilibrati
     throwSingular(nameOf(name, static_cast<int>(largestEntry(weak.shape))), "zero pivot");
   }
   throw ModelError(
-      "The matrix is singular (zero pivot), also after small shifts of its diagonal: several degrees of freedom are "
+      "The matrix is singular (zero pivot), also after small shifts of its diagonal: several "
+      "degrees of freedom are "
       "unconnected.");
 }
 
@@ -151,7 +165,8 @@ double backwardError(const Sparse& A, const Matrix& X, const Matrix& B) {
         rowSum += std::abs(it.value());
       }
       // A row whose products all nearly vanish is measured against |a_i| |x|_max instead.
-      const double floor = 1000.0 * static_cast<double>(A.rows()) * std::numeric_limits<double>::epsilon() * rowSum * xMax;
+      const double floor = 1000.0 * static_cast<double>(A.rows()) *
+                           std::numeric_limits<double>::epsilon() * rowSum * xMax;
       if (d <= floor) d += rowSum * xMax;
       if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
       if (r != 0.0) worst = std::max(worst, std::abs(r) / d);
@@ -185,12 +200,14 @@ struct DirectSolver::Impl {
 
   Matrix solve(const Matrix& b) {
     if (b.rows() != matrix.rows())
-      throw ModelError("A right-hand side of " + std::to_string(b.rows()) + " rows was given to a matrix of " +
-                       std::to_string(matrix.rows()) + " rows.");
+      throw ModelError("A right-hand side of " + std::to_string(b.rows()) +
+                       " rows was given to a matrix of " + std::to_string(matrix.rows()) +
+                       " rows.");
     for (Eigen::Index j = 0; j < b.cols(); ++j)
       for (Eigen::Index i = 0; i < b.rows(); ++i)
         if (!std::isfinite(b(i, j)))
-          throw ModelError("The right-hand side is not finite in the row of " + nameOf(name, static_cast<int>(i)) + ".");
+          throw ModelError("The right-hand side is not finite in the row of " +
+                           nameOf(name, static_cast<int>(i)) + ".");
     residual = 0.0;
     if (b.size() == 0) return b;
     Matrix x = factors.solve(b);
@@ -207,13 +224,15 @@ struct DirectSolver::Impl {
       if (!worthwhile) break;
     }
     if (!(residual <= options.tolerance))
-      throw ModelError("A linear system was not solved: its backward error is " + scientific(residual) + " where " +
-                       scientific(options.tolerance) + " is allowed; the matrix is too badly conditioned or scaled.");
+      throw ModelError("A linear system was not solved: its backward error is " +
+                       scientific(residual) + " where " + scientific(options.tolerance) +
+                       " is allowed; the matrix is too badly conditioned or scaled.");
     return x;
   }
 };
 
-DirectSolver::DirectSolver(const Sparse& A, DofNamer name, DirectSolverOptions options) : impl_(std::make_unique<Impl>()) {
+DirectSolver::DirectSolver(const Sparse& A, DofNamer name, DirectSolverOptions options)
+    : impl_(std::make_unique<Impl>()) {
   impl_->name = std::move(name);
   impl_->options = options;
   impl_->factor(A);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rank-local sparse direct solver for square unsymmetric systems (KLU2 through Amesos2, on Teuchos::SerialComm).
+/// Rank-local sparse direct solver for square unsymmetric systems (KLU2 through Amesos2, on
+/// Teuchos::SerialComm).
 #pragma once
 
 #include <functional>
@@ -12,35 +13,39 @@
 
 namespace tooljoint::linalg {
 
-/// Name of row or column i for messages ("theta_z of node 17"); without one, messages say "dof 17" (counted from 1).
+/// Name of row or column i for messages ("theta_z of node 17"); without one, messages say "dof 17"
+/// (counted from 1).
 using DofNamer = std::function<std::string(int)>;
 
 /// `name(i)`, or "dof i+1" when there is no namer.
 std::string nameOf(const DofNamer& name, int i);
 
 struct DirectSolverOptions {
-  double tolerance = 1e-10;            ///< largest backward error of a solution that is handed out
-  int refinements = 3;                 ///< at most so many steps of iterative refinement per solve
-  double singularTolerance = 3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
-  bool checkSingular = true;           ///< look for such a v after each factorisation (two extra solves)
+  double tolerance = 1e-10;  ///< largest backward error of a solution that is handed out
+  int refinements = 3;       ///< at most so many steps of iterative refinement per solve
+  double singularTolerance =
+      3.6e-15;  ///< relative size of A v below which v is a motion nothing resists (16 eps)
+  bool checkSingular = true;  ///< look for such a v after each factorisation (two extra solves)
 };
 
 /// LU factors of one sparse matrix, and checked solutions.
 ///
-/// Every solution is checked: its backward error max_i |b - A x|_i / (|A||x| + |b|)_i is computed with the matrix itself
-/// (Oettli and Prager 1964; tiny denominators as in Arioli, Demmel, Duff 1989), improved by iterative refinement, and a
-/// ModelError is thrown when it stays above the tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it.
-/// Works alike on every rank: nothing is sent.
+/// Every solution is checked: its backward error max_i |b - A x|_i / (|A||x| + |b|)_i is computed
+/// with the matrix itself (Oettli and Prager 1964; tiny denominators as in Arioli, Demmel, Duff
+/// 1989), improved by iterative refinement, and a ModelError is thrown when it stays above the
+/// tolerance. Needs a live Tpetra::ScopeGuard; no object may outlive it. Works alike on every rank:
+/// nothing is sent.
 class DirectSolver {
  public:
-  /// Factors A (square). ModelError: A is not square, an entry is not finite (named), A is singular to working
-  /// precision (the dof that moves most in the motion nothing resists is named).
+  /// Factors A (square). ModelError: A is not square, an entry is not finite (named), A is singular
+  /// to working precision (the dof that moves most in the motion nothing resists is named).
   explicit DirectSolver(const Sparse& A, DofNamer name = {}, DirectSolverOptions options = {});
   ~DirectSolver();
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
 
-  /// Factors another matrix; the ordering is kept when the pattern is the same. Errors as the constructor.
+  /// Factors another matrix; the ordering is kept when the pattern is the same. Errors as the
+  /// constructor.
   void refactor(const Sparse& A);
 
   /// x with A x = b; b is a vector or the columns of a matrix, with size() rows.
@@ -51,7 +56,8 @@ class DirectSolver {
     return Result(solveColumns(Matrix(b)));
   }
 
-  /// x with A' x = b. The transpose is factored on first use (the transposed solve of KLU2 in Trilinos 13.2 is wrong).
+  /// x with A' x = b. The transpose is factored on first use (the transposed solve of KLU2 in
+  /// Trilinos 13.2 is wrong).
   template <class Derived>
   auto solveTransposed(const Eigen::MatrixBase<Derived>& b) const {
     using Result = std::conditional_t<Derived::ColsAtCompileTime == 1, Vector, Matrix>;
@@ -71,7 +77,8 @@ class DirectSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-/// max over rows and columns of |B - A X| / (|A||X| + |B|), the backward error described at DirectSolver.
+/// max over rows and columns of |B - A X| / (|A||X| + |B|), the backward error described at
+/// DirectSolver.
 double backwardError(const Sparse& A, const Matrix& X, const Matrix& B);
 
 }  // namespace tooljoint::linalg

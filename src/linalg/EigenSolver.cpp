@@ -32,8 +32,9 @@ struct Pencil {
   Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
       : K(symmetricPart(k, "stiffness", name)), M(symmetricPart(m, "mass", name)), scale(0.0) {
     if (K.rows() != M.rows())
-      throw ModelError("The stiffness and mass matrices of an eigenproblem have " + std::to_string(K.rows()) + " and " +
-                       std::to_string(M.rows()) + " rows: they must agree.");
+      throw ModelError("The stiffness and mass matrices of an eigenproblem have " +
+                       std::to_string(K.rows()) + " and " + std::to_string(M.rows()) +
+                       " rows: they must agree.");
     requirePositiveDefinite(M, name);
     scale = eigenvalueScale(K, M);
   }
@@ -41,14 +42,15 @@ struct Pencil {
   int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
 };
 
-/// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first elastic eigenvalue
-/// (nearer to the rigid-body modes it would spoil the others), or further down for an indefinite K.
+/// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first
+/// elastic eigenvalue (nearer to the rigid-body modes it would spoil the others), or further down
+/// for an indefinite K.
 double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   if (options.shift) {
     const int below = pencil.below(*options.shift);
     if (below > 0)
-      throw ModelError("The eigenvalue shift " + scientific(*options.shift) + " lies above " + std::to_string(below) +
-                       " eigenvalue(s): give a lower one, or none.");
+      throw ModelError("The eigenvalue shift " + scientific(*options.shift) + " lies above " +
+                       std::to_string(below) + " eigenvalue(s): give a lower one, or none.");
     return *options.shift;
   }
   const double floor = 1e-10 * pencil.scale;
@@ -61,9 +63,11 @@ double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
   return -size;
 }
 
-/// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues that rounding made complex in
-/// the projected problem and then fails; later attempts have larger blocks and bases, so large that they need no restart.
-Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt, const EigenOptions& options) {
+/// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues
+/// that rounding made complex in the projected problem and then fails; later attempts have larger
+/// blocks and bases, so large that they need no restart.
+Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt,
+                                        const EigenOptions& options) {
   const int n = pencil.size();
   Teuchos::ParameterList list;
   int block = attempt == 0 ? 4 : 8;
@@ -82,26 +86,31 @@ Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int at
   return list;
 }
 
-/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda - sigma.
-void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors, double shift, double tolerance) {
+/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda
+/// - sigma.
+void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
+                     double shift, double tolerance) {
   const Matrix image = factors.solve(pencil.M * modes.vectors);
   const Sparse absK = pencil.K.cwiseAbs();
   for (int j = 0; j < modes.count(); ++j) {
     const Vector error = modes.vectors.col(j) - (modes.values[j] - shift) * image.col(j);
     const double size = std::sqrt(std::max(0.0, error.dot(pencil.M * error)));
-    // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K itself does to lambda - sigma.
+    // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K
+    // itself does to lambda - sigma.
     const Vector phi = modes.vectors.col(j).cwiseAbs();
     const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift) +
                             4.0 * epsilon * phi.dot(absK * phi) / (modes.values[j] - shift);
     if (!(size <= tolerance + rounding))
       throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
-                             ") was called converged, but its relative error is " + scientific(size) + " where " +
-                             scientific(tolerance) + " is allowed");
+                             ") was called converged, but its relative error is " +
+                             scientific(size) + " where " + scientific(tolerance) + " is allowed");
   }
 }
 
-/// Eigenvalue from the shift-inverted value nu or from the Rayleigh quotient, whichever rounding spoils less.
-double bestValue(double nu, double nuMax, double shift, const Vector& phi, const Pencil& pencil, const Sparse& absK) {
+/// Eigenvalue from the shift-inverted value nu or from the Rayleigh quotient, whichever rounding
+/// spoils less.
+double bestValue(double nu, double nuMax, double shift, const Vector& phi, const Pencil& pencil,
+                 const Sparse& absK) {
   const double mass = phi.dot(pencil.M * phi);
   const double quotient = phi.dot(pencil.K * phi) / mass;
   const double quotientRounding = phi.cwiseAbs().dot(absK * phi.cwiseAbs()) / mass;
@@ -110,10 +119,12 @@ double bestValue(double nu, double nuMax, double shift, const Vector& phi, const
   return invertedRounding < quotientRounding ? inverted : quotient;
 }
 
-/// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1 / nu_j in mode j, most of
-/// it in directions far above the spectrum that is wanted. An inverse iteration removes those, a projection onto the complement
-/// of the lower modes what it stirs up there, and Rayleigh-Ritz with K separates the rest.
-void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors, double shift) {
+/// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1
+/// / nu_j in mode j, most of it in directions far above the spectrum that is wanted. An inverse
+/// iteration removes those, a projection onto the complement of the lower modes what it stirs up
+/// there, and Rayleigh-Ritz with K separates the rest.
+void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
+                      double shift) {
   const int count = modes.count();
   const double split = std::sqrt((modes.values[0] - shift) * (modes.values[count - 1] - shift));
   int first = 0;
@@ -131,23 +142,27 @@ void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolve
   modes.values.tail(upper) = ritz.values;
 }
 
-/// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not converge.
-EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted, int attempt,
-                       const EigenOptions& options) {
+/// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not
+/// converge.
+EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted,
+                       int attempt, const EigenOptions& options) {
   using Problem = Anasazi::BasicEigenproblem<double, tpetra::MultiVector, tpetra::Operator>;
   using Manager = Anasazi::BlockKrylovSchurSolMgr<double, tpetra::MultiVector, tpetra::Operator>;
   const auto map = serialMap(pencil.size());
   Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
   const int block = list.get<int>("Block Size");
   // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
-  const Teuchos::RCP<tpetra::Operator> inverse =
-      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
-  const Teuchos::RCP<tpetra::Operator> mass =
-      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
-  const auto start = toTpetra(scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)), map);
+  const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
+      new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
+  const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(
+      new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
+  const auto start = toTpetra(
+      scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)),
+      map);
   const auto problem = Teuchos::rcp(new Problem(inverse, mass, start));
   EigenPairs modes;
-  modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " + std::to_string(block);
+  modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " +
+                 std::to_string(block);
   bool converged = false;
   try {
     problem->setHermitian(true);
@@ -161,22 +176,24 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   }
   const auto& solution = problem->getSolution();
   if (!converged || solution.numVecs < wanted)
-    throw ConvergenceError(std::to_string(solution.numVecs) + " of " + std::to_string(wanted) + " modes converged (" +
-                           modes.method + ")");
+    throw ConvergenceError(std::to_string(solution.numVecs) + " of " + std::to_string(wanted) +
+                           " modes converged (" + modes.method + ")");
   modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
   modes.values.resize(wanted);
   const Sparse absK = pencil.K.cwiseAbs();
   const auto nu = [&](int j) { return solution.Evals[static_cast<std::size_t>(j)].realpart; };
   double nuMax = 0.0;
   for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(nu(j)));
-  for (int j = 0; j < wanted; ++j) modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
+  for (int j = 0; j < wanted; ++j)
+    modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
   applyConventions(modes, pencil.M);
   polishUpperModes(modes, pencil, factors, shift);
   applyConventions(modes, pencil.M);
   return modes;
 }
 
-/// Middle of the last gap among the values that is at or after position `from`; nothing when there is none.
+/// Middle of the last gap among the values that is at or after position `from`; nothing when there
+/// is none.
 std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, double floor) {
   for (int j = static_cast<int>(values.size()) - 1; j >= from; --j) {
     const double gap = values[j] - values[j - 1];
@@ -189,32 +206,38 @@ std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, do
 EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& options) {
   EigenPairs modes = symmetricModes(Matrix(pencil.K), Matrix(pencil.M), options.name);
   const double floor = 1e-14 * modes.values.cwiseAbs().maxCoeff();
-  truncate(modes, options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count);
+  truncate(modes, options.keepPairs
+                      ? keepWholePairs(modes.values, count, options.pairTolerance, floor)
+                      : count);
   applyConventions(modes, pencil.M);
   recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
   return modes;
 }
 
-/// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes beyond `count` show where
-/// the last cluster ends, and grow when they do not.
-EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count, int& extra, int attempt,
-                        const EigenOptions& options) {
+/// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
+/// beyond `count` show where the last cluster ends, and grow when they do not.
+EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count,
+                        int& extra, int attempt, const EigenOptions& options) {
   const double floor = 1e-14 * pencil.scale;
   const Stage stage("Krylov-Schur iteration");
-  EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2), attempt, options);
+  EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2),
+                                 attempt, options);
   const auto gap = lastGap(modes.values, count, floor);
-  const int keep = options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
+  const int keep =
+      options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
   if (!gap || (options.keepPairs && keep >= modes.count())) {
-    const std::string cluster = std::to_string(extra) + " modes after number " + std::to_string(count) +
-                                " have the same eigenvalue " + scientific(modes.values[count - 1]);
+    const std::string cluster = std::to_string(extra) + " modes after number " +
+                                std::to_string(count) + " have the same eigenvalue " +
+                                scientific(modes.values[count - 1]);
     extra *= 4;
     throw ConvergenceError(cluster);
   }
   // Sylvester: as many eigenvalues lie below a gap as were found below it.
   const int below = pencil.below(gap->second);
   if (below != gap->first)
-    throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " + scientific(gap->second) + " but " +
-                           std::to_string(gap->first) + " were found there (" + modes.method + ")");
+    throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " +
+                           scientific(gap->second) + " but " + std::to_string(gap->first) +
+                           " were found there (" + modes.method + ")");
   truncate(modes, keep);
   requireAccurate(modes, pencil, factors, shift, options.tolerance);
   recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
@@ -237,9 +260,11 @@ EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& opti
       reason = failure.what();
     }
   }
-  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " + std::to_string(pencil.size()) +
-                         " dofs were not found in " + std::to_string(attempts) + " attempts. The last one: " + reason +
-                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or lower \"Convergence Tolerance\".");
+  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " +
+                         std::to_string(pencil.size()) + " dofs were not found in " +
+                         std::to_string(attempts) + " attempts. The last one: " + reason +
+                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or lower "
+                         "\"Convergence Tolerance\".");
 }
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {
@@ -249,7 +274,8 @@ EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options)
     modes.vectors.resize(pencil.size(), 0);
     return modes;
   }
-  const bool dense = pencil.size() < options.denseBelow || 3 * count > pencil.size() || pencil.size() < 40;
+  const bool dense =
+      pencil.size() < options.denseBelow || 3 * count > pencil.size() || pencil.size() < 40;
   modes = dense ? denseModes(pencil, count, options) : sparseModes(pencil, count, options);
   tooljoint::count("modes computed", modes.count());
   return modes;
@@ -259,14 +285,16 @@ EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options)
 
 EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
   if (count < 0 || count > K.rows())
-    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " + std::to_string(K.rows()) +
-                     " dofs.");
+    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " +
+                     std::to_string(K.rows()) + " dofs.");
   return modesOf(Pencil(K, M, options.name), count, options);
 }
 
-EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax, const EigenOptions& options) {
+EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax,
+                            const EigenOptions& options) {
   if (!(omegaMax >= 0.0) || !std::isfinite(omegaMax))
-    throw ModelError("The cut-off of a mode selection must be a number >= 0, not " + scientific(omegaMax) + ".");
+    throw ModelError("The cut-off of a mode selection must be a number >= 0, not " +
+                     scientific(omegaMax) + ".");
   const Pencil pencil(K, M, options.name);
   return modesOf(pencil, pencil.below(omegaMax * omegaMax), options);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Products with a sparse matrix many of whose rows share their columns, as the recovery of reduced parts does (all nodes of a
-/// part follow the same interface dofs and modes): such rows are gathered into dense blocks, several times as fast as row by
-/// row. What shares nothing stays sparse.
+/// Products with a sparse matrix many of whose rows share their columns, as the recovery of reduced
+/// parts does (all nodes of a part follow the same interface dofs and modes): such rows are
+/// gathered into dense blocks, several times as fast as row by row. What shares nothing stays
+/// sparse.
 #pragma once
 
 #include <vector>

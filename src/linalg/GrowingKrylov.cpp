@@ -17,7 +17,8 @@ constexpr double rounding = 1e-14;
 
 }  // namespace
 
-GrowingKrylov::GrowingKrylov(Operator apply, int size) : apply_(std::move(apply)), size_(size), directions_(size, 0) {}
+GrowingKrylov::GrowingKrylov(Operator apply, int size)
+    : apply_(std::move(apply)), size_(size), directions_(size, 0) {}
 
 void GrowingKrylov::start(int columns, std::uint64_t seed) {
   width_ = std::min(columns, size_);
@@ -71,7 +72,8 @@ void GrowingKrylov::step() {
   const std::vector<int> now(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(width));
   open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(width));
   Matrix columns(size_, static_cast<Eigen::Index>(width));
-  for (std::size_t j = 0; j < width; ++j) columns.col(static_cast<Eigen::Index>(j)) = directions_.col(now[j]);
+  for (std::size_t j = 0; j < width; ++j)
+    columns.col(static_cast<Eigen::Index>(j)) = directions_.col(now[j]);
   const Matrix images = apply_(columns);
   std::vector<int> fresh;
   Vector h;
@@ -98,11 +100,14 @@ RitzPairs GrowingKrylov::ritz() const {
   for (Eigen::Index j = 0; j < m; ++j) {
     const int column = done_[static_cast<std::size_t>(j)];
     V.col(j) = directions_.col(column);
-    for (Eigen::Index i = 0; i < m; ++i) H(i, j) = projected_(done_[static_cast<std::size_t>(i)], column);
-    for (std::size_t i = 0; i < open_.size(); ++i) rest(static_cast<Eigen::Index>(i), j) = projected_(open_[i], column);
+    for (Eigen::Index i = 0; i < m; ++i)
+      H(i, j) = projected_(done_[static_cast<std::size_t>(i)], column);
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      rest(static_cast<Eigen::Index>(i), j) = projected_(open_[i], column);
   }
   const Eigen::EigenSolver<Matrix> solver(H);
-  if (solver.info() != Eigen::Success) throw ConvergenceError("The QR iteration of a projected eigenproblem did not converge.");
+  if (solver.info() != Eigen::Success)
+    throw ConvergenceError("The QR iteration of a projected eigenproblem did not converge.");
   RitzPairs pairs;
   pairs.values = solver.eigenvalues();
   const Eigen::MatrixXcd c = solver.eigenvectors();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A block Krylov space of a real unsymmetric operator that grows until it holds the wanted eigenvalues and is never restarted.
+/// A block Krylov space of a real unsymmetric operator that grows until it holds the wanted
+/// eigenvalues and is never restarted.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +20,11 @@ struct RitzPairs {
   Vector residuals;          ///< |A z - nu z| / |nu|
 };
 
-/// Block Arnoldi with full orthogonalisation. Nothing is thrown away and no Schur form is reordered, so repeated eigenvalues and
-/// Jordan chains need no care: restarts (G. W. Stewart, SIAM J. Matrix Anal. Appl. 23 (2002) 601-614) have to part a spectrum,
-/// which equal values do not allow. A space from one block holds at most as many copies of a repeated eigenvalue as the block has
-/// columns; startBeside() adds others.
+/// Block Arnoldi with full orthogonalisation. Nothing is thrown away and no Schur form is
+/// reordered, so repeated eigenvalues and Jordan chains need no care: restarts (G. W. Stewart, SIAM
+/// J. Matrix Anal. Appl. 23 (2002) 601-614) have to part a spectrum, which equal values do not
+/// allow. A space from one block holds at most as many copies of a repeated eigenvalue as the block
+/// has columns; startBeside() adds others.
 class GrowingKrylov {
  public:
   using Operator = std::function<Matrix(const Matrix&)>;
@@ -32,17 +34,19 @@ class GrowingKrylov {
   void start(int columns, std::uint64_t seed);
   /// Every direction.
   void startWhole();
-  /// Another block of scattered directions, orthogonal to all there are, which grows before the others do.
+  /// Another block of scattered directions, orthogonal to all there are, which grows before the
+  /// others do.
   void startBeside(int columns, std::uint64_t seed);
-  /// Applies the operator until it has been applied to `columns` directions, or the space is invariant.
+  /// Applies the operator until it has been applied to `columns` directions, or the space is
+  /// invariant.
   void grow(int columns);
   /// Nothing is left to apply the operator to.
   bool invariant() const { return open_.empty(); }
   RitzPairs ritz() const;
 
  private:
-  /// Orthogonalises; the position of the new direction, -1 when there is none beyond rounding of `size`. Its coefficients go into
-  /// `h`.
+  /// Orthogonalises; the position of the new direction, -1 when there is none beyond rounding of
+  /// `size`. Its coefficients go into `h`.
   int append(Vector w, double size, Vector& h);
   void add(const Matrix& columns);
   void step();
@@ -51,7 +55,8 @@ class GrowingKrylov {
   int size_;
   int count_ = 0;         ///< directions
   Matrix directions_;     ///< orthonormal, size x (at least count)
-  Matrix projected_;      ///< h_ij = v_i' A v_j, for the directions j that the operator has been applied to
+  Matrix projected_;      ///< h_ij = v_i' A v_j, for the directions j that the operator has been
+                          ///< applied to
   std::deque<int> open_;  ///< directions it has not been applied to, in order
   std::vector<int> done_;
   int width_ = 1;  ///< of a block

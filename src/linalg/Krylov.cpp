@@ -28,7 +28,10 @@ struct KrylovSolver::Impl {
   double residual = 0.0;
 
   Impl(const Sparse& A, DofNamer name, KrylovOptions options_)
-      : options(options_), matrix(A), factors(A, std::move(name)), map(serialMap(static_cast<int>(A.rows()))) {}
+      : options(options_),
+        matrix(A),
+        factors(A, std::move(name)),
+        map(serialMap(static_cast<int>(A.rows()))) {}
 
   Teuchos::RCP<Manager> manager(const Teuchos::RCP<LinearProblem>& problem) const {
     const auto list = Teuchos::parameterList();
@@ -36,19 +39,24 @@ struct KrylovSolver::Impl {
     list->set("Maximum Iterations", options.maxIterations);
     list->set("Verbosity", 0);
     if (options.method == KrylovOptions::Gmres)
-      list->set("Num Blocks", std::max(1, std::min(static_cast<int>(matrix.rows()), options.maxIterations)));
+      list->set("Num Blocks",
+                std::max(1, std::min(static_cast<int>(matrix.rows()), options.maxIterations)));
     if (options.belos != nullptr) list->setParameters(*options.belos);
     if (options.method == KrylovOptions::Cg)
-      return Teuchos::rcp(new Belos::PseudoBlockCGSolMgr<double, tpetra::MultiVector, tpetra::Operator>(problem, list));
-    return Teuchos::rcp(new Belos::PseudoBlockGmresSolMgr<double, tpetra::MultiVector, tpetra::Operator>(problem, list));
+      return Teuchos::rcp(
+          new Belos::PseudoBlockCGSolMgr<double, tpetra::MultiVector, tpetra::Operator>(problem,
+                                                                                        list));
+    return Teuchos::rcp(
+        new Belos::PseudoBlockGmresSolMgr<double, tpetra::MultiVector, tpetra::Operator>(problem,
+                                                                                         list));
   }
 
   /// One Belos run for A dx = r from zero; false when Belos says it did not converge.
   bool run(const Matrix& r, Matrix& dx) {
-    const Teuchos::RCP<tpetra::Operator> A =
-        Teuchos::rcp(new FunctionOperator(map, [this](const Matrix& x) { return Matrix(matrix * x); }));
-    const Teuchos::RCP<tpetra::Operator> inverse =
-        Teuchos::rcp(new FunctionOperator(map, [this](const Matrix& x) { return factors.solve(x); }));
+    const Teuchos::RCP<tpetra::Operator> A = Teuchos::rcp(
+        new FunctionOperator(map, [this](const Matrix& x) { return Matrix(matrix * x); }));
+    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
+        new FunctionOperator(map, [this](const Matrix& x) { return factors.solve(x); }));
     const auto rhs = toTpetra(r, map), x = toTpetra(Matrix(Matrix::Zero(r.rows(), r.cols())), map);
     const auto problem = Teuchos::rcp(new LinearProblem(A, x, rhs));
     problem->setLeftPrec(inverse);
@@ -62,9 +70,11 @@ struct KrylovSolver::Impl {
 
   Matrix solve(const Matrix& b) {
     if (b.rows() != matrix.rows())
-      throw ModelError("A right-hand side of " + std::to_string(b.rows()) + " rows was given to a matrix of " +
-                       std::to_string(matrix.rows()) + " rows.");
-    if (!b.allFinite()) throw ModelError("The right-hand side of an iterative solve is not finite.");
+      throw ModelError("A right-hand side of " + std::to_string(b.rows()) +
+                       " rows was given to a matrix of " + std::to_string(matrix.rows()) +
+                       " rows.");
+    if (!b.allFinite())
+      throw ModelError("The right-hand side of an iterative solve is not finite.");
     iterations = 0;
     residual = 0.0;
     Matrix x = Matrix::Zero(b.rows(), b.cols());
@@ -86,9 +96,11 @@ struct KrylovSolver::Impl {
       // Belos' own verdict is not asked: only the solution counts.
       if (residual <= options.backwardError) return x;
     }
-    throw ConvergenceError("Belos did not solve a linear system of " + std::to_string(matrix.rows()) + " dofs: backward error " +
-                           scientific(residual) + " where " + scientific(options.backwardError) + " is allowed, after " +
-                           std::to_string(iterations) + " iterations in " + std::to_string(runs) + " runs (Belos says " +
+    throw ConvergenceError("Belos did not solve a linear system of " +
+                           std::to_string(matrix.rows()) + " dofs: backward error " +
+                           scientific(residual) + " where " + scientific(options.backwardError) +
+                           " is allowed, after " + std::to_string(iterations) + " iterations in " +
+                           std::to_string(runs) + " runs (Belos says " +
                            (converged ? "converged" : "not converged") +
                            "). Factor the current matrix, or allow more iterations.");
   }

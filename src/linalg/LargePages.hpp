@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Allocator for arrays that are read from end to end in every step: aligned for vector loads, and on large pages (2 MB, where
-/// the system gives them) once they are too long for caches, which reads a fifth faster.
+/// Allocator for arrays that are read from end to end in every step: aligned for vector loads, and
+/// on large pages (2 MB, where the system gives them) once they are too long for caches, which
+/// reads a fifth faster.
 #pragma once
 
 #include <cstdlib>
@@ -28,7 +29,8 @@ struct LargePages {
     void* memory = std::aligned_alloc(unit, whole == 0 ? unit : whole);
     if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    if (unit == page) madvise(memory, whole, MADV_HUGEPAGE);  // a wish: without it the array is only slower
+    if (unit == page)
+      madvise(memory, whole, MADV_HUGEPAGE);  // a wish: without it the array is only slower
 #endif
     return static_cast<T*>(memory);
   }
@@ -38,10 +40,12 @@ struct LargePages {
   friend bool operator!=(const LargePages&, const LargePages&) { return false; }
 };
 
-/// Arrays too short for large pages of their own share them: what the process allocates next, up to so many bytes, is taken from memory
-/// that asks for them, address space until it is written to (an eighth of what a limit allows at most). Many vectors read one after
-/// the other are then read a tenth faster. To be called where a program begins: what is free already is not asked for again. Does
-/// nothing for a few megabytes, without glibc, or where the heap cannot grow. By default enough for the vectors of a million dofs.
+/// Arrays too short for large pages of their own share them: what the process allocates next, up to
+/// so many bytes, is taken from memory that asks for them, address space until it is written to (an
+/// eighth of what a limit allows at most). Many vectors read one after the other are then read a
+/// tenth faster. To be called where a program begins: what is free already is not asked for again.
+/// Does nothing for a few megabytes, without glibc, or where the heap cannot grow. By default
+/// enough for the vectors of a million dofs.
 void shareLargePages(std::size_t bytes = std::size_t{1} << 30);
 
 }  // namespace tooljoint::linalg

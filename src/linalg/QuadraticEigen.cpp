@@ -22,14 +22,16 @@ using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Relative error of s - sigma that is accepted beside the rounding of K: the last of the eight digits that are printed. Values
-/// of a Krylov space that has converged are better by some orders; what is above this bound is not rounding but a space that is
-/// too small.
+/// Relative error of s - sigma that is accepted beside the rounding of K: the last of the eight
+/// digits that are printed. Values of a Krylov space that has converged are better by some orders;
+/// what is above this bound is not rounding but a space that is too small.
 constexpr double acceptedError = 1e-8;
-/// The largest residual of the wanted Ritz pairs is at rounding when it is below the first of these, or below the second and no
-/// better than half of what it was in a space four fifths the size.
+/// The largest residual of the wanted Ritz pairs is at rounding when it is below the first of
+/// these, or below the second and no better than half of what it was in a space four fifths the
+/// size.
 constexpr double converged = 1e-13, stagnant = 1e-7;
-/// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750 dofs.
+/// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
+/// dofs.
 constexpr int largestSpace = 1500;
 /// Columns of a start block: as many as a free body in space has rigid-body motions, and two more.
 constexpr int block = 8;
@@ -38,8 +40,8 @@ constexpr int controlSteps = 5;
 /// Up to this size the inverse is formed whole.
 constexpr int denseBelow = 80;
 
-/// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations, rotations and modal amplitudes
-/// become comparable, and no entry is rounded.
+/// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
+/// rotations and modal amplitudes become comparable, and no entry is rounded.
 struct ScaledPencil {
   Sparse M, C, K;
   Vector scale;
@@ -47,11 +49,14 @@ struct ScaledPencil {
 
   ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given) {
     scale = binaryMassScale(k, m);
-    const auto scaled = [&](const Sparse& A) { return Sparse(scale.asDiagonal() * A * scale.asDiagonal()); };
+    const auto scaled = [&](const Sparse& A) {
+      return Sparse(scale.asDiagonal() * A * scale.asDiagonal());
+    };
     M = scaled(m);
     C = scaled(c);
     K = scaled(k);
-    rounding = [this, given, absolute = Sparse(K.cwiseAbs()), fraction = roundingOf(K)](const ComplexVector& phi) {
+    rounding = [this, given, absolute = Sparse(K.cwiseAbs()),
+                fraction = roundingOf(K)](const ComplexVector& phi) {
       if (given) return given(scale.cast<Complex>().cwiseProduct(phi));
       const Vector size = phi.cwiseAbs();
       return fraction * size.dot(absolute * size);
@@ -73,7 +78,10 @@ ComplexVector times(const Sparse& A, const ComplexVector& x) {
 class ShiftedInverse {
  public:
   ShiftedInverse(const ScaledPencil& pencil, double shift, const DofNamer& name)
-      : pencil_(pencil), shift_(shift), first_(pencil.C + shift * pencil.M), factors_(Sparse(pencil.K + shift * first_), name) {}
+      : pencil_(pencil),
+        shift_(shift),
+        first_(pencil.C + shift * pencil.M),
+        factors_(Sparse(pencil.K + shift * first_), name) {}
 
   double shift() const { return shift_; }
 
@@ -87,12 +95,15 @@ class ShiftedInverse {
     return out;
   }
 
-  /// phi -> -(s - sigma) Q(sigma)^-1 ((s + sigma) M + C) phi, of which modes are the fixed points. The difference is Q(sigma)^-1
-  /// Q(s) phi, the answer to the residual, without the cancellation of Q(s) phi.
+  /// phi -> -(s - sigma) Q(sigma)^-1 ((s + sigma) M + C) phi, of which modes are the fixed points.
+  /// The difference is Q(sigma)^-1 Q(s) phi, the answer to the residual, without the cancellation
+  /// of Q(s) phi.
   ComplexVector again(Complex s, const ComplexVector& phi) const {
     const ComplexVector force = (s + shift_) * times(pencil_.M, phi) + times(pencil_.C, phi);
-    const Matrix parts = factors_.solve((Matrix(phi.size(), 2) << force.real(), force.imag()).finished());
-    return -(s - shift_) * (parts.col(0).cast<Complex>() + Complex(0, 1) * parts.col(1).cast<Complex>());
+    const Matrix parts =
+        factors_.solve((Matrix(phi.size(), 2) << force.real(), force.imag()).finished());
+    return -(s - shift_) *
+           (parts.col(0).cast<Complex>() + Complex(0, 1) * parts.col(1).cast<Complex>());
   }
 
  private:
@@ -103,7 +114,8 @@ class ShiftedInverse {
 };
 
 /// At the shift, or a little beside it where Q(sigma) is singular: an eigenvalue.
-std::unique_ptr<ShiftedInverse> inverseNear(const ScaledPencil& pencil, double shift, const DofNamer& name) {
+std::unique_ptr<ShiftedInverse> inverseNear(const ScaledPencil& pencil, double shift,
+                                            const DofNamer& name) {
   constexpr int attempts = 3;
   for (int attempt = 1;; ++attempt, shift *= 1.3) try {
       return std::make_unique<ShiftedInverse>(pencil, shift, name);
@@ -121,10 +133,13 @@ struct Upper {
   Upper(const RitzPairs& ritz, double shift) {
     const double largest = ritz.values.size() > 0 ? ritz.values.cwiseAbs().maxCoeff() : 0.0;
     std::vector<Eigen::Index> order;
-    for (Eigen::Index j = 0; j < ritz.values.size(); ++j)  // nu of rounding: no finite s; Im nu < 0: Im s > 0
-      if (std::abs(ritz.values[j]) > 1e-13 * largest && ritz.values[j].imag() <= 0.0) order.push_back(j);
+    for (Eigen::Index j = 0; j < ritz.values.size();
+         ++j)  // nu of rounding: no finite s; Im nu < 0: Im s > 0
+      if (std::abs(ritz.values[j]) > 1e-13 * largest && ritz.values[j].imag() <= 0.0)
+        order.push_back(j);
     const auto value = [&](Eigen::Index j) { return shift + 1.0 / ritz.values[j]; };
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return std::abs(value(a)) < std::abs(value(b)); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return std::abs(value(a)) < std::abs(value(b)); });
     for (auto j : order) {
       s.push_back(value(j));
       column.push_back(j);
@@ -134,18 +149,21 @@ struct Upper {
   /// Largest residual of the lowest `wanted` ones; infinite when there are fewer.
   double worst(std::size_t wanted) const {
     if (s.size() < wanted) return std::numeric_limits<double>::infinity();
-    return *std::max_element(residual.begin(), residual.begin() + static_cast<std::ptrdiff_t>(wanted));
+    return *std::max_element(residual.begin(),
+                             residual.begin() + static_cast<std::ptrdiff_t>(wanted));
   }
   std::size_t below(double bound) const {
-    return static_cast<std::size_t>(std::count_if(s.begin(), s.end(), [&](Complex z) { return std::abs(z) <= bound; }));
+    return static_cast<std::size_t>(
+        std::count_if(s.begin(), s.end(), [&](Complex z) { return std::abs(z) <= bound; }));
   }
 };
 
-/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values apart and Jordan chains at
-/// zero do not swamp them.
+/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
+/// apart and Jordan chains at zero do not swamp them.
 double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer& name) {
   double stiff = 0, mass = 0;
-  for (int i = 0; i < pencil.K.rows(); ++i) stiff += std::abs(pencil.K.coeff(i, i)), mass += pencil.M.coeff(i, i);
+  for (int i = 0; i < pencil.K.rows(); ++i)
+    stiff += std::abs(pencil.K.coeff(i, i)), mass += pencil.M.coeff(i, i);
   double shift = mass > 0 && stiff > 0 ? 1e-4 * std::sqrt(stiff / mass) : 1.0;
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
@@ -167,16 +185,19 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
   return shift;
 }
 
-/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size of what rounding leaves of
-/// phi'K phi.
+/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
+/// of what rounding leaves of phi'K phi.
 bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi) {
   const double work = std::norm(s) * std::abs(phi.dot(times(pencil.M, phi))) +
-                      std::abs(s) * std::abs(phi.dot(times(pencil.C, phi))) + std::abs(phi.dot(times(pencil.K, phi)));
+                      std::abs(s) * std::abs(phi.dot(times(pencil.C, phi))) +
+                      std::abs(phi.dot(times(pencil.K, phi)));
   return work <= pencil.rounding(phi);
 }
 
-/// One mode of each independent motion at zero: a free body without damping has every one of them twice, in a Jordan chain.
-void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>& vectors, std::size_t zeros) {
+/// One mode of each independent motion at zero: a free body without damping has every one of them
+/// twice, in a Jordan chain.
+void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>& vectors,
+                       std::size_t zeros) {
   if (zeros < 2) return;
   const auto n = vectors.front().size();
   Eigen::MatrixXcd orthonormal(n, 0);
@@ -204,8 +225,8 @@ struct Checked {
   std::vector<ComplexVector> vectors;
 };
 
-Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, const Upper& found, const RitzPairs& ritz,
-                     std::size_t wanted) {
+Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, const Upper& found,
+                     const RitzPairs& ritz, std::size_t wanted) {
   Checked out;
   std::size_t zeros = 0;
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
@@ -216,10 +237,12 @@ Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, 
     const Vector size = better.cwiseAbs();
     const double rounding =
         pencil.rounding(better) /
-        (std::norm(s - inverse.shift()) * std::max(size.dot(pencil.M.cwiseAbs() * size), std::numeric_limits<double>::min()));
+        (std::norm(s - inverse.shift()) *
+         std::max(size.dot(pencil.M.cwiseAbs() * size), std::numeric_limits<double>::min()));
     if (!(error <= acceptedError + rounding))
-      throw ConvergenceError("Damped mode " + std::to_string(j + 1) + " (s = " + scientific(s.real()) + " + " +
-                             scientific(s.imag()) + " i) has a relative error of " + scientific(error) + " where " +
+      throw ConvergenceError("Damped mode " + std::to_string(j + 1) +
+                             " (s = " + scientific(s.real()) + " + " + scientific(s.imag()) +
+                             " i) has a relative error of " + scientific(error) + " where " +
                              scientific(acceptedError + rounding) + " is allowed.");
     if (isZero(pencil, s, better)) {
       s = 0;
@@ -253,18 +276,20 @@ Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name
     const Upper found(ritz, inverse->shift());
     const bool whole = space.invariant();
     const double worst = found.worst(wanted);
-    const bool settled = worst <= converged || (worst <= stagnant && (worst > 0.5 * before || columns >= limit));
+    const bool settled =
+        worst <= converged || (worst <= stagnant && (worst > 0.5 * before || columns >= limit));
     if (!whole && !settled) {
       before = worst;
       if (columns >= limit)
-        throw ConvergenceError("The " + std::to_string(count) + " damped modes nearest zero of " + std::to_string(pencil.size()) +
-                               " dofs were not found in a Krylov space of " + std::to_string(limit) +
-                               " vectors. Ask for fewer or more of them.");
+        throw ConvergenceError("The " + std::to_string(count) + " damped modes nearest zero of " +
+                               std::to_string(pencil.size()) +
+                               " dofs were not found in a Krylov space of " +
+                               std::to_string(limit) + " vectors. Ask for fewer or more of them.");
       columns = std::min(limit, columns + std::max(2 * block, columns / 4));
       continue;
     }
-    // A block finds no more than so many copies of a repeated value: a start beside all that has been found shows whether there
-    // are others.
+    // A block finds no more than so many copies of a repeated value: a start beside all that has
+    // been found shows whether there are others.
     if (!whole && (bound < 0 || found.below(bound) != confirmed)) {
       bound = std::abs(found.s[wanted - 1]) * (1 + 1e-6);
       confirmed = found.below(bound);
@@ -275,7 +300,8 @@ Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name
     }
     Checked modes = checkedModes(pencil, *inverse, found, ritz, wanted);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
-    wanted += static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
+    wanted +=
+        static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
     bound = -1;
   }
 }
@@ -293,15 +319,16 @@ bool isSymmetric(const Sparse& A) {
   return true;
 }
 
-/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the fit leaves: proportional
-/// damping, none at all included.
+/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the
+/// fit leaves: proportional damping, none at all included.
 struct Proportional {
   double alpha = 0, beta = 0;
 };
 std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
-  const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(), mk = pencil.M.cwiseProduct(pencil.K).sum();
-  const double cm = pencil.C.cwiseProduct(pencil.M).sum(), ck = pencil.C.cwiseProduct(pencil.K).sum(),
-               determinant = mm * kk - mk * mk;
+  const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(),
+               mk = pencil.M.cwiseProduct(pencil.K).sum();
+  const double cm = pencil.C.cwiseProduct(pencil.M).sum(),
+               ck = pencil.C.cwiseProduct(pencil.K).sum(), determinant = mm * kk - mk * mk;
   Proportional fit;
   if (determinant > 1e-12 * mm * kk) {
     fit = {(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant};
@@ -309,7 +336,8 @@ std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
     fit = {cm / mm, 0.0};
   }
   const Sparse difference = pencil.C - fit.alpha * pencil.M - fit.beta * pencil.K;
-  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() + std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
+  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() +
+                      std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
   for (int i = 0; i < difference.outerSize(); ++i)
     for (Sparse::InnerIterator it(difference, i); it; ++it)
       if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return std::nullopt;
@@ -325,12 +353,12 @@ std::vector<Complex> roots(double c, double lambda) {
   return {Complex(far), Complex(lambda / far)};
 }
 
-/// Those of the symmetric modes, which proportional damping does not couple. Of a mode with omega^2 >= lambda no |s| is below
-/// sqrt(lambda) or, overdamped, lambda / (|alpha| + |beta| lambda): enough modes are computed to know that the lowest |s| are
-/// among them. Nothing when these are too many, where stiffness-proportional damping gathers the values of all high modes at 1 /
-/// beta.
-std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Proportional& damping, int count,
-                                         const DofNamer& name) {
+/// Those of the symmetric modes, which proportional damping does not couple. Of a mode with omega^2
+/// >= lambda no |s| is below sqrt(lambda) or, overdamped, lambda / (|alpha| + |beta| lambda):
+/// enough modes are computed to know that the lowest |s| are among them. Nothing when these are too
+/// many, where stiffness-proportional damping gathers the values of all high modes at 1 / beta.
+std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Proportional& damping,
+                                         int count, const DofNamer& name) {
   EigenOptions options;
   options.name = name;
   const auto n = static_cast<int>(pencil.size());
@@ -341,7 +369,8 @@ std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Propo
     std::vector<double> sizes;
     for (int j = 0; j < pairs.count(); ++j) {
       const ComplexVector phi = pairs.vectors.col(j).cast<Complex>();
-      const double lambda = std::abs(pairs.values[j]) <= pencil.rounding(phi) ? 0.0 : pairs.values[j];
+      const double lambda =
+          std::abs(pairs.values[j]) <= pencil.rounding(phi) ? 0.0 : pairs.values[j];
       for (const Complex& s : roots(damping.alpha + damping.beta * lambda, lambda)) {
         modes.values.push_back(s);
         modes.vectors.push_back(phi);
@@ -370,13 +399,16 @@ double rowNorm(const Sparse& A) {
 
 }  // namespace
 
-QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count, const DofNamer& name,
-                                 const EnergyRounding& rounding) {
+QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count,
+                                 const DofNamer& name, const EnergyRounding& rounding) {
   const auto n = M.rows();
   if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
-    throw ModelError("The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and of one size.");
+    throw ModelError(
+        "The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and "
+        "of one size.");
   if (count < 0 || count > n)
-    throw ModelError(std::to_string(count) + " damped modes were asked for, but the eigenproblem has " + std::to_string(n) +
+    throw ModelError(std::to_string(count) +
+                     " damped modes were asked for, but the eigenproblem has " + std::to_string(n) +
                      " dofs.");
   QuadraticModes modes;
   if (count == 0) {
@@ -387,12 +419,14 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   const ScaledPencil pencil(M, C, K, rounding);
   std::optional<Checked> simple;
   if (isSymmetric(K) && !hasSingularMass(M))
-    if (const auto damping = proportionalDamping(pencil)) simple = proportionalModes(pencil, *damping, count, name);
+    if (const auto damping = proportionalDamping(pencil))
+      simple = proportionalModes(pencil, *damping, count, name);
   const Checked found = simple ? *simple : generalModes(pencil, count, name);
   std::vector<std::size_t> order(found.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](auto a, auto b) { return std::abs(found.values[a]) < std::abs(found.values[b]); });
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+    return std::abs(found.values[a]) < std::abs(found.values[b]);
+  });
   order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
   const auto kept = static_cast<Eigen::Index>(order.size());
   modes.values.resize(kept);
@@ -402,8 +436,10 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   for (Eigen::Index j = 0; j < kept; ++j) {
     const Complex s = found.values[order[static_cast<std::size_t>(j)]];
     const ComplexVector& phi = found.vectors[order[static_cast<std::size_t>(j)]];
-    const ComplexVector residual = s * s * times(pencil.M, phi) + s * times(pencil.C, phi) + times(pencil.K, phi);
-    modes.residuals[j] = residual.cwiseAbs().maxCoeff() / ((std::norm(s) * m + std::abs(s) * c + k) * phi.cwiseAbs().maxCoeff());
+    const ComplexVector residual =
+        s * s * times(pencil.M, phi) + s * times(pencil.C, phi) + times(pencil.K, phi);
+    modes.residuals[j] = residual.cwiseAbs().maxCoeff() /
+                         ((std::norm(s) * m + std::abs(s) * c + k) * phi.cwiseAbs().maxCoeff());
     ComplexVector shape = pencil.scale.cast<Complex>().cwiseProduct(phi);
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);

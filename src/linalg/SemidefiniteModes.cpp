@@ -18,9 +18,11 @@ namespace tooljoint::linalg {
 
 namespace {
 
-/// An eigenvalue of M below this fraction of the largest one, rows scaled to unit diagonal, is zero.
+/// An eigenvalue of M below this fraction of the largest one, rows scaled to unit diagonal, is
+/// zero.
 constexpr double massless = 1e-13;
-/// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to an infinite one of the pencil.
+/// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to
+/// an infinite one of the pencil.
 constexpr double infinite = 1e-13;
 
 /// M = W W', W with as many columns as M has rank.
@@ -30,15 +32,20 @@ Matrix root(const Sparse& M, const DofNamer& name) {
   for (Eigen::Index i = 0; i < M.rows(); ++i) {
     if (diagonal[i] > 0) massive.push_back(i);
     if (diagonal[i] < 0)
-      throw ModelError("The mass of " + nameOf(name, static_cast<int>(i)) + " is negative: " + formatNumber(diagonal[i]) + ".");
+      throw ModelError("The mass of " + nameOf(name, static_cast<int>(i)) +
+                       " is negative: " + formatNumber(diagonal[i]) + ".");
   }
   const auto n = static_cast<Eigen::Index>(massive.size());
   const Matrix dense = M;
   Matrix scaled(n, n);
-  const auto size = [&](Eigen::Index i) { return std::sqrt(diagonal[massive[static_cast<std::size_t>(i)]]); };
+  const auto size = [&](Eigen::Index i) {
+    return std::sqrt(diagonal[massive[static_cast<std::size_t>(i)]]);
+  };
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      scaled(i, j) = dense(massive[static_cast<std::size_t>(i)], massive[static_cast<std::size_t>(j)]) / (size(i) * size(j));
+      scaled(i, j) =
+          dense(massive[static_cast<std::size_t>(i)], massive[static_cast<std::size_t>(j)]) /
+          (size(i) * size(j));
   if (n == 0) return Matrix::Zero(M.rows(), 0);
   const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(scaled);
   const Vector& values = spectrum.eigenvalues();
@@ -48,12 +55,14 @@ Matrix root(const Sparse& M, const DofNamer& name) {
     Eigen::Index worst = 0;
     spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
     throw ModelError("The mass matrix is indefinite, most of all in " +
-                     nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) + ".");
+                     nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) +
+                     ".");
   }
   Matrix W = Matrix::Zero(M.rows(), n - first);
   for (Eigen::Index i = 0; i < n; ++i)
     W.row(massive[static_cast<std::size_t>(i)]) =
-        size(i) * spectrum.eigenvectors().row(i).tail(n - first).cwiseProduct(values.tail(n - first).cwiseSqrt().transpose());
+        size(i) * spectrum.eigenvectors().row(i).tail(n - first).cwiseProduct(
+                      values.tail(n - first).cwiseSqrt().transpose());
   return W;
 }
 
@@ -74,7 +83,8 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   const Eigen::PartialPivLU<Matrix> factor(K - sigma * Matrix(M));
   if (!(factor.rcond() > 1e-18))
     throw ModelError(
-        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a constraint stands in the model "
+        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a "
+        "constraint stands in the model "
         "twice.");
   Matrix answer = factor.solve(W);
   answer += factor.solve(W - (K * answer - sigma * (M * answer)));
@@ -86,8 +96,10 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   std::vector<Eigen::Index> finite;
   for (Eigen::Index i = 0; i < mu.size(); ++i)
     if (std::abs(mu[i]) > infinite * largest) finite.push_back(i);
-  std::sort(finite.begin(), finite.end(), [&](auto a, auto b) { return sigma + 1 / mu[a] < sigma + 1 / mu[b]; });
-  if (count >= 0 && count < static_cast<int>(finite.size())) finite.resize(static_cast<std::size_t>(count));
+  std::sort(finite.begin(), finite.end(),
+            [&](auto a, auto b) { return sigma + 1 / mu[a] < sigma + 1 / mu[b]; });
+  if (count >= 0 && count < static_cast<int>(finite.size()))
+    finite.resize(static_cast<std::size_t>(count));
   EigenPairs modes;
   modes.values.resize(static_cast<Eigen::Index>(finite.size()));
   modes.vectors.resize(K.rows(), modes.values.size());
@@ -100,8 +112,9 @@ EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sig
   return modes;
 }
 
-/// Forces, displacements and modal amplitudes are coordinates side by side, and the condition of K - sigma M depends on their
-/// units: of the units given and of those that make masses equal (powers of two), the ones with the better condition.
+/// Forces, displacements and modal amplitudes are coordinates side by side, and the condition of K
+/// - sigma M depends on their units: of the units given and of those that make masses equal (powers
+/// of two), the ones with the better condition.
 Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
   const Matrix A = Matrix(K) - sigma * Matrix(M);
   const Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
@@ -114,11 +127,16 @@ Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
 
 }  // namespace
 
-EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
-  if (K.rows() != M.rows()) throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
-  const Sparse stiffness = symmetricPart(K, "stiffness", options.name), mass = symmetricPart(M, "mass", options.name);
-  const Vector scale = betterScale(stiffness, mass, options.shift.value_or(-middle(stiffness, mass)));
-  const Sparse k = scale.asDiagonal() * stiffness * scale.asDiagonal(), m = scale.asDiagonal() * mass * scale.asDiagonal();
+EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options) {
+  if (K.rows() != M.rows())
+    throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
+  const Sparse stiffness = symmetricPart(K, "stiffness", options.name),
+               mass = symmetricPart(M, "mass", options.name);
+  const Vector scale =
+      betterScale(stiffness, mass, options.shift.value_or(-middle(stiffness, mass)));
+  const Sparse k = scale.asDiagonal() * stiffness * scale.asDiagonal(),
+               m = scale.asDiagonal() * mass * scale.asDiagonal();
   const Matrix W = root(m, options.name), dense = k;
   if (W.cols() == 0) {  // no mass: no finite modes
     EigenPairs none;
@@ -128,7 +146,8 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count, const 
     return none;
   }
   EigenPairs modes = shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count);
-  if (count > 0 && modes.count() > 0 && !options.shift) {  // again with a shift among what is wanted
+  if (count > 0 && modes.count() > 0 &&
+      !options.shift) {  // again with a shift among what is wanted
     const double wanted = std::abs(modes.values[modes.count() - 1]);
     if (wanted > 0) modes = shifted(dense, m, W, -wanted, count);
   }
@@ -145,13 +164,16 @@ bool hasSingularMass(const Sparse& M) {
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * M * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);
-  return factor.info() != Eigen::Success || (M.rows() > 0 && factor.vectorD().minCoeff() <= massless);
+  return factor.info() != Eigen::Success ||
+         (M.rows() > 0 && factor.vectorD().minCoeff() <= massless);
 }
 
 bool hasMasslessDofs(const Sparse& M) { return (M.diagonal().array() == 0.0).any(); }
 
-EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
-  return hasMasslessDofs(M) ? semidefiniteModes(K, M, count, options) : lowestModes(K, M, count, options);
+EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options) {
+  return hasMasslessDofs(M) ? semidefiniteModes(K, M, count, options)
+                            : lowestModes(K, M, count, options);
 }
 
 }  // namespace tooljoint::linalg

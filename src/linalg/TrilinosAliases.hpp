@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The spellings of Trilinos 13.2 that newer versions changed, and the one set of template arguments this build of
-/// Trilinos was instantiated for (double / int / long long / Serial). A port to another Trilinos edits this file.
+/// The spellings of Trilinos 13.2 that newer versions changed, and the one set of template
+/// arguments this build of Trilinos was instantiated for (double / int / long long / Serial). A
+/// port to another Trilinos edits this file.
 #pragma once
 
 #include <Teuchos_DefaultSerialComm.hpp>
@@ -28,6 +29,8 @@ inline std::size_t localSize(const Map& map) { return map.getNodeNumElements(); 
 
 /// Host access to a multivector; the view must be gone before anybody else touches the data.
 inline auto readHost(const MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::ReadOnly); }
-inline auto overwriteHost(MultiVector& x) { return x.getLocalViewHost(Tpetra::Access::OverwriteAll); }
+inline auto overwriteHost(MultiVector& x) {
+  return x.getLocalViewHost(Tpetra::Access::OverwriteAll);
+}
 
 }  // namespace tooljoint::linalg::tpetra

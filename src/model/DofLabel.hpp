@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a degree of freedom is: a component of a node that parts may share, a modal coordinate of one part, a mode of an interface, or
-/// a force that joins parts.
+/// What a degree of freedom is: a component of a node that parts may share, a modal coordinate of
+/// one part, a mode of an interface, or a force that joins parts.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,45 @@
 
 namespace tooljoint::model {
 
-/// Label of one degree of freedom. Interface dofs of two parts are joined when their labels are equal.
+/// Label of one degree of freedom. Interface dofs of two parts are joined when their labels are
+/// equal.
 struct DofLabel {
   enum class Kind : std::uint8_t { Physical, Modal, Interface };
   static constexpr std::int32_t shared = -1;
 
   Kind kind = Kind::Physical;
-  std::int64_t entity = 0;     ///< Physical: node number, 1-based as a person sees it. Modal: part number, 0-based. Interface: number of the interface, 0-based.
-  std::int32_t component = 0;  ///< Physical: 0-based component of the node. Modal, Interface: mode number, 0-based.
-  std::int32_t part = shared;  ///< Physical, in a coupled model: the part (0-based) whose own dof this is although others have one of that label
-  std::int8_t force = 0;       ///< 1, 2: not a displacement, but one of the two multipliers whose sum is the force that joins this dof of `part` to the rest
+  std::int64_t entity = 0;  ///< Physical: node number, 1-based as a person sees it. Modal: part
+                            ///< number, 0-based. Interface: number of the interface, 0-based.
+  std::int32_t component =
+      0;  ///< Physical: 0-based component of the node. Modal, Interface: mode number, 0-based.
+  std::int32_t part = shared;  ///< Physical, in a coupled model: the part (0-based) whose own dof
+                               ///< this is although others have one of that label
+  std::int8_t force = 0;  ///< 1, 2: not a displacement, but one of the two multipliers whose sum is
+                          ///< the force that joins this dof of `part` to the rest
 
-  static DofLabel physical(std::int64_t node, std::int32_t component) { return {Kind::Physical, node, component}; }
+  static DofLabel physical(std::int64_t node, std::int32_t component) {
+    return {Kind::Physical, node, component};
+  }
   static DofLabel modal(std::int64_t part, std::int32_t mode) { return {Kind::Modal, part, mode}; }
-  static DofLabel interfaceMode(std::int64_t interface, std::int32_t mode) { return {Kind::Interface, interface, mode}; }
+  static DofLabel interfaceMode(std::int64_t interface, std::int32_t mode) {
+    return {Kind::Interface, interface, mode};
+  }
   DofLabel of(std::int32_t owner) const { return {kind, entity, component, owner, force}; }
   DofLabel joiningForce(std::int8_t which) const { return {kind, entity, component, part, which}; }
   friend bool operator==(const DofLabel& a, const DofLabel& b) { return a.key() == b.key(); }
   friend bool operator<(const DofLabel& a, const DofLabel& b) { return a.key() < b.key(); }
 
  private:
-  std::tuple<Kind, std::int64_t, std::int32_t, std::int32_t, std::int8_t> key() const { return {kind, entity, component, part, force}; }
+  std::tuple<Kind, std::int64_t, std::int32_t, std::int32_t, std::int8_t> key() const {
+    return {kind, entity, component, part, force};
+  }
 };
 
 /// Names of the physical components, e.g. {"u","v","w","theta_x","theta_y","theta_z"}.
 using ComponentNames = SharedList<std::string>;
 
-/// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z of node 17 in part 2": for messages.
+/// "theta_z of node 17", "theta_z of node 17 in part 2", "mode 3 of part 2", "the force on theta_z
+/// of node 17 in part 2": for messages.
 std::string describe(const DofLabel& label, const ComponentNames& names);
 
 }  // namespace tooljoint::model

@@ -9,8 +9,9 @@
 
 namespace tooljoint::model {
 
-/// Beside PointLaw for laws with friction. The friction of a sliding contact depends on its normal force but not the other way
-/// round: its tangent is not symmetric, and the symmetric part is indefinite, so undamped modes are those of the law without it.
+/// Beside PointLaw for laws with friction. The friction of a sliding contact depends on its normal
+/// force but not the other way round: its tangent is not symmetric, and the symmetric part is
+/// indefinite, so undamped modes are those of the law without it.
 class Frictional {
  public:
   virtual ~Frictional() = default;

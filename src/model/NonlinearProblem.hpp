@@ -18,11 +18,14 @@ class NonlinearProblem {
   virtual void residual(const Vector& x, Vector& r) const = 0;
   /// J = dr/dx. The pattern may not change between calls.
   virtual void jacobian(const Vector& x, Sparse& J) const = 0;
-  /// Positive weight per row that makes forces and moments comparable: solvers measure |scale .* r|.
+  /// Positive weight per row that makes forces and moments comparable: solvers measure |scale .*
+  /// r|.
   virtual Vector residualScale() const = 0;
-  /// Largest factor in (0, 1] by which the step dx may be taken from x (a cap on lateral motion, say). 1 by default.
+  /// Largest factor in (0, 1] by which the step dx may be taken from x (a cap on lateral motion,
+  /// say). 1 by default.
   virtual double stepLimit(const Vector& /*x*/, const Vector& /*dx*/) const { return 1.0; }
-  /// Where the step s dx from x leads: x + s dx, or what agrees with it to first order and keeps clear of a curved stiff constraint.
+  /// Where the step s dx from x leads: x + s dx, or what agrees with it to first order and keeps
+  /// clear of a curved stiff constraint.
   virtual Vector moved(const Vector& x, const Vector& dx, double s) const { return x + s * dx; }
   /// Name of an unknown for messages ("theta_z of node 17").
   virtual std::string unknownName(int i) const = 0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How a room that states nonlinear problems asks for them to be solved without knowing the solver: the program binds
-/// this callback to the NOX driver of src/statics, a test may bind it to anything.
+/// How a room that states nonlinear problems asks for them to be solved without knowing the solver:
+/// the program binds this callback to the NOX driver of src/statics, a test may bind it to
+/// anything.
 #pragma once
 
 #include <functional>
@@ -11,15 +12,16 @@
 
 namespace tooljoint::model {
 
-/// What decides how much of a Newton step is taken, of at most what stepLimit() of the problem allows.
+/// What decides how much of a Newton step is taken, of at most what stepLimit() of the problem
+/// allows.
 enum class LineSearch {
   None,      ///< nothing else
   Residual,  ///< halved until the scaled residual decreases
-  Work       ///< as far as the forces do work along it: right where they have a potential, however sharp
+  Work  ///< as far as the forces do work along it: right where they have a potential, however sharp
 };
 
-/// What is asked of a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance and, if updateTolerance > 0,
-/// the full Newton step dx has become |dx| <= updateTolerance |x|.
+/// What is asked of a solver. The iteration has converged when max_i |scale_i r_i| <= tolerance
+/// and, if updateTolerance > 0, the full Newton step dx has become |dx| <= updateTolerance |x|.
 struct SolveRequest {
   std::string what;              ///< for messages: "the static equilibrium, lambda = 1e4 1/m"
   double tolerance = 1e-9;       ///< on the largest scaled residual
@@ -37,6 +39,7 @@ struct SolveOutcome {
 };
 
 /// Solves problem(x) = 0 from the start x, overwriting x; never throws for mere non-convergence.
-using NonlinearSolver = std::function<SolveOutcome(const NonlinearProblem& problem, Vector& x, const SolveRequest& request)>;
+using NonlinearSolver = std::function<SolveOutcome(const NonlinearProblem& problem, Vector& x,
+                                                   const SolveRequest& request)>;
 
 }  // namespace tooljoint::model

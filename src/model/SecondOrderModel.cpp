@@ -12,9 +12,11 @@ namespace tooljoint::model {
 std::string describe(const DofLabel& label, const ComponentNames& names) {
   if (label.force != 0) return "the force on " + describe(label.joiningForce(0), names);
   if (label.kind == DofLabel::Kind::Interface)
-    return "mode " + std::to_string(label.component + 1) + " of interface " + std::to_string(label.entity + 1);
+    return "mode " + std::to_string(label.component + 1) + " of interface " +
+           std::to_string(label.entity + 1);
   if (label.kind == DofLabel::Kind::Modal)
-    return "mode " + std::to_string(label.component + 1) + " of part " + std::to_string(label.entity + 1);
+    return "mode " + std::to_string(label.component + 1) + " of part " +
+           std::to_string(label.entity + 1);
   const auto c = static_cast<std::size_t>(label.component);
   std::string text;
   text.reserve(40);
@@ -23,7 +25,8 @@ std::string describe(const DofLabel& label, const ComponentNames& names) {
   else
     text.append("component ").append(std::to_string(label.component + 1));
   text.append(" of node ").append(std::to_string(label.entity));
-  if (label.part != DofLabel::shared) text.append(" in part ").append(std::to_string(label.part + 1));
+  if (label.part != DofLabel::shared)
+    text.append(" in part ").append(std::to_string(label.part + 1));
   return text;
 }
 
@@ -36,9 +39,11 @@ int SecondOrderModel::lawIndex(const ScalarLaw& law) {
 
 namespace {
 
-Sparse sumAt(double t, const std::vector<MatrixTerm>& terms, const std::vector<ScalarLaw>& laws, Eigen::Index n) {
+Sparse sumAt(double t, const std::vector<MatrixTerm>& terms, const std::vector<ScalarLaw>& laws,
+             Eigen::Index n) {
   Sparse sum(n, n);
-  for (const auto& term : terms) sum += laws[static_cast<std::size_t>(term.law)].value(t) * term.matrix;
+  for (const auto& term : terms)
+    sum += laws[static_cast<std::size_t>(term.law)].value(t) * term.matrix;
   return sum;
 }
 
@@ -48,7 +53,9 @@ std::vector<int> everyPoint(const PointLaw& law) {
   return points;
 }
 
-[[noreturn]] void inconsistent(const std::string& what) { throw ModelError("The second-order model is inconsistent: " + what); }
+[[noreturn]] void inconsistent(const std::string& what) {
+  throw ModelError("The second-order model is inconsistent: " + what);
+}
 
 bool finite(const Sparse& matrix) {
   for (int k = 0; k < matrix.outerSize(); ++k)
@@ -60,11 +67,14 @@ bool finite(const Sparse& matrix) {
 }  // namespace
 
 Sparse SecondOrderModel::dampingAt(double t) const { return sumAt(t, damping, laws, mass.rows()); }
-Sparse SecondOrderModel::stiffnessAt(double t) const { return sumAt(t, stiffness, laws, mass.rows()); }
+Sparse SecondOrderModel::stiffnessAt(double t) const {
+  return sumAt(t, stiffness, laws, mass.rows());
+}
 
 Vector SecondOrderModel::loadAt(double t) const {
   Vector sum = Vector::Zero(mass.rows());
-  for (const auto& term : loads) sum += laws[static_cast<std::size_t>(term.law)].value(t) * term.vector;
+  for (const auto& term : loads)
+    sum += laws[static_cast<std::size_t>(term.law)].value(t) * term.vector;
   return sum;
 }
 
@@ -107,31 +117,39 @@ Sparse SecondOrderModel::pointStiffness(double t, const Vector& q, const Vector&
 void SecondOrderModel::validate() const {
   const auto n = mass.rows();
   if (mass.cols() != n) inconsistent("the mass matrix is not square.");
-  if (static_cast<Eigen::Index>(dofs.size()) != n) inconsistent("the number of dof labels differs from the size of the mass matrix.");
+  if (static_cast<Eigen::Index>(dofs.size()) != n)
+    inconsistent("the number of dof labels differs from the size of the mass matrix.");
   if (!finite(mass)) inconsistent("the mass matrix has an entry that is not finite.");
   const auto lawCount = static_cast<int>(laws.size());
   const auto checkTerms = [&](const std::vector<MatrixTerm>& terms, const char* kind) {
     for (const auto& term : terms) {
       const std::string who = std::string("the ") + kind + " term \"" + term.name + "\"";
-      if (term.matrix.rows() != n || term.matrix.cols() != n) inconsistent(who + " has another size than the mass matrix.");
-      if (term.law < 0 || term.law >= lawCount) inconsistent(who + " names a law that does not exist.");
+      if (term.matrix.rows() != n || term.matrix.cols() != n)
+        inconsistent(who + " has another size than the mass matrix.");
+      if (term.law < 0 || term.law >= lawCount)
+        inconsistent(who + " names a law that does not exist.");
       if (!finite(term.matrix)) inconsistent(who + " has an entry that is not finite.");
     }
   };
   checkTerms(damping, "damping");
   checkTerms(stiffness, "stiffness");
   for (const auto& term : loads) {
-    if (term.vector.size() != n) inconsistent("the load \"" + term.name + "\" has another size than the mass matrix.");
-    if (term.law < 0 || term.law >= lawCount) inconsistent("the load \"" + term.name + "\" names a law that does not exist.");
-    if (!term.vector.allFinite()) inconsistent("the load \"" + term.name + "\" has an entry that is not finite.");
+    if (term.vector.size() != n)
+      inconsistent("the load \"" + term.name + "\" has another size than the mass matrix.");
+    if (term.law < 0 || term.law >= lawCount)
+      inconsistent("the load \"" + term.name + "\" names a law that does not exist.");
+    if (!term.vector.allFinite())
+      inconsistent("the load \"" + term.name + "\" has an entry that is not finite.");
   }
   for (const auto& set : points) {
     const auto coordinates = static_cast<Eigen::Index>(set.law->size()) * set.law->width();
     if (set.rows.rows() != coordinates || set.rows.cols() != n || set.offset.size() != coordinates)
       inconsistent("the point set \"" + set.name + "\" has rows that do not match its law.");
   }
-  if (initialDisplacement.size() != n || initialVelocity.size() != n) inconsistent("the initial state has another size than the mass matrix.");
-  if (!initialDisplacement.allFinite() || !initialVelocity.allFinite()) inconsistent("the initial state is not finite.");
+  if (initialDisplacement.size() != n || initialVelocity.size() != n)
+    inconsistent("the initial state has another size than the mass matrix.");
+  if (!initialDisplacement.allFinite() || !initialVelocity.allFinite())
+    inconsistent("the initial state is not finite.");
 }
 
 std::vector<int> Substructure::interior() const {

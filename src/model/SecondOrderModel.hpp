@@ -2,8 +2,8 @@
 /// \file
 /// The one model every solver sees, full or reduced:
 ///
-///     M q'' + (sum_i c_i(t) C_i) q' + (sum_i k_i(t) K_i) q = sum_j f_j(t) F_j + sum_p R_p' f_p(d_p, d_p', t),
-///     d_p = offset_p + R_p q
+///     M q'' + (sum_i c_i(t) C_i) q' + (sum_i k_i(t) K_i) q = sum_j f_j(t) F_j + sum_p R_p'
+///     f_p(d_p, d_p', t), d_p = offset_p + R_p q
 ///
 /// with constant matrices, named scalar laws of time and batches of point laws.
 #pragma once
@@ -37,20 +37,21 @@ struct LoadTerm {
 
 /// A batch of points of the model that obey one law.
 struct PointSet {
-  std::string name;                    ///< "contact"
+  std::string name;  ///< "contact"
   std::shared_ptr<const PointLaw> law;
-  std::vector<std::int64_t> entities;  ///< node number (1-based) of each point, for messages and output
-  Sparse rows;                         ///< (size*width) x dofs: d = offset + rows q
-  Vector offset;                       ///< size*width
+  std::vector<std::int64_t>
+      entities;   ///< node number (1-based) of each point, for messages and output
+  Sparse rows;    ///< (size*width) x dofs: d = offset + rows q
+  Vector offset;  ///< size*width
 };
 
-/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels. Copies share its matrices, their
-/// terms and its laws until they are changed.
+/// Second-order model in coordinates q. A plain value: solvers compile it into their own kernels.
+/// Copies share its matrices, their terms and its laws until they are changed.
 struct SecondOrderModel {
   std::vector<DofLabel> dofs;
   ComponentNames componentNames;
   SharedList<ScalarLaw> laws = ScalarLaw::constant();
-  SharedSparse mass;                  ///< M; symmetric positive (semi-)definite
+  SharedSparse mass;                 ///< M; symmetric positive (semi-)definite
   SharedList<MatrixTerm> damping;    ///< C_i, may be unsymmetric (gyroscopics)
   SharedList<MatrixTerm> stiffness;  ///< K_i, may be unsymmetric (torque)
   std::vector<LoadTerm> loads;
@@ -58,15 +59,18 @@ struct SecondOrderModel {
   Vector initialDisplacement;  ///< q(0)
   Vector initialVelocity;      ///< q'(0)
 
-  /// Recovery of physical output dofs: D = recoveryOffset + recovery q (rows: node-major, all components, held ones too).
+  /// Recovery of physical output dofs: D = recoveryOffset + recovery q (rows: node-major, all
+  /// components, held ones too).
   SharedSparse recovery;
   Vector recoveryOffset;
-  SharedList<std::int64_t> recoveryNodes;  ///< node numbers of the output rows, componentNames.size() rows each
+  SharedList<std::int64_t>
+      recoveryNodes;  ///< node numbers of the output rows, componentNames.size() rows each
 
   int size() const { return static_cast<int>(mass.rows()); }
   /// Index of the law with this name, added if new.
   int lawIndex(const ScalarLaw& law);
-  /// sum_i c_i(t) C_i, sum_i k_i(t) K_i, sum_j f_j(t) F_j as new matrices (set-up code and tests, not the step loop).
+  /// sum_i c_i(t) C_i, sum_i k_i(t) K_i, sum_j f_j(t) F_j as new matrices (set-up code and tests,
+  /// not the step loop).
   Sparse dampingAt(double t) const;
   Sparse stiffnessAt(double t) const;
   Vector loadAt(double t) const;

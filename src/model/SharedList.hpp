@@ -10,8 +10,9 @@
 
 namespace tooljoint::model {
 
-/// A value like std::vector that costs a pointer to copy: a hundred reduced parts that are identical hold one list of matrix terms. It reads
-/// as `const std::vector<T>&`; who changes it gets elements of its own.
+/// A value like std::vector that costs a pointer to copy: a hundred reduced parts that are
+/// identical hold one list of matrix terms. It reads as `const std::vector<T>&`; who changes it
+/// gets elements of its own.
 template <class T>
 class SharedList {
  public:
@@ -40,7 +41,9 @@ class SharedList {
     return *items_;
   }
 
-  friend bool operator==(const SharedList& a, const SharedList& b) { return a.items_ == b.items_ || a.items() == b.items(); }
+  friend bool operator==(const SharedList& a, const SharedList& b) {
+    return a.items_ == b.items_ || a.items() == b.items();
+  }
   friend bool operator!=(const SharedList& a, const SharedList& b) { return !(a == b); }
 
  private:

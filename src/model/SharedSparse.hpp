@@ -11,8 +11,9 @@
 
 namespace tooljoint::model {
 
-/// A value like `Sparse`, always compressed, that costs a pointer to copy: a hundred reduced parts that are identical hold one mass
-/// matrix. It reads as any sparse expression of Eigen and as `const Sparse&`; who changes it gets storage of its own.
+/// A value like `Sparse`, always compressed, that costs a pointer to copy: a hundred reduced parts
+/// that are identical hold one mass matrix. It reads as any sparse expression of Eigen and as
+/// `const Sparse&`; who changes it gets storage of its own.
 class SharedSparse : public Eigen::Map<const Sparse> {
   using View = Eigen::Map<const Sparse>;
 
@@ -20,8 +21,10 @@ class SharedSparse : public Eigen::Map<const Sparse> {
   SharedSparse() : SharedSparse(empty()) {}
   SharedSparse(Sparse matrix) : SharedSparse(compressed(std::move(matrix))) {}
   template <class Derived>
-  SharedSparse(const Eigen::EigenBase<Derived>& expression) : SharedSparse(Sparse(expression.derived())) {}
-  SharedSparse(const SharedSparse& other) : View(static_cast<const View&>(other)), matrix_(other.matrix_) {}
+  SharedSparse(const Eigen::EigenBase<Derived>& expression)
+      : SharedSparse(Sparse(expression.derived())) {}
+  SharedSparse(const SharedSparse& other)
+      : View(static_cast<const View&>(other)), matrix_(other.matrix_) {}
   SharedSparse& operator=(const SharedSparse& other) {
     look(other.matrix_);
     return *this;
@@ -62,7 +65,8 @@ class SharedSparse : public Eigen::Map<const Sparse> {
   using Storage = std::shared_ptr<Sparse>;
 
   explicit SharedSparse(Storage matrix)
-      : View(matrix->rows(), matrix->cols(), matrix->nonZeros(), matrix->outerIndexPtr(), matrix->innerIndexPtr(), matrix->valuePtr()),
+      : View(matrix->rows(), matrix->cols(), matrix->nonZeros(), matrix->outerIndexPtr(),
+             matrix->innerIndexPtr(), matrix->valuePtr()),
         matrix_(std::move(matrix)) {}
 
   static const Storage& empty() {
@@ -77,7 +81,8 @@ class SharedSparse : public Eigen::Map<const Sparse> {
   void look(Storage matrix) {
     matrix_ = std::move(matrix);
     new (static_cast<View*>(this))
-        View(matrix_->rows(), matrix_->cols(), matrix_->nonZeros(), matrix_->outerIndexPtr(), matrix_->innerIndexPtr(), matrix_->valuePtr());
+        View(matrix_->rows(), matrix_->cols(), matrix_->nonZeros(), matrix_->outerIndexPtr(),
+             matrix_->innerIndexPtr(), matrix_->valuePtr());
   }
 
   Storage matrix_;

@@ -25,7 +25,8 @@ void widen(PartContent& content, const model::ComponentNames& names) {
     to.push_back(static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
   for (auto* labels : {&m.dofs, &content.basis.dofs})
     for (auto& label : *labels)
-      if (label.kind == DofLabel::Kind::Physical) label.component = to[static_cast<std::size_t>(label.component)];
+      if (label.kind == DofLabel::Kind::Physical)
+        label.component = to[static_cast<std::size_t>(label.component)];
   const auto before = static_cast<int>(to.size()), after = static_cast<int>(names.size());
   const auto rows = static_cast<Eigen::Index>(m.recoveryNodes.size()) * after;
   Vector offset = Vector::Zero(rows);
@@ -33,7 +34,8 @@ void widen(PartContent& content, const model::ComponentNames& names) {
   for (int i = 0; i < m.recovery.rows(); ++i) {
     const int row = i / before * after + to[static_cast<std::size_t>(i % before)];
     offset[row] = m.recoveryOffset[i];
-    for (model::SharedSparse::InnerIterator it(m.recovery, i); it; ++it) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    for (model::SharedSparse::InnerIterator it(m.recovery, i); it; ++it)
+      entries.emplace_back(row, static_cast<int>(it.col()), it.value());
   }
   Sparse recovery(rows, m.size());
   recovery.setFromTriplets(entries.begin(), entries.end());
@@ -43,7 +45,8 @@ void widen(PartContent& content, const model::ComponentNames& names) {
 }
 
 void hold(PartContent& content, const std::vector<char>& held) {
-  if (std::count(held.begin(), held.end(), char{0}) == static_cast<std::ptrdiff_t>(held.size())) return;
+  if (std::count(held.begin(), held.end(), char{0}) == static_cast<std::ptrdiff_t>(held.size()))
+    return;
   auto& part = content.part;
   std::vector<int> to(held.size(), -1);
   coupling::Substitution free;
@@ -94,14 +97,15 @@ std::vector<int> filtered(const PartContent& content, const std::vector<int>& po
   for (const auto& name : components) {
     const auto it = std::find(m.componentNames.begin(), m.componentNames.end(), name);
     if (it == m.componentNames.end())
-      throw DeckError("names the component " + inQuotes(name) + "; those of part " + inQuotes(content.part.name) + " are " +
-                      quotedList(m.componentNames));
+      throw DeckError("names the component " + inQuotes(name) + "; those of part " +
+                      inQuotes(content.part.name) + " are " + quotedList(m.componentNames));
     const auto component = static_cast<int>(it - m.componentNames.begin());
     const std::size_t before = out.size();
     for (int i : positions)
       if (m.dofs[static_cast<std::size_t>(i)].component == component) out.push_back(i);
     if (out.size() == before)
-      throw DeckError("names " + name + " of " + who + ", which part " + inQuotes(content.part.name) + " does not have");
+      throw DeckError("names " + name + " of " + who + ", which part " +
+                      inQuotes(content.part.name) + " does not have");
   }
   return out;
 }
@@ -112,17 +116,21 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
   const auto all = words(text);
   if (all.empty()) throw DeckError("holds an empty text; name a node or an interface set");
   for (std::size_t length = all.size(); length > 0; --length) {  // names of sets may hold blanks
-    const std::string name = join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
+    const std::string name =
+        join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
     for (const auto& set : content.interfaces)
       if (set.name == name)
-        return filtered(content, set.dofs, {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()}, inQuotes(name));
+        return filtered(content, set.dofs,
+                        {all.begin() + static_cast<std::ptrdiff_t>(length), all.end()},
+                        inQuotes(name));
   }
   const auto& first = all.front();
   if (first.find_first_not_of("0123456789") != std::string::npos || first.size() > 15) {
     std::vector<std::string> sets;
     for (const auto& set : content.interfaces) sets.push_back(set.name);
     const auto meant = closest(first, sets);
-    throw DeckError("names " + inQuotes(text) + ", which is no node and no interface set of part " + inQuotes(content.part.name) +
+    throw DeckError("names " + inQuotes(text) + ", which is no node and no interface set of part " +
+                    inQuotes(content.part.name) +
                     (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
                      : sets.empty() ? "; it has no sets"
                                     : "; its sets are " + quotedList(sets)));
@@ -131,11 +139,12 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
   std::vector<int> positions;
   const auto& m = content.part.model;
   for (int i = 0; i < m.size(); ++i)
-    if (const auto& label = m.dofs[static_cast<std::size_t>(i)]; label.kind == DofLabel::Kind::Physical && label.entity == node)
+    if (const auto& label = m.dofs[static_cast<std::size_t>(i)];
+        label.kind == DofLabel::Kind::Physical && label.entity == node)
       positions.push_back(i);
   if (positions.empty())
-    throw DeckError("names node " + first + ", which part " + inQuotes(content.part.name) + " (" + content.file +
-                    ") does not have as a dof");
+    throw DeckError("names node " + first + ", which part " + inQuotes(content.part.name) + " (" +
+                    content.file + ") does not have as a dof");
   return filtered(content, positions, {all.begin() + 1, all.end()}, "node " + first);
 }
 

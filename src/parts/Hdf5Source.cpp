@@ -25,7 +25,9 @@ class Hdf5Source : public PartSource {
   }
 
   std::string file() const override { return file_; }
-  bool has(const std::string& path) const override { return datasets_.count(path) > 0 || isGroup(path) || isAttribute(path); }
+  bool has(const std::string& path) const override {
+    return datasets_.count(path) > 0 || isGroup(path) || isAttribute(path);
+  }
 
   std::vector<std::string> names(const std::string& group) const override {
     if (!group.empty() && !isGroup(group)) fail(group, "should be a group");
@@ -94,7 +96,8 @@ class Hdf5Source : public PartSource {
     const auto shape = shapeOf(path);
     if (shape.empty() || shape.size() > 2) fail(path, "should be a matrix or a vector");
     const auto values = numbers(path);
-    const auto rows = static_cast<Eigen::Index>(shape[0]), columns = static_cast<Eigen::Index>(shape.size() == 2 ? shape[1] : 1);
+    const auto rows = static_cast<Eigen::Index>(shape[0]),
+               columns = static_cast<Eigen::Index>(shape.size() == 2 ? shape[1] : 1);
     Matrix out(rows, columns);
     for (Eigen::Index i = 0; i < rows; ++i)
       for (Eigen::Index j = 0; j < columns; ++j) {
@@ -129,7 +132,8 @@ class Hdf5Source : public PartSource {
     }
   }
   void need(const std::string& path) const {
-    if (datasets_.count(path) == 0) fail(path, isGroup(path) ? "should be a dataset, and is a group" : "is missing");
+    if (datasets_.count(path) == 0)
+      fail(path, isGroup(path) ? "should be a dataset, and is a group" : "is missing");
   }
   std::int64_t whole(const std::string& path, double value) const {
     if (!(std::abs(value) < 2147483648.0) || value != std::floor(value))
@@ -159,24 +163,32 @@ class Hdf5Source : public PartSource {
 
   void checkFinite(const std::string& path, int row, int column, double value) const {
     if (std::isfinite(value)) return;
-    throw io::MatrixFileError(file_ + ": the entry of " + inQuotes(path) + " in row " + std::to_string(row + 1) + ", column " +
-                                  std::to_string(column + 1) + " is " + formatNumber(value) + ", which is no finite number.",
+    throw io::MatrixFileError(file_ + ": the entry of " + inQuotes(path) + " in row " +
+                                  std::to_string(row + 1) + ", column " +
+                                  std::to_string(column + 1) + " is " + formatNumber(value) +
+                                  ", which is no finite number.",
                               row, column);
   }
 
   Sparse coordinates(const std::string& path) const {
-    if (!isCoordinates(path)) fail(path, "should be a dataset, or a group with row, column and value");
-    const auto values = numbers(path + "/value"), rows = numbers(path + "/row"), columns = numbers(path + "/column");
+    if (!isCoordinates(path))
+      fail(path, "should be a dataset, or a group with row, column and value");
+    const auto values = numbers(path + "/value"), rows = numbers(path + "/row"),
+               columns = numbers(path + "/column");
     if (rows.size() != values.size() || columns.size() != values.size())
-      fail(path, "has " + std::to_string(values.size()) + " values, " + std::to_string(rows.size()) + " rows and " +
-                     std::to_string(columns.size()) + " columns");
+      fail(path, "has " + std::to_string(values.size()) + " values, " +
+                     std::to_string(rows.size()) + " rows and " + std::to_string(columns.size()) +
+                     " columns");
     double height = 0, width = 0;
     if (datasets_.count(path + "/shape") > 0) {
       const auto shape = numbers(path + "/shape");
       if (shape.size() != 2) fail(path + "/shape", "should be two numbers");
       for (double extent : shape)
-        if (!(extent >= 1 && extent <= static_cast<double>(io::largestDimension)) || extent != std::floor(extent))
-          fail(path + "/shape", "holds " + formatNumber(extent) + ", expected rows and columns from 1 to " + std::to_string(io::largestDimension));
+        if (!(extent >= 1 && extent <= static_cast<double>(io::largestDimension)) ||
+            extent != std::floor(extent))
+          fail(path + "/shape", "holds " + formatNumber(extent) +
+                                    ", expected rows and columns from 1 to " +
+                                    std::to_string(io::largestDimension));
       height = shape[0];
       width = shape[1];
     } else if (datasets_.count("dofs") > 0) {
@@ -187,8 +199,9 @@ class Hdf5Source : public PartSource {
       whole(path + "/row", rows[i]);
       whole(path + "/column", columns[i]);
       if (!(rows[i] >= 0 && rows[i] < height && columns[i] >= 0 && columns[i] < width))
-        fail(path, "has an entry in row " + formatNumber(rows[i]) + ", column " + formatNumber(columns[i]) +
-                       " (counted from 0), outside of the " + formatNumber(height) + " x " + formatNumber(width) + " matrix");
+        fail(path, "has an entry in row " + formatNumber(rows[i]) + ", column " +
+                       formatNumber(columns[i]) + " (counted from 0), outside of the " +
+                       formatNumber(height) + " x " + formatNumber(width) + " matrix");
       checkFinite(path, static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);
       entries.emplace_back(static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);
     }
@@ -200,8 +213,10 @@ class Hdf5Source : public PartSource {
   NamedTerm term(const std::string& path, const std::string& name) const {
     NamedTerm out{name, "1", path, matrix(path)};
     read([&] {
-      if (reader_->hasAttribute("/" + path, "law")) out.law = reader_->textAttribute("/" + path, "law");
-      if (reader_->hasAttribute("/" + path, "name")) out.name = reader_->textAttribute("/" + path, "name");
+      if (reader_->hasAttribute("/" + path, "law"))
+        out.law = reader_->textAttribute("/" + path, "law");
+      if (reader_->hasAttribute("/" + path, "name"))
+        out.name = reader_->textAttribute("/" + path, "name");
     });
     return out;
   }
@@ -213,6 +228,8 @@ class Hdf5Source : public PartSource {
 
 }  // namespace
 
-std::unique_ptr<PartSource> openHdf5Part(const std::string& path) { return std::make_unique<Hdf5Source>(path); }
+std::unique_ptr<PartSource> openHdf5Part(const std::string& path) {
+  return std::make_unique<Hdf5Source>(path);
+}
 
 }  // namespace tooljoint::parts

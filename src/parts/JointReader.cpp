@@ -20,25 +20,29 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
   const auto colon = out.text.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == out.text.size())
     fail(whole, "a place is written PART:NODE or PART:SET, \"left:tip\" for instance.");
-  const std::string name = trim(out.text.substr(0, colon)), place = trim(out.text.substr(colon + 1));
+  const std::string name = trim(out.text.substr(0, colon)),
+                    place = trim(out.text.substr(colon + 1));
   std::vector<std::string> names;
   for (const auto& one : parts_) names.push_back(one.part.name);
   const auto it = std::find(names.begin(), names.end(), name);
   if (it == names.end()) {
     const auto meant = closest(name, names);
     fail(whole, "there is no part " + inQuotes(name) +
-                    (meant.empty() ? "; the parts are " + quotedList(names) + "." : ". Did you mean " + inQuotes(meant) + "?"));
+                    (meant.empty() ? "; the parts are " + quotedList(names) + "."
+                                   : ". Did you mean " + inQuotes(meant) + "?"));
   }
   out.part = static_cast<int>(it - names.begin());
   const auto& content = parts_[static_cast<std::size_t>(out.part)];
-  const auto set =
-      std::find_if(content.interfaces.begin(), content.interfaces.end(), [&](const auto& one) { return one.name == place; });
-  const bool number = place.find_first_not_of("0123456789") == std::string::npos && place.size() < 16;
+  const auto set = std::find_if(content.interfaces.begin(), content.interfaces.end(),
+                                [&](const auto& one) { return one.name == place; });
+  const bool number =
+      place.find_first_not_of("0123456789") == std::string::npos && place.size() < 16;
   if (set == content.interfaces.end() && !number) {
     std::vector<std::string> sets;
     for (const auto& one : content.interfaces) sets.push_back(one.name);
     const auto meant = closest(place, sets);
-    fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no interface set " + inQuotes(place) +
+    fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no interface set " +
+                    inQuotes(place) +
                     (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
                      : sets.empty() ? "; it has none."
                                     : "; its sets are " + quotedList(sets) + "."));
@@ -54,12 +58,16 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
       const auto& label = dofs[static_cast<std::size_t>(i)];
       if (label.kind != DofLabel::Kind::Physical || label.entity != node) continue;
       had.insert(label.component);
-      if (set == content.interfaces.end() || std::find(set->dofs.begin(), set->dofs.end(), i) != set->dofs.end())
+      if (set == content.interfaces.end() ||
+          std::find(set->dofs.begin(), set->dofs.end(), i) != set->dofs.end())
         joined.insert(label.component);
     }
     for (const auto& [p, label] : held_)
-      if (p == out.part && label.entity == node && label.kind == DofLabel::Kind::Physical) had.insert(label.component);
-    if (had.empty()) fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no node " + std::to_string(node) + ".");
+      if (p == out.part && label.entity == node && label.kind == DofLabel::Kind::Physical)
+        had.insert(label.component);
+    if (had.empty())
+      fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no node " +
+                      std::to_string(node) + ".");
     out.had.push_back(had);
     out.joined.push_back(joined);
   }
@@ -73,10 +81,13 @@ ReadJoint JointReader::read(const std::string& text) const {
   for (std::size_t s = 0; s < sides.size(); ++s) {
     for (std::size_t other = 0; other < s; ++other)
       if (sides[other].part == sides[s].part)
-        fail(text, "both places are in part \"" + parts_[static_cast<std::size_t>(sides[s].part)].part.name +
+        fail(text, "both places are in part \"" +
+                       parts_[static_cast<std::size_t>(sides[s].part)].part.name +
                        "\". Tie nodes of one part by constraints of the list Coupling.");
     if (sides[s].nodes.size() != sides[0].nodes.size())
-      fail(text, inQuotes(sides[0].text) + " has " + std::to_string(sides[0].nodes.size()) + " nodes and " + inQuotes(sides[s].text) + " has " + std::to_string(sides[s].nodes.size()) + "; sets are joined node by node.");
+      fail(text, inQuotes(sides[0].text) + " has " + std::to_string(sides[0].nodes.size()) +
+                     " nodes and " + inQuotes(sides[s].text) + " has " +
+                     std::to_string(sides[s].nodes.size()) + "; sets are joined node by node.");
   }
   const auto& names = parts_.front().part.model.componentNames;
   ReadJoint out;
@@ -89,8 +100,8 @@ ReadJoint JointReader::read(const std::string& text) const {
     for (const auto& one : sides) {
       joint.nodes.push_back({parts_[static_cast<std::size_t>(one.part)].part.name, one.nodes[k]});
       std::set<int> both;
-      std::set_intersection(common.begin(), common.end(), one.joined[k].begin(), one.joined[k].end(),
-                            std::inserter(both, both.begin()));
+      std::set_intersection(common.begin(), common.end(), one.joined[k].begin(),
+                            one.joined[k].end(), std::inserter(both, both.begin()));
       common = both;
       for (int c : one.had[k]) ++owners[c];
     }
@@ -99,20 +110,26 @@ ReadJoint JointReader::read(const std::string& text) const {
         const bool fixed = held_.count({one.part, DofLabel::physical(one.nodes[k], c)}) > 0;
         for (const auto& other : sides)
           if (fixed && other.joined[k].count(c) > 0)
-            fail(text, names[static_cast<std::size_t>(c)] + " of node " + std::to_string(one.nodes[k]) + " is fixed in part \"" +
-                           parts_[static_cast<std::size_t>(one.part)].part.name + "\" and free in part \"" +
-                           parts_[static_cast<std::size_t>(other.part)].part.name + "\". Fix it in both.");
+            fail(text, names[static_cast<std::size_t>(c)] + " of node " +
+                           std::to_string(one.nodes[k]) + " is fixed in part \"" +
+                           parts_[static_cast<std::size_t>(one.part)].part.name +
+                           "\" and free in part \"" +
+                           parts_[static_cast<std::size_t>(other.part)].part.name +
+                           "\". Fix it in both.");
       }
     if (common.empty())
-      fail(text, "node " + std::to_string(sides[0].nodes[k]) + " of " + inQuotes(joint.nodes[0].part) + " and node " +
-                     std::to_string(sides[1].nodes[k]) + " of " + inQuotes(joint.nodes[1].part) + " have no free component in common.");
+      fail(text, "node " + std::to_string(sides[0].nodes[k]) + " of " +
+                     inQuotes(joint.nodes[0].part) + " and node " +
+                     std::to_string(sides[1].nodes[k]) + " of " + inQuotes(joint.nodes[1].part) +
+                     " have no free component in common.");
     for (const auto& one : sides) {
       coupling::ReleasePlan release;
       release.name = text;
       release.path = where_;
       release.node = {parts_[static_cast<std::size_t>(one.part)].part.name, one.nodes[k]};
       for (int c : one.had[k])
-        if (owners[c] > 1 && common.count(c) == 0 && held_.count({one.part, DofLabel::physical(one.nodes[k], c)}) == 0)
+        if (owners[c] > 1 && common.count(c) == 0 &&
+            held_.count({one.part, DofLabel::physical(one.nodes[k], c)}) == 0)
           release.components.push_back(names[static_cast<std::size_t>(c)]);
       if (release.components.empty()) continue;
       out.partial.insert(one.part);

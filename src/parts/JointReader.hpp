@@ -15,20 +15,22 @@ namespace tooljoint::parts {
 
 /// What one text joins.
 struct ReadJoint {
-  std::vector<coupling::JointPlan> joints;      ///< node by node
-  std::vector<coupling::ReleasePlan> releases;  ///< components that parts have at a joined node, but not in a joined set
-  std::set<int> partial;                        ///< parts with such components
+  std::vector<coupling::JointPlan> joints;  ///< node by node
+  std::vector<coupling::ReleasePlan>
+      releases;           ///< components that parts have at a joined node, but not in a joined set
+  std::set<int> partial;  ///< parts with such components
 };
 
 class JointReader {
  public:
   /// \param held dofs of the parts that do not move
   /// \param where path of the parameter, for messages
-  JointReader(const std::vector<PartContent>& parts, const std::set<std::pair<int, model::DofLabel>>& held, std::string where)
+  JointReader(const std::vector<PartContent>& parts,
+              const std::set<std::pair<int, model::DofLabel>>& held, std::string where)
       : parts_(parts), held_(held), where_(std::move(where)) {}
 
-  /// DeckError naming the text: unknown part, node or set; sets of different lengths; a dof that is fixed on one side and free on
-  /// the other; nothing in common.
+  /// DeckError naming the text: unknown part, node or set; sets of different lengths; a dof that is
+  /// fixed on one side and free on the other; nothing in common.
   ReadJoint read(const std::string& text) const;
 
  private:

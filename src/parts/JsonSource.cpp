@@ -18,12 +18,14 @@ using Json = nlohmann::ordered_json;
 /// Largest JSON file of a part; larger matrices stand in files of their own [bytes].
 constexpr std::uint64_t largestJson = 1ULL << 28U;
 
-/// A JSON file whose matrices stand in Matrix Market files beside it, or as lists of rows in itself.
+/// A JSON file whose matrices stand in Matrix Market files beside it, or as lists of rows in
+/// itself.
 class JsonSource : public PartSource {
  public:
   explicit JsonSource(const std::string& path) : file_(path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) file_ = (std::filesystem::path(path) / "part.json").string();
+    if (std::filesystem::is_directory(path, ignored))
+      file_ = (std::filesystem::path(path) / "part.json").string();
     try {
       root_ = Json::parse(readInput(file_, largestJson));
     } catch (const FileError& fault) {
@@ -31,7 +33,8 @@ class JsonSource : public PartSource {
     } catch (const Json::exception& fault) {
       throw DeckError(file_ + " is no JSON: " + fault.what() + ".");
     }
-    if (!root_.is_object()) throw DeckError(file_ + " should hold one object, {\"format\": ..., \"dofs\": ..., ...}.");
+    if (!root_.is_object())
+      throw DeckError(file_ + " should hold one object, {\"format\": ..., \"dofs\": ..., ...}.");
   }
 
   std::string file() const override { return file_; }
@@ -74,7 +77,8 @@ class JsonSource : public PartSource {
 
   Matrix table(const std::string& path) const override {
     const Json& value = at(path);
-    return value.is_string() ? io::readMatrixMarketDense(beside(value)) : Matrix(matrixOf(path, value));
+    return value.is_string() ? io::readMatrixMarketDense(beside(value))
+                             : Matrix(matrixOf(path, value));
   }
 
   std::vector<NamedTerm> terms(const std::string& path) const override {
@@ -82,7 +86,8 @@ class JsonSource : public PartSource {
     std::vector<NamedTerm> out;
     const bool several = value.is_array() && !value.empty() && value[0].is_object();
     if (!several) return {term(path, value, path)};
-    for (const auto& one : value) out.push_back(term(path, one, path + " " + std::to_string(out.size() + 1)));
+    for (const auto& one : value)
+      out.push_back(term(path, one, path + " " + std::to_string(out.size() + 1)));
     return out;
   }
 
@@ -115,10 +120,12 @@ class JsonSource : public PartSource {
     if (value.is_object()) {
       for (const auto& [key, one] : value.items())
         if (key != "matrix" && key != "vector" && key != "law" && key != "name")
-          fail(path, "holds " + inQuotes(key) + "; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
+          fail(path, "holds " + inQuotes(key) +
+                         "; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
       for (const char* key : {"law", "name"})
         if (value.contains(key)) {
-          if (!value[key].is_string()) fail(path, std::string("has a \"") + key + "\" that is no text");
+          if (!value[key].is_string())
+            fail(path, std::string("has a \"") + key + "\" that is no text");
           (std::string(key) == "law" ? out.law : out.name) = value[key].get<std::string>();
         }
       const char* key = value.contains("vector") ? "vector" : "matrix";
@@ -139,23 +146,26 @@ class JsonSource : public PartSource {
   /// A file the JSON names, relative to its folder unless absolute.
   std::string beside(const Json& value) const {
     const std::filesystem::path name = value.get<std::string>();
-    return name.is_absolute() ? name.string() : (std::filesystem::path(file_).parent_path() / name).string();
+    return name.is_absolute() ? name.string()
+                              : (std::filesystem::path(file_).parent_path() / name).string();
   }
 
   /// The name of a Matrix Market file, a list of rows, or a list of numbers (one column).
   Sparse matrixOf(const std::string& path, const Json& value) const {
     if (value.is_string()) return io::readMatrixMarket(beside(value));
-    if (!value.is_array() || value.empty()) fail(path, "should be the name of a Matrix Market file or a list of rows");
+    if (!value.is_array() || value.empty())
+      fail(path, "should be the name of a Matrix Market file or a list of rows");
     const auto columns = value[0].is_array() ? value[0].size() : 1;
     Triplets entries;
     for (std::size_t i = 0; i < value.size(); ++i) {
       const Json row = value[i].is_array() ? value[i] : Json::array({value[i]});
       if (row.size() != columns)
-        fail(path,
-             "has rows of different lengths: " + std::to_string(columns) + " and " + std::to_string(row.size()) + " numbers");
+        fail(path, "has rows of different lengths: " + std::to_string(columns) + " and " +
+                       std::to_string(row.size()) + " numbers");
       for (std::size_t j = 0; j < columns; ++j) {
         if (!row[j].is_number())
-          fail(path, "has an entry in row " + std::to_string(i + 1) + " that is no number: " + row[j].dump());
+          fail(path, "has an entry in row " + std::to_string(i + 1) +
+                         " that is no number: " + row[j].dump());
         entries.emplace_back(static_cast<int>(i), static_cast<int>(j), row[j].get<double>());
       }
     }
@@ -174,14 +184,17 @@ class JsonSource : public PartSource {
     if (pair && one[0] == "mode" && one[1].is_number_integer()) {
       dof.mode = true;
       dof.number = one[1].get<int>();
-    } else if (pair && one[0].is_number_integer() && (one[1].is_string() || one[1].is_number_integer())) {
+    } else if (pair && one[0].is_number_integer() &&
+               (one[1].is_string() || one[1].is_number_integer())) {
       dof.node = one[0].get<std::int64_t>();
       if (one[1].is_string())
         dof.component = one[1].get<std::string>();
       else
         dof.number = one[1].get<int>();
     } else {
-      fail(path, "has the entry " + one.dump() + "; a dof is [node, \"component\"] or [\"mode\", number], a node is its number");
+      fail(path,
+           "has the entry " + one.dump() +
+               "; a dof is [node, \"component\"] or [\"mode\", number], a node is its number");
     }
     return dof;
   }
@@ -202,11 +215,14 @@ class JsonSource : public PartSource {
 
 }  // namespace
 
-std::unique_ptr<PartSource> openJsonPart(const std::string& path) { return std::make_unique<JsonSource>(path); }
+std::unique_ptr<PartSource> openJsonPart(const std::string& path) {
+  return std::make_unique<JsonSource>(path);
+}
 
 std::unique_ptr<PartSource> openPart(const std::string& path) {
   std::error_code ignored;
-  const bool json = std::filesystem::is_directory(path, ignored) || std::filesystem::path(path).extension() == ".json";
+  const bool json = std::filesystem::is_directory(path, ignored) ||
+                    std::filesystem::path(path).extension() == ".json";
   return json ? openJsonPart(path) : openHdf5Part(path);
 }
 

@@ -27,11 +27,13 @@ class MassCheck {
   std::string dof(Eigen::Index i) const {
     const auto& m = content_.part.model;
     const auto& label = m.dofs[static_cast<std::size_t>(i)];
-    return label.kind == model::DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1)
-                                                      : model::describe(label, m.componentNames);
+    return label.kind == model::DofLabel::Kind::Modal
+               ? "mode " + std::to_string(label.component + 1)
+               : model::describe(label, m.componentNames);
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw ModelError("Part \"" + content_.part.name + "\" (" + content_.file + "): its mass " + what);
+    throw ModelError("Part \"" + content_.part.name + "\" (" + content_.file + "): its mass " +
+                     what);
   }
 
   /// |m_ij - m_ji| <= 1e-10 sqrt(m_ii m_jj), the largest entry where a diagonal is missing
@@ -52,8 +54,8 @@ class MassCheck {
         column = it.col();
       }
     if (worst <= rounding) return;
-    fail("is not symmetric: " + formatNumber(M_.coeff(row, column)) + " in the row of " + dof(row) + " and the column of " +
-         dof(column) + ", but " + formatNumber(M_.coeff(column, row)) +
+    fail("is not symmetric: " + formatNumber(M_.coeff(row, column)) + " in the row of " + dof(row) +
+         " and the column of " + dof(column) + ", but " + formatNumber(M_.coeff(column, row)) +
          " the other way round. Write both triangles alike, or one of them in a symmetric file.");
   }
 
@@ -65,11 +67,13 @@ class MassCheck {
         fail("is indefinite: " + formatNumber(diagonal[i]) + " on the diagonal of " + dof(i) +
              ". Kinetic energy is never negative.");
     Vector scale(diagonal.size());
-    for (Eigen::Index i = 0; i < diagonal.size(); ++i) scale[i] = diagonal[i] > 0.0 ? 1.0 / std::sqrt(diagonal[i]) : 0.0;
+    for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+      scale[i] = diagonal[i] > 0.0 ? 1.0 / std::sqrt(diagonal[i]) : 0.0;
     for (int i = 0; i < M_.rows(); ++i)
       for (Sparse::InnerIterator it(M_, i); it; ++it)
         if (it.value() != 0.0 && (diagonal[i] == 0.0 || diagonal[it.col()] == 0.0))
-          fail("is indefinite: " + dof(diagonal[i] == 0.0 ? i : it.col()) + " has none of its own, but is coupled with " +
+          fail("is indefinite: " + dof(diagonal[i] == 0.0 ? i : it.col()) +
+               " has none of its own, but is coupled with " +
                dof(diagonal[i] == 0.0 ? it.col() : i) + " by " + formatNumber(it.value()) + ".");
     using ColumnMajor = Eigen::SparseMatrix<double>;
     ColumnMajor scaled = ColumnMajor(scale.asDiagonal() * ColumnMajor(M_) * scale.asDiagonal());
@@ -79,9 +83,11 @@ class MassCheck {
     const Eigen::SimplicialLDLT<ColumnMajor> factor(scaled);
     const Vector pivots = factor.vectorD();
     Eigen::Index at = 0;
-    if (factor.info() == Eigen::Success && (pivots.size() == 0 || pivots.minCoeff(&at) > 0.0)) return;
+    if (factor.info() == Eigen::Success && (pivots.size() == 0 || pivots.minCoeff(&at) > 0.0))
+      return;
     const auto& order = factor.permutationPinv().indices();
-    fail("is indefinite: there is a motion with negative kinetic energy, and " + dof(order.size() > 0 ? order[at] : at) +
+    fail("is indefinite: there is a motion with negative kinetic energy, and " +
+         dof(order.size() > 0 ? order[at] : at) +
          " takes part in it. Check the signs of its entries.");
   }
 

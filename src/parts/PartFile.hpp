@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parts from elsewhere: matrices, loads, labels and interfaces of a part in files that any program can write, and reduced parts
-/// written the same way. docs/file-formats.md describes the format: either a JSON file that names Matrix Market files, or one
-/// HDF5 file.
+/// Parts from elsewhere: matrices, loads, labels and interfaces of a part in files that any program
+/// can write, and reduced parts written the same way. docs/file-formats.md describes the format:
+/// either a JSON file that names Matrix Market files, or one HDF5 file.
 #pragma once
 
 #include <map>
@@ -32,36 +32,42 @@ struct StoredBasis {
   bool empty() const { return dofs.empty(); }
 };
 
-/// A part as a file holds it. Coordinates without a node (modes of a part that was reduced before) have Modal labels.
+/// A part as a file holds it. Coordinates without a node (modes of a part that was reduced before)
+/// have Modal labels.
 struct PartContent {
   std::string file;
-  model::Substructure part;  ///< interface: the dofs of all sets; laws have names, and NaN for a value but that of "1"
+  model::Substructure part;  ///< interface: the dofs of all sets; laws have names, and NaN for a
+                             ///< value but that of "1"
   std::vector<InterfaceSet> interfaces;
-  std::map<std::int64_t, Vector3> positions;  ///< of nodes, in the frame of the part [m]; empty when the file gives none
-  StoredBasis basis;                          ///< empty unless the file holds one
-  std::vector<std::string> omitted;           ///< point laws the part had where it came from, and that a file cannot hold
+  std::map<std::int64_t, Vector3>
+      positions;      ///< of nodes, in the frame of the part [m]; empty when the file gives none
+  StoredBasis basis;  ///< empty unless the file holds one
+  std::vector<std::string>
+      omitted;  ///< point laws the part had where it came from, and that a file cannot hold
 };
 
 /// Nodes that a part knows: those of its dofs, and of the rows of its basis.
 std::set<std::int64_t> nodesOf(const PartContent& content);
 
-/// Reads a part. `path` is a .json file, a folder with a part.json, or an HDF5 file; `name` is what messages call the part.
-/// DeckError naming part, file and dof: a file that is missing or malformed, unknown names, a matrix that is not square or of
-/// another size, labels that stand twice, an interface dof the part does not have, an entry that is not finite. ModelError: a
-/// mass that is not symmetric or indefinite. Not collective: see readPartEverywhere.
+/// Reads a part. `path` is a .json file, a folder with a part.json, or an HDF5 file; `name` is what
+/// messages call the part. DeckError naming part, file and dof: a file that is missing or
+/// malformed, unknown names, a matrix that is not square or of another size, labels that stand
+/// twice, an interface dof the part does not have, an entry that is not finite. ModelError: a mass
+/// that is not symmetric or indefinite. Not collective: see readPartEverywhere.
 PartContent readPart(const std::string& path, const std::string& name);
 
 /// The same on every rank; all ranks end alike. Collective.
 PartContent readPartEverywhere(const std::string& path, const std::string& name);
 
-/// Throws ModelError naming part, file and dof when the mass is not symmetric (1e-10 of the diagonal) or has a direction of
-/// negative mass.
+/// Throws ModelError naming part, file and dof when the mass is not symmetric (1e-10 of the
+/// diagonal) or has a direction of negative mass.
 void checkMass(const PartContent& content);
 
 enum class FileKind { Hdf5, MatrixMarket };
 
-/// Writes a part on rank 0: one HDF5 file `path`, or a folder `path` with part.json and matrices in it. What was there is
-/// replaced when all is written. FileError when that fails. Point laws are no part of the format: name them in `omitted`.
+/// Writes a part on rank 0: one HDF5 file `path`, or a folder `path` with part.json and matrices in
+/// it. What was there is replaced when all is written. FileError when that fails. Point laws are no
+/// part of the format: name them in `omitted`.
 void writePart(const PartContent& content, const std::string& path, FileKind kind);
 
 }  // namespace tooljoint::parts

@@ -21,12 +21,16 @@ const std::vector<std::string> knownNames{
     "stiffness",        "loads",     "interfaces", "retained", "reference", "initial_displacement",
     "initial_velocity", "positions", "basis",      "omitted"};
 
-std::string shapeText(Eigen::Index rows, Eigen::Index columns) { return std::to_string(rows) + " x " + std::to_string(columns); }
+std::string shapeText(Eigen::Index rows, Eigen::Index columns) {
+  return std::to_string(rows) + " x " + std::to_string(columns);
+}
 
 /// Turns what a source holds into a part, and says what does not fit.
 class Reader {
  public:
-  Reader(const std::string& path, const std::string& name) : name_(name), source_(open(path)) { content_.file = source_->file(); }
+  Reader(const std::string& path, const std::string& name) : name_(name), source_(open(path)) {
+    content_.file = source_->file();
+  }
 
   PartContent read() {
     checkNames();
@@ -36,13 +40,17 @@ class Reader {
     m.dofs = labels("dofs");
     if (m.dofs.empty()) fail("dofs", "is empty: a part has one dof at least");
     refuseTwice("dofs", m.dofs);
-    for (int i = 0; i < static_cast<int>(m.dofs.size()); ++i) positions_[m.dofs[static_cast<std::size_t>(i)]] = i;
+    for (int i = 0; i < static_cast<int>(m.dofs.size()); ++i)
+      positions_[m.dofs[static_cast<std::size_t>(i)]] = i;
     const auto mass = squareTerms("mass");
-    if (mass.size() != 1 || mass.front().law != "1") fail("mass", "should be one matrix without a law");
+    if (mass.size() != 1 || mass.front().law != "1")
+      fail("mass", "should be one matrix without a law");
     m.mass = mass.front().matrix;
-    for (const auto& term : squareTerms("stiffness")) m.stiffness.push_back({term.name, term.matrix, law(term.law)});
+    for (const auto& term : squareTerms("stiffness"))
+      m.stiffness.push_back({term.name, term.matrix, law(term.law)});
     if (source_->has("damping"))
-      for (const auto& term : squareTerms("damping")) m.damping.push_back({term.name, term.matrix, law(term.law)});
+      for (const auto& term : squareTerms("damping"))
+        m.damping.push_back({term.name, term.matrix, law(term.law)});
     if (source_->has("loads")) readLoads();
     readState();
     readInterfaces();
@@ -68,33 +76,40 @@ class Reader {
   }
   Eigen::Index size() const { return static_cast<Eigen::Index>(content_.part.model.dofs.size()); }
   std::string describe(const DofLabel& label) const {
-    return label.kind == DofLabel::Kind::Modal ? "mode " + std::to_string(label.component + 1)
-                                               : model::describe(label, content_.part.model.componentNames);
+    return label.kind == DofLabel::Kind::Modal
+               ? "mode " + std::to_string(label.component + 1)
+               : model::describe(label, content_.part.model.componentNames);
   }
 
   void checkNames() const {
-    if (!source_->has("format")) fail("format", std::string("is missing: it says \"") + partFormat + "\" in a part file");
+    if (!source_->has("format"))
+      fail("format", std::string("is missing: it says \"") + partFormat + "\" in a part file");
     const auto format = source_->text("format");
     if (format != partFormat)
-      fail("format", "is " + inQuotes(format) + ", expected " + inQuotes(partFormat) + ". Another version, or a file of another kind");
+      fail("format", "is " + inQuotes(format) + ", expected " + inQuotes(partFormat) +
+                         ". Another version, or a file of another kind");
     for (const auto& name : source_->names("")) {
       if (std::find(knownNames.begin(), knownNames.end(), name) != knownNames.end()) continue;
       const auto meant = closest(name, knownNames);
       fail(name, "is nothing a part file holds" +
-                     (meant.empty() ? "; known are " + quotedList(knownNames) : ". Did you mean " + inQuotes(meant) + "?"));
+                     (meant.empty() ? "; known are " + quotedList(knownNames)
+                                    : ". Did you mean " + inQuotes(meant) + "?"));
     }
     if (source_->has("name")) source_->text("name");  // for people: the deck names the part
     for (const char* needed : {"components", "dofs", "mass", "stiffness"})
-      if (!source_->has(needed)) fail(needed, "is missing: a part has \"components\", \"dofs\", \"mass\" and \"stiffness\"");
+      if (!source_->has(needed))
+        fail(needed, "is missing: a part has \"components\", \"dofs\", \"mass\" and \"stiffness\"");
   }
 
   void readComponents() {
     auto& names = content_.part.model.componentNames;
     names = source_->texts("components");
-    if (names.empty()) fail("components", "is empty: name the components of a node, e.g. \"u\", \"v\", \"w\"");
+    if (names.empty())
+      fail("components", "is empty: name the components of a node, e.g. \"u\", \"v\", \"w\"");
     for (auto it = names.begin(); it != names.end(); ++it) {
       if (it->empty()) fail("components", "holds an empty name");
-      if (std::find(names.begin(), it, *it) != it) fail("components", "names " + inQuotes(*it) + " twice");
+      if (std::find(names.begin(), it, *it) != it)
+        fail("components", "names " + inQuotes(*it) + " twice");
     }
   }
 
@@ -104,24 +119,28 @@ class Reader {
     if (!dof.component.empty()) {
       const auto it = std::find(names.begin(), names.end(), dof.component);
       if (it == names.end())
-        fail(path, "names the component " + inQuotes(dof.component) + " of node " + std::to_string(dof.node) + "; the components are " +
-                       quotedList(names));
+        fail(path, "names the component " + inQuotes(dof.component) + " of node " +
+                       std::to_string(dof.node) + "; the components are " + quotedList(names));
       return static_cast<int>(it - names.begin());
     }
     if (dof.number < 1 || dof.number > static_cast<int>(names.size()))
-      fail(path, "names component " + std::to_string(dof.number) + " of node " + std::to_string(dof.node) +
-                     "; components are numbered 1 to " + std::to_string(names.size()));
+      fail(path, "names component " + std::to_string(dof.number) + " of node " +
+                     std::to_string(dof.node) + "; components are numbered 1 to " +
+                     std::to_string(names.size()));
     return dof.number - 1;
   }
 
   DofLabel label(const std::string& path, const DofName& dof) const {
     if (dof.mode) {
-      if (dof.number < 1) fail(path, "names mode " + std::to_string(dof.number) + "; modes are numbered from 1");
+      if (dof.number < 1)
+        fail(path, "names mode " + std::to_string(dof.number) + "; modes are numbered from 1");
       return DofLabel::modal(0, dof.number - 1);
     }
-    if (dof.node < 1) fail(path, "names node " + std::to_string(dof.node) + "; nodes are numbered from 1");
+    if (dof.node < 1)
+      fail(path, "names node " + std::to_string(dof.node) + "; nodes are numbered from 1");
     if (dof.whole())
-      fail(path, "names node " + std::to_string(dof.node) + " without a component; a dof is a node and a component");
+      fail(path, "names node " + std::to_string(dof.node) +
+                     " without a component; a dof is a node and a component");
     return DofLabel::physical(dof.node, component(path, dof));
   }
 
@@ -136,13 +155,15 @@ class Reader {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto [it, isNew] = seen.emplace(all[i], i);
       if (!isNew)
-        fail(path, "gives " + describe(all[i]) + " twice, as dof " + std::to_string(it->second + 1) + " and as dof " +
-                       std::to_string(i + 1) + ". Every dof has a label of its own");
+        fail(path, "gives " + describe(all[i]) + " twice, as dof " +
+                       std::to_string(it->second + 1) + " and as dof " + std::to_string(i + 1) +
+                       ". Every dof has a label of its own");
     }
   }
 
   int law(const std::string& name) {
-    return content_.part.model.lawIndex({name, [](double) { return std::numeric_limits<double>::quiet_NaN(); }});
+    return content_.part.model.lawIndex(
+        {name, [](double) { return std::numeric_limits<double>::quiet_NaN(); }});
   }
 
   /// Terms of a matrix; an entry that is not finite is told by its dofs.
@@ -153,7 +174,8 @@ class Reader {
       std::set<std::pair<std::string, std::string>> names;
       for (const auto& term : terms)
         if (!names.emplace(term.name, term.law).second)
-          fail(path, "has two terms of the name " + inQuotes(term.name) + " and the law " + inQuotes(term.law));
+          fail(path, "has two terms of the name " + inQuotes(term.name) + " and the law " +
+                         inQuotes(term.law));
       return terms;
     } catch (const io::MatrixFileError& fault) {
       throw explained(fault);
@@ -177,11 +199,12 @@ class Reader {
     for (const auto& term : terms) {
       const auto rows = term.matrix.rows(), columns = term.matrix.cols();
       if (rows != columns)
-        fail(term.where,
-             "is " + shapeText(rows, columns) + ", which is not square; the part has " + std::to_string(size()) + " dofs");
+        fail(term.where, "is " + shapeText(rows, columns) + ", which is not square; the part has " +
+                             std::to_string(size()) + " dofs");
       if (rows != size())
-        fail(term.where, "is " + shapeText(rows, columns) + ", but \"dofs\" names " + std::to_string(size()) +
-                             " dofs. Every row of the matrices needs its label, and every label a row");
+        fail(term.where,
+             "is " + shapeText(rows, columns) + ", but \"dofs\" names " + std::to_string(size()) +
+                 " dofs. Every row of the matrices needs its label, and every label a row");
     }
     return terms;
   }
@@ -194,28 +217,31 @@ class Reader {
       throw explained(fault);
     }
     if (values.cols() != 1 || values.rows() != rows)
-      fail(path,
-           "is " + shapeText(values.rows(), values.cols()) + ", expected " + std::to_string(rows) + " numbers in one column");
+      fail(path, "is " + shapeText(values.rows(), values.cols()) + ", expected " +
+                     std::to_string(rows) + " numbers in one column");
     return values.col(0);
   }
 
   void readLoads() {
     for (const auto& term : termsOf("loads")) {
       if (term.matrix.cols() != 1 || term.matrix.rows() != size())
-        fail(term.where, "is " + shapeText(term.matrix.rows(), term.matrix.cols()) + ", expected " + std::to_string(size()) +
-                             " numbers in one column, one for each dof");
-      content_.part.model.loads.push_back({term.name, Vector(Matrix(term.matrix).col(0)), law(term.law)});
+        fail(term.where, "is " + shapeText(term.matrix.rows(), term.matrix.cols()) + ", expected " +
+                             std::to_string(size()) + " numbers in one column, one for each dof");
+      content_.part.model.loads.push_back(
+          {term.name, Vector(Matrix(term.matrix).col(0)), law(term.law)});
     }
   }
 
   void readState() {
     auto& part = content_.part;
     if (source_->has("reference")) part.reference = vectorOf("reference", size());
-    part.model.initialDisplacement = source_->has("initial_displacement") ? vectorOf("initial_displacement", size())
-                                     : part.reference.size() > 0          ? part.reference
-                                                                          : Vector(Vector::Zero(size()));
-    part.model.initialVelocity =
-        source_->has("initial_velocity") ? vectorOf("initial_velocity", size()) : Vector(Vector::Zero(size()));
+    part.model.initialDisplacement = source_->has("initial_displacement")
+                                         ? vectorOf("initial_displacement", size())
+                                     : part.reference.size() > 0 ? part.reference
+                                                                 : Vector(Vector::Zero(size()));
+    part.model.initialVelocity = source_->has("initial_velocity")
+                                     ? vectorOf("initial_velocity", size())
+                                     : Vector(Vector::Zero(size()));
   }
 
   /// Positions of dofs and whole nodes, in the order given.
@@ -229,16 +255,19 @@ class Reader {
         if (it != positions_.end()) out.push_back(it->second);
       } else {
         for (int i = 0; i < size(); ++i)
-          if (const auto& l = dofs[static_cast<std::size_t>(i)]; l.kind == DofLabel::Kind::Physical && l.entity == one.node)
+          if (const auto& l = dofs[static_cast<std::size_t>(i)];
+              l.kind == DofLabel::Kind::Physical && l.entity == one.node)
             out.push_back(i);
       }
       if (out.size() > before) continue;
-      const std::string what = one.whole() ? "node " + std::to_string(one.node) : describe(label(path, one));
+      const std::string what =
+          one.whole() ? "node " + std::to_string(one.node) : describe(label(path, one));
       fail(path, "names " + what + ", but the part has no such " + (one.whole() ? "node" : "dof") +
                      ": \"dofs\" does not list it" + nodeRange());
     }
     for (auto it = out.begin(); it != out.end(); ++it)
-      if (std::find(out.begin(), it, *it) != it) fail(path, "names " + describe(dofs[static_cast<std::size_t>(*it)]) + " twice");
+      if (std::find(out.begin(), it, *it) != it)
+        fail(path, "names " + describe(dofs[static_cast<std::size_t>(*it)]) + " twice");
     return out;
   }
 
@@ -249,7 +278,9 @@ class Reader {
         low = std::min(low, l.entity);
         high = std::max(high, l.entity);
       }
-    return high == 0 ? "" : " (its nodes are " + std::to_string(low) + " to " + std::to_string(high) + ")";
+    return high == 0
+               ? ""
+               : " (its nodes are " + std::to_string(low) + " to " + std::to_string(high) + ")";
   }
 
   void readInterfaces() {
@@ -262,7 +293,8 @@ class Reader {
           const auto& l = part.model.dofs[static_cast<std::size_t>(i)];
           if (l.kind == DofLabel::Kind::Modal)
             fail("interfaces/" + name, "names " + describe(l) + ", which no other part can have");
-          if (std::find(set.nodes.begin(), set.nodes.end(), l.entity) == set.nodes.end()) set.nodes.push_back(l.entity);
+          if (std::find(set.nodes.begin(), set.nodes.end(), l.entity) == set.nodes.end())
+            set.nodes.push_back(l.entity);
           joined.insert(i);
         }
         content_.interfaces.push_back(std::move(set));
@@ -278,13 +310,18 @@ class Reader {
   void readPositions() {
     const auto known = nodesOf(content_);
     const Matrix rows = source_->table("positions");
-    if (rows.cols() != 4) fail("positions", "is " + shapeText(rows.rows(), rows.cols()) + ", expected rows \"node x y z\"");
+    if (rows.cols() != 4)
+      fail("positions",
+           "is " + shapeText(rows.rows(), rows.cols()) + ", expected rows \"node x y z\"");
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       const auto node = static_cast<std::int64_t>(rows(i, 0));
       if (static_cast<double>(node) != rows(i, 0) || node < 1)
-        fail("positions", "has " + formatNumber(rows(i, 0)) + " for a node in row " + std::to_string(i + 1));
+        fail("positions",
+             "has " + formatNumber(rows(i, 0)) + " for a node in row " + std::to_string(i + 1));
       if (known.count(node) == 0)
-        fail("positions", "names node " + std::to_string(node) + " in row " + std::to_string(i + 1) + ", which the part does not have" + nodeRange());
+        fail("positions", "names node " + std::to_string(node) + " in row " +
+                              std::to_string(i + 1) + ", which the part does not have" +
+                              nodeRange());
       if (!content_.positions.emplace(node, rows.row(i).tail(3).transpose()).second)
         fail("positions", "gives node " + std::to_string(node) + " twice");
     }
@@ -293,7 +330,8 @@ class Reader {
   void readBasis() {
     auto& basis = content_.basis;
     for (const char* needed : {"basis/dofs", "basis/vectors"})
-      if (!source_->has(needed)) fail(needed, "is missing: a basis has \"dofs\" (its rows) and \"vectors\"");
+      if (!source_->has(needed))
+        fail(needed, "is missing: a basis has \"dofs\" (its rows) and \"vectors\"");
     basis.dofs = labels("basis/dofs");
     refuseTwice("basis/dofs", basis.dofs);
     try {
@@ -303,12 +341,16 @@ class Reader {
     }
     const auto rows = static_cast<Eigen::Index>(basis.dofs.size());
     if (basis.vectors.rows() != rows || basis.vectors.cols() != size())
-      fail("basis/vectors", "is " + shapeText(basis.vectors.rows(), basis.vectors.cols()) + ", expected " +
-                                shapeText(rows, size()) + ": a row for each of \"basis/dofs\" and a column for each of \"dofs\"");
-    basis.offset = source_->has("basis/offset") ? vectorOf("basis/offset", rows) : Vector(Vector::Zero(rows));
+      fail("basis/vectors",
+           "is " + shapeText(basis.vectors.rows(), basis.vectors.cols()) + ", expected " +
+               shapeText(rows, size()) +
+               ": a row for each of \"basis/dofs\" and a column for each of \"dofs\"");
+    basis.offset =
+        source_->has("basis/offset") ? vectorOf("basis/offset", rows) : Vector(Vector::Zero(rows));
   }
 
-  /// D of all nodes: from the basis where there is one, else the dofs themselves; dofs the part does not have are 0.
+  /// D of all nodes: from the basis where there is one, else the dofs themselves; dofs the part
+  /// does not have are 0.
   void recoverNodes() {
     auto& m = content_.part.model;
     const auto& rows = content_.basis.empty() ? m.dofs : content_.basis.dofs;
@@ -354,7 +396,9 @@ std::set<std::int64_t> nodesOf(const PartContent& content) {
   return out;
 }
 
-PartContent readPart(const std::string& path, const std::string& name) { return Reader(path, name).read(); }
+PartContent readPart(const std::string& path, const std::string& name) {
+  return Reader(path, name).read();
+}
 
 PartContent readPartEverywhere(const std::string& path, const std::string& name) {
   PartContent content;

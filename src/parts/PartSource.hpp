@@ -30,8 +30,8 @@ struct NamedTerm {
   Sparse matrix;
 };
 
-/// Paths are names joined by "/". Every getter throws DeckError, or io::MatrixFileError for an entry, when the value is not there
-/// or of another kind.
+/// Paths are names joined by "/". Every getter throws DeckError, or io::MatrixFileError for an
+/// entry, when the value is not there or of another kind.
 class PartSource {
  public:
   virtual ~PartSource() = default;

@@ -16,7 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using model::DofLabel;
 
-const std::string& lawName(const model::SecondOrderModel& m, int law) { return m.laws[static_cast<std::size_t>(law)].name; }
+const std::string& lawName(const model::SecondOrderModel& m, int law) {
+  return m.laws[static_cast<std::size_t>(law)].name;
+}
 
 /// part.json and matrices beside it.
 class FolderWriter {
@@ -27,7 +29,8 @@ class FolderWriter {
   void write() {
     std::error_code failed;
     std::filesystem::create_directories(folder_, failed);
-    if (failed) throw FileError("The folder \"" + folder_ + "\" cannot be made: " + failed.message() + ".");
+    if (failed)
+      throw FileError("The folder \"" + folder_ + "\" cannot be made: " + failed.message() + ".");
     root_["format"] = partFormat;
     root_["name"] = content_.part.name;
     root_["components"] = m_.componentNames;
@@ -38,10 +41,12 @@ class FolderWriter {
     if (!m_.loads.empty()) loads();
     if (!content_.interfaces.empty()) interfaces();
     if (!content_.part.retained.empty()) root_["retained"] = names(at(content_.part.retained));
-    if (content_.part.reference.size() > 0) root_["reference"] = column("reference.mtx", content_.part.reference);
+    if (content_.part.reference.size() > 0)
+      root_["reference"] = column("reference.mtx", content_.part.reference);
     root_["initial_displacement"] = column("initial_displacement.mtx", m_.initialDisplacement);
     root_["initial_velocity"] = column("initial_velocity.mtx", m_.initialVelocity);
-    for (const auto& [node, x] : content_.positions) root_["positions"].push_back({node, x[0], x[1], x[2]});
+    for (const auto& [node, x] : content_.positions)
+      root_["positions"].push_back({node, x[0], x[1], x[2]});
     if (!content_.basis.empty()) {
       root_["basis"]["dofs"] = names(content_.basis.dofs);
       root_["basis"]["vectors"] = matrix("basis.mtx", content_.basis.vectors);
@@ -54,7 +59,8 @@ class FolderWriter {
  private:
   Json name(const DofLabel& label) const {
     if (label.kind == DofLabel::Kind::Modal) return Json::array({"mode", label.component + 1});
-    return Json::array({label.entity, m_.componentNames[static_cast<std::size_t>(label.component)]});
+    return Json::array(
+        {label.entity, m_.componentNames[static_cast<std::size_t>(label.component)]});
   }
   Json names(const std::vector<DofLabel>& labels) const {
     Json out = Json::array();
@@ -71,23 +77,26 @@ class FolderWriter {
     return file;
   }
   std::string column(const std::string& file, const Vector& values) const {
-    io::writeText((std::filesystem::path(folder_) / file).string(), io::matrixMarketText(Matrix(values)));
+    io::writeText((std::filesystem::path(folder_) / file).string(),
+                  io::matrixMarketText(Matrix(values)));
     return file;
   }
   Json terms(const std::string& kind, const std::vector<model::MatrixTerm>& all) const {
     Json out = Json::array();
     for (const auto& term : all)
-      out.push_back({{"name", term.name},
-                     {"law", lawName(m_, term.law)},
-                     {"matrix", matrix(kind + "_" + std::to_string(out.size() + 1) + ".mtx", term.matrix)}});
+      out.push_back(
+          {{"name", term.name},
+           {"law", lawName(m_, term.law)},
+           {"matrix", matrix(kind + "_" + std::to_string(out.size() + 1) + ".mtx", term.matrix)}});
     return out;
   }
   void loads() {
     Json out = Json::array();
     for (const auto& term : m_.loads)
-      out.push_back({{"name", term.name},
-                     {"law", lawName(m_, term.law)},
-                     {"vector", column("load_" + std::to_string(out.size() + 1) + ".mtx", term.vector)}});
+      out.push_back(
+          {{"name", term.name},
+           {"law", lawName(m_, term.law)},
+           {"vector", column("load_" + std::to_string(out.size() + 1) + ".mtx", term.vector)}});
     root_["loads"] = out;
   }
   void interfaces() {
@@ -108,25 +117,30 @@ class Hdf5Writer {
 
   void write() {
     file_.write("/components", m_.componentNames, "Names of the components of a node");
-    names("/dofs", m_.dofs, "Node and component (from 1) of every dof; node 0: a mode and its number");
+    names("/dofs", m_.dofs,
+          "Node and component (from 1) of every dof; node 0: a mode and its number");
     matrix("/mass", m_.mass, "Mass");
     terms("/stiffness", m_.stiffness);
     terms("/damping", m_.damping);
     for (std::size_t i = 0; i < m_.loads.size(); ++i) load(m_.loads[i]);
     for (const auto& set : content_.interfaces)
-      names("/interfaces/" + set.name, at(set.dofs), "Dofs that may be joined with those of another part");
-    if (!content_.part.retained.empty()) names("/retained", at(content_.part.retained), "Dofs that a reduction keeps");
+      names("/interfaces/" + set.name, at(set.dofs),
+            "Dofs that may be joined with those of another part");
+    if (!content_.part.retained.empty())
+      names("/retained", at(content_.part.retained), "Dofs that a reduction keeps");
     if (content_.part.reference.size() > 0)
       column("/reference", content_.part.reference, "m, rad", "State the matrices are taken about");
     column("/initial_displacement", m_.initialDisplacement, "m, rad", "State at the start");
     column("/initial_velocity", m_.initialVelocity, "m/s, rad/s", "Velocity at the start");
     if (!content_.positions.empty()) positions();
     if (!content_.basis.empty()) {
-      names("/basis/dofs", content_.basis.dofs, "Rows of the basis: dofs of the part this one was reduced from");
+      names("/basis/dofs", content_.basis.dofs,
+            "Rows of the basis: dofs of the part this one was reduced from");
       matrix("/basis/vectors", content_.basis.vectors, "Phi: D = offset + Phi q");
       column("/basis/offset", content_.basis.offset, "m, rad", "D at q = 0");
     }
-    if (!content_.omitted.empty()) file_.write("/omitted", content_.omitted, "Point laws that are not in this file");
+    if (!content_.omitted.empty())
+      file_.write("/omitted", content_.omitted, "Point laws that are not in this file");
     file_.attribute("/", "format", std::string(partFormat));
     file_.attribute("/", "name", content_.part.name);
     file_.finish();
@@ -138,7 +152,8 @@ class Hdf5Writer {
     for (int i : positions) out.push_back(m_.dofs[static_cast<std::size_t>(i)]);
     return out;
   }
-  void names(const std::string& path, const std::vector<DofLabel>& labels, const std::string& longName) {
+  void names(const std::string& path, const std::vector<DofLabel>& labels,
+             const std::string& longName) {
     std::vector<double> rows;
     for (const auto& label : labels) {
       rows.push_back(label.kind == DofLabel::Kind::Modal ? 0.0 : static_cast<double>(label.entity));
@@ -157,12 +172,15 @@ class Hdf5Writer {
       }
     const std::size_t count = value.size();
     file_.write(path + "/row", row, {count}, "1", longName + ": row of each entry, from 0");
-    file_.write(path + "/column", column, {count}, "1", longName + ": column of each entry, from 0");
+    file_.write(path + "/column", column, {count}, "1",
+                longName + ": column of each entry, from 0");
     file_.write(path + "/value", value, {count}, "1", longName + ": entries, SI");
-    file_.write(path + "/shape", std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1",
+    file_.write(path + "/shape",
+                std::vector<int>{static_cast<int>(A.rows()), static_cast<int>(A.cols())}, {2}, "1",
                 longName + ": rows and columns");
   }
-  void column(const std::string& path, const Vector& values, const std::string& unit, const std::string& longName) {
+  void column(const std::string& path, const Vector& values, const std::string& unit,
+              const std::string& longName) {
     file_.write(path, values, {static_cast<std::size_t>(values.size())}, unit, longName);
   }
   void terms(const std::string& path, const std::vector<model::MatrixTerm>& all) {
@@ -175,7 +193,8 @@ class Hdf5Writer {
   }
   void load(const model::LoadTerm& term) {
     const std::string path =
-        "/loads/" + plain(term.name) + (lawName(m_, term.law) == "1" ? "" : " times " + plain(lawName(m_, term.law)));
+        "/loads/" + plain(term.name) +
+        (lawName(m_, term.law) == "1" ? "" : " times " + plain(lawName(m_, term.law)));
     column(path, term.vector, "N, N m", "Load \"" + term.name + "\"");
     file_.attribute(path, "law", lawName(m_, term.law));
     file_.attribute(path, "name", term.name);
@@ -188,8 +207,10 @@ class Hdf5Writer {
   }
   void positions() {
     std::vector<double> rows;
-    for (const auto& [node, x] : content_.positions) rows.insert(rows.end(), {static_cast<double>(node), x[0], x[1], x[2]});
-    file_.write("/positions", rows, {content_.positions.size(), 4}, "m", "Rows node, x, y, z in the frame of the part");
+    for (const auto& [node, x] : content_.positions)
+      rows.insert(rows.end(), {static_cast<double>(node), x[0], x[1], x[2]});
+    file_.write("/positions", rows, {content_.positions.size(), 4}, "m",
+                "Rows node, x, y, z in the frame of the part");
   }
 
   const PartContent& content_;

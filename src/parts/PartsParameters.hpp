@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Parts`: which parts a scene is made of, where they come from and what acts on them.
+/// The deck list `Parts`: which parts a scene is made of, where they come from and what acts on
+/// them.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -59,7 +60,8 @@ struct PartsSettings {
 /// Description of the list `Parts`.
 deck::ListSpec parameters();
 
-/// The validated list as plain values. DeckError: no part, an axis without length, laws that make no sense.
+/// The validated list as plain values. DeckError: no part, an axis without length, laws that make
+/// no sense.
 PartsSettings readSettings(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::parts

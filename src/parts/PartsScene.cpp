@@ -48,13 +48,16 @@ class Builder {
       work();
     } catch (const DeckError& fault) {
       const std::string what = fault.what();
-      faults_.push_back(where.empty() ? what : where + " " + what + (what.back() == '?' ? "" : "."));
+      faults_.push_back(where.empty() ? what
+                                      : where + " " + what + (what.back() == '?' ? "" : "."));
     }
   }
   void raise() const {
     if (!faults_.empty()) throw DeckError(join_(faults_));
   }
-  static std::string join_(const std::vector<std::string>& lines) { return tooljoint::join(lines, "\n"); }
+  static std::string join_(const std::vector<std::string>& lines) {
+    return tooljoint::join(lines, "\n");
+  }
 
   /// A file is read once, however many parts come from it.
   void read() {
@@ -89,9 +92,10 @@ class Builder {
       if (names.back() == name) return static_cast<int>(p);
     }
     const auto meant = closest(name, names);
-    throw DeckError(
-        "names part " + inQuotes(name) + ", but " +
-        (meant.empty() ? "the parts are " + quotedList(names) : "there is no such part. Did you mean " + inQuotes(meant) + "?"));
+    throw DeckError("names part " + inQuotes(name) + ", but " +
+                    (meant.empty()
+                         ? "the parts are " + quotedList(names)
+                         : "there is no such part. Did you mean " + inQuotes(meant) + "?"));
   }
 
   void giveLoads() {
@@ -101,7 +105,8 @@ class Builder {
         const auto at = positionsOf(content, std::to_string(load.node) + " " + load.component);
         Vector force = Vector::Zero(content.part.model.size());
         force[at.front()] = load.value;
-        content.part.model.loads.push_back({load.name, force, content.part.model.lawIndex({load.law, {}})});
+        content.part.model.loads.push_back(
+            {load.name, force, content.part.model.lawIndex({load.law, {}})});
         loaded_.emplace_back(load.where, static_cast<int>(&content - scene_.contents.data()),
                              content.part.model.dofs[static_cast<std::size_t>(at.front())]);
       });
@@ -113,18 +118,21 @@ class Builder {
       for (auto& law : content.part.model.laws.own()) {
         if (law.name == "1") continue;
         used.insert(law.name);
-        const auto it =
-            std::find_if(settings_.laws.begin(), settings_.laws.end(), [&](const auto& one) { return one.name == law.name; });
+        const auto it = std::find_if(settings_.laws.begin(), settings_.laws.end(),
+                                     [&](const auto& one) { return one.name == law.name; });
         if (it != settings_.laws.end())
           law = *it;
         else
-          faults_.push_back(settings_.where + "/Laws does not give the law " + inQuotes(law.name) + ", which terms or loads of part " + inQuotes(content.part.name) + " (" + content.file +
-                            ") follow. Add a list " + inQuotes(law.name) + " with its Form.");
+          faults_.push_back(settings_.where + "/Laws does not give the law " + inQuotes(law.name) +
+                            ", which terms or loads of part " + inQuotes(content.part.name) + " (" +
+                            content.file + ") follow. Add a list " + inQuotes(law.name) +
+                            " with its Form.");
       }
     for (const auto& law : settings_.laws)
       if (used.count(law.name) == 0)
-        faults_.push_back(settings_.where + "/Laws/" + law.name +
-                          " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
+        faults_.push_back(
+            settings_.where + "/Laws/" + law.name +
+            " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
   }
 
   void holdAndRetain() {
@@ -151,22 +159,25 @@ class Builder {
         if (!std::binary_search(inner.begin(), inner.end(), i)) content.part.retained.push_back(i);
       if (std::count(held.begin(), held.end(), char{0}) == 0)
         faults_.push_back(given.where +
-                          "/Fixed holds every dof of the part; nothing is left to compute. Leave the part out, or release some.");
+                          "/Fixed holds every dof of the part; nothing is left to compute. Leave "
+                          "the part out, or release some.");
       else
         hold(content, held);
     }
     for (const auto& [where, p, label] : loaded_)
       if (held_.count({p, label}) > 0)
-        faults_.push_back(where + " acts on a dof that is fixed. Release it, or leave the load out.");
+        faults_.push_back(where +
+                          " acts on a dof that is fixed. Release it, or leave the load out.");
   }
 
   void checkHeld(const ImportedPart& given, const PartContent& content, int i) {
     const auto& m = content.part.model;
-    held_.insert({static_cast<int>(&content - scene_.contents.data()), m.dofs[static_cast<std::size_t>(i)]});
+    held_.insert(
+        {static_cast<int>(&content - scene_.contents.data()), m.dofs[static_cast<std::size_t>(i)]});
     if (m.initialDisplacement[i] == 0.0 && m.initialVelocity[i] == 0.0) return;
-    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file + " starts at " +
-                      formatNumber(m.initialDisplacement[i]) + " with velocity " + formatNumber(m.initialVelocity[i]) +
-                      ". A fixed dof stays at zero.");
+    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file +
+                      " starts at " + formatNumber(m.initialDisplacement[i]) + " with velocity " +
+                      formatNumber(m.initialVelocity[i]) + ". A fixed dof stays at zero.");
   }
 
   /// Joints of the list Parts as joints and releases of the plan.
@@ -179,9 +190,10 @@ class Builder {
         const auto joint = reader.read(text);
         for (const auto& side : joint.partial)
           if (imported()[static_cast<std::size_t>(side)].turned)
-            throw DeckError(settings_.where + "/Joints joins only some components in " + inQuotes(text) + ", and part \"" +
-                            imported()[static_cast<std::size_t>(side)].name +
-                            "\" is turned. Join whole nodes, and release components in the list Coupling.");
+            throw DeckError(
+                settings_.where + "/Joints joins only some components in " + inQuotes(text) +
+                ", and part \"" + imported()[static_cast<std::size_t>(side)].name +
+                "\" is turned. Join whole nodes, and release components in the list Coupling.");
         plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
         plan_.releases.insert(plan_.releases.end(), joint.releases.begin(), joint.releases.end());
       });
@@ -199,7 +211,8 @@ class Builder {
       std::set<int> kept(part.retained.begin(), part.retained.end());
       std::vector<int> joined;
       for (int i : part.interface) {
-        const bool shared = !plan_.ownNumbers && owners.at(part.model.dofs[static_cast<std::size_t>(i)]) > 1;
+        const bool shared =
+            !plan_.ownNumbers && owners.at(part.model.dofs[static_cast<std::size_t>(i)]) > 1;
         if (shared)
           joined.push_back(i);
         else
@@ -228,10 +241,13 @@ class Builder {
         if (done.insert(number).second) scene_.nodes[number].push_back({static_cast<int>(p), node});
       };
       for (std::size_t i = 0; i < now.dofs.size(); ++i) {
-        if (now.dofs[i].kind == DofLabel::Kind::Physical) note(now.dofs[i].entity, own.dofs[i].entity);
-        if (now.dofs[i].kind == DofLabel::Kind::Modal) now.dofs[i].entity = static_cast<std::int64_t>(p);
+        if (now.dofs[i].kind == DofLabel::Kind::Physical)
+          note(now.dofs[i].entity, own.dofs[i].entity);
+        if (now.dofs[i].kind == DofLabel::Kind::Modal)
+          now.dofs[i].entity = static_cast<std::int64_t>(p);
       }
-      for (std::size_t i = 0; i < now.recoveryNodes.size(); ++i) note(now.recoveryNodes[i], own.recoveryNodes[i]);
+      for (std::size_t i = 0; i < now.recoveryNodes.size(); ++i)
+        note(now.recoveryNodes[i], own.recoveryNodes[i]);
     }
   }
 
@@ -257,7 +273,8 @@ PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPla
   return Builder(settings, given, resolve).build();
 }
 
-void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver, PartsScene& scene) {
+void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
+               PartsScene& scene) {
   if (!settings.atRest && settings.starts.empty()) return;
   auto options = scene.coupling;
   options.assembly = coupling::Assembly::Primal;
@@ -265,22 +282,28 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
   Vector z = settings.atRest ? restState(full.model, t, solver) : full.model.initialDisplacement;
   Vector zDot = settings.atRest ? Vector(Vector::Zero(z.size())) : full.model.initialVelocity;
   if (settings.atRest)
-    for (std::size_t p = 0; p < scene.parts.size(); ++p) scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
+    for (std::size_t p = 0; p < scene.parts.size(); ++p)
+      scene.parts[p].reference = full.maps[p] * z + full.offsets[p];
   for (const auto& start : settings.starts) {
-    const auto it = std::find_if(scene.contents.begin(), scene.contents.end(),
-                                 [&](const auto& content) { return content.part.name == start.part; });
+    const auto it =
+        std::find_if(scene.contents.begin(), scene.contents.end(),
+                     [&](const auto& content) { return content.part.name == start.part; });
     if (it == scene.contents.end())
-      throw DeckError(start.where + "/Part names part " + inQuotes(start.part) + ", but there is no such part.");
+      throw DeckError(start.where + "/Part names part " + inQuotes(start.part) +
+                      ", but there is no such part.");
     int position = 0;
     try {
       position = positionsOf(*it, std::to_string(start.node) + " " + start.component).front();
     } catch (const DeckError& fault) {
       throw DeckError(start.where + " " + fault.what() + ".");
     }
-    // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would not give the value asked for
-    const Vector row = Vector(full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
+    // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would
+    // not give the value asked for
+    const Vector row = Vector(
+        full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
     if (std::abs(row.squaredNorm() - 1.0) > 1e-9)
-      throw DeckError(start.where + " starts a dof that a constraint ties to others. Start those instead.");
+      throw DeckError(start.where +
+                      " starts a dof that a constraint ties to others. Start those instead.");
     z += row * start.displacement;
     zDot += row * start.velocity;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Imported parts put together as a deck says: laws, loads, held dofs, joints, numbers of nodes that are one scene's.
+/// Imported parts put together as a deck says: laws, loads, held dofs, joints, numbers of nodes
+/// that are one scene's.
 #pragma once
 
 #include <functional>
@@ -24,23 +25,27 @@ struct NodeName {
 };
 
 struct PartsScene {
-  std::vector<PartContent> contents;                    ///< as the files number nodes, held dofs taken out
-  std::vector<model::Substructure> parts;               ///< the same in numbers of the scene; interface: what is joined
+  std::vector<PartContent> contents;  ///< as the files number nodes, held dofs taken out
+  std::vector<model::Substructure>
+      parts;  ///< the same in numbers of the scene; interface: what is joined
   coupling::CouplingOptions coupling;                   ///< in numbers of the scene
   std::map<std::int64_t, std::vector<NodeName>> nodes;  ///< of a number of the scene
 
   int dofs() const;
 };
 
-/// Reads the files and puts the parts together. Interface dofs that nothing joins become retained ones, as do dofs that
-/// connections name. \param given what the list Coupling says, defaults without it \param resolve file name of the deck -> path
-/// DeckError naming the place in the deck, the part and the dof, all faults of one kind together. ModelError as in
-/// coupling::plan. Collective.
+/// Reads the files and puts the parts together. Interface dofs that nothing joins become retained
+/// ones, as do dofs that connections name. \param given what the list Coupling says, defaults
+/// without it \param resolve file name of the deck -> path DeckError naming the place in the deck,
+/// the part and the dof, all faults of one kind together. ModelError as in coupling::plan.
+/// Collective.
 PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given,
                       const std::function<std::string(const std::string&)>& resolve);
 
-/// The state the motion starts from, in coordinates of the coupled unreduced parts: that of the files, or rest under the loads of
-/// time t (K q = F + point forces, by `solver`); and what "Starts" adds. ConvergenceError, DeckError.
-void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver, PartsScene& scene);
+/// The state the motion starts from, in coordinates of the coupled unreduced parts: that of the
+/// files, or rest under the loads of time t (K q = F + point forces, by `solver`); and what
+/// "Starts" adds. ConvergenceError, DeckError.
+void findStart(const PartsSettings& settings, double t, const model::NonlinearSolver& solver,
+               PartsScene& scene);
 
 }  // namespace tooljoint::parts

@@ -16,7 +16,8 @@ PartContent contentOf(const model::Substructure& part) {
   std::map<std::int64_t, std::size_t> sets;
   for (int i : part.interface) {
     const auto node = part.model.dofs[static_cast<std::size_t>(i)].entity;
-    if (sets.emplace(node, content.interfaces.size()).second) content.interfaces.push_back({std::to_string(node), {}, {node}});
+    if (sets.emplace(node, content.interfaces.size()).second)
+      content.interfaces.push_back({std::to_string(node), {}, {node}});
     content.interfaces[sets.at(node)].dofs.push_back(i);
   }
   return content;
@@ -25,7 +26,8 @@ PartContent contentOf(const model::Substructure& part) {
 namespace {
 
 /// Labels of the coordinates: kept dofs as they were called, modes counted through.
-std::vector<DofLabel> coordinateLabels(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
+std::vector<DofLabel> coordinateLabels(const PartContent& original,
+                                       const reduction::ReducedSubstructure& reduced) {
   std::vector<DofLabel> labels;
   int modes = 0;
   for (int i : reduced.basis->partition.kept) {
@@ -38,12 +40,14 @@ std::vector<DofLabel> coordinateLabels(const PartContent& original, const reduct
 
 }  // namespace
 
-PartContent reducedContent(const PartContent& original, const reduction::ReducedSubstructure& reduced) {
+PartContent reducedContent(const PartContent& original,
+                           const reduction::ReducedSubstructure& reduced) {
   if (reduced.boundary)
-    throw ModelError(
-        "Part \"" + reduced.name + "\" cannot be exported: its basis \"" + reduced.report.basis +
-        "\" does not have the interface dofs among its coordinates, so there is nothing that others could be joined to. Take "
-        "another basis, Craig-Bampton for instance.");
+    throw ModelError("Part \"" + reduced.name + "\" cannot be exported: its basis \"" +
+                     reduced.report.basis +
+                     "\" does not have the interface dofs among its coordinates, so there is "
+                     "nothing that others could be joined to. Take "
+                     "another basis, Craig-Bampton for instance.");
   const auto& kept = reduced.basis->partition.kept;
   if (reduced.basis->vectors.rows() != original.part.model.size())
     throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
@@ -62,13 +66,15 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
     s[static_cast<Eigen::Index>(k)] = reduced.offset[kept[k]];
   if (!s.isZero(0.0)) {
     for (const auto& term : m.stiffness)
-      m.loads.push_back({"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
+      m.loads.push_back(
+          {"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
     m.initialDisplacement += s;
     if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
     out.part.reference = s;
   }
 
-  const Vector offset = reduced.offset.size() > 0 ? reduced.offset : Vector(Vector::Zero(original.part.model.size()));
+  const Vector offset =
+      reduced.offset.size() > 0 ? reduced.offset : Vector(Vector::Zero(original.part.model.size()));
   out.basis.dofs = original.part.model.dofs;
   out.basis.vectors = reduced.basis->vectors;
   out.basis.offset = offset - reduced.basis->vectors * s;
@@ -89,7 +95,8 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
       moved.dofs.push_back(it->second);
       inSet[static_cast<std::size_t>(it->second)] = 1;
       const auto node = original.part.model.dofs[static_cast<std::size_t>(i)].entity;
-      if (std::find(moved.nodes.begin(), moved.nodes.end(), node) == moved.nodes.end()) moved.nodes.push_back(node);
+      if (std::find(moved.nodes.begin(), moved.nodes.end(), node) == moved.nodes.end())
+        moved.nodes.push_back(node);
     }
     if (!moved.dofs.empty()) out.interfaces.push_back(std::move(moved));
   }
@@ -97,7 +104,8 @@ PartContent reducedContent(const PartContent& original, const reduction::Reduced
     (inSet[k] ? out.part.interface : out.part.retained).push_back(static_cast<int>(k));
   const auto known = nodesOf(out);
   for (const auto& [node, position] : original.positions)
-    if (known.count(node) > 0) out.positions.emplace(node, position);  // a held node is none of the part any more
+    if (known.count(node) > 0)
+      out.positions.emplace(node, position);  // a held node is none of the part any more
   return out;
 }
 

@@ -8,8 +8,9 @@
 
 namespace tooljoint::parts {
 
-/// q with K(t) q = F(t) + sum R' f(d, 0, t), from the initial displacement of the model. ConvergenceError; ModelError when
-/// something floats.
-Vector restState(const model::SecondOrderModel& model, double t, const model::NonlinearSolver& solver);
+/// q with K(t) q = F(t) + sum R' f(d, 0, t), from the initial displacement of the model.
+/// ConvergenceError; ModelError when something floats.
+Vector restState(const model::SecondOrderModel& model, double t,
+                 const model::NonlinearSolver& solver);
 
 }  // namespace tooljoint::parts

@@ -39,10 +39,11 @@ class Harmonic : public TimeLaw {
         pulsation_(twoPi * list.get<double>("Frequency")),
         phase_(list.get<double>("Phase")),
         start_(list.get<double>("Start Time")),
-        end_(list.isParameter("End Time") ? list.get<double>("End Time") : std::numeric_limits<double>::infinity()) {
+        end_(list.isParameter("End Time") ? list.get<double>("End Time")
+                                          : std::numeric_limits<double>::infinity()) {
     if (!(end_ > start_))
-      throw DeckError(list.name() + "/End Time is " + formatNumber(end_) + " s, which is not after its start, " +
-                      formatNumber(start_) + " s.");
+      throw DeckError(list.name() + "/End Time is " + formatNumber(end_) +
+                      " s, which is not after its start, " + formatNumber(start_) + " s.");
   }
   double value(double t) const override {
     return t < start_ || t >= end_ ? mean_ : mean_ + amplitude_ * std::sin(pulsation_ * t + phase_);
@@ -60,7 +61,9 @@ class Ramp : public TimeLaw {
         to_(list.get<double>("To")),
         start_(list.get<double>("Start Time")),
         duration_(list.get<double>("Duration")) {}
-  double value(double t) const override { return from_ + (to_ - from_) * std::clamp((t - start_) / duration_, 0.0, 1.0); }
+  double value(double t) const override {
+    return from_ + (to_ - from_) * std::clamp((t - start_) / duration_, 0.0, 1.0);
+  }
 
  private:
   double from_, to_, start_, duration_;
@@ -73,17 +76,18 @@ class Table : public TimeLaw {
       : times_(list.get<Teuchos::Array<double>>("Times").toVector()),
         values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
     if (times_.empty() || times_.size() != values_.size())
-      throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " + std::to_string(values_.size()) +
-                      " values; give one value for each time.");
+      throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " +
+                      std::to_string(values_.size()) + " values; give one value for each time.");
     for (std::size_t i = 1; i < times_.size(); ++i)
       if (!(times_[i] > times_[i - 1]))
-        throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) + " s is followed by " +
-                        formatNumber(times_[i]) + " s.");
+        throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) +
+                        " s is followed by " + formatNumber(times_[i]) + " s.");
   }
   double value(double t) const override {
     if (t <= times_.front()) return values_.front();
     if (t >= times_.back()) return values_.back();
-    const auto i = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) - times_.begin());
+    const auto i = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) -
+                                            times_.begin());
     const double x = (t - times_[i - 1]) / (times_[i] - times_[i - 1]);
     return values_[i - 1] + x * (values_[i] - values_[i - 1]);
   }
@@ -95,40 +99,47 @@ class Table : public TimeLaw {
 template <class Law>
 bool add(ListSpec parameters) {
   const std::string name = parameters.name(), doc = parameters.doc();
-  return TimeLaws::instance().add(name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<TimeLaw> {
-                                           return std::make_unique<Law>(list);
-                                         }});
+  return TimeLaws::instance().add(
+      name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<TimeLaw> {
+               return std::make_unique<Law>(list);
+             }});
 }
 
-[[maybe_unused]] const bool constant = add<Constant>(
-    ListSpec("Constant", "One value at all times.").real("Value", "", deck::Required{}, Range::any(), "The value."));
+[[maybe_unused]] const bool constant =
+    add<Constant>(ListSpec("Constant", "One value at all times.")
+                      .real("Value", "", deck::Required{}, Range::any(), "The value."));
 
 [[maybe_unused]] const bool harmonic =
     add<Harmonic>(ListSpec("Harmonic", "Mean + Amplitude sin(2 pi Frequency t + Phase).")
-                      .real("Mean", "", 0.0, Range::any(), "Value about which it swings, and before and after it does.")
+                      .real("Mean", "", 0.0, Range::any(),
+                            "Value about which it swings, and before and after it does.")
                       .real("Amplitude", "", 1.0, Range::any(), "Amplitude.")
                       .real("Frequency", "Hz", deck::Required{}, Range::nonNegative(), "Frequency.")
                       .real("Phase", "rad", 0.0, Range::any(), "Phase at time 0.")
                       .real("Start Time", "s", 0.0, Range::any(), "Time at which the swing begins.")
-                      .real("End Time", "s", deck::Optional{}, Range::any(), "Time at which it ends; never by default."));
+                      .real("End Time", "s", deck::Optional{}, Range::any(),
+                            "Time at which it ends; never by default."));
 
-[[maybe_unused]] const bool ramp = add<Ramp>(ListSpec("Ramp", "From one value to another along a straight line.")
-                                                 .real("From", "", 0.0, Range::any(), "Value before the ramp.")
-                                                 .real("To", "", 1.0, Range::any(), "Value after it.")
-                                                 .real("Start Time", "s", 0.0, Range::any(), "Time at which the ramp begins.")
-                                                 .real("Duration", "s", deck::Required{}, Range::positive(), "Time it takes."));
+[[maybe_unused]] const bool ramp =
+    add<Ramp>(ListSpec("Ramp", "From one value to another along a straight line.")
+                  .real("From", "", 0.0, Range::any(), "Value before the ramp.")
+                  .real("To", "", 1.0, Range::any(), "Value after it.")
+                  .real("Start Time", "s", 0.0, Range::any(), "Time at which the ramp begins.")
+                  .real("Duration", "s", deck::Required{}, Range::positive(), "Time it takes."));
 
-[[maybe_unused]] const bool table =
-    add<Table>(ListSpec("Table", "Straight lines between points, constant before the first and after the last.")
-                   .realArray("Times", "s", deck::Required{}, Range::any(), "Times of the points, increasing.")
-                   .realArray("Values", "", deck::Required{}, Range::any(), "Values at these times."));
+[[maybe_unused]] const bool table = add<Table>(
+    ListSpec("Table",
+             "Straight lines between points, constant before the first and after the last.")
+        .realArray("Times", "s", deck::Required{}, Range::any(), "Times of the points, increasing.")
+        .realArray("Values", "", deck::Required{}, Range::any(), "Values at these times."));
 
 }  // namespace
 
 deck::ListSpec timeLawParameters() {
   const auto& laws = TimeLaws::instance();
   ListSpec spec("law", "A law of time, named as the files of the parts or the loads name it.");
-  spec.choice("Form", deck::Required{}, laws.names(), "Form of the law; its numbers stand in the sublist of the same name.");
+  spec.choice("Form", deck::Required{}, laws.names(),
+              "Form of the law; its numbers stand in the sublist of the same name.");
   for (const auto& [name, entry] : laws.entries()) spec.list(entry.parameters);
   return spec;
 }
@@ -136,7 +147,8 @@ deck::ListSpec timeLawParameters() {
 model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list) {
   const auto form = list.get<std::string>("Form");
   if (!list.isSublist(form))
-    throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " + inQuotes(form) + " with its numbers is missing.");
+    throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " +
+                    inQuotes(form) + " with its numbers is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
   return {name, [law](double t) { return law->value(t); }};
 }

@@ -24,7 +24,8 @@ using TimeLaws = deck::Registry<TimeLaw, const Teuchos::ParameterList&>;
 /// Description of one law: its form, and a sublist of the numbers of each form.
 deck::ListSpec timeLawParameters();
 
-/// The law of a validated list, under the name of the law. DeckError when its numbers are missing or make no sense together.
+/// The law of a validated list, under the name of the law. DeckError when its numbers are missing
+/// or make no sense together.
 model::ScalarLaw readTimeLaw(const std::string& name, const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::parts

@@ -3,12 +3,13 @@
 
 namespace tooljoint::reduction {
 
-bool Basis::improve(const model::SecondOrderModel&, const std::vector<std::vector<int>>&, const std::vector<model::Substructure>&,
-                    std::vector<BasisResult>&) const {
+bool Basis::improve(const model::SecondOrderModel&, const std::vector<std::vector<int>>&,
+                    const std::vector<model::Substructure>&, std::vector<BasisResult>&) const {
   return false;
 }
 
-Followers Basis::follow(const model::SecondOrderModel&, const std::vector<Sparse>&, const std::vector<model::Substructure>&,
+Followers Basis::follow(const model::SecondOrderModel&, const std::vector<Sparse>&,
+                        const std::vector<model::Substructure>&,
                         const std::vector<BasisResult>&) const {
   return {};
 }
@@ -35,16 +36,19 @@ void truncate(BasisResult& basis, int modes, const std::string& why) {
   }
 }
 
-void select(BasisResult& basis, const std::vector<char>& keep, const std::string& kept, const std::string& dropped) {
+void select(BasisResult& basis, const std::vector<char>& keep, const std::string& kept,
+            const std::string& dropped) {
   const auto constraints = static_cast<int>(basis.partition.kept.size());
   std::vector<int> column(static_cast<std::size_t>(basis.vectors.cols()), -1);
   int next = 0;
   for (std::size_t j = 0; j < column.size(); ++j)
-    if (static_cast<int>(j) < constraints || keep[j - static_cast<std::size_t>(constraints)]) column[j] = next++;
+    if (static_cast<int>(j) < constraints || keep[j - static_cast<std::size_t>(constraints)])
+      column[j] = next++;
   Triplets entries;
   for (int i = 0; i < basis.vectors.outerSize(); ++i)
     for (Sparse::InnerIterator it(basis.vectors, i); it; ++it)
-      if (column[static_cast<std::size_t>(it.col())] >= 0) entries.emplace_back(i, column[static_cast<std::size_t>(it.col())], it.value());
+      if (column[static_cast<std::size_t>(it.col())] >= 0)
+        entries.emplace_back(i, column[static_cast<std::size_t>(it.col())], it.value());
   const Eigen::Index rows = basis.vectors.rows();
   basis.vectors = Sparse(rows, next);
   basis.vectors.setFromTriplets(entries.begin(), entries.end());
@@ -66,7 +70,8 @@ void select(BasisResult& basis, const std::vector<char>& keep, const std::string
   }
   const auto modes = static_cast<Eigen::Index>(keep.size());
   for (Eigen::Index k = 0; k < eigenvalues.size(); ++k) basis.candidates[k] = eigenvalues[k];
-  for (std::size_t k = 0; k < left.size() && static_cast<Eigen::Index>(k) + eigenvalues.size() < modes; ++k)
+  for (std::size_t k = 0;
+       k < left.size() && static_cast<Eigen::Index>(k) + eigenvalues.size() < modes; ++k)
     basis.candidates[eigenvalues.size() + static_cast<Eigen::Index>(k)] = left[k];
   basis.eigenvalues = eigenvalues;
   basis.modeKind = kinds;

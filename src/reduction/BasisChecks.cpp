@@ -17,9 +17,11 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size, with room.
+/// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size,
+/// with room.
 constexpr double zeroEnergy = 1e-12;
-/// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and two more.
+/// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and
+/// two more.
 constexpr int zeroEnergyCandidates = 8;
 
 /// Mass-normalised shapes phi with omega^2 = phi' K phi.
@@ -36,7 +38,8 @@ int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenva
 void checkRank(const BasisResult& basis, BasisReport& report) {
   const Stage stage("check of the rank");
   const Matrix Phi =
-      Matrix(basis.vectors).leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
+      Matrix(basis.vectors)
+          .leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
   if (Phi.cols() == 0) {
     report.rank = 0;
     report.conditioning = 1;
@@ -47,14 +50,17 @@ void checkRank(const BasisResult& basis, BasisReport& report) {
     const double length = scaled.col(j).norm();
     if (length > 0) scaled.col(j) /= length;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> gram(scaled.transpose() * scaled, Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Matrix> gram(scaled.transpose() * scaled,
+                                                   Eigen::EigenvaluesOnly);
   const double largest = gram.eigenvalues().maxCoeff();
   report.rank = static_cast<int>((gram.eigenvalues().array() > 1e-14 * largest).count());
-  report.conditioning = std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
+  report.conditioning =
+      std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
 }
 
 /// Sets of dofs without any of the basis' interface dofs.
-std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, const BasisResult& basis) {
+std::vector<std::vector<int>> floatingLinks(const model::Substructure& part,
+                                            const BasisResult& basis) {
   model::Substructure free = part;
   free.interface.clear();
   free.retained.clear();
@@ -66,10 +72,11 @@ std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, con
   return floating;
 }
 
-/// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all kept dofs (they change no
-/// constraint mode, and let a free part stand). Links that touch no kept dof do not move and are left out.
-void checkStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
-                  BasisReport& report) {
+/// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all
+/// kept dofs (they change no constraint mode, and let a free part stand). Links that touch no kept
+/// dof do not move and are left out.
+void checkStatics(const model::Substructure& part, const BasisResult& basis,
+                  const ProjectedMatrices& reduced, BasisReport& report) {
   const Stage stage("check of the statics");
   const Partition& p = basis.partition;
   const int kept = static_cast<int>(p.kept.size());
@@ -100,14 +107,17 @@ void checkStatics(const model::Substructure& part, const BasisResult& basis, con
     full(j, column) = 1;
     small(j, column++) = 1;
   }
-  // Modes of links left out are not excited: give them any stiffness that keeps the reduced matrix regular.
+  // Modes of links left out are not excited: give them any stiffness that keeps the reduced matrix
+  // regular.
   for (Eigen::Index i = kept; i < k.rows(); ++i)
     if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
   Matrix exact;
   try {
     exact = linalg::DirectSolver(K).solve(full);
   } catch (const ModelError&) {
-    report.remarks.push_back("static exactness was not looked at: with springs on all kept dofs the part still moves freely");
+    report.remarks.push_back(
+        "static exactness was not looked at: with springs on all kept dofs the part still moves "
+        "freely");
     return;
   }
   const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
@@ -115,17 +125,18 @@ void checkStatics(const model::Substructure& part, const BasisResult& basis, con
   for (Eigen::Index c = 0; c < exact.cols(); ++c) {
     double error = 0;
     for (Eigen::Index i = 0; i < exact.rows(); ++i)
-      error = std::max(error, std::abs(recovered(positions[static_cast<std::size_t>(i)], c) - exact(i, c)));
+      error = std::max(
+          error, std::abs(recovered(positions[static_cast<std::size_t>(i)], c) - exact(i, c)));
     report.staticDefect = std::max(report.staticDefect, error / exact.col(c).cwiseAbs().maxCoeff());
   }
 }
 
-/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on springs s, g = f - s u_b, with the
-/// rest a held against g:
+/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on
+/// springs s, g = f - s u_b, with the rest a held against g:
 ///
 ///     [k_aa  k_ag - B_a'; s B_a  1 + s B_g] (a, g) = (0, f),   u_b = B_a a + B_g g
-void checkDualStatics(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
-                      BasisReport& report) {
+void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
+                      const ProjectedMatrices& reduced, BasisReport& report) {
   const Stage stage("check of the statics");
   const Eigen::Index forces = basis.forces(), others = basis.vectors.cols() - forces;
   Sparse K = constantStiffness(part.model);
@@ -144,7 +155,8 @@ void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
 
   const Matrix Phi = basis.vectors, k = reduced.constantStiffness;
   Matrix B(forces, Phi.cols());
-  for (Eigen::Index j = 0; j < forces; ++j) B.row(j) = Phi.row(basis.boundary[static_cast<std::size_t>(j)]);
+  for (Eigen::Index j = 0; j < forces; ++j)
+    B.row(j) = Phi.row(basis.boundary[static_cast<std::size_t>(j)]);
   Matrix system(Phi.cols(), Phi.cols());
   system.topRows(others) = k.topRows(others);
   system.topRightCorner(others, forces) -= B.leftCols(others).transpose();
@@ -153,8 +165,9 @@ void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
   for (Eigen::Index i = 0; i < others; ++i)
     if (system.row(i).cwiseAbs().maxCoeff() == 0) system(i, i) = 1;
   const std::set<Eigen::Index> loaded{0, forces / 3, 2 * forces / 3, forces - 1};
-  const linalg::DirectSolver solver(
-      K, [&](int i) { return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames); });
+  const linalg::DirectSolver solver(K, [&](int i) {
+    return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames);
+  });
   const Eigen::FullPivLU<Matrix> factor(system);
   report.staticDefect = 0;
   for (Eigen::Index j : loaded) {
@@ -162,12 +175,13 @@ void checkDualStatics(const model::Substructure& part, const BasisResult& basis,
     full[basis.boundary[static_cast<std::size_t>(j)]] = 1;
     small[others + j] = 1;
     const Vector exact = solver.solve(full), recovered = Phi * factor.solve(small);
-    report.staticDefect = std::max(report.staticDefect, (recovered - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff());
+    report.staticDefect = std::max(report.staticDefect, (recovered - exact).cwiseAbs().maxCoeff() /
+                                                            exact.cwiseAbs().maxCoeff());
   }
 }
 
-void checkFrequencies(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
-                      BasisReport& report) {
+void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
+                      const ProjectedMatrices& reduced, BasisReport& report) {
   const Stage stage("check of the frequencies");
   // Without forces on the interface: their coordinates are zero then.
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
@@ -180,11 +194,13 @@ void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
     report.explicitStep = 0;
     report.zeroEnergyReduced = 0;
   } else if (basis.inertial.size() > 0 && basis.forces() == 0) {
-    const linalg::EigenPairs pairs = linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
+    const linalg::EigenPairs pairs =
+        linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
     if (pairs.count() < size)
-      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) + " of " +
-                               std::to_string(size) + " coordinates: implicit integrators only");
+      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) +
+                               " of " + std::to_string(size) +
+                               " coordinates: implicit integrators only");
     else
       report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * pairs.vectors, pairs.values);
@@ -192,40 +208,48 @@ void checkFrequencies(const model::Substructure& part, const BasisResult& basis,
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
       throw ModelError("Part \"" + part.name +
-                       "\": its reduced mass matrix is not positive definite. Give every dof of the part mass, or retain fewer "
+                       "\": its reduced mass matrix is not positive definite. Give every dof of "
+                       "the part mass, or retain fewer "
                        "massless dofs.");
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
     if (pairs.info() != Eigen::Success)
-      throw ConvergenceError("Part \"" + part.name + "\": the eigenvalues of the reduced part were not found (QR iteration).");
+      throw ConvergenceError(
+          "Part \"" + part.name +
+          "\": the eigenvalues of the reduced part were not found (QR iteration).");
     const Matrix& shapes = pairs.eigenvectors();
     report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * shapes, pairs.eigenvalues());
   }
-  const linalg::EigenPairs lowest =
-      linalg::lowestFiniteModes(K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()), linalg::EigenOptions());
+  const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
+      K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()),
+      linalg::EigenOptions());
   report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
 }
 
 }  // namespace
 
-void checkBasis(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced,
-                BasisReport& report) {
+void checkBasis(const model::Substructure& part, const BasisResult& basis,
+                const ProjectedMatrices& reduced, BasisReport& report) {
   checkRank(basis, report);
   if (report.rank < static_cast<int>(basis.vectors.cols()) - basis.forces())
     report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " +
-                             std::to_string(basis.vectors.cols() - basis.forces()) + " coordinates");
+                             std::to_string(basis.vectors.cols() - basis.forces()) +
+                             " coordinates");
   if (basis.forces() > 0)
     checkDualStatics(part, basis, reduced, report);
   else
     checkStatics(part, basis, reduced, report);
   if (report.staticDefect > 1e-6)
-    report.remarks.push_back("static response to loads on kept dofs is not exact: largest relative difference " +
-                             formatNumber(report.staticDefect));
+    report.remarks.push_back(
+        "static response to loads on kept dofs is not exact: largest relative difference " +
+        formatNumber(report.staticDefect));
   checkFrequencies(part, basis, reduced, report);
   if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
-    report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) + " zero-energy modes, the reduced part " +
-                             std::to_string(report.zeroEnergyReduced) + ": rigid-body motion is not preserved");
+    report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) +
+                             " zero-energy modes, the reduced part " +
+                             std::to_string(report.zeroEnergyReduced) +
+                             ": rigid-body motion is not preserved");
   report.checked = true;
 }
 

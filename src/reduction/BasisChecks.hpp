@@ -9,10 +9,13 @@
 
 namespace tooljoint::reduction {
 
-/// What RK4 needs of a step: omega dt <= 2.78 (2.83 without damping, Hairer and Wanner 1996, with some room).
+/// What RK4 needs of a step: omega dt <= 2.78 (2.83 without damping, Hairer and Wanner 1996, with
+/// some room).
 constexpr double rk4StabilityLimit = 2.78;
 
-/// Fills the checked part of `report`. Throws ModelError when the reduced mass is not positive definite.
-void checkBasis(const model::Substructure& part, const BasisResult& basis, const ProjectedMatrices& reduced, BasisReport& report);
+/// Fills the checked part of `report`. Throws ModelError when the reduced mass is not positive
+/// definite.
+void checkBasis(const model::Substructure& part, const BasisResult& basis,
+                const ProjectedMatrices& reduced, BasisReport& report);
 
 }  // namespace tooljoint::reduction

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is known about a basis: every mode with its frequency and residual, kept or dropped and why, and the checks made on it.
+/// What is known about a basis: every mode with its frequency and residual, kept or dropped and
+/// why, and the checks made on it.
 #pragma once
 
 #include <memory>
@@ -15,7 +16,8 @@ namespace tooljoint::reduction {
 struct BasisRow {
   std::string kind;       ///< "constraint", "fixed-interface", ...
   std::string name;       ///< "theta_z of node 17" or "mode 3"
-  double eigenvalue = 0;  ///< omega^2 [rad^2/s^2] (constraint modes: Rayleigh quotient); negative for a part that is buckled
+  double eigenvalue = 0;  ///< omega^2 [rad^2/s^2] (constraint modes: Rayleigh quotient); negative
+                          ///< for a part that is buckled
   double residual = 0;    ///< relative residual of the equation that defines the vector, recomputed
   bool kept = true;
   std::string why;  ///< why it is kept or dropped
@@ -32,32 +34,36 @@ inline const BasisRows& noRows() {
   return none;
 }
 
-/// Checks of one basis. Numbers that were not computed are negative where they are otherwise non-negative.
+/// Checks of one basis. Numbers that were not computed are negative where they are otherwise
+/// non-negative.
 struct BasisReport {
   std::string part;
   std::string basis;
-  std::string method;      ///< how the eigenproblem was solved
-  std::string sharedWith;  ///< name of the identical part whose reduction was taken over, or ""
-  int interface = 0;       ///< dofs
-  int retained = 0;        ///< dofs
-  int interior = 0;        ///< dofs
-  int modes = 0;           ///< kept modal coordinates
-  int negativeModes = 0;   ///< kept modes with omega^2 < 0
+  std::string method;         ///< how the eigenproblem was solved
+  std::string sharedWith;     ///< name of the identical part whose reduction was taken over, or ""
+  int interface = 0;          ///< dofs
+  int retained = 0;           ///< dofs
+  int interior = 0;           ///< dofs
+  int modes = 0;              ///< kept modal coordinates
+  int negativeModes = 0;      ///< kept modes with omega^2 < 0
   BasisRows rows = noRows();  ///< one for all identical parts
 
-  double orthogonality = 0;        ///< max |Phi_D' M Phi_D - I|
-  double massDefect = 0;           ///< max |m_DD - I| as projected
-  double stiffnessDefect = 0;      ///< largest off-diagonal of sym(k_DD), relative to sqrt(k_ii k_jj), as projected
+  double orthogonality = 0;  ///< max |Phi_D' M Phi_D - I|
+  double massDefect = 0;     ///< max |m_DD - I| as projected
+  double stiffnessDefect =
+      0;  ///< largest off-diagonal of sym(k_DD), relative to sqrt(k_ii k_jj), as projected
   bool structureEnforced = false;  ///< the two defects were below 1e-10 and rounding was removed
   bool checked = false;            ///< the checks below were made
   int rank = -1;                   ///< numerical rank of the basis
   double conditioning = -1;        ///< condition number of the column-scaled basis
-  double staticDefect = -1;        ///< largest relative difference reduced - full for unit loads on kept dofs
-  int zeroEnergyFull = -1;         ///< zero-energy modes of the part
-  int zeroEnergyReduced = -1;      ///< zero-energy modes of the reduced part
-  double largestOmega = -1;        ///< largest eigenfrequency of the reduced part alone [rad/s]; 0 for no dofs
-  double explicitStep =
-      -1;  ///< 2.78 / largestOmega [s]: what RK4 allows; a model coupled of parts allows at least the least of theirs
+  double staticDefect =
+      -1;  ///< largest relative difference reduced - full for unit loads on kept dofs
+  int zeroEnergyFull = -1;     ///< zero-energy modes of the part
+  int zeroEnergyReduced = -1;  ///< zero-energy modes of the reduced part
+  double largestOmega =
+      -1;  ///< largest eigenfrequency of the reduced part alone [rad/s]; 0 for no dofs
+  double explicitStep = -1;  ///< 2.78 / largestOmega [s]: what RK4 allows; a model coupled of parts
+                             ///< allows at least the least of theirs
   double initialStateDefect = 0;     ///< |D(0) - (offset + Phi q(0))| / |D(0)|, 0 when D(0) = 0
   std::vector<std::string> remarks;  ///< sentences a user should read
 
@@ -66,8 +72,8 @@ struct BasisReport {
   /// Frequency of the lowest mode that was computed and dropped [Hz], 0 when none was.
   double firstDroppedHz() const;
   int reducedSize() const { return interface + retained + modes; }
-  /// Every row: kind, name, frequency, residual, kept or dropped and why. Unless `all`, constraint modes
-  /// are one line and only the first two dropped modes are listed.
+  /// Every row: kind, name, frequency, residual, kept or dropped and why. Unless `all`, constraint
+  /// modes are one line and only the first two dropped modes are listed.
   std::string table(bool all = false) const;
 };
 

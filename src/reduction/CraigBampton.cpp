@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Constraint modes and fixed-interface modes: M. C. C. Bampton, R. R. Craig Jr., Coupling of substructures for dynamic analyses,
-/// AIAA Journal 6 (1968) 1313-1319; Nguyen et al. 2020, (32)-(37). Without modes it is Guyan's static condensation.
+/// Constraint modes and fixed-interface modes: M. C. C. Bampton, R. R. Craig Jr., Coupling of
+/// substructures for dynamic analyses, AIAA Journal 6 (1968) 1313-1319; Nguyen et al. 2020,
+/// (32)-(37). Without modes it is Guyan's static condensation.
 #include "reduction/Basis.hpp"
 #include "reduction/ConstraintModes.hpp"
 #include "reduction/FixedInterfaceModes.hpp"
@@ -33,11 +34,13 @@ class CraigBampton : public Basis {
   }
 
  private:
-  static void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint, BasisResult& basis) {
+  static void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint,
+                                BasisResult& basis) {
     for (std::size_t j = 0; j < basis.partition.kept.size(); ++j) {
       BasisRow row;
       row.kind = "constraint";
-      row.name = model::describe(part.model.dofs[static_cast<std::size_t>(basis.partition.kept[j])], part.model.componentNames);
+      row.name = model::describe(part.model.dofs[static_cast<std::size_t>(basis.partition.kept[j])],
+                                 part.model.componentNames);
       row.residual = constraint.residuals[static_cast<Eigen::Index>(j)];
       row.why = j < basis.partition.interface.size() ? "interface dof" : "retained dof";
       basis.rows.push_back(row);
@@ -69,7 +72,9 @@ class CraigBampton : public Basis {
       const auto& link = p.links[static_cast<std::size_t>(mode.link)];
       for (std::size_t i = 0; i < link.size(); ++i) {
         const double value = mode.shape[static_cast<Eigen::Index>(i)];
-        if (value != 0.0) entries.emplace_back(p.interior[static_cast<std::size_t>(link[i])], keptColumns + k, value);
+        if (value != 0.0)
+          entries.emplace_back(p.interior[static_cast<std::size_t>(link[i])], keptColumns + k,
+                               value);
       }
     }
     basis.complete = normal.complete;
@@ -81,7 +86,8 @@ class CraigBampton : public Basis {
 
 const bool registered = BasisRegistry::instance().add(
     "Craig-Bampton",
-    {"Constraint modes and fixed-interface modes (Bampton and Craig 1968); with 0 modes, static condensation (Guyan 1965).",
+    {"Constraint modes and fixed-interface modes (Bampton and Craig 1968); with 0 modes, static "
+     "condensation (Guyan 1965).",
      deck::ListSpec("Craig-Bampton", "Craig-Bampton has no parameters of its own."),
      [](const Teuchos::ParameterList&) { return std::unique_ptr<Basis>(new CraigBampton); }});
 

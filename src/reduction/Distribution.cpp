@@ -16,7 +16,9 @@ namespace {
 class Writer {
  public:
   static constexpr bool writing = true;
-  void raw(const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }
+  void raw(const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  }
   std::string bytes;
 };
 
@@ -25,7 +27,8 @@ class Reader {
   static constexpr bool writing = false;
   explicit Reader(const std::string& source) : bytes_(source) {}
   void raw(void* data, std::size_t size) {
-    if (position_ + size > bytes_.size()) throw Error(ExitCode::Internal, "A reduced part arrived incomplete from another rank.");
+    if (position_ + size > bytes_.size())
+      throw Error(ExitCode::Internal, "A reduced part arrived incomplete from another rank.");
     if (size > 0) std::memcpy(data, bytes_.data() + position_, size);
     position_ += size;
   }
@@ -156,19 +159,23 @@ void travel(Archive& archive, ProjectedMatrices& matrices) {
 
 template <class Archive>
 void travel(Archive& archive, BasisReport& report) {
-  for (auto* text : {&report.part, &report.basis, &report.method, &report.sharedWith}) travel(archive, *text);
-  for (auto* number : {&report.interface, &report.retained, &report.interior, &report.modes, &report.negativeModes, &report.rank,
-                       &report.zeroEnergyFull, &report.zeroEnergyReduced})
+  for (auto* text : {&report.part, &report.basis, &report.method, &report.sharedWith})
+    travel(archive, *text);
+  for (auto* number :
+       {&report.interface, &report.retained, &report.interior, &report.modes, &report.negativeModes,
+        &report.rank, &report.zeroEnergyFull, &report.zeroEnergyReduced})
     travel(archive, *number);
-  for (auto* number : {&report.orthogonality, &report.massDefect, &report.stiffnessDefect, &report.conditioning,
-                       &report.staticDefect, &report.largestOmega, &report.explicitStep, &report.initialStateDefect})
+  for (auto* number : {&report.orthogonality, &report.massDefect, &report.stiffnessDefect,
+                       &report.conditioning, &report.staticDefect, &report.largestOmega,
+                       &report.explicitStep, &report.initialStateDefect})
     travel(archive, *number);
   travel(archive, report.structureEnforced);
   travel(archive, report.checked);
   std::vector<BasisRow> rows;
   if constexpr (Archive::writing) rows = *report.rows;
   travel(archive, rows);
-  if constexpr (!Archive::writing) report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
+  if constexpr (!Archive::writing)
+    report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   travel(archive, report.remarks);
 }
 
@@ -204,7 +211,8 @@ ReducedCore unpack(const std::string& bytes) {
   travel(reader, core.basis);
   travel(reader, core.matrices);
   travel(reader, core.report);
-  if (!reader.atEnd()) throw Error(ExitCode::Internal, "A reduced part arrived with bytes that do not belong to it.");
+  if (!reader.atEnd())
+    throw Error(ExitCode::Internal, "A reduced part arrived with bytes that do not belong to it.");
   return core;
 }
 

@@ -12,14 +12,16 @@
 
 namespace tooljoint::reduction {
 
-/// Everything the owner of a part computes. Loads, point rows and initial states are made from it on every rank.
+/// Everything the owner of a part computes. Loads, point rows and initial states are made from it
+/// on every rank.
 struct ReducedCore {
   BasisResult basis;
   ProjectedMatrices matrices;
   BasisReport report;
 };
 
-/// Owner of each part: heaviest part first to the least loaded rank, ties to the lower index. The same on every rank.
+/// Owner of each part: heaviest part first to the least loaded rank, ties to the lower index. The
+/// same on every rank.
 std::vector<int> assignOwners(const std::vector<int>& weights, int ranks);
 
 /// A core as bytes, and back. Both ends must be the same program on the same kind of machine.

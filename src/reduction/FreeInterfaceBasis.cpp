@@ -41,11 +41,14 @@ FreeInterfaceBasis freeInterfaceBasis(const model::Substructure& part, const Mod
   const ConstraintModes constraint = free.statics->constraintModes();
   addConstraintRows(part, constraint, basis);
   report(free.modes, basis);
-  completeWithRitzModes(part, symmetricPart(K), constraint, freeInterfaceVectors(part, K, basis.partition, free.modes, *free.statics), "free-interface", basis);
+  completeWithRitzModes(part, symmetricPart(K), constraint,
+                        freeInterfaceVectors(part, K, basis.partition, free.modes, *free.statics),
+                        "free-interface", basis);
   return free;
 }
 
-/// With Phi = [X Y] in (u_b, w):  p = A_C u_b + A_D w.  A_D = U S V' and w = V_1 S_1^-1 (p_1 - U_1' A_C u_b) + V_2 w_2.
+/// With Phi = [X Y] in (u_b, w):  p = A_C u_b + A_D w.  A_D = U S V' and w = V_1 S_1^-1 (p_1 - U_1'
+/// A_C u_b) + V_2 w_2.
 Matrix toModeAmplitudes(const model::Substructure& part, FreeInterfaceBasis& free) {
   BasisResult& basis = free.basis;
   const auto kept = static_cast<Eigen::Index>(basis.partition.kept.size());
@@ -60,14 +63,18 @@ Matrix toModeAmplitudes(const model::Substructure& part, FreeInterfaceBasis& fre
   Eigen::Index rank = 0;
   while (rank < svd.singularValues().size() && svd.singularValues()[rank] >= leastShare) ++rank;
   Matrix changed = vectors, p = Matrix::Zero(modes, kept + ritz);
-  if (rank == modes && rank == ritz) {  // p are the amplitudes of the modes themselves; decoupled ones stay apart
-    changed.rightCols(ritz) = AD.transpose().partialPivLu().solve(vectors.rightCols(ritz).transpose()).transpose();
+  if (rank == modes &&
+      rank == ritz) {  // p are the amplitudes of the modes themselves; decoupled ones stay apart
+    changed.rightCols(ritz) =
+        AD.transpose().partialPivLu().solve(vectors.rightCols(ritz).transpose()).transpose();
     changed.leftCols(kept) -= changed.rightCols(ritz) * AC;
     p.rightCols(modes).setIdentity();
-    for (Eigen::Index k = 0; k < modes; ++k) basis.eigenvalues[k] = free.modes.modes[static_cast<std::size_t>(k)].eigenvalue;
+    for (Eigen::Index k = 0; k < modes; ++k)
+      basis.eigenvalues[k] = free.modes.modes[static_cast<std::size_t>(k)].eigenvalue;
   } else {
     const Matrix U1 = svd.matrixU().leftCols(rank);
-    const Matrix toW = svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal();
+    const Matrix toW =
+        svd.matrixV().leftCols(rank) * svd.singularValues().head(rank).cwiseInverse().asDiagonal();
     changed.middleCols(kept, rank) = vectors.rightCols(ritz) * toW;
     changed.rightCols(ritz - rank) = vectors.rightCols(ritz) * svd.matrixV().rightCols(ritz - rank);
     changed.leftCols(kept) -= changed.middleCols(kept, rank) * (U1.transpose() * AC);
@@ -79,7 +86,8 @@ Matrix toModeAmplitudes(const model::Substructure& part, FreeInterfaceBasis& fre
       const auto y = changed.col(kept + k);
       basis.eigenvalues[k] = y.dot(K * y) / y.dot(part.model.mass * y);
     }
-    basis.remarks.push_back("the " + std::to_string(modes) + " modes leave residual flexibility for " + std::to_string(rank) +
+    basis.remarks.push_back("the " + std::to_string(modes) +
+                            " modes leave residual flexibility for " + std::to_string(rank) +
                             " modal amplitudes only: the other coordinates are Ritz modes");
   }
   tidyKeptRows(basis.partition, changed);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static condensation: R. J. Guyan, Reduction of stiffness and mass matrices, AIAA Journal 3 (1965) 380; B. Irons, Structural eigenvalue
-/// problems: elimination of unwanted variables, AIAA Journal 3 (1965) 961-962. Further master dofs after Henshell and Ong (1975).
+/// Static condensation: R. J. Guyan, Reduction of stiffness and mass matrices, AIAA Journal 3
+/// (1965) 380; B. Irons, Structural eigenvalue problems: elimination of unwanted variables, AIAA
+/// Journal 3 (1965) 961-962. Further master dofs after Henshell and Ong (1975).
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 
@@ -13,7 +14,8 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// D_I = -K_II^-1 K_IC D_C; where modes are asked for, as many interior dofs become masters: kept like retained ones.
+/// D_I = -K_II^-1 K_IC D_C; where modes are asked for, as many interior dofs become masters: kept
+/// like retained ones.
 class Guyan : public Basis {
  public:
   explicit Guyan(bool automatic) : automatic_(automatic) {}
@@ -23,15 +25,18 @@ class Guyan : public Basis {
     const Partition own = partition(part);
     model::Substructure condensed = part;
     if (automatic_) {
-      const MasterRanking ranking = rankMasters(part, own, symmetricPart(constantStiffness(part.model)));
+      const MasterRanking ranking =
+          rankMasters(part, own, symmetricPart(constantStiffness(part.model)));
       const int masters = count(ranking, request);
-      condensed.retained.insert(condensed.retained.end(), ranking.positions.begin(), ranking.positions.begin() + masters);
+      condensed.retained.insert(condensed.retained.end(), ranking.positions.begin(),
+                                ranking.positions.begin() + masters);
       std::sort(condensed.retained.begin(), condensed.retained.end());
       basis.candidates = ranking.ratios;
       basis.complete = true;
       remark(request, masters, static_cast<int>(own.interior.size()), basis);
     } else if (request.kind != ModeRequest::Kind::Count || request.count > 0) {
-      basis.remarks.push_back("static condensation without masters: the number of modes asked for is not used");
+      basis.remarks.push_back(
+          "static condensation without masters: the number of modes asked for is not used");
     }
     basis.partition = partition(condensed);
     basis.removable = false;
@@ -41,9 +46,11 @@ class Guyan : public Basis {
     for (std::size_t j = 0; j < p.kept.size(); ++j) {
       BasisRow row;
       row.kind = "constraint";
-      row.name = model::describe(part.model.dofs[static_cast<std::size_t>(p.kept[j])], part.model.componentNames);
+      row.name = model::describe(part.model.dofs[static_cast<std::size_t>(p.kept[j])],
+                                 part.model.componentNames);
       row.residual = constraint.residuals[static_cast<Eigen::Index>(j)];
-      const bool retained = std::find(part.retained.begin(), part.retained.end(), p.kept[j]) != part.retained.end();
+      const bool retained =
+          std::find(part.retained.begin(), part.retained.end(), p.kept[j]) != part.retained.end();
       row.why = j < p.interface.size() ? "interface dof" : retained ? "retained dof" : "master dof";
       basis.rows.push_back(row);
     }
@@ -64,26 +71,36 @@ class Guyan : public Basis {
 
   static void remark(const ModeRequest& request, int masters, int interior, BasisResult& basis) {
     if (request.kind == ModeRequest::Kind::Count && request.count > interior)
-      basis.remarks.push_back("asked for " + std::to_string(request.count) + " master dofs, kept all " + std::to_string(interior) + " there are");
-    if (masters > 0) basis.remarks.push_back("in the place of modes, " + std::to_string(masters) + " interior dofs are masters");
+      basis.remarks.push_back("asked for " + std::to_string(request.count) +
+                              " master dofs, kept all " + std::to_string(interior) + " there are");
+    if (masters > 0)
+      basis.remarks.push_back("in the place of modes, " + std::to_string(masters) +
+                              " interior dofs are masters");
   }
 
   bool automatic_;
 };
 
 deck::ListSpec parameters() {
-  deck::ListSpec list("Guyan", "Static condensation has no modes; what the deck says about their number may choose further dofs to keep.");
+  deck::ListSpec list("Guyan",
+                      "Static condensation has no modes; what the deck says about their number may "
+                      "choose further dofs to keep.");
   list.choice("Masters", std::string("Automatic"), {"Automatic", "None"},
-              "\"Automatic\" keeps, in the place of modes, as many interior dofs as physical coordinates: those left when the dof with the largest k_ii / m_ii "
-              "is condensed again and again (Henshell and Ong 1975; a cut-off frequency is compared with sqrt(k_ii / m_ii)). \"None\" keeps interface and "
+              "\"Automatic\" keeps, in the place of modes, as many interior dofs as physical "
+              "coordinates: those left when the dof with the largest k_ii / m_ii "
+              "is condensed again and again (Henshell and Ong 1975; a cut-off frequency is "
+              "compared with sqrt(k_ii / m_ii)). \"None\" keeps interface and "
               "retained dofs alone.");
   return list;
 }
 
 const bool registered = BasisRegistry::instance().add(
-    "Guyan", {"Static condensation on interface, retained and master dofs (Guyan 1965; Irons 1965).", parameters(), [](const Teuchos::ParameterList& list) {
-                return std::unique_ptr<Basis>(new Guyan(!list.isParameter("Masters") || list.get<std::string>("Masters") == "Automatic"));
-              }});
+    "Guyan",
+    {"Static condensation on interface, retained and master dofs (Guyan 1965; Irons 1965).",
+     parameters(), [](const Teuchos::ParameterList& list) {
+       return std::unique_ptr<Basis>(new Guyan(!list.isParameter("Masters") ||
+                                               list.get<std::string>("Masters") == "Automatic"));
+     }});
 
 }  // namespace
 

@@ -15,7 +15,8 @@ Vector fitState(const BasisResult& basis, const Vector& x) {
   if (modes == 0 || interior.empty()) return q;
   const Vector rest = x - basis.vectors * q;  // x_I - phi_C x_C on the interior
   Vector target(static_cast<Eigen::Index>(interior.size()));
-  for (std::size_t i = 0; i < interior.size(); ++i) target[static_cast<Eigen::Index>(i)] = rest[interior[i]];
+  for (std::size_t i = 0; i < interior.size(); ++i)
+    target[static_cast<Eigen::Index>(i)] = rest[interior[i]];
   if (target.isZero(0.0)) return q;
   std::vector<int> columns;
   for (int k = 0; k < modes; ++k) columns.push_back(static_cast<int>(kept.size()) + k);
@@ -28,7 +29,8 @@ StartState startState(const model::Substructure& part, const BasisResult& basis,
   const auto& m = part.model;
   StartState start;
   start.velocity = fitState(basis, m.initialVelocity);
-  start.offset = keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
+  start.offset =
+      keepStatic && part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
   const Vector& reference = start.offset;
   if (m.initialDisplacement == reference)
     start.displacement = Vector::Zero(basis.vectors.cols());
@@ -37,8 +39,10 @@ StartState startState(const model::Substructure& part, const BasisResult& basis,
   if (basis.forces() == 0) return start;
   start.forces = Vector::Zero(basis.forces());
   if (reference.isZero(0.0)) return start;
-  const Vector force = m.stiffnessAt(0.0) * reference - m.loadAt(0.0) - m.pointForce(0.0, reference, Vector::Zero(m.size()));
-  for (int j = 0; j < basis.forces(); ++j) start.forces[j] = force[basis.boundary[static_cast<std::size_t>(j)]];
+  const Vector force = m.stiffnessAt(0.0) * reference - m.loadAt(0.0) -
+                       m.pointForce(0.0, reference, Vector::Zero(m.size()));
+  for (int j = 0; j < basis.forces(); ++j)
+    start.forces[j] = force[basis.boundary[static_cast<std::size_t>(j)]];
   return start;
 }
 

@@ -16,28 +16,34 @@ constexpr double negligible = 1e-14;
 
 }  // namespace
 
-Vector interfaceShares(const model::Substructure& part, const BasisResult& basis, ModeRule::Kind kind) {
+Vector interfaceShares(const model::Substructure& part, const BasisResult& basis,
+                       ModeRule::Kind kind) {
   const Partition& p = basis.partition;
   const auto kept = static_cast<int>(p.kept.size());
   const int modes = basis.modes();
   Vector shares = Vector::Zero(modes);
   if (modes == 0 || kept == 0) return shares;
-  std::vector<int> constraint(p.kept.size()), modal(static_cast<std::size_t>(modes)), all(static_cast<std::size_t>(part.model.size()));
+  std::vector<int> constraint(p.kept.size()), modal(static_cast<std::size_t>(modes)),
+      all(static_cast<std::size_t>(part.model.size()));
   std::iota(constraint.begin(), constraint.end(), 0);
   std::iota(modal.begin(), modal.end(), kept);
   std::iota(all.begin(), all.end(), 0);
   const Matrix phi = block(basis.vectors, p.interior, modal);
   // L = (M Phi_C)_I
-  const Matrix inertia = block(part.model.mass, p.interior, all) * Matrix(block(basis.vectors, all, constraint));
+  const Matrix inertia =
+      block(part.model.mass, p.interior, all) * Matrix(block(basis.vectors, all, constraint));
   const bool mass = kind == ModeRule::Kind::InterfaceMass;
-  const Sparse metric = mass ? block(part.model.mass, p.interior, p.interior)
-                             : block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior);
+  const Sparse metric =
+      mass ? block(part.model.mass, p.interior, p.interior)
+           : block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior);
   const Matrix coupling = phi.transpose() * inertia;  // L_k, modes x kept
   Matrix response;
   try {
     response = linalg::DirectSolver(metric).solve(inertia);
   } catch (const ModelError& error) {
-    throw ModelError("Part \"" + part.name + "\": the interface criterion needs a regular interior " + (mass ? "mass" : "stiffness") +
+    throw ModelError("Part \"" + part.name +
+                     "\": the interface criterion needs a regular interior " +
+                     (mass ? "mass" : "stiffness") +
                      ". Choose the modes by number or cut-off frequency. " + error.what());
   }
   Vector total(kept);
@@ -60,12 +66,14 @@ Vector interfaceShares(const model::Substructure& part, const BasisResult& basis
   return shares;
 }
 
-std::vector<char> keepByShare(const Vector& shares, const Vector& eigenvalues, double fraction, double pairTolerance) {
+std::vector<char> keepByShare(const Vector& shares, const Vector& eigenvalues, double fraction,
+                              double pairTolerance) {
   const auto size = static_cast<std::size_t>(shares.size());
   std::vector<std::size_t> order(size);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto share = [&](std::size_t k) { return shares[static_cast<Eigen::Index>(k)]; };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
   std::vector<char> keep(size, 0);
   double sum = 0;
   for (std::size_t k = 0; k < size; ++k)

@@ -11,18 +11,22 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// A rigid-body mode of which the kept dofs carry less than this share (in the root of the mass) does not move them.
+/// A rigid-body mode of which the kept dofs carry less than this share (in the root of the mass)
+/// does not move them.
 constexpr double notMoved = 1e-6;
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 double largestEntry(const Sparse& A) {
-  return A.nonZeros() > 0 ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff() : 0.0;
+  return A.nonZeros() > 0
+             ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff()
+             : 0.0;
 }
 
 Matrix rows(const Matrix& A, const std::vector<int>& which) {
   Matrix out(static_cast<Eigen::Index>(which.size()), A.cols());
-  for (std::size_t i = 0; i < which.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = A.row(which[i]);
+  for (std::size_t i = 0; i < which.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) = A.row(which[i]);
   return out;
 }
 
@@ -33,9 +37,11 @@ Sparse bordered(const Sparse& A, const Matrix& U, const Matrix& W) {
   const auto n = static_cast<int>(A.rows());
   Triplets entries;
   for (int i = 0; i < A.outerSize(); ++i)
-    for (Sparse::InnerIterator it(A, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    for (Sparse::InnerIterator it(A, i); it; ++it)
+      entries.emplace_back(i, static_cast<int>(it.col()), it.value());
   for (int k = 0; k < U.cols(); ++k) {
-    const double u = size / U.col(k).cwiseAbs().maxCoeff(), w = size / W.col(k).cwiseAbs().maxCoeff();
+    const double u = size / U.col(k).cwiseAbs().maxCoeff(),
+                 w = size / W.col(k).cwiseAbs().maxCoeff();
     for (int i = 0; i < n; ++i) {
       if (U(i, k) != 0.0) entries.emplace_back(i, n + k, u * U(i, k));
       if (W(i, k) != 0.0) entries.emplace_back(n + k, i, w * W(i, k));
@@ -46,19 +52,22 @@ Sparse bordered(const Sparse& A, const Matrix& U, const Matrix& W) {
   return out;
 }
 
-InteriorStatics::InteriorStatics(const model::Substructure& part, const Partition& partition, const Sparse& K, const FreeInterfaceModes& modes)
+InteriorStatics::InteriorStatics(const model::Substructure& part, const Partition& partition,
+                                 const Sparse& K, const FreeInterfaceModes& modes)
     : partition_(partition),
       KII_(block(K, partition.interior, partition.interior)),
       KIC_(block(K, partition.interior, partition.kept)),
       MII_(block(part.model.mass, partition.interior, partition.interior)) {
   const Vector mass = part.model.mass.diagonal();
   keptMass_.resize(static_cast<Eigen::Index>(partition.kept.size()));
-  for (Eigen::Index j = 0; j < keptMass_.size(); ++j) keptMass_[j] = std::sqrt(mass[partition.kept[at(j)]]);
+  for (Eigen::Index j = 0; j < keptMass_.size(); ++j)
+    keptMass_[j] = std::sqrt(mass[partition.kept[at(j)]]);
   findMechanisms(modes);
   factor(part);
 }
 
-/// Combinations of the rigid-body modes of each free link that are zero on its kept dofs: right singular vectors of the kept rows.
+/// Combinations of the rigid-body modes of each free link that are zero on its kept dofs: right
+/// singular vectors of the kept rows.
 void InteriorStatics::findMechanisms(const FreeInterfaceModes& modes) {
   const auto interior = static_cast<Eigen::Index>(partition_.interior.size());
   mechanisms_.resize(interior, 0);
@@ -89,18 +98,25 @@ void InteriorStatics::factor(const model::Substructure& part) {
   if (partition_.interior.empty()) return;
   const Matrix MN = MII_ * mechanisms_;
   const auto name = [&](int i) {
-    if (i >= static_cast<int>(partition_.interior.size())) return std::string("a rigid-body motion of the interior");
-    return model::describe(part.model.dofs[at(partition_.interior[at(i)])], part.model.componentNames);
+    if (i >= static_cast<int>(partition_.interior.size()))
+      return std::string("a rigid-body motion of the interior");
+    return model::describe(part.model.dofs[at(partition_.interior[at(i)])],
+                           part.model.componentNames);
   };
   try {
-    solver_ = std::make_unique<linalg::DirectSolver>(mechanisms_.cols() > 0 ? bordered(KII_, MN, MN) : KII_, name);
+    solver_ = std::make_unique<linalg::DirectSolver>(
+        mechanisms_.cols() > 0 ? bordered(KII_, MN, MN) : KII_, name);
     if (mechanisms_.cols() == 0) return;
-    mechanisms_ -= solve(KII_ * mechanisms_);  // N to the accuracy of K_II: the modes have that of the eigensolver
+    mechanisms_ -= solve(
+        KII_ * mechanisms_);  // N to the accuracy of K_II: the modes have that of the eigensolver
     const Eigen::LLT<Matrix> gram(mechanisms_.transpose() * (MII_ * mechanisms_));
     mechanisms_ = gram.matrixU().solve<Eigen::OnTheRight>(mechanisms_).eval();
   } catch (const ModelError& error) {
-    throw ModelError("Part \"" + part.name + "\": the stiffness of its interior is singular while its " + std::to_string(partition_.kept.size()) +
-                     " interface and retained dofs are held, and that is no rigid-body motion. Retain a dof that moves then, or check the part's stiffness. " +
+    throw ModelError("Part \"" + part.name +
+                     "\": the stiffness of its interior is singular while its " +
+                     std::to_string(partition_.kept.size()) +
+                     " interface and retained dofs are held, and that is no rigid-body motion. "
+                     "Retain a dof that moves then, or check the part's stiffness. " +
                      error.what());
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static answers of the interior of a part while its kept dofs are held, also of interiors that are still free to move then.
+/// Static answers of the interior of a part while its kept dofs are held, also of interiors that
+/// are still free to move then.
 #pragma once
 
 #include <memory>
@@ -11,15 +12,18 @@
 
 namespace tooljoint::reduction {
 
-/// K_II^-1 of a part. Rigid-body modes of the free part that vanish on all kept dofs are mechanisms N of the interior: then K_II is singular, and the
-/// self-equilibrated generalised inverse is taken in its place,
+/// K_II^-1 of a part. Rigid-body modes of the free part that vanish on all kept dofs are mechanisms
+/// N of the interior: then K_II is singular, and the self-equilibrated generalised inverse is taken
+/// in its place,
 ///
-///     [K_II  M_II N; N' M_II  0] (x, mu) = (f, 0):   x is M-orthogonal to N, and the part of f that would move N is balanced by its inertia.
+///     [K_II  M_II N; N' M_II  0] (x, mu) = (f, 0):   x is M-orthogonal to N, and the part of f
+///     that would move N is balanced by its inertia.
 class InteriorStatics {
  public:
   /// Factors. ModelError, naming part and dof, when K_II is singular otherwise.
   /// \param K constantStiffness of the part
-  InteriorStatics(const model::Substructure& part, const Partition& partition, const Sparse& K, const FreeInterfaceModes& modes);
+  InteriorStatics(const model::Substructure& part, const Partition& partition, const Sparse& K,
+                  const FreeInterfaceModes& modes);
 
   /// Interior x columns of the loads.
   Matrix solve(const Matrix& loads) const;
@@ -27,7 +31,8 @@ class InteriorStatics {
   ConstraintModes constraintModes() const;
   /// N, interior x mechanisms, M-orthonormal; usually without columns.
   const Matrix& mechanisms() const { return mechanisms_; }
-  /// The other rigid-body modes of the free part, those that move kept dofs, dofs of the part x modes.
+  /// The other rigid-body modes of the free part, those that move kept dofs, dofs of the part x
+  /// modes.
   const Matrix& carriers() const { return carriers_; }
 
  private:

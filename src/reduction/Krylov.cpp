@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Constraint modes and Krylov vectors of the interior driven by the kept dofs: quasi-static modes (W.-H. Shyu, Z.-D. Ma, G. M. Hulbert, A new
-/// component mode synthesis method: quasi-static mode compensation, Finite Elements in Analysis and Design 24 (1997) 271-281) and, for damped parts,
-/// second-order Krylov vectors (Z. Bai, Y. Su, SOAR: A second-order Arnoldi method for the solution of the quadratic eigenvalue problem, SIAM J.
-/// Matrix Anal. Appl. 26 (2005) 640-659; Dimension reduction of large-scale second-order dynamical systems via a second-order Arnoldi method, SIAM J.
-/// Sci. Comput. 26 (2005) 1692-1709).
+/// Constraint modes and Krylov vectors of the interior driven by the kept dofs: quasi-static modes
+/// (W.-H. Shyu, Z.-D. Ma, G. M. Hulbert, A new component mode synthesis method: quasi-static mode
+/// compensation, Finite Elements in Analysis and Design 24 (1997) 271-281) and, for damped parts,
+/// second-order Krylov vectors (Z. Bai, Y. Su, SOAR: A second-order Arnoldi method for the solution
+/// of the quadratic eigenvalue problem, SIAM J. Matrix Anal. Appl. 26 (2005) 640-659; Dimension
+/// reduction of large-scale second-order dynamical systems via a second-order Arnoldi method, SIAM
+/// J. Sci. Comput. 26 (2005) 1692-1709).
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
@@ -33,17 +35,22 @@ struct KrylovOptions {
   double deflation = 1e-8;
 };
 
-/// The Krylov space of one link that touches kept dofs. With y = x_I - psi x_C and B1 = C_IC + C_II psi, B2 = M_IC + M_II psi,
+/// The Krylov space of one link that touches kept dofs. With y = x_I - psi x_C and B1 = C_IC + C_II
+/// psi, B2 = M_IC + M_II psi,
 ///
 ///     (s^2 M + s C + K) y = -(s B1 + s^2 B2) x_C.
 ///
-/// Undamped, in lambda = s^2 about lambda_0 = -omega_0^2: r_0 = A^-1 B2, r_j = -A^-1 M r_j-1, A = K - omega_0^2 M. Damped, about the real s_0:
-/// r_0 = A^-1 [B2 B1], r_j = -A^-1 (D r_j-1 + M r_j-2), A = K + s_0 C + s_0^2 M, D = C + 2 s_0 M; the recurrence runs on states z_j = (r_j, r_j-1),
+/// Undamped, in lambda = s^2 about lambda_0 = -omega_0^2: r_0 = A^-1 B2, r_j = -A^-1 M r_j-1, A = K
+/// - omega_0^2 M. Damped, about the real s_0: r_0 = A^-1 [B2 B1], r_j = -A^-1 (D r_j-1 + M r_j-2),
+/// A = K + s_0 C + s_0^2 M, D = C + 2 s_0 M; the recurrence runs on states z_j = (r_j, r_j-1),
 /// which are orthonormalised by themselves, so that deflation loses nothing.
 class DrivenLink {
  public:
-  DrivenLink(const model::Substructure& part, const Partition& p, const Sparse& psi, int link, const KrylovOptions& options)
-      : damped_(options.damped), who_("Part \"" + part.name + "\", Krylov vectors: "), inner_(positionsOf(p, p.links[static_cast<std::size_t>(link)])) {
+  DrivenLink(const model::Substructure& part, const Partition& p, const Sparse& psi, int link,
+             const KrylovOptions& options)
+      : damped_(options.damped),
+        who_("Part \"" + part.name + "\", Krylov vectors: "),
+        inner_(positionsOf(p, p.links[static_cast<std::size_t>(link)])) {
     K_ = block(constantStiffness(part.model), inner_, inner_);
     M_ = block(part.model.mass, inner_, inner_);
     set_ = std::make_unique<OrthonormalSet>(M_, options.deflation, who_);
@@ -59,7 +66,8 @@ class DrivenLink {
       solver_ = std::make_unique<linalg::DirectSolver>(A, namer(part, inner_));
     } catch (const ModelError& error) {
       throw ModelError(who_ + "the dynamic stiffness at " + formatNumber(options.frequency) +
-                       " Hz is singular: that is a natural frequency of the part with its kept dofs held. Take another \"Expansion Frequency\". " +
+                       " Hz is singular: that is a natural frequency of the part with its kept "
+                       "dofs held. Take another \"Expansion Frequency\". " +
                        error.what());
     }
     makeStates(options.deflation);
@@ -94,11 +102,12 @@ class DrivenLink {
   /// Takes one direction of the next block; the space is not continued after that.
   void take(Eigen::Index direction) { set_->add(directions_.col(direction)); }
 
-  /// The interface drives nothing more: directions without meaning, so that the space can still become all of the interior. Dofs without mass
-  /// follow the others statically.
+  /// The interface drives nothing more: directions without meaning, so that the space can still
+  /// become all of the interior. Dofs without mass follow the others statically.
   void restart(int count) {
     const auto seed = static_cast<std::uint64_t>(97 + set_->size());
-    Matrix z = linalg::scatteredNumbers(M_.rows(), std::min<Eigen::Index>(count, M_.rows() - set_->size()), seed);
+    Matrix z = linalg::scatteredNumbers(
+        M_.rows(), std::min<Eigen::Index>(count, M_.rows() - set_->size()), seed);
     if (linalg::hasMasslessDofs(M_)) z = solve(M_ * z);
     findDirections(z);
     exhausted_ = directions_.cols() == 0;
@@ -129,7 +138,8 @@ class DrivenLink {
     return x;
   }
 
-  /// States are measured by r_j' M r_j + r_j-1' M r_j-1 / gamma^2, gamma^2 = tr K / tr M, which gives both the same unit.
+  /// States are measured by r_j' M r_j + r_j-1' M r_j-1 / gamma^2, gamma^2 = tr K / tr M, which
+  /// gives both the same unit.
   void makeStates(double deflation) {
     if (!damped_) {
       states_ = std::make_unique<OrthonormalSet>(M_, deflation, who_);
@@ -167,7 +177,8 @@ class DrivenLink {
     if (directions_.cols() == 0 && block_.cols() > 0) follow();
   }
 
-  /// What is new in the columns r, each measured by itself: r_k / |r_k| = Q h + Q_new R, R = U S W'; directions Q_new U of sizes S.
+  /// What is new in the columns r, each measured by itself: r_k / |r_k| = Q h + Q_new R, R = U S
+  /// W'; directions Q_new U of sizes S.
   void findDirections(const Matrix& r) {
     OrthonormalSet grown = *set_;
     const int old = grown.size();
@@ -183,7 +194,9 @@ class DrivenLink {
     sizes_.resize(0);
     if (fresh == 0) return;
     Matrix R = Matrix::Zero(fresh, static_cast<Eigen::Index>(factors.size()));
-    for (std::size_t j = 0; j < factors.size(); ++j) R.col(static_cast<Eigen::Index>(j)).head(factors[j].size() - old) = factors[j].tail(factors[j].size() - old);
+    for (std::size_t j = 0; j < factors.size(); ++j)
+      R.col(static_cast<Eigen::Index>(j)).head(factors[j].size() - old) =
+          factors[j].tail(factors[j].size() - old);
     const Eigen::JacobiSVD<Matrix> svd(R, Eigen::ComputeThinU);
     directions_ = grown.basis().rightCols(fresh) * svd.matrixU();
     sizes_ = svd.singularValues();
@@ -251,10 +264,13 @@ class Growth {
     };
     std::vector<Direction> all;
     for (auto& link : links_)
-      for (Eigen::Index i = 0; i < link.sizes().size(); ++i) all.push_back({link.sizes()[i], &link, i});
-    std::stable_sort(all.begin(), all.end(), [](const Direction& a, const Direction& b) { return a.size > b.size; });
+      for (Eigen::Index i = 0; i < link.sizes().size(); ++i)
+        all.push_back({link.sizes()[i], &link, i});
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Direction& a, const Direction& b) { return a.size > b.size; });
     for (std::size_t k = 0; k < all.size(); ++k) {
-      if (static_cast<int>(k) >= count && all[k].size < (1 - clusterTolerance) * all[k - 1].size) return;
+      if (static_cast<int>(k) >= count && all[k].size < (1 - clusterTolerance) * all[k - 1].size)
+        return;
       all[k].link->take(all[k].index);
     }
   }
@@ -277,7 +293,8 @@ class Krylov : public Basis {
 
     std::vector<DrivenLink> links;
     std::vector<int> driven, free;
-    for (int i = 0; i < static_cast<int>(p.links.size()); ++i) (p.ends[static_cast<std::size_t>(i)].empty() ? free : driven).push_back(i);
+    for (int i = 0; i < static_cast<int>(p.links.size()); ++i)
+      (p.ends[static_cast<std::size_t>(i)].empty() ? free : driven).push_back(i);
     for (int i : driven) links.emplace_back(part, p, psi, i, options_);
     Growth growth(links);
     growth.grow(wanted(part, p, driven, request));
@@ -286,7 +303,8 @@ class Krylov : public Basis {
     double orthogonality = 0, residual = 0;
     for (std::size_t i = 0; i < links.size(); ++i) {
       double defect = 0;
-      for (auto& vector : ritzVectors(symmetricPart(links[i].stiffness()), links[i].mass(), links[i].space(), driven[i], "krylov", defect)) {
+      for (auto& vector : ritzVectors(symmetricPart(links[i].stiffness()), links[i].mass(),
+                                      links[i].space(), driven[i], "krylov", defect)) {
         vector.residual = links[i].residual();
         vectors.push_back(vector);
       }
@@ -303,21 +321,27 @@ class Krylov : public Basis {
   }
 
  private:
-  /// Vectors asked of the links that are driven; a cut-off frequency asks for as many as there are fixed-interface modes below it.
-  static int wanted(const model::Substructure& part, const Partition& p, const std::vector<int>& driven, const ModeRequest& request) {
+  /// Vectors asked of the links that are driven; a cut-off frequency asks for as many as there are
+  /// fixed-interface modes below it.
+  static int wanted(const model::Substructure& part, const Partition& p,
+                    const std::vector<int>& driven, const ModeRequest& request) {
     if (request.kind == ModeRequest::Kind::Count) return request.count;
     if (request.kind == ModeRequest::Kind::All) return std::numeric_limits<int>::max();
     int count = 0;
     const Sparse K = symmetricPart(constantStiffness(part.model));
     for (int i : driven) {
       const auto inner = positionsOf(p, p.links[static_cast<std::size_t>(i)]);
-      count += linalg::eigenvaluesBelow(block(K, inner, inner), block(part.model.mass, inner, inner), request.omegaMax * request.omegaMax);
+      count +=
+          linalg::eigenvaluesBelow(block(K, inner, inner), block(part.model.mass, inner, inner),
+                                   request.omegaMax * request.omegaMax);
     }
     return count;
   }
 
-  /// Links that touch no kept dof are not driven: they keep their lowest modes, the ways they float first.
-  static void addFloating(const model::Substructure& part, const Partition& p, const std::vector<int>& free, const ModeRequest& request,
+  /// Links that touch no kept dof are not driven: they keep their lowest modes, the ways they float
+  /// first.
+  static void addFloating(const model::Substructure& part, const Partition& p,
+                          const std::vector<int>& free, const ModeRequest& request,
                           std::vector<ModalVector>& vectors, double& orthogonality) {
     if (free.empty()) return;
     Partition rest = p;
@@ -327,20 +351,24 @@ class Krylov : public Basis {
       rest.links.push_back(p.links[static_cast<std::size_t>(i)]);
       rest.ends.emplace_back();
     }
-    const FixedInterfaceModes modes = fixedInterfaceModes(part, rest, symmetricPart(constantStiffness(part.model)), request);
+    const FixedInterfaceModes modes =
+        fixedInterfaceModes(part, rest, symmetricPart(constantStiffness(part.model)), request);
     orthogonality = std::max(orthogonality, modes.orthogonality);
     for (int k = 0; k < modes.kept; ++k) {
       const FixedInterfaceMode& mode = modes.modes[static_cast<std::size_t>(k)];
-      vectors.push_back({mode.eigenvalue, free[static_cast<std::size_t>(mode.link)], mode.shape, mode.residual, "fixed-interface",
-                         "of a piece no kept dof touches"});
+      vectors.push_back({mode.eigenvalue, free[static_cast<std::size_t>(mode.link)], mode.shape,
+                         mode.residual, "fixed-interface", "of a piece no kept dof touches"});
     }
   }
 
   static void remark(BasisResult& basis, const ModeRequest& request, int found, int blocks) {
     if (request.kind == ModeRequest::Kind::Count && request.count > found && found > 0)
-      basis.remarks.push_back("asked for " + std::to_string(request.count) + " Krylov vectors, kept all " + std::to_string(found) + " there are");
+      basis.remarks.push_back("asked for " + std::to_string(request.count) +
+                              " Krylov vectors, kept all " + std::to_string(found) + " there are");
     if (blocks == 0 && found > 0)
-      basis.remarks.push_back("the " + std::to_string(found) + " Krylov vectors are the largest directions of the first block, which is longer: no moment is "
+      basis.remarks.push_back("the " + std::to_string(found) +
+                              " Krylov vectors are the largest directions of the first block, "
+                              "which is longer: no moment is "
                               "matched in full");
   }
 
@@ -349,30 +377,36 @@ class Krylov : public Basis {
 
 deck::ListSpec ownParameters() {
   using deck::Range;
-  deck::ListSpec list("Krylov", "Vectors that match moments of what the interior answers to motions of the kept dofs.");
+  deck::ListSpec list(
+      "Krylov",
+      "Vectors that match moments of what the interior answers to motions of the kept dofs.");
   list.real("Expansion Frequency", "Hz", 0.0, Range::nonNegative(),
-            "Where moments are matched: at this frequency, or with \"Damped\" at s = 2 pi times this on the real axis. Take the middle of the band of interest; "
+            "Where moments are matched: at this frequency, or with \"Damped\" at s = 2 pi times "
+            "this on the real axis. Take the middle of the band of interest; "
             "0 gives quasi-static vectors.");
   list.boolean("Damped", false,
-               "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) instead of those of mass and stiffness alone.");
-  list.real("Time", "s", 0.0, Range::any(), "When damping that varies, as gyroscopics do with the speed, is looked at; used with \"Damped\".");
+               "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) "
+               "instead of those of mass and stiffness alone.");
+  list.real("Time", "s", 0.0, Range::any(),
+            "When damping that varies, as gyroscopics do with the speed, is looked at; used with "
+            "\"Damped\".");
   list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
             "The part of a vector, measured by mass, that must be new for the vector to be taken.");
   return list;
 }
 
 const bool registered = BasisRegistry::instance().add(
-    "Krylov",
-    {"Constraint modes and Krylov vectors that match moments of the interior at one frequency (Shyu, Ma and Hulbert 1997; Bai and Su 2005).", ownParameters(),
-     [](const Teuchos::ParameterList& given) {
-       Teuchos::ParameterList list(given);  // an absent list has no defaults
-       KrylovOptions options;
-       options.frequency = list.get("Expansion Frequency", options.frequency);
-       options.damped = list.get("Damped", options.damped);
-       options.time = list.get("Time", options.time);
-       options.deflation = list.get("Deflation", options.deflation);
-       return std::unique_ptr<Basis>(new Krylov(options));
-     }});
+    "Krylov", {"Constraint modes and Krylov vectors that match moments of the interior at one "
+               "frequency (Shyu, Ma and Hulbert 1997; Bai and Su 2005).",
+               ownParameters(), [](const Teuchos::ParameterList& given) {
+                 Teuchos::ParameterList list(given);  // an absent list has no defaults
+                 KrylovOptions options;
+                 options.frequency = list.get("Expansion Frequency", options.frequency);
+                 options.damped = list.get("Damped", options.damped);
+                 options.time = list.get("Time", options.time);
+                 options.deflation = list.get("Deflation", options.deflation);
+                 return std::unique_ptr<Basis>(new Krylov(options));
+               }});
 
 }  // namespace
 

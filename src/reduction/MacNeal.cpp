@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Free-interface modes with residual flexibility but no residual mass: R. H. MacNeal, A hybrid method of component mode synthesis, Computers and
-/// Structures 1 (1971) 581-601.
+/// Free-interface modes with residual flexibility but no residual mass: R. H. MacNeal, A hybrid
+/// method of component mode synthesis, Computers and Structures 1 (1971) 581-601.
 #include <Teuchos_ParameterList.hpp>
 #include <utility>
 
@@ -13,7 +13,8 @@ namespace {
 
 /// The coordinates of Craig and Chang; inertia and damping act on Phi p alone:
 ///
-///     M = [0 .; . I],   K = [G^-1  -G^-1 Phi_b; .  Lambda + Phi_b' G^-1 Phi_b],   G = Psi_b the residual flexibility
+///     M = [0 .; . I],   K = [G^-1  -G^-1 Phi_b; .  Lambda + Phi_b' G^-1 Phi_b],   G = Psi_b the
+///     residual flexibility
 ///
 /// for symmetric parts; in general C = [0 .; . Phi' C Phi] and K is projected full.
 class MacNeal : public Basis {
@@ -30,11 +31,11 @@ class MacNeal : public Basis {
 };
 
 const bool registered = BasisRegistry::instance().add(
-    "MacNeal",
-    {"Free-interface modes with the residual flexibility of all others, but not their mass and damping (MacNeal 1971): the mass is singular, "
-     "and only implicit integrators run it.",
-     deck::ListSpec("MacNeal", "MacNeal has no parameters of its own."),
-     [](const Teuchos::ParameterList&) { return std::unique_ptr<Basis>(new MacNeal); }});
+    "MacNeal", {"Free-interface modes with the residual flexibility of all others, but not their "
+                "mass and damping (MacNeal 1971): the mass is singular, "
+                "and only implicit integrators run it.",
+                deck::ListSpec("MacNeal", "MacNeal has no parameters of its own."),
+                [](const Teuchos::ParameterList&) { return std::unique_ptr<Basis>(new MacNeal); }});
 
 }  // namespace
 

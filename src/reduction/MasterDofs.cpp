@@ -22,7 +22,8 @@ constexpr Eigen::Index together = 48;
 
 double ratioOf(double k, double m) { return m <= 0 ? std::numeric_limits<double>::max() : k / m; }
 
-/// Dofs in the order in which they are condensed, and their ratios made increasing towards the first.
+/// Dofs in the order in which they are condensed, and their ratios made increasing towards the
+/// first.
 struct Order {
   std::vector<int> dofs;
   std::vector<double> ratios;
@@ -51,7 +52,8 @@ class SparseCondensation {
       Row& row = rows_[at(i)];
       Sparse::InnerIterator k(K, i), m(M, i);
       while (k || m) {
-        const int j = !m || (k && k.col() <= m.col()) ? static_cast<int>(k.col()) : static_cast<int>(m.col());
+        const int j =
+            !m || (k && k.col() <= m.col()) ? static_cast<int>(k.col()) : static_cast<int>(m.col());
         row.push_back({j, 0, 0});
         if (k && k.col() == j) row.back().k = k.value(), ++k;
         if (m && m.col() == j) row.back().m = m.value(), ++m;
@@ -60,19 +62,23 @@ class SparseCondensation {
     }
   }
 
-  bool filled() const { return entries_ > denseFill * static_cast<double>(left_) * static_cast<double>(left_); }
+  bool filled() const {
+    return entries_ > denseFill * static_cast<double>(left_) * static_cast<double>(left_);
+  }
   const Row& row(int i) const { return rows_[at(i)]; }
   Entry diagonal(int i) const {
     const auto it = find(rows_[at(i)], i);
     return it != rows_[at(i)].end() && it->dof == i ? *it : Entry{i, 0, 0};
   }
 
-  /// Returns the neighbours of e. A dof whose stiffness is not positive is left out and changes nothing.
+  /// Returns the neighbours of e. A dof whose stiffness is not positive is left out and changes
+  /// nothing.
   std::vector<int> eliminate(int e) {
     const Row pivotRow = std::exchange(rows_[at(e)], {});
     --left_;
     entries_ -= static_cast<double>(pivotRow.size());
-    const auto pivot = std::find_if(pivotRow.begin(), pivotRow.end(), [&](const Entry& x) { return x.dof == e; });
+    const auto pivot =
+        std::find_if(pivotRow.begin(), pivotRow.end(), [&](const Entry& x) { return x.dof == e; });
     const bool stands = pivot != pivotRow.end() && pivot->k > 0;
     std::vector<int> neighbours;
     for (const Entry& mine : pivotRow) {
@@ -93,7 +99,8 @@ class SparseCondensation {
 
  private:
   static Row::const_iterator find(const Row& row, int dof) {
-    return std::lower_bound(row.begin(), row.end(), dof, [](const Entry& x, int d) { return x.dof < d; });
+    return std::lower_bound(row.begin(), row.end(), dof,
+                            [](const Entry& x, int d) { return x.dof < d; });
   }
 
   void merge(Row& old, const Row& pivotRow, const Entry& pivot, const Entry& mine) {
@@ -121,17 +128,20 @@ class SparseCondensation {
   double entries_ = 0;
 };
 
-/// The same with dense matrices. With y = m_e + (m_ee / 2) t an elimination is K -= k_e k_e' / k_ee, M += t y' + y t'; the
-/// diagonals are kept up to date, a row is brought up to date when it becomes the pivot, and the matrices after a number of
-/// pivots.
+/// The same with dense matrices. With y = m_e + (m_ee / 2) t an elimination is K -= k_e k_e' /
+/// k_ee, M += t y' + y t'; the diagonals are kept up to date, a row is brought up to date when it
+/// becomes the pivot, and the matrices after a number of pivots.
 class DenseCondensation {
  public:
-  DenseCondensation(const SparseCondensation& rows, std::vector<int> dofs) : dofs_(std::move(dofs)) {
+  DenseCondensation(const SparseCondensation& rows, std::vector<int> dofs)
+      : dofs_(std::move(dofs)) {
     const auto n = static_cast<Eigen::Index>(dofs_.size());
     K_ = Matrix::Zero(n, n);
     M_ = Matrix::Zero(n, n);
-    std::vector<int> place(dofs_.empty() ? 0 : at(*std::max_element(dofs_.begin(), dofs_.end())) + 1, -1);
-    for (Eigen::Index i = 0; i < n; ++i) place[at(dofs_[static_cast<std::size_t>(i)])] = static_cast<int>(i);
+    std::vector<int> place(
+        dofs_.empty() ? 0 : at(*std::max_element(dofs_.begin(), dofs_.end())) + 1, -1);
+    for (Eigen::Index i = 0; i < n; ++i)
+      place[at(dofs_[static_cast<std::size_t>(i)])] = static_cast<int>(i);
     for (Eigen::Index i = 0; i < n; ++i)
       for (const auto& entry : rows.row(dofs_[static_cast<std::size_t>(i)]))
         if (at(entry.dof) < place.size() && place[at(entry.dof)] >= 0) {
@@ -148,7 +158,8 @@ class DenseCondensation {
       for (Eigen::Index i = 0; i < k_.size(); ++i) {
         if (!open_[static_cast<std::size_t>(i)]) continue;
         const double ratio = ratioOf(k_[i], m_[i]);
-        if (e < 0 || ratio > largest || (ratio == largest && dof(i) > dof(e))) e = i, largest = ratio;
+        if (e < 0 || ratio > largest || (ratio == largest && dof(i) > dof(e)))
+          e = i, largest = ratio;
       }
       order.add(dof(e), largest);
       open_[static_cast<std::size_t>(e)] = 0;
@@ -188,7 +199,8 @@ class DenseCondensation {
     for (std::size_t j = 0; j < keep.size(); ++j) {
       const auto to = static_cast<Eigen::Index>(j);
       dofs.push_back(dof(keep[j]));
-      for (std::size_t i = 0; i < keep.size(); ++i) {  // both indices decrease: nothing is overwritten before it is read
+      for (std::size_t i = 0; i < keep.size();
+           ++i) {  // both indices decrease: nothing is overwritten before it is read
         K_(static_cast<Eigen::Index>(i), to) = K_(keep[i], keep[j]);
         M_(static_cast<Eigen::Index>(i), to) = M_(keep[i], keep[j]);
       }
@@ -221,10 +233,12 @@ class DenseCondensation {
 
 }  // namespace
 
-MasterRanking rankMasters(const model::Substructure& part, const Partition& p, const Sparse& symmetricK) {
+MasterRanking rankMasters(const model::Substructure& part, const Partition& p,
+                          const Sparse& symmetricK) {
   const Stage stage("choice of masters");
   // Kept dofs are never condensed, and their rows change nothing among the others.
-  SparseCondensation left(block(symmetricK, p.interior, p.interior), block(part.model.mass, p.interior, p.interior));
+  SparseCondensation left(block(symmetricK, p.interior, p.interior),
+                          block(part.model.mass, p.interior, p.interior));
   const auto ratio = [&](int i) {
     const auto entry = left.diagonal(i);
     return ratioOf(entry.k, entry.m);
@@ -252,9 +266,11 @@ MasterRanking rankMasters(const model::Substructure& part, const Partition& p, c
   if (!rest.empty()) DenseCondensation(left, rest).run(order);
 
   MasterRanking ranking;
-  for (auto it = order.dofs.rbegin(); it != order.dofs.rend(); ++it) ranking.positions.push_back(p.interior[at(*it)]);
+  for (auto it = order.dofs.rbegin(); it != order.dofs.rend(); ++it)
+    ranking.positions.push_back(p.interior[at(*it)]);
   std::reverse(order.ratios.begin(), order.ratios.end());
-  ranking.ratios = Eigen::Map<const Vector>(order.ratios.data(), static_cast<Eigen::Index>(order.ratios.size()));
+  ranking.ratios =
+      Eigen::Map<const Vector>(order.ratios.data(), static_cast<Eigen::Index>(order.ratios.size()));
   return ranking;
 }
 

@@ -21,19 +21,27 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double massless = 1e-14;
 /// Energy below this part of |phi|' |K| |phi| is rounding.
 constexpr double zeroEnergy = 1e-12;
-/// A rigid body has six ways to float; a link may be a body with joints inside, so more are looked at when these are not all.
+/// A rigid body has six ways to float; a link may be a body with joints inside, so more are looked
+/// at when these are not all.
 constexpr int floatingCandidates = 8;
 
 }  // namespace
 
 OrthonormalSet::OrthonormalSet(Sparse mass, double tolerance, std::string who)
-    : mass_(std::move(mass)), absolute_(mass_.cwiseAbs()), tolerance_(tolerance), who_(std::move(who)), basis_(mass_.rows(), 0), weighted_(mass_.rows(), 0) {}
+    : mass_(std::move(mass)),
+      absolute_(mass_.cwiseAbs()),
+      tolerance_(tolerance),
+      who_(std::move(who)),
+      basis_(mass_.rows(), 0),
+      weighted_(mass_.rows(), 0) {}
 
 double OrthonormalSet::norm(const Vector& v) const {
   const double square = v.dot(mass_ * v);
   const Vector size = v.cwiseAbs();
   const double rounding = massless * size.dot(absolute_ * size);
-  if (square < -rounding) throw ModelError(who_ + "its mass is indefinite: the kinetic energy of a vector of the basis is negative.");
+  if (square < -rounding)
+    throw ModelError(
+        who_ + "its mass is indefinite: the kinetic energy of a vector of the basis is negative.");
   return square <= rounding ? 0.0 : std::sqrt(square);
 }
 
@@ -65,15 +73,17 @@ bool OrthonormalSet::add(const Vector& vector, Vector& factor) {
   return true;
 }
 
-std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, int group, const std::string& kind,
-                                        double& defect) {
+std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q,
+                                     int group, const std::string& kind, double& defect) {
   std::vector<ModalVector> vectors;
   defect = 0;
   if (Q.cols() == 0) return vectors;
   // (Q' M Q) is the identity but for rounding; keeping it removes the rounding of Q.
   const Matrix k = Q.transpose() * (symmetricK * Q), m = Q.transpose() * (M * Q);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()), 0.5 * (m + m.transpose()));
-  if (solver.info() != Eigen::Success) throw ConvergenceError("The QR iteration for the Ritz vectors of a basis did not converge.");
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()),
+                                                                0.5 * (m + m.transpose()));
+  if (solver.info() != Eigen::Success)
+    throw ConvergenceError("The QR iteration for the Ritz vectors of a basis did not converge.");
   Matrix phi = Q * solver.eigenvectors();
   for (Eigen::Index j = 0; j < phi.cols(); ++j) {
     if (phi(linalg::largestEntry(phi.col(j)), j) < 0) phi.col(j) = -phi.col(j);
@@ -84,7 +94,9 @@ std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, 
     vector.kind = kind;
     vectors.push_back(vector);
   }
-  defect = (phi.transpose() * (M * phi) - Matrix::Identity(phi.cols(), phi.cols())).cwiseAbs().maxCoeff();
+  defect = (phi.transpose() * (M * phi) - Matrix::Identity(phi.cols(), phi.cols()))
+               .cwiseAbs()
+               .maxCoeff();
   return vectors;
 }
 
@@ -106,8 +118,10 @@ Matrix floatingModes(const Sparse& symmetricK, const Sparse& M, const linalg::Do
   }
 }
 
-BasisResult fixedInterfaceBasis(const model::Substructure& part, const Partition& p, const ConstraintModes& constraint,
-                                const std::vector<std::vector<int>>& groups, std::vector<ModalVector> vectors) {
+BasisResult fixedInterfaceBasis(const model::Substructure& part, const Partition& p,
+                                const ConstraintModes& constraint,
+                                const std::vector<std::vector<int>>& groups,
+                                std::vector<ModalVector> vectors) {
   BasisResult basis;
   basis.partition = p;
   basis.orthonormal = true;
@@ -121,7 +135,9 @@ BasisResult fixedInterfaceBasis(const model::Substructure& part, const Partition
     row.why = j < p.interface.size() ? "interface dof" : "retained dof";
     basis.rows.push_back(row);
   }
-  std::stable_sort(vectors.begin(), vectors.end(), [](const ModalVector& a, const ModalVector& b) { return a.eigenvalue < b.eigenvalue; });
+  std::stable_sort(vectors.begin(), vectors.end(), [](const ModalVector& a, const ModalVector& b) {
+    return a.eigenvalue < b.eigenvalue;
+  });
   Triplets entries = constraint.entries;
   basis.eigenvalues.resize(static_cast<Eigen::Index>(vectors.size()));
   for (std::size_t k = 0; k < vectors.size(); ++k) {
@@ -138,7 +154,8 @@ BasisResult fixedInterfaceBasis(const model::Substructure& part, const Partition
     const auto& group = groups[at(vector.group)];
     for (std::size_t i = 0; i < group.size(); ++i) {
       const double value = vector.shape[static_cast<Eigen::Index>(i)];
-      if (value != 0.0) entries.emplace_back(p.interior[at(group[i])], static_cast<int>(p.kept.size() + k), value);
+      if (value != 0.0)
+        entries.emplace_back(p.interior[at(group[i])], static_cast<int>(p.kept.size() + k), value);
     }
   }
   basis.candidates = basis.eigenvalues;
@@ -149,7 +166,8 @@ BasisResult fixedInterfaceBasis(const model::Substructure& part, const Partition
 
 Matrix modalColumns(const BasisResult& basis) {
   std::vector<int> columns;
-  for (int k = 0; k < basis.modes(); ++k) columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
+  for (int k = 0; k < basis.modes(); ++k)
+    columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
   return block(basis.vectors, basis.partition.interior, columns);
 }
 
@@ -179,7 +197,8 @@ std::vector<ModalVector> modalVectors(const BasisResult& basis) {
 }
 
 /// `before` with these modal vectors in place of its own.
-BasisResult withVectors(const model::Substructure& part, const BasisResult& before, std::vector<ModalVector> vectors) {
+BasisResult withVectors(const model::Substructure& part, const BasisResult& before,
+                        std::vector<ModalVector> vectors) {
   const Partition& p = before.partition;
   const int kept = static_cast<int>(p.kept.size());
   ConstraintModes constraint;
@@ -187,7 +206,8 @@ BasisResult withVectors(const model::Substructure& part, const BasisResult& befo
   for (int j = 0; j < kept; ++j) constraint.residuals[j] = before.rows[at(j)].residual;
   for (int i = 0; i < before.vectors.outerSize(); ++i)
     for (Sparse::InnerIterator it(before.vectors, i); it; ++it)
-      if (it.col() < kept) constraint.entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      if (it.col() < kept)
+        constraint.entries.emplace_back(i, static_cast<int>(it.col()), it.value());
   std::vector<int> all(p.interior.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   BasisResult after = fixedInterfaceBasis(part, p, constraint, {all}, std::move(vectors));
@@ -205,14 +225,17 @@ BasisResult withVectors(const model::Substructure& part, const BasisResult& befo
 
 }  // namespace
 
-int appendVectors(const model::Substructure& part, const Matrix& X, const std::string& kind, double tolerance, bool rotate, BasisResult& basis) {
+int appendVectors(const model::Substructure& part, const Matrix& X, const std::string& kind,
+                  double tolerance, bool rotate, BasisResult& basis) {
   const Partition& p = basis.partition;
   const Sparse M = block(part.model.mass, p.interior, p.interior);
   const Sparse K = block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior);
   const Matrix V = modalColumns(basis);
   OrthonormalSet set(M, tolerance, "Part \"" + part.name + "\", " + kind + " vectors: ");
   for (Eigen::Index k = 0; k < V.cols(); ++k)
-    if (!set.add(V.col(k))) throw ModelError("Part \"" + part.name + "\": its modal vectors are dependent before its " + kind + " vectors are added.");
+    if (!set.add(V.col(k)))
+      throw ModelError("Part \"" + part.name + "\": its modal vectors are dependent before its " +
+                       kind + " vectors are added.");
   int added = 0;
   for (Eigen::Index j = 0; j < X.cols(); ++j) added += set.add(X.col(j)) ? 1 : 0;
   if (added == 0) return 0;
@@ -224,11 +247,13 @@ int appendVectors(const model::Substructure& part, const Matrix& X, const std::s
     fresh[k].why = "added";
   }
   // V' K W, measured by |V|' |K| |W|: the fixed-interface modes of K have none.
-  const Matrix coupling = V.transpose() * (K * W), size = V.cwiseAbs().transpose() * (K.cwiseAbs() * W.cwiseAbs());
+  const Matrix coupling = V.transpose() * (K * W),
+               size = V.cwiseAbs().transpose() * (K.cwiseAbs() * W.cwiseAbs());
   const bool coupled = (coupling.cwiseAbs().array() > 1e-11 * size.array()).any();
   std::vector<ModalVector> vectors;
   if (coupled && rotate) {
-    vectors = ritzVectors(K, M, set.basis(), 0, basis.modeKind.empty() ? kind : basis.modeKind.front(), defect);
+    vectors = ritzVectors(K, M, set.basis(), 0,
+                          basis.modeKind.empty() ? kind : basis.modeKind.front(), defect);
     for (auto& vector : vectors) vector.why = "with " + kind + " vectors";
   } else {
     vectors = modalVectors(basis);

@@ -8,7 +8,9 @@
 
 namespace tooljoint::reduction {
 
-double signedOmega(double eigenvalue) { return std::copysign(std::sqrt(std::abs(eigenvalue)), eigenvalue); }
+double signedOmega(double eigenvalue) {
+  return std::copysign(std::sqrt(std::abs(eigenvalue)), eigenvalue);
+}
 
 namespace {
 
@@ -38,18 +40,21 @@ int roundUp(const Vector& eigenvalues, int count, double pairTolerance) {
   return count;
 }
 
-std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep, double pairTolerance) {
+std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep,
+                             double pairTolerance) {
   const auto size = static_cast<Eigen::Index>(keep.size());
   const auto follow = [&](Eigen::Index from, Eigen::Index to) {
-    if (keep[static_cast<std::size_t>(from)] && together(eigenvalues, std::min(from, to), pairTolerance)) keep[static_cast<std::size_t>(to)] = 1;
+    if (keep[static_cast<std::size_t>(from)] &&
+        together(eigenvalues, std::min(from, to), pairTolerance))
+      keep[static_cast<std::size_t>(to)] = 1;
   };
   for (Eigen::Index k = 0; k + 1 < size; ++k) follow(k, k + 1);
   for (Eigen::Index k = size - 1; k > 0; --k) follow(k, k - 1);
   return keep;
 }
 
-std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total,
-                            double pairTolerance) {
+std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete,
+                            int total, double pairTolerance) {
   std::vector<std::tuple<double, std::size_t, Eigen::Index>> all;
   for (std::size_t p = 0; p < spectra.size(); ++p)
     for (Eigen::Index k = 0; k < spectra[p].size(); ++k) all.emplace_back(spectra[p][k], p, k);

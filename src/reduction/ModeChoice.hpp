@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, all, what the neighbours of the part
-/// feel (InterfaceCriteria), or what a tolerance needs (src/estimate). No choice cuts a close pair (the u and v mode of a shaft): it
-/// rounds up.
+/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, all,
+/// what the neighbours of the part feel (InterfaceCriteria), or what a tolerance needs
+/// (src/estimate). No choice cuts a close pair (the u and v mode of a shaft): it rounds up.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,8 @@ namespace tooljoint::reduction {
 
 /// Two neighbouring modes closer than this (relative, in frequency) may be a pair.
 constexpr double defaultPairTolerance = 0.01;
-/// Neighbours closer than this (relative, in frequency) are the same frequency: a cluster is never cut.
+/// Neighbours closer than this (relative, in frequency) are the same frequency: a cluster is never
+/// cut.
 constexpr double clusterTolerance = 1e-6;
 
 /// The user's choice for a list of parts.
@@ -26,13 +27,15 @@ struct ModeRule {
   enum class Kind { PerPart, Total, CutOff, All, InterfaceMass, InterfaceMoment, Tolerance };
   Kind kind = Kind::All;
   static constexpr int whole = -1;  ///< in `counts`: the part is not reduced (wholePart)
-  std::vector<int> counts;  ///< PerPart: one entry for every part, or a single one for all
-  int total = 0;            ///< Total: the lowest `total` over all parts
-  double cutOffHz = 0;      ///< CutOff: all modes at or below
-  double fraction = 0;      ///< InterfaceMass, InterfaceMoment: the share of the whole, in (0, 1]
-  double frequencyTolerance = 0;  ///< Tolerance: relative error of the coupled frequencies; 0: they are not looked at
-  double motionTolerance = 0;     ///< Tolerance: dyn of the transient; 0: it is not looked at
-  double safety = 1.5;            ///< Tolerance: the estimate times this stays below it (that of the motion: times twice this)
+  std::vector<int> counts;          ///< PerPart: one entry for every part, or a single one for all
+  int total = 0;                    ///< Total: the lowest `total` over all parts
+  double cutOffHz = 0;              ///< CutOff: all modes at or below
+  double fraction = 0;  ///< InterfaceMass, InterfaceMoment: the share of the whole, in (0, 1]
+  double frequencyTolerance =
+      0;  ///< Tolerance: relative error of the coupled frequencies; 0: they are not looked at
+  double motionTolerance = 0;  ///< Tolerance: dyn of the transient; 0: it is not looked at
+  double safety = 1.5;  ///< Tolerance: the estimate times this stays below it (that of the motion:
+                        ///< times twice this)
   double pairTolerance = defaultPairTolerance;
 };
 
@@ -45,25 +48,30 @@ struct ModeRequest {
   double pairTolerance = defaultPairTolerance;
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
   bool operator==(const ModeRequest& other) const {
-    return kind == other.kind && count == other.count && omegaMax == other.omegaMax && pairTolerance == other.pairTolerance;
+    return kind == other.kind && count == other.count && omegaMax == other.omegaMax &&
+           pairTolerance == other.pairTolerance;
   }
 };
 
-/// sign(omega^2) sqrt(|omega^2|): negative for a buckled part, so that the order is that of omega^2.
+/// sign(omega^2) sqrt(|omega^2|): negative for a buckled part, so that the order is that of
+/// omega^2.
 double signedOmega(double eigenvalue);
 
-/// Number of modes kept when `count` are wanted of the increasing `eigenvalues` (omega^2): `count`, rounded up when the cut would
-/// part a cluster (neighbours equal to clusterTolerance) or a pair (two modes closer than pairTolerance to each other and
-/// nearer to each other than to their other neighbours). At most eigenvalues.size().
+/// Number of modes kept when `count` are wanted of the increasing `eigenvalues` (omega^2): `count`,
+/// rounded up when the cut would part a cluster (neighbours equal to clusterTolerance) or a pair
+/// (two modes closer than pairTolerance to each other and nearer to each other than to their other
+/// neighbours). At most eigenvalues.size().
 int roundUp(const Vector& eigenvalues, int count, double pairTolerance);
 
 /// `keep` (1 for a mode that is kept) with the partners of its clusters and close pairs.
-std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep, double pairTolerance);
+std::vector<char> wholePairs(const Vector& eigenvalues, std::vector<char> keep,
+                             double pairTolerance);
 
-/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest eigenvalues of part p in
-/// increasing order, complete[p] says that these are all. Equal ones go to the first part. Rounds up within each part. An entry
-/// is -1 where spectra[p] is too short to decide.
-std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete, int total,
-                            double pairTolerance);
+/// Modes per part when the lowest `total` over all parts are kept: spectra[p] holds the lowest
+/// eigenvalues of part p in increasing order, complete[p] says that these are all. Equal ones go to
+/// the first part. Rounds up within each part. An entry is -1 where spectra[p] is too short to
+/// decide.
+std::vector<int> shareTotal(const std::vector<Vector>& spectra, const std::vector<bool>& complete,
+                            int total, double pairTolerance);
 
 }  // namespace tooljoint::reduction

@@ -33,15 +33,17 @@ class Sets {
   std::vector<int> parent_;
 };
 
-void checkPositions(const model::Substructure& part, const std::vector<int>& positions, const char* kind,
-                    std::vector<char>& seen) {
+void checkPositions(const model::Substructure& part, const std::vector<int>& positions,
+                    const char* kind, std::vector<char>& seen) {
   const int n = part.model.size();
   int last = -1;
   for (int i : positions) {
-    const std::string who = "Part \"" + part.name + "\": position " + std::to_string(i) + " of its " + kind + " dofs ";
+    const std::string who =
+        "Part \"" + part.name + "\": position " + std::to_string(i) + " of its " + kind + " dofs ";
     if (i < 0 || i >= n) throw ModelError(who + "is outside its " + std::to_string(n) + " dofs.");
     if (seen[at(i)])
-      throw ModelError(who + "(" + model::describe(part.model.dofs[at(i)], part.model.componentNames) +
+      throw ModelError(who + "(" +
+                       model::describe(part.model.dofs[at(i)], part.model.componentNames) +
                        ") is named twice among its interface and retained dofs.");
     if (i < last) throw ModelError(who + "is out of order; positions must increase.");
     seen[at(i)] = 1;
@@ -61,7 +63,8 @@ void findLinks(const model::Substructure& part, Partition& p) {
   constexpr int none = -1;
   std::vector<int> interiorIndex(at(p.size), none);
   std::vector<int> keptIndex(at(p.size), none);
-  for (std::size_t i = 0; i < p.interior.size(); ++i) interiorIndex[at(p.interior[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < p.interior.size(); ++i)
+    interiorIndex[at(p.interior[i])] = static_cast<int>(i);
   for (std::size_t i = 0; i < p.kept.size(); ++i) keptIndex[at(p.kept[i])] = static_cast<int>(i);
 
   const Sparse K = constantStiffness(part.model);
@@ -88,7 +91,8 @@ void findLinks(const model::Substructure& part, Partition& p) {
   forEachEntry(K, [&](int row, int column) {
     for (const auto& [inner, outer] : {std::pair{row, column}, std::pair{column, row}})
       if (interiorIndex[at(inner)] != none && keptIndex[at(outer)] != none)
-        p.ends[at(linkOfRoot[at(sets.find(interiorIndex[at(inner)]))])].push_back(keptIndex[at(outer)]);
+        p.ends[at(linkOfRoot[at(sets.find(interiorIndex[at(inner)]))])].push_back(
+            keptIndex[at(outer)]);
   });
   for (auto& ends : p.ends) {
     std::sort(ends.begin(), ends.end());
@@ -109,10 +113,13 @@ void checkPart(const model::Substructure& part) {
   checkPositions(part, part.interface, "interface", seen);
   checkPositions(part, part.retained, "retained", seen);
   if (part.reference.size() != 0 && part.reference.size() != size)
-    throw ModelError("Part \"" + part.name + "\": its reference state has " + std::to_string(part.reference.size()) +
-                     " entries for " + std::to_string(size) + " dofs.");
-  if (!part.reference.allFinite()) throw ModelError("Part \"" + part.name + "\": its reference state is not finite.");
-  if (!nearlySymmetric(part.model.mass, 1e-10)) throw ModelError("Part \"" + part.name + "\": its mass matrix is not symmetric.");
+    throw ModelError("Part \"" + part.name + "\": its reference state has " +
+                     std::to_string(part.reference.size()) + " entries for " +
+                     std::to_string(size) + " dofs.");
+  if (!part.reference.allFinite())
+    throw ModelError("Part \"" + part.name + "\": its reference state is not finite.");
+  if (!nearlySymmetric(part.model.mass, 1e-10))
+    throw ModelError("Part \"" + part.name + "\": its mass matrix is not symmetric.");
 }
 
 Partition partition(const model::Substructure& part) {
@@ -144,7 +151,9 @@ bool nearlySymmetric(const Sparse& A, double tolerance) {
   const Sparse transposed = A.transpose();
   const Sparse difference = A - transposed;
   const Vector diagonal = A.diagonal().cwiseAbs();
-  const double largest = A.nonZeros() > 0 ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff() : 0.0;
+  const double largest =
+      A.nonZeros() > 0 ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff()
+                       : 0.0;
   for (int i = 0; i < difference.outerSize(); ++i)
     for (Sparse::InnerIterator it(difference, i); it; ++it) {
       const double scale = std::sqrt(diagonal[i] * diagonal[it.col()]);
@@ -155,7 +164,8 @@ bool nearlySymmetric(const Sparse& A, double tolerance) {
 
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns) {
   std::vector<int> columnIndex(at(static_cast<int>(A.cols())), -1);
-  for (std::size_t j = 0; j < columns.size(); ++j) columnIndex[at(columns[j])] = static_cast<int>(j);
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    columnIndex[at(columns[j])] = static_cast<int>(j);
   Triplets entries;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (Sparse::InnerIterator it(A, rows[i]); it; ++it) {

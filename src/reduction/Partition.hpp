@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How the dofs of one part are sorted for reduction: interface, retained, interior; and which interior dofs hang together.
+/// How the dofs of one part are sorted for reduction: interface, retained, interior; and which
+/// interior dofs hang together.
 #pragma once
 
 #include <vector>
@@ -9,33 +10,38 @@
 
 namespace tooljoint::reduction {
 
-/// Positions of the dofs of a part. Kept dofs (C) are the interface followed by the retained ones; interior dofs (I) fall into
-/// links: sets that neither mass nor stiffness couples with each other. Every link is a small problem of its own, and where a
-/// link does not touch a kept dof, the basis is structurally zero.
+/// Positions of the dofs of a part. Kept dofs (C) are the interface followed by the retained ones;
+/// interior dofs (I) fall into links: sets that neither mass nor stiffness couples with each other.
+/// Every link is a small problem of its own, and where a link does not touch a kept dof, the basis
+/// is structurally zero.
 struct Partition {
   int size = 0;
-  std::vector<int> interface;           ///< increasing
-  std::vector<int> retained;            ///< increasing, disjoint from interface
-  std::vector<int> kept;                ///< interface, then retained: the first reduced coordinates
-  std::vector<int> interior;            ///< increasing
-  std::vector<std::vector<int>> links;  ///< indices into `interior`, each increasing, ordered by their first index
-  std::vector<std::vector<int>> ends;   ///< per link: indices into `kept` of the dofs it touches, increasing
+  std::vector<int> interface;  ///< increasing
+  std::vector<int> retained;   ///< increasing, disjoint from interface
+  std::vector<int> kept;       ///< interface, then retained: the first reduced coordinates
+  std::vector<int> interior;   ///< increasing
+  std::vector<std::vector<int>>
+      links;  ///< indices into `interior`, each increasing, ordered by their first index
+  std::vector<std::vector<int>>
+      ends;  ///< per link: indices into `kept` of the dofs it touches, increasing
 };
 
-/// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not symmetric, or interface and
-/// retained positions are out of range, not increasing or named twice.
+/// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not
+/// symmetric, or interface and retained positions are out of range, not increasing or named twice.
 void checkPart(const model::Substructure& part);
 
 /// Sorts the dofs of `part`. Errors of checkPart.
 Partition partition(const model::Substructure& part);
 
-/// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and unsymmetric.
+/// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and
+/// unsymmetric.
 Sparse constantStiffness(const model::SecondOrderModel& model);
 
 /// (A + A') / 2.
 Sparse symmetricPart(const Sparse& A);
 
-/// True when |a_ij - a_ji| <= tolerance sqrt(|a_ii a_jj|) for all entries (rows without diagonal: measured by the largest entry).
+/// True when |a_ij - a_ji| <= tolerance sqrt(|a_ii a_jj|) for all entries (rows without diagonal:
+/// measured by the largest entry).
 bool nearlySymmetric(const Sparse& A, double tolerance);
 
 /// A(rows, columns) as a new sparse matrix; both lists without repetition.

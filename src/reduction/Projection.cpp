@@ -26,7 +26,8 @@ double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }
 
 /// A = a M + b K to rounding, or nothing.
-std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, const Sparse& M, const Sparse& K) {
+std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, const Sparse& M,
+                                                              const Sparse& K) {
   const double size = norm(A);
   if (size == 0.0) return std::pair{0.0, 0.0};
   const double mm = norm(M), kk = norm(K);
@@ -94,25 +95,33 @@ void tidyMass(Sparse& m, Eigen::Index kept, ProjectedMatrices& out) {
   m = withoutExactZeros(m);
 }
 
-bool isRounding(double value, Eigen::Index i, Eigen::Index j, const Vector& size) { return std::abs(value) <= roundingLevel * size[i] * size[j]; }
+bool isRounding(double value, Eigen::Index i, Eigen::Index j, const Vector& size) {
+  return std::abs(value) <= roundingLevel * size[i] * size[j];
+}
 
-/// Without the entries that are rounding of the projection: rigid-body motion has no stiffness at all.
+/// Without the entries that are rounding of the projection: rigid-body motion has no stiffness at
+/// all.
 Sparse withoutRounding(const Sparse& k, const Vector& size) {
   Sparse out = k;
-  out.prune([&](Eigen::Index i, Eigen::Index j, double value) { return !isRounding(value, i, j, size); });
+  out.prune(
+      [&](Eigen::Index i, Eigen::Index j, double value) { return !isRounding(value, i, j, size); });
   return out;
 }
 
-/// Rows of interface forces that say u_b = Phi_b p + Psi_b g and nothing of the residual forces of skew or time-dependent stiffness, which without mass would
-/// drive the forces: k_gp = 0, k_gg = Psi_b' of the constant stiffness.
+/// Rows of interface forces that say u_b = Phi_b p + Psi_b g and nothing of the residual forces of
+/// skew or time-dependent stiffness, which without mass would drive the forces: k_gp = 0, k_gg =
+/// Psi_b' of the constant stiffness.
 Sparse withExactInterfaces(const Sparse& k, const BasisResult& basis, bool constant) {
   const auto first = static_cast<int>(k.rows()) - basis.forces();
   Triplets entries;
   for (int i = 0; i < first; ++i)
-    for (Sparse::InnerIterator it(k, i); it; ++it) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    for (Sparse::InnerIterator it(k, i); it; ++it)
+      entries.emplace_back(i, static_cast<int>(it.col()), it.value());
   for (int j = 0; constant && j < basis.forces(); ++j)
-    for (Sparse::InnerIterator it(basis.vectors, basis.boundary[static_cast<std::size_t>(j)]); it; ++it)
-      if (it.col() >= first) entries.emplace_back(static_cast<int>(it.col()), first + j, it.value());
+    for (Sparse::InnerIterator it(basis.vectors, basis.boundary[static_cast<std::size_t>(j)]); it;
+         ++it)
+      if (it.col() >= first)
+        entries.emplace_back(static_cast<int>(it.col()), first + j, it.value());
   Sparse out(k.rows(), k.cols());
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
@@ -135,8 +144,10 @@ double offDiagonal(const Sparse& k, Eigen::Index kept, const Vector& size) {
   return defect;
 }
 
-/// Removes the rounding of the constant stiffness: sym(k_DD) diagonal, k_DC = 0, and for symmetric K also k_CD = 0.
-void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& size, ProjectedMatrices& out) {
+/// Removes the rounding of the constant stiffness: sym(k_DD) diagonal, k_DC = 0, and for symmetric
+/// K also k_CD = 0.
+void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& size,
+                   ProjectedMatrices& out) {
   out.stiffnessDefect = offDiagonal(k, kept, size);
   if (out.stiffnessDefect > enforceBelow || out.massDefect > enforceBelow) return;
   const bool symmetric = nearlySymmetric(K, 1e-13);
@@ -145,7 +156,8 @@ void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& 
   Sparse tidy = 0.5 * (k - transposed);  // the skew part
   Triplets entries;
   const auto negligible = [&](double value, Eigen::Index i, Eigen::Index j) {
-    return std::abs(value) <= std::max(enforceBelow * std::sqrt(diagonal[i] * diagonal[j]), roundingLevel * size[i] * size[j]);
+    return std::abs(value) <= std::max(enforceBelow * std::sqrt(diagonal[i] * diagonal[j]),
+                                       roundingLevel * size[i] * size[j]);
   };
   for (int i = 0; i < k.rows(); ++i)
     for (Sparse::InnerIterator it(k, i); it; ++it) {
@@ -172,7 +184,9 @@ void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& 
 
 std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& model) {
   std::vector<model::MatrixTerm> terms;
-  const auto lawName = [&](const model::MatrixTerm& term) { return model.laws[static_cast<std::size_t>(term.law)].name; };
+  const auto lawName = [&](const model::MatrixTerm& term) {
+    return model.laws[static_cast<std::size_t>(term.law)].name;
+  };
   for (const auto& term : model.stiffness) {
     if (lawName(term) != "1") continue;
     if (terms.empty()) {
@@ -189,7 +203,8 @@ std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& mod
 
 Sparse project(const Sparse& A, const Sparse& Phi) {
   const double filling =
-      static_cast<double>(Phi.nonZeros()) / std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
+      static_cast<double>(Phi.nonZeros()) /
+      std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
   if (filling < 0.1) {
     const Sparse transposed = Phi.transpose();
     const Sparse right = A * Phi;
@@ -221,7 +236,8 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
   for (const auto& term : stiffnessTerms(part.model)) {
     Sparse reduced = project(term.matrix, Phi);
     const bool constant = part.model.laws[static_cast<std::size_t>(term.law)].name == "1";
-    if (basis.forces() > 0 && masslessFlexibility) reduced = withExactInterfaces(reduced, basis, constant);
+    if (basis.forces() > 0 && masslessFlexibility)
+      reduced = withExactInterfaces(reduced, basis, constant);
     if (constant) {
       if (nearlySymmetric(K, 1e-13)) reduced = symmetricPart(reduced);
       const Vector size = naturalSize(K, Phi);
@@ -239,7 +255,8 @@ ProjectedMatrices projectMatrices(const model::Substructure& part, const BasisRe
       continue;
     }
     const auto rayleigh = rayleighCoefficients(term.matrix, part.model.mass, K);
-    Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass + rayleigh->second * out.constantStiffness)
+    Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass +
+                                                  rayleigh->second * out.constantStiffness)
                               : project(term.matrix, Phi);
     out.damping.push_back({term.name, reduced, term.law});
   }

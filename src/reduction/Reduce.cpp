@@ -36,14 +36,18 @@ int buckledModes(const model::Substructure& part, const BasisResult& basis) {
   const Eigen::Index first = basis.vectors.cols() - basis.forces() - modes;
   const Matrix shapes = Matrix(basis.vectors).middleCols(first, modes);
   const Matrix inertia = part.model.mass * shapes;
-  const Vector energies = basis.eigenvalues.cwiseProduct(shapes.cwiseProduct(inertia).colwise().sum().transpose());
-  const auto rounding = linalg::areRounding(energies, shapes, symmetricPart(constantStiffness(part.model)));
+  const Vector energies =
+      basis.eigenvalues.cwiseProduct(shapes.cwiseProduct(inertia).colwise().sum().transpose());
+  const auto rounding =
+      linalg::areRounding(energies, shapes, symmetricPart(constantStiffness(part.model)));
   int buckled = 0;
-  for (Eigen::Index k = 0; k < modes; ++k) buckled += basis.eigenvalues[k] < 0 && !rounding[static_cast<std::size_t>(k)] ? 1 : 0;
+  for (Eigen::Index k = 0; k < modes; ++k)
+    buckled += basis.eigenvalues[k] < 0 && !rounding[static_cast<std::size_t>(k)] ? 1 : 0;
   return buckled;
 }
 
-ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options) {
+ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis,
+                     const ReductionOptions& options) {
   ReducedCore core;
   core.basis = basis;
   {
@@ -68,19 +72,23 @@ ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis, 
   report.remarks = basis.remarks;
   for (std::size_t j = 0; j < rows.size(); ++j) {
     if (rows[j].kind != "constraint") continue;
-    const double stiffness = core.matrices.constantStiffness.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
-    const double mass = core.matrices.mass.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
+    const double stiffness = core.matrices.constantStiffness.coeff(static_cast<Eigen::Index>(j),
+                                                                   static_cast<Eigen::Index>(j));
+    const double mass =
+        core.matrices.mass.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
     rows[j].eigenvalue = mass > 0 ? stiffness / mass : 0;
   }
   report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   if (basis.orthonormal && !report.structureEnforced && report.modes > 0)
-    report.remarks.push_back("the modes are not orthonormal to 1e-10; the projected matrices are kept as they are");
+    report.remarks.push_back(
+        "the modes are not orthonormal to 1e-10; the projected matrices are kept as they are");
   if (options.checks) checkBasis(part, basis, core.matrices, report);
   count("parts reduced");
   return core;
 }
 
-std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>& parts, const ReductionOptions& options) {
+std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>& parts,
+                                         const ReductionOptions& options) {
   const ModeRule& rule = options.modes;
   double interior = 0;
   if (rule.kind == ModeRule::Kind::Total)
@@ -93,11 +101,13 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
     switch (rule.kind) {
       case ModeRule::Kind::PerPart:
         request.count = rule.counts.size() == 1 ? rule.counts.front() : rule.counts.at(p);
-        request.kind = request.count == ModeRule::whole ? ModeRequest::Kind::Whole : ModeRequest::Kind::Count;
+        request.kind =
+            request.count == ModeRule::whole ? ModeRequest::Kind::Whole : ModeRequest::Kind::Count;
         break;
       case ModeRule::Kind::Total: {
         // The share of the part by size, with some room; asked again where it turns out too small.
-        const double share = interior > 0 ? static_cast<double>(parts[p].interior().size()) / interior : 0.0;
+        const double share =
+            interior > 0 ? static_cast<double>(parts[p].interior().size()) / interior : 0.0;
         request.kind = ModeRequest::Kind::Count;
         request.count = static_cast<int>(std::ceil(1.25 * share * rule.total)) + 6;
         break;
@@ -117,9 +127,11 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         break;
       case ModeRule::Kind::Tolerance:
         throw DeckError(
-            "\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not part by part: `tooljoint run` "
+            "\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not "
+            "part by part: `tooljoint run` "
             "and "
-            "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a cut-off frequency.");
+            "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a "
+            "cut-off frequency.");
     }
   }
   return requests;
@@ -131,8 +143,9 @@ std::vector<int> twins(const std::vector<int>& classes, const std::vector<ModeRe
   std::map<int, std::vector<int>> firsts;  // of each class, one for each request
   for (std::size_t p = 0; p < classes.size(); ++p) {
     auto& candidates = firsts[classes[p]];
-    const auto found = std::find_if(candidates.begin(), candidates.end(),
-                                    [&](int q) { return requests[static_cast<std::size_t>(q)] == requests[p]; });
+    const auto found = std::find_if(candidates.begin(), candidates.end(), [&](int q) {
+      return requests[static_cast<std::size_t>(q)] == requests[p];
+    });
     twin[p] = found != candidates.end() ? *found : static_cast<int>(p);
     if (found == candidates.end()) candidates.push_back(twin[p]);
   }
@@ -143,12 +156,15 @@ std::vector<int> twins(const std::vector<int>& classes, const std::vector<ModeRe
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& m = parts[p].model;
-    const auto fits = [&](const Vector& x) { return x.size() == m.size() && std::isfinite(x.sum()); };
-    bool good = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() && m.points.empty() &&
-                (parts[p].reference.size() == 0 || fits(parts[p].reference)) && fits(m.initialDisplacement) &&
-                fits(m.initialVelocity);
+    const auto fits = [&](const Vector& x) {
+      return x.size() == m.size() && std::isfinite(x.sum());
+    };
+    bool good = classes[p] != static_cast<int>(p) && static_cast<int>(m.dofs.size()) == m.size() &&
+                m.points.empty() && (parts[p].reference.size() == 0 || fits(parts[p].reference)) &&
+                fits(m.initialDisplacement) && fits(m.initialVelocity);
     for (const auto& load : m.loads)
-      good = good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
+      good =
+          good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
     if (!good) checkPart(parts[p]);
   }
 }
@@ -156,7 +172,8 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
 /// The reduction of a list of parts by the ranks of MPI_COMM_WORLD.
 class Team {
  public:
-  Team(const std::vector<model::Substructure>& parts, const Basis& basis, const ReductionOptions& options, ReductionCache& cache)
+  Team(const std::vector<model::Substructure>& parts, const Basis& basis,
+       const ReductionOptions& options, ReductionCache& cache)
       : parts_(parts),
         basis_(basis),
         options_(options),
@@ -166,7 +183,8 @@ class Team {
     if (cache_.classes.empty()) {
       cache_.classes = findTwins(parts_, std::vector<ModeRequest>(parts_.size()));
       checkParts(parts_, cache_.classes);
-      if (options_.loadVectors.any()) cache_.classes = sameLoads(parts_, cache_.classes, options_.loadVectors);
+      if (options_.loadVectors.any())
+        cache_.classes = sameLoads(parts_, cache_.classes, options_.loadVectors);
       if (basis_.namesParts()) std::iota(cache_.classes.begin(), cache_.classes.end(), 0);
     }
     twin_ = twins(cache_.classes, requests_);
@@ -182,19 +200,23 @@ class Team {
     const int idle = parallel::size() - static_cast<int>(weights.size());
     if (idle > 0 && !cache_.remembers)
       log::warn("There are " + std::to_string(weights.size()) + " different substructures for " +
-                std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) + " of them will be idle during reduction.");
+                std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) +
+                " of them will be idle during reduction.");
   }
 
   std::vector<ReducedSubstructure> run() {
     build(std::vector<char>(parts_.size(), 1));
     const auto kind = options_.modes.kind;
     if (kind == ModeRule::Kind::Total) shareTotalModes();
-    if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment) chooseByInterface();
+    if (kind == ModeRule::Kind::InterfaceMass || kind == ModeRule::Kind::InterfaceMoment)
+      chooseByInterface();
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
         if (!isWhole(bases_[p])) addLoadVectors(parts_[p], options_.loadVectors, bases_[p]);
       });
-      forOwned([&](std::size_t p) { cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_)); });
+      forOwned([&](std::size_t p) {
+        cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_));
+      });
     });
     exchange();
     remember();
@@ -229,22 +251,25 @@ class Team {
       if (first(p)) cache_.cores[{cache_.classes[p], requests_[p].count}] = cores_[p];
   }
 
-  /// What the neighbours feel: enough modes are computed to hold the fraction, and those with the largest shares are kept.
+  /// What the neighbours feel: enough modes are computed to hold the fraction, and those with the
+  /// largest shares are kept.
   void chooseByInterface() {
     const auto& rule = options_.modes;
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
         for (;;) {
           if (!bases_[p].orthonormal || !bases_[p].removable)
-            throw DeckError(
-                "The basis \"" + options_.basis +
-                "\" has no modes with fixed interface for an interface criterion to choose from. Give \"Modes\", or take "
-                "the basis \"Craig-Bampton\".");
+            throw DeckError("The basis \"" + options_.basis +
+                            "\" has no modes with fixed interface for an interface criterion to "
+                            "choose from. Give \"Modes\", or take "
+                            "the basis \"Craig-Bampton\".");
           const Vector shares = interfaceShares(parts_[p], bases_[p], rule.kind);
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
           const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();
-          if (keep.empty() && (all || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
-            keep.assign(static_cast<std::size_t>(shares.size()), shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
+          if (keep.empty() &&
+              (all || bases_[p].modes() == 0))  // all there are do not reach it but for rounding
+            keep.assign(static_cast<std::size_t>(shares.size()),
+                        shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
           else if (keep.empty()) {
             requests_[p].count *= 2;
             bases_[p] = basis_.build(parts_[p], requests_[p]);
@@ -268,13 +293,15 @@ class Team {
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
         if (wanted[p])
-          bases_[p] =
-              requests_[p].kind == ModeRequest::Kind::Whole ? wholePart(parts_[p]) : basis_.build(parts_[p], requests_[p]);
+          bases_[p] = requests_[p].kind == ModeRequest::Kind::Whole
+                          ? wholePart(parts_[p])
+                          : basis_.build(parts_[p], requests_[p]);
       });
     });
   }
 
-  /// Total Modes: ask until every part knows enough of its spectrum, then cut all at the same frequency.
+  /// Total Modes: ask until every part knows enough of its spectrum, then cut all at the same
+  /// frequency.
   void shareTotalModes() {
     for (;;) {
       std::vector<Vector> spectra(parts_.size());
@@ -284,7 +311,8 @@ class Team {
         const auto t = static_cast<std::size_t>(twin_[p]);
         spectra[p] = first(p) ? bases_[p].candidates : spectra[t];
         int state[2] = {bases_[t].complete ? 1 : 0,
-                        bases_[t].removable ? bases_[t].modes() : static_cast<int>(bases_[t].candidates.size())};
+                        bases_[t].removable ? bases_[t].modes()
+                                            : static_cast<int>(bases_[t].candidates.size())};
         if (first(p)) {
           parallel::broadcast(spectra[p], owner_[p]);
           parallel::broadcast(state[0], owner_[p]);
@@ -293,7 +321,8 @@ class Team {
         complete[p] = first(p) ? state[0] == 1 : complete[t];
         built[p] = first(p) ? state[1] : built[t];
       }
-      std::vector<int> counts = shareTotal(spectra, complete, options_.modes.total, options_.modes.pairTolerance);
+      std::vector<int> counts =
+          shareTotal(spectra, complete, options_.modes.total, options_.modes.pairTolerance);
       std::vector<char> again(parts_.size(), 0);
       bool enough = true;
       for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -313,7 +342,8 @@ class Team {
             return;
           }
           bases_[p].remarks.clear();  // they were about the number asked of this part alone
-          truncate(bases_[p], counts[p], "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
+          truncate(bases_[p], counts[p],
+                   "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
         });
         return;
       }
@@ -329,7 +359,8 @@ class Team {
       std::string bytes;
       if (owner_[p] == parallel::rank()) bytes = pack(*cores_[p]);
       parallel::broadcast(bytes, owner_[p]);
-      if (owner_[p] != parallel::rank()) cores_[p] = std::make_shared<const ReducedCore>(unpack(bytes));
+      if (owner_[p] != parallel::rank())
+        cores_[p] = std::make_shared<const ReducedCore>(unpack(bytes));
     }
   }
 
@@ -338,18 +369,19 @@ class Team {
   const ReductionOptions& options_;
   ReductionCache& cache_;
   std::vector<ModeRequest> requests_;
-  std::vector<int> twin_;                     ///< first identical part
-  std::vector<int> owner_;                    ///< rank, -1 for parts taken over from a twin or an earlier round
+  std::vector<int> twin_;   ///< first identical part
+  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin or an earlier round
   std::map<std::size_t, BasisResult> bases_;  ///< of the parts this rank owns
   std::vector<std::shared_ptr<const ReducedCore>> cores_;
 };
 
 }  // namespace
 
-ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options,
-                           int index) {
+ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis,
+                           const ReductionOptions& options, int index) {
   ReducedSubstructure reduced;
-  ReducedModels(part, std::make_shared<const ReducedCore>(makeCore(part, basis, options)), options).make(part, index, reduced);
+  ReducedModels(part, std::make_shared<const ReducedCore>(makeCore(part, basis, options)), options)
+      .make(part, index, reduced);
   return reduced;
 }
 
@@ -357,19 +389,21 @@ std::vector<BasisRow> ReducedSubstructure::basisRows() const {
   std::vector<BasisRow> rows = *report.rows;
   const std::size_t kept = basis->partition.kept.size();
   for (std::size_t j = 0; j < kept && j < rows.size(); ++j)
-    if (rows[j].kind == "constraint") rows[j].name = model::describe(model.dofs[j], model.componentNames);
+    if (rows[j].kind == "constraint")
+      rows[j].name = model::describe(model.dofs[j], model.componentNames);
   return rows;
 }
 
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
-                                           const ReductionOptions& options) {
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Basis& basis, const ReductionOptions& options) {
   ReductionCache none;
   none.remembers = false;
   return Team(parts, basis, options, none).run();
 }
 
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
-                                           const ReductionOptions& options, ReductionCache& cache) {
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Basis& basis, const ReductionOptions& options,
+                                           ReductionCache& cache) {
   return Team(parts, basis, options, cache).run();
 }
 

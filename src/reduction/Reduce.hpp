@@ -25,8 +25,10 @@ class InterfaceBasis;
 
 /// How the state at t = 0 is put into reduced coordinates.
 enum class InitialState {
-  KeepStatic,    ///< D = D_s + Phi q: the part is reduced about its reference state; q(0) is 0 when it starts there
-  LeastSquares,  ///< D = Phi q, q_C(0) = D_C(0), q_D(0) by least squares: Nguyen et al. 2020, (38)-(42)
+  KeepStatic,    ///< D = D_s + Phi q: the part is reduced about its reference state; q(0) is 0 when
+                 ///< it starts there
+  LeastSquares,  ///< D = Phi q, q_C(0) = D_C(0), q_D(0) by least squares: Nguyen et al. 2020,
+                 ///< (38)-(42)
 };
 
 /// All choices of the deck list "Reduction" that do not belong to one basis.
@@ -37,39 +39,46 @@ struct ReductionOptions {
   bool checks = true;
   LoadVectorOptions loadVectors;  ///< static answers to loads beside the modes; none by default
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
-  std::shared_ptr<const InterfaceBasis> interface;    ///< reduction of the joined dofs of the coupled model (coupling::synthesise); null: none
+  std::shared_ptr<const InterfaceBasis> interface;  ///< reduction of the joined dofs of the coupled
+                                                    ///< model (coupling::synthesise); null: none
 };
 
-/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode count is given, or when the number
-/// of entries of "Modes by Substructure" is not `parts`. The options refer to the list (its sublist "Anasazi"), which must
-/// outlive them.
+/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode
+/// count is given, or when the number of entries of "Modes by Substructure" is not `parts`. The
+/// options refer to the list (its sublist "Anasazi"), which must outlive them.
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.
 std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::ParameterList& reduction);
 
-/// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices are projected full,
-/// unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that are constant in time become one term, every other
-/// one stays a term with its own law. `index` numbers the part in the labels of its modes.
-ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis, const ReductionOptions& options, int index);
+/// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices
+/// are projected full, unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that
+/// are constant in time become one term, every other one stays a term with its own law. `index`
+/// numbers the part in the labels of its modes.
+ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis,
+                           const ReductionOptions& options, int index);
 
-/// Reduces all parts. Every rank passes the same parts and gets the same result; each part is reduced by one rank and sent to the
-/// others. Parts that are identical (findTwins) are reduced once. Collective over MPI_COMM_WORLD.
-/// An error on one rank is thrown on all. Throws ModelError, ConvergenceError.
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
-                                           const ReductionOptions& options);
+/// Reduces all parts. Every rank passes the same parts and gets the same result; each part is
+/// reduced by one rank and sent to the others. Parts that are identical (findTwins) are reduced
+/// once. Collective over MPI_COMM_WORLD. An error on one rank is thrown on all. Throws ModelError,
+/// ConvergenceError.
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Basis& basis, const ReductionOptions& options);
 
-/// What rounds of reduction of the same parts share: which parts are identical, and every part reduced so far by its number of
-/// modes. The same on every rank.
+/// What rounds of reduction of the same parts share: which parts are identical, and every part
+/// reduced so far by its number of modes. The same on every rank.
 struct ReductionCache {
   bool remembers = true;
-  std::vector<int> classes;                                                     ///< findTwins; empty before the first round
-  std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>> cores;  ///< by class and number of modes asked for
+  std::vector<int> classes;  ///< findTwins; empty before the first round
+  std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>>
+      cores;  ///< by class and number of modes asked for
 };
 
-/// The same with what earlier rounds have reduced: only parts whose number of modes is new are. Needs ModeRule::Kind::PerPart.
-std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts, const Basis& basis,
-                                           const ReductionOptions& options, ReductionCache& cache);
+/// The same with what earlier rounds have reduced: only parts whose number of modes is new are.
+/// Needs ModeRule::Kind::PerPart.
+std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
+                                           const Basis& basis, const ReductionOptions& options,
+                                           ReductionCache& cache);
 
 /// The same from a deck list.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,

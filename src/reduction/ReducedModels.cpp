@@ -19,7 +19,9 @@ bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
          std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
          std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
-         (a.nonZeros() == 0 || std::memcmp(a.valuePtr(), b.valuePtr(), sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
+         (a.nonZeros() == 0 ||
+          std::memcmp(a.valuePtr(), b.valuePtr(),
+                      sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ LinearMap::LinearMap(Sparse A) {
 TOOLJOINT_CLONES Vector LinearMap::operator()(const Vector& x) const {
   if (dense_.size() == 0) return sparse_ * x;
   Vector y = Vector::Zero(dense_.rows());
-  linalg::kernel::multiplyAdd(static_cast<int>(dense_.rows()), static_cast<int>(dense_.cols()), dense_.data(), x.data(), y.data());
+  linalg::kernel::multiplyAdd(static_cast<int>(dense_.rows()), static_cast<int>(dense_.cols()),
+                              dense_.data(), x.data(), y.data());
   return y;
 }
 
@@ -47,7 +50,9 @@ LinearMap LinearMap::times(const Sparse& B) const {
   return product;
 }
 
-ReducedModels::ReducedModels(const model::Substructure& like, std::shared_ptr<const ReducedCore> core, const ReductionOptions& options)
+ReducedModels::ReducedModels(const model::Substructure& like,
+                             std::shared_ptr<const ReducedCore> core,
+                             const ReductionOptions& options)
     : like_(like),
       core_(std::move(core)),
       keepStatic_(options.initialState == InitialState::KeepStatic),
@@ -56,23 +61,28 @@ ReducedModels::ReducedModels(const model::Substructure& like, std::shared_ptr<co
 const std::vector<ReducedModels::Reaction>& ReducedModels::reactions() {
   if (reactions_.empty())
     for (const auto& term : stiffnessTerms(like_.model))
-      reactions_.push_back({term.law == 0 ? "reference state" : "reference state: " + term.name, project_.times(-term.matrix), term.law});
+      reactions_.push_back({term.law == 0 ? "reference state" : "reference state: " + term.name,
+                            project_.times(-term.matrix), term.law});
   return reactions_;
 }
 
-void ReducedModels::addLoads(const model::Substructure& part, const Vector& offset, model::SecondOrderModel& reduced) {
+void ReducedModels::addLoads(const model::Substructure& part, const Vector& offset,
+                             model::SecondOrderModel& reduced) {
   const bool atRest = offset.isZero(0.0);
   reduced.loads.reserve(part.model.loads.size() + (atRest ? 0 : reactions().size() + 1));
-  for (const auto& load : part.model.loads) reduced.loads.push_back({load.name, project_(load.vector), load.law});
+  for (const auto& load : part.model.loads)
+    reduced.loads.push_back({load.name, project_(load.vector), load.law});
   if (atRest) return;
   // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
   for (const auto& reaction : reactions()) {
     Vector force = reaction.force(offset);
-    if (!force.isZero(0.0)) reduced.loads.push_back({reaction.name, std::move(force), reaction.law});
+    if (!force.isZero(0.0))
+      reduced.loads.push_back({reaction.name, std::move(force), reaction.law});
   }
 }
 
-void ReducedModels::addPoints(const model::Substructure& part, const Vector& offset, model::SecondOrderModel& reduced) {
+void ReducedModels::addPoints(const model::Substructure& part, const Vector& offset,
+                              model::SecondOrderModel& reduced) {
   const Sparse& Phi = core_->basis.vectors;
   for (const auto& set : part.model.points) {
     model::PointSet points = set;
@@ -92,7 +102,8 @@ void ReducedModels::addPoints(const model::Substructure& part, const Vector& off
 }
 
 /// Of a basis whose last coordinates are the forces on the interface dofs.
-Boundary ReducedModels::forcesAsCoordinates(const model::Substructure& part, const Vector& offset) const {
+Boundary ReducedModels::forcesAsCoordinates(const model::Substructure& part,
+                                            const Vector& offset) const {
   const BasisResult& basis = core_->basis;
   Boundary boundary;
   std::vector<int> columns(static_cast<std::size_t>(basis.vectors.cols()));
@@ -123,7 +134,8 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
   m.laws = part.model.laws;
   m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
   for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
-  for (int k = 0; k < out.modes + core.basis.forces(); ++k) m.dofs.push_back(model::DofLabel::modal(index, k));
+  for (int k = 0; k < out.modes + core.basis.forces(); ++k)
+    m.dofs.push_back(model::DofLabel::modal(index, k));
   m.mass = core.matrices.mass;
   m.damping = core.matrices.damping;
   m.stiffness = core.matrices.stiffness;
@@ -138,7 +150,9 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
     out.boundary = forcesAsCoordinates(part, out.offset);
     out.boundary->staticForces = start.forces;
     if (!start.forces.isZero(0.0))
-      m.loads.push_back({"reference state: forces between parts", Vector(out.boundary->rows.transpose() * start.forces), m.lawIndex(model::ScalarLaw::one())});
+      m.loads.push_back({"reference state: forces between parts",
+                         Vector(out.boundary->rows.transpose() * start.forces),
+                         m.lawIndex(model::ScalarLaw::one())});
   }
 
   out.report.part = part.name;
@@ -147,7 +161,8 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
   if (size > 0) {
     const auto moved = part.model.initialDisplacement - out.offset;
     const bool atRest = m.initialDisplacement.isZero(0.0);
-    out.report.initialStateDefect = (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
+    out.report.initialStateDefect =
+        (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
   }
   if (&part == &like_) m.validate();
 }

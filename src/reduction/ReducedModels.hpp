@@ -28,12 +28,13 @@ class LinearMap {
   Matrix dense_;
 };
 
-/// Makes the reduced model of each of some identical parts. What does not differ among them, the matrices, is one for all; loads, states and
-/// points are those of the part.
+/// Makes the reduced model of each of some identical parts. What does not differ among them, the
+/// matrices, is one for all; loads, states and points are those of the part.
 class ReducedModels {
  public:
   /// `like`, which must outlive this, is the part whose basis and matrices `core` holds.
-  ReducedModels(const model::Substructure& like, std::shared_ptr<const ReducedCore> core, const ReductionOptions& options);
+  ReducedModels(const model::Substructure& like, std::shared_ptr<const ReducedCore> core,
+                const ReductionOptions& options);
   /// Fills `out`, which is new, with the reduced part; `index` is the number of the part among all.
   void make(const model::Substructure& part, int index, ReducedSubstructure& out);
 
@@ -46,8 +47,10 @@ class ReducedModels {
   };
 
   const std::vector<Reaction>& reactions();
-  void addLoads(const model::Substructure& part, const Vector& offset, model::SecondOrderModel& reduced);
-  void addPoints(const model::Substructure& part, const Vector& offset, model::SecondOrderModel& reduced);
+  void addLoads(const model::Substructure& part, const Vector& offset,
+                model::SecondOrderModel& reduced);
+  void addPoints(const model::Substructure& part, const Vector& offset,
+                 model::SecondOrderModel& reduced);
   Boundary forcesAsCoordinates(const model::Substructure& part, const Vector& offset) const;
 
   const model::Substructure& like_;

@@ -12,7 +12,8 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// Vectors whose part that is new is less than this, in the mass norm, are combinations of the others.
+/// Vectors whose part that is new is less than this, in the mass norm, are combinations of the
+/// others.
 constexpr double dependent = 1e-10;
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
@@ -25,16 +26,21 @@ struct Ritz {
 
 Matrix rows(const Matrix& A, const std::vector<int>& which) {
   Matrix out(static_cast<Eigen::Index>(which.size()), A.cols());
-  for (std::size_t i = 0; i < which.size(); ++i) out.row(static_cast<Eigen::Index>(i)) = A.row(which[i]);
+  for (std::size_t i = 0; i < which.size(); ++i)
+    out.row(static_cast<Eigen::Index>(i)) = A.row(which[i]);
   return out;
 }
 
-/// M = P' L L' P; the columns of L' P Z are orthogonalised by Householder reflections with pivoting, then K is made diagonal.
+/// M = P' L L' P; the columns of L' P Z are orthogonalised by Householder reflections with
+/// pivoting, then K is made diagonal.
 Ritz ritzModes(const model::Substructure& part, const Sparse& K, const VectorGroup& group) {
-  const Sparse M = block(part.model.mass, group.positions, group.positions), k = block(K, group.positions, group.positions);
+  const Sparse M = block(part.model.mass, group.positions, group.positions),
+               k = block(K, group.positions, group.positions);
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor{Eigen::SparseMatrix<double>(M)};
   if (factor.info() != Eigen::Success)
-    throw ModelError("Part \"" + part.name + "\": the mass of its interior is not positive definite. Give every interior dof mass, or retain the massless ones.");
+    throw ModelError("Part \"" + part.name +
+                     "\": the mass of its interior is not positive definite. Give every interior "
+                     "dof mass, or retain the massless ones.");
   Matrix scaled = factor.matrixU() * (factor.permutationP() * group.columns);
   Eigen::Index used = 0;
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
@@ -52,15 +58,20 @@ Ritz ritzModes(const model::Substructure& part, const Sparse& K, const VectorGro
   Ritz ritz;
   if (rank == 0) return {Matrix(scaled.rows(), 0), Vector(), 0};
   const Eigen::SelfAdjointEigenSolver<Matrix> pairs(projected);
-  if (pairs.info() != Eigen::Success) throw ConvergenceError("Part \"" + part.name + "\": the Ritz modes of its interior were not found (QR iteration).");
+  if (pairs.info() != Eigen::Success)
+    throw ConvergenceError("Part \"" + part.name +
+                           "\": the Ritz modes of its interior were not found (QR iteration).");
   ritz.shapes = W * pairs.eigenvectors();
   ritz.values = pairs.eigenvalues();
-  ritz.orthogonality = (ritz.shapes.transpose() * (M * ritz.shapes) - Matrix::Identity(rank, rank)).cwiseAbs().maxCoeff();
+  ritz.orthogonality = (ritz.shapes.transpose() * (M * ritz.shapes) - Matrix::Identity(rank, rank))
+                           .cwiseAbs()
+                           .maxCoeff();
   return ritz;
 }
 
 /// Columns of `all` (interior x columns) that are not zero on the dofs of a link.
-VectorGroup restricted(const Matrix& all, const std::vector<int>& interior, const std::vector<char>& inLink) {
+VectorGroup restricted(const Matrix& all, const std::vector<int>& interior,
+                       const std::vector<char>& inLink) {
   VectorGroup group;
   std::vector<int> members;
   for (std::size_t i = 0; i < interior.size(); ++i)
@@ -80,19 +91,23 @@ VectorGroup restricted(const Matrix& all, const std::vector<int>& interior, cons
 
 }  // namespace
 
-void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint, BasisResult& basis) {
+void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint,
+                       BasisResult& basis) {
   for (std::size_t j = 0; j < basis.partition.kept.size(); ++j) {
     BasisRow row;
     row.kind = "constraint";
-    row.name = model::describe(part.model.dofs[at(basis.partition.kept[j])], part.model.componentNames);
+    row.name =
+        model::describe(part.model.dofs[at(basis.partition.kept[j])], part.model.componentNames);
     row.residual = constraint.residuals[static_cast<Eigen::Index>(j)];
     row.why = j < basis.partition.interface.size() ? "interface dof" : "retained dof";
     basis.rows.push_back(row);
   }
 }
 
-void completeWithRitzModes(const model::Substructure& part, const Sparse& symmetricK, const ConstraintModes& constraint,
-                           const std::vector<VectorGroup>& groups, const std::string& kind, BasisResult& basis) {
+void completeWithRitzModes(const model::Substructure& part, const Sparse& symmetricK,
+                           const ConstraintModes& constraint,
+                           const std::vector<VectorGroup>& groups, const std::string& kind,
+                           BasisResult& basis) {
   std::vector<Ritz> found;
   struct Place {
     double value;
@@ -106,10 +121,12 @@ void completeWithRitzModes(const model::Substructure& part, const Sparse& symmet
       continue;
     }
     found.push_back(ritzModes(part, symmetricK, group));
-    for (Eigen::Index k = 0; k < found.back().values.size(); ++k) order.push_back({found.back().values[k], found.size() - 1, k});
+    for (Eigen::Index k = 0; k < found.back().values.size(); ++k)
+      order.push_back({found.back().values[k], found.size() - 1, k});
     basis.orthogonality = std::max(basis.orthogonality, found.back().orthogonality);
   }
-  std::stable_sort(order.begin(), order.end(), [](const Place& a, const Place& b) { return a.value < b.value; });
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Place& a, const Place& b) { return a.value < b.value; });
   const auto kept = static_cast<int>(basis.partition.kept.size());
   Triplets entries = constraint.entries;
   basis.eigenvalues.resize(static_cast<Eigen::Index>(order.size()));
@@ -133,8 +150,10 @@ void completeWithRitzModes(const model::Substructure& part, const Sparse& symmet
   basis.removable = false;
 }
 
-std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, const Sparse& K, const Partition& p, const FreeInterfaceModes& modes,
-                                                  const InteriorStatics& statics, bool rigid, bool elastic) {
+std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, const Sparse& K,
+                                              const Partition& p, const FreeInterfaceModes& modes,
+                                              const InteriorStatics& statics, bool rigid,
+                                              bool elastic) {
   const bool symmetric = nearlySymmetric(K, 1e-13);
   const Sparse skew = K - symmetricPart(K);
   std::vector<VectorGroup> groups;
@@ -146,14 +165,16 @@ std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, c
       if (mode.link == link && !mode.rigid && elastic) numbers.push_back(k);
     }
     const auto& carriers = statics.carriers();
-    const auto relief = rigid ? carriers.cols() : 0;  // of other links: zero here, and left out below
+    const auto relief =
+        rigid ? carriers.cols() : 0;  // of other links: zero here, and left out below
     Matrix forces(p.size, static_cast<Eigen::Index>(numbers.size()) + relief);
     forces.rightCols(relief) = part.model.mass * carriers.leftCols(relief);
     for (std::size_t j = 0; j < numbers.size(); ++j) {
       const auto& mode = modes.modes[at(numbers[j])];
       const auto phi = shapes.col(numbers[j]);
       const Vector inertia = part.model.mass * phi;
-      forces.col(static_cast<Eigen::Index>(j)) = symmetric ? inertia : Vector(mode.eigenvalue * inertia + skew * phi);
+      forces.col(static_cast<Eigen::Index>(j)) =
+          symmetric ? inertia : Vector(mode.eigenvalue * inertia + skew * phi);
     }
     std::vector<char> inLink(at(p.size), 0);
     for (int i : modes.links[at(link)]) inLink[at(i)] = 1;

@@ -23,9 +23,12 @@ BasisResult wholePart(const model::Substructure& part) {
     ones.emplace_back(p.kept[j], static_cast<int>(j), 1.0);
     BasisRow row;
     row.kind = "constraint";
-    row.name = model::describe(part.model.dofs[static_cast<std::size_t>(p.kept[j])], part.model.componentNames);
+    row.name = model::describe(part.model.dofs[static_cast<std::size_t>(p.kept[j])],
+                               part.model.componentNames);
     const bool retained = std::binary_search(part.retained.begin(), part.retained.end(), p.kept[j]);
-    row.why = j < p.interface.size() ? "interface dof" : retained ? "retained dof" : "the part is kept whole";
+    row.why = j < p.interface.size() ? "interface dof"
+              : retained             ? "retained dof"
+                                     : "the part is kept whole";
     basis.rows.push_back(row);
   }
   basis.vectors = Sparse(p.size, p.size);
@@ -34,7 +37,8 @@ BasisResult wholePart(const model::Substructure& part) {
 }
 
 bool isWhole(const BasisResult& basis) {
-  return basis.modes() == 0 && basis.forces() == 0 && static_cast<int>(basis.partition.kept.size()) == basis.partition.size;
+  return basis.modes() == 0 && basis.forces() == 0 &&
+         static_cast<int>(basis.partition.kept.size()) == basis.partition.size;
 }
 
 }  // namespace tooljoint::reduction

@@ -7,8 +7,9 @@
 
 namespace tooljoint::reduction {
 
-/// The basis Phi = I (up to order): interior dofs are kept like retained ones, so that the part is exact and its matrices are as
-/// sparse as they were. With all n modes of its interior it would be exact too, but full: n^2 entries instead of some n.
+/// The basis Phi = I (up to order): interior dofs are kept like retained ones, so that the part is
+/// exact and its matrices are as sparse as they were. With all n modes of its interior it would be
+/// exact too, but full: n^2 entries instead of some n.
 BasisResult wholePart(const model::Substructure& part);
 
 /// True for such a basis.

@@ -15,13 +15,16 @@ int ContinuationReport::iterations() const {
 }
 
 std::string ContinuationReport::message() const {
-  if (converged) return std::to_string(stages.size()) + " stages converged in " + std::to_string(iterations()) + " iterations.";
+  if (converged)
+    return std::to_string(stages.size()) + " stages converged in " + std::to_string(iterations()) +
+           " iterations.";
   if (stages.empty()) return "there was no stage.";
   return "stage \"" + stages.back().name + "\": " + stages.back().newton.message;
 }
 
-ContinuationReport runStages(const model::NonlinearProblem& problem, Vector& x, const std::vector<Stage>& stages,
-                             const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
+ContinuationReport runStages(const model::NonlinearProblem& problem, Vector& x,
+                             const std::vector<Stage>& stages, const Teuchos::ParameterList* nox,
+                             const Teuchos::ParameterList* belos) {
   ContinuationReport report;
   for (const auto& stage : stages) {
     if (stage.prepare) stage.prepare();
@@ -32,8 +35,9 @@ ContinuationReport runStages(const model::NonlinearProblem& problem, Vector& x, 
   return report;
 }
 
-ContinuationReport runRamp(const model::NonlinearProblem& problem, Vector& x, const std::function<void(double)>& set,
-                           const RampOptions& options, const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
+ContinuationReport runRamp(const model::NonlinearProblem& problem, Vector& x,
+                           const std::function<void(double)>& set, const RampOptions& options,
+                           const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
   ContinuationReport report;
   const double largest = 1.0 / std::max(1, options.increments);
   double done = 0.0, increment = largest;
@@ -63,9 +67,11 @@ ContinuationReport runRamp(const model::NonlinearProblem& problem, Vector& x, co
   return report;
 }
 
-void requireConverged(const ContinuationReport& report, const std::string& what, const std::string& advice) {
+void requireConverged(const ContinuationReport& report, const std::string& what,
+                      const std::string& advice) {
   if (!report.converged)
-    throw ConvergenceError(what + " did not converge: " + report.message() + (advice.empty() ? "" : " " + advice));
+    throw ConvergenceError(what + " did not converge: " + report.message() +
+                           (advice.empty() ? "" : " " + advice));
 }
 
 }  // namespace tooljoint::statics

@@ -8,7 +8,8 @@
 
 namespace tooljoint::statics {
 
-JacobianError checkJacobian(const model::NonlinearProblem& problem, const Vector& x, double step, double typical) {
+JacobianError checkJacobian(const model::NonlinearProblem& problem, const Vector& x, double step,
+                            double typical) {
   const int n = problem.size();
   Sparse sparse(n, n);
   problem.jacobian(x, sparse);
@@ -24,14 +25,16 @@ JacobianError checkJacobian(const model::NonlinearProblem& problem, const Vector
   for (int j = 0; j < n; ++j) {
     // dr/dx_j = (8 (r(+h) - r(-h)) - (r(+2h) - r(-2h))) / 12 h + O(h^4)
     const double h = step * std::max(std::abs(x[j]), typical);
-    differences.col(j) = (8.0 * (at(j, h) - at(j, -h)) - (at(j, 2.0 * h) - at(j, -2.0 * h))) / (12.0 * h);
+    differences.col(j) =
+        (8.0 * (at(j, h) - at(j, -h)) - (at(j, 2.0 * h) - at(j, -2.0 * h))) / (12.0 * h);
   }
   Matrix pattern = Matrix::Zero(n, n);
   for (int row = 0; row < n; ++row)
     for (Sparse::InnerIterator it(sparse, row); it; ++it) pattern(row, it.col()) = 1.0;
 
   const Matrix larger = analytic.cwiseAbs().cwiseMax(differences.cwiseAbs());
-  const Vector rowMax = larger.rowwise().maxCoeff(), columnMax = larger.colwise().maxCoeff().transpose();
+  const Vector rowMax = larger.rowwise().maxCoeff(),
+               columnMax = larger.colwise().maxCoeff().transpose();
   JacobianError worst;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -52,9 +55,10 @@ JacobianError checkJacobian(const model::NonlinearProblem& problem, const Vector
 
 std::string JacobianError::describe(const model::NonlinearProblem& problem) const {
   if (row < 0) return "the Jacobian agrees with its differences exactly";
-  return "row " + problem.unknownName(row) + ", column " + problem.unknownName(column) + ": " + linalg::scientific(analytic) +
-         " analytic, " + linalg::scientific(differences) + " by differences (relative error " + linalg::scientific(relative) +
-         ")" + (patternComplete ? "" : "; differences found entries outside the sparsity pattern");
+  return "row " + problem.unknownName(row) + ", column " + problem.unknownName(column) + ": " +
+         linalg::scientific(analytic) + " analytic, " + linalg::scientific(differences) +
+         " by differences (relative error " + linalg::scientific(relative) + ")" +
+         (patternComplete ? "" : "; differences found entries outside the sparsity pattern");
 }
 
 }  // namespace tooljoint::statics

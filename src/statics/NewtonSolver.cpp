@@ -28,26 +28,30 @@ using linalg::scientific;
 constexpr int exactFactorIterations = 8;
 
 /// Belos behind Thyra with our parameters and the deck's over them.
-Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, const NewtonOptions& options,
-                                                                        const Teuchos::ParameterList* belos) {
+Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
+    int n, const NewtonOptions& options, const Teuchos::ParameterList* belos) {
   const auto list = Teuchos::parameterList("Belos");
   list->set("Solver Type", "Block GMRES");
   Teuchos::ParameterList& gmres = list->sublist("Solver Types").sublist("Block GMRES");
   gmres.set("Convergence Tolerance", options.linearTolerance);
-  // An exact factor leaves rounding to iterate on: what a few steps do not gain, many do not either.
-  const int iterations = options.refactorEvery > 1 ? options.linearIterations : std::min(options.linearIterations, exactFactorIterations);
+  // An exact factor leaves rounding to iterate on: what a few steps do not gain, many do not
+  // either.
+  const int iterations = options.refactorEvery > 1
+                             ? options.linearIterations
+                             : std::min(options.linearIterations, exactFactorIterations);
   gmres.set("Maximum Iterations", iterations);
   gmres.set("Num Blocks", std::max(1, std::min(n, iterations)));
   gmres.set("Verbosity", 0);
   list->sublist("VerboseObject").set("Verbosity Level", "none");
   if (belos != nullptr) list->setParameters(*belos);
-  // On the left the size of the step decides, whatever the units of the rows; not every method of Belos can do that.
+  // On the left the size of the step decides, whatever the units of the rows; not every method of
+  // Belos can do that.
   const char* side = "Left Preconditioner If Unspecified";
   const bool known = list->isType<std::string>("Solver Type");
   const std::string method = known ? list->get<std::string>("Solver Type") : "";
   if (!list->isParameter(side))
-    list->set(side,
-              method == "Block GMRES" || method == "Pseudo Block GMRES" || method == "Block CG" || method == "Pseudo Block CG");
+    list->set(side, method == "Block GMRES" || method == "Pseudo Block GMRES" ||
+                        method == "Block CG" || method == "Pseudo Block CG");
   const auto factory = Teuchos::rcp(new Thyra::BelosLinearOpWithSolveFactory<double>());
   try {
     factory->setParameterList(list);
@@ -58,24 +62,27 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(int n, c
   return factory;
 }
 
-Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options,
-                                                   const Teuchos::RCP<NOX::LineSearch::Generic>& search,
-                                                   const Teuchos::ParameterList* nox) {
+Teuchos::RCP<Teuchos::ParameterList> noxParameters(
+    const NewtonOptions& options, const Teuchos::RCP<NOX::LineSearch::Generic>& search,
+    const Teuchos::ParameterList* nox) {
   const auto list = Teuchos::parameterList("NOX");
   list->set("Nonlinear Solver", "Line Search Based");
   Teuchos::ParameterList& newton = list->sublist("Direction").sublist("Newton");
   list->sublist("Direction").set("Method", "Newton");
   newton.set("Forcing Term Method", "Constant");
-  newton.set("Rescue Bad Newton Solve", true);  // GMRES that falls short still gives a descent direction; the search judges it
+  newton.set("Rescue Bad Newton Solve",
+             true);  // GMRES that falls short still gives a descent direction; the search judges it
   newton.sublist("Linear Solver").set("Tolerance", options.linearTolerance);
   Teuchos::ParameterList& lineSearch = list->sublist("Line Search");
   lineSearch.set("Method", "User Defined");
-  const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory = Teuchos::rcp(new StepSearchFactory(search));
+  const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory =
+      Teuchos::rcp(new StepSearchFactory(search));
   lineSearch.set("User Defined Line Search Factory", factory);
   Teuchos::ParameterList& printing = list->sublist("Printing");
   if (options.verbose) {
-    printing.set("Output Information",
-                 NOX::Utils::Error + NOX::Utils::Warning + NOX::Utils::OuterIteration + NOX::Utils::OuterIterationStatusTest);
+    printing.set("Output Information", NOX::Utils::Error + NOX::Utils::Warning +
+                                           NOX::Utils::OuterIteration +
+                                           NOX::Utils::OuterIterationStatusTest);
   } else {
     const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream());
     printing.set("Output Information", static_cast<int>(NOX::Utils::Error));
@@ -92,7 +99,8 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(const NewtonOptions& options,
   return list;
 }
 
-double scaledResidual(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x, int* worst = nullptr) {
+double scaledResidual(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x,
+                      int* worst = nullptr) {
   Vector r(x.size());
   problem.residual(x, r);
   const Vector scaled = scale.cwiseProduct(r).cwiseAbs();
@@ -117,11 +125,15 @@ class Newton {
         smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
     using namespace NOX::StatusTest;
     const Teuchos::RCP<const Thyra::ModelEvaluator<double>> model = model_;
-    const Teuchos::RCP<const Thyra::LinearOpWithSolveFactoryBase<double>> solves = belosFactory(problem.size(), options, belos);
-    const Teuchos::RCP<Thyra::PreconditionerFactoryBase<double>> noFactory;  // the model itself updates W_prec
-    const auto group = Teuchos::rcp(new NOX::Thyra::Group(NOX::Thyra::Vector(*model_->getNominalValues().get_x()), model,
-                                                          model_->create_W_op(), solves, model_->create_W_prec(), noFactory));
-    const auto smallResidual = Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled));
+    const Teuchos::RCP<const Thyra::LinearOpWithSolveFactoryBase<double>> solves =
+        belosFactory(problem.size(), options, belos);
+    const Teuchos::RCP<Thyra::PreconditionerFactoryBase<double>>
+        noFactory;  // the model itself updates W_prec
+    const auto group = Teuchos::rcp(
+        new NOX::Thyra::Group(NOX::Thyra::Vector(*model_->getNominalValues().get_x()), model,
+                              model_->create_W_op(), solves, model_->create_W_prec(), noFactory));
+    const auto smallResidual =
+        Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled));
     const auto solved = Teuchos::rcp(new Combo(Combo::AND, smallResidual, smallStep_));
     const auto tests = Teuchos::rcp(new Combo(Combo::OR));
     tests->addStatusTest(Teuchos::rcp(new FiniteValue()));
@@ -156,7 +168,8 @@ class Newton {
     report.iterations = solver_->getNumIterations();
     report.update = smallStep_->update();
     report.factorisations = model_->factorisations();
-    report.linearIterations = solver_->getSolverStatistics()->linearSolve.lastNonlinearSolve_NumLinearIterations;
+    report.linearIterations =
+        solver_->getSolverStatistics()->linearSolve.lastNonlinearSolve_NumLinearIterations;
     report.halvings = record_.halvings;
     report.linearResidual = record_.linearResidual;
   }
@@ -176,7 +189,8 @@ class Newton {
   Teuchos::RCP<NOX::Solver::Generic> solver_;
 };
 
-/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way, 4 epsilon max_i scale_i sum_j |J_ij x_j|.
+/// What rounding may leave of the scaled residual: some roundings, of the unknowns and on the way,
+/// 4 epsilon max_i scale_i sum_j |J_ij x_j|.
 double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x) {
   Sparse jacobian;
   problem.jacobian(x, jacobian);
@@ -184,24 +198,29 @@ double roundingOf(const model::NonlinearProblem& problem, const Vector& scale, c
   return 4.0 * std::numeric_limits<double>::epsilon() * scale.cwiseProduct(sums).maxCoeff();
 }
 
-std::string explain(const NewtonReport& report, const NewtonOptions& options, const SearchRecord& record,
-                    const std::string& worst) {
-  const std::string state = "the scaled residual is " + scientific(report.residual) + " (largest at " + worst + ") where " +
-                            scientific(options.tolerance) + " is asked for, the last relative step " + scientific(report.update) +
+std::string explain(const NewtonReport& report, const NewtonOptions& options,
+                    const SearchRecord& record, const std::string& worst) {
+  const std::string state = "the scaled residual is " + scientific(report.residual) +
+                            " (largest at " + worst + ") where " + scientific(options.tolerance) +
+                            " is asked for, the last relative step " + scientific(report.update) +
                             " where " + scientific(options.updateTolerance) + " is";
   if (!std::isfinite(report.residual))
-    return "the residual is not finite at " + worst + " after " + std::to_string(report.iterations) + " iterations.";
+    return "the residual is not finite at " + worst + " after " +
+           std::to_string(report.iterations) + " iterations.";
   if (record.failuresInARow >= options.maxFailedSearches)
-    return "no step along the Newton direction reduces the residual any more after " + std::to_string(report.iterations) +
-           " iterations: " + state + ".";
-  std::string text = std::to_string(report.iterations) + " Newton iterations were not enough: " + state + ".";
+    return "no step along the Newton direction reduces the residual any more after " +
+           std::to_string(report.iterations) + " iterations: " + state + ".";
+  std::string text =
+      std::to_string(report.iterations) + " Newton iterations were not enough: " + state + ".";
   if (report.linearResidual > 0.1)
-    text += " Some linear systems were badly solved (relative residual " + scientific(report.linearResidual) + ").";
+    text += " Some linear systems were badly solved (relative residual " +
+            scientific(report.linearResidual) + ").";
   return text;
 }
 
 /// A sentence for a tolerance that double precision may not allow, else nothing.
-std::string explainRounding(const model::NonlinearProblem& problem, const Vector& scale, const Vector& x, const NewtonOptions& options) {
+std::string explainRounding(const model::NonlinearProblem& problem, const Vector& scale,
+                            const Vector& x, const NewtonOptions& options) {
   if (!x.allFinite()) return "";
   const double rounding = roundingOf(problem, scale, x);
   if (!(rounding > options.tolerance)) return "";
@@ -212,16 +231,20 @@ std::string explainRounding(const model::NonlinearProblem& problem, const Vector
 
 NewtonOptions::LineSearch lineSearch(model::LineSearch asked) {
   switch (asked) {
-    case model::LineSearch::None: return NewtonOptions::LimitedStep;
-    case model::LineSearch::Work: return NewtonOptions::CriticalPoint;
-    default: return NewtonOptions::Backtracking;
+    case model::LineSearch::None:
+      return NewtonOptions::LimitedStep;
+    case model::LineSearch::Work:
+      return NewtonOptions::CriticalPoint;
+    default:
+      return NewtonOptions::Backtracking;
   }
 }
 
 NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const NewtonOptions& options,
                    const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos) {
   if (x.size() != problem.size())
-    throw ModelError("A starting point of " + std::to_string(x.size()) + " unknowns was given to a nonlinear problem of " +
+    throw ModelError("A starting point of " + std::to_string(x.size()) +
+                     " unknowns was given to a nonlinear problem of " +
                      std::to_string(problem.size()) + ".");
   NewtonReport report;
   const Vector scale = problem.residualScale();
@@ -234,7 +257,8 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   }
   if (!std::isfinite(report.residual)) {
     report.history.push_back(report.residual);
-    report.message = "the residual is not finite at " + problem.unknownName(worst) + " at the starting point.";
+    report.message =
+        "the residual is not finite at " + problem.unknownName(worst) + " at the starting point.";
     return report;
   }
   Newton newton(problem, x, options, nox, belos);
@@ -254,18 +278,22 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
   // The last word is ours: recomputed, not NOX's.
   if (!(report.residual <= options.tolerance)) report.converged = false;
   if (!stopped.empty())
-    report.message = "stopped after " + std::to_string(report.iterations) + " iterations: " + stopped;
+    report.message =
+        "stopped after " + std::to_string(report.iterations) + " iterations: " + stopped;
   else if (report.converged)
-    report.message = "converged in " + std::to_string(report.iterations) + " iterations to a scaled residual of " +
-                     scientific(report.residual) + ".";
+    report.message = "converged in " + std::to_string(report.iterations) +
+                     " iterations to a scaled residual of " + scientific(report.residual) + ".";
   else
-    report.message = explain(report, options, newton.record(), problem.unknownName(worst)) + explainRounding(problem, scale, x, options);
+    report.message = explain(report, options, newton.record(), problem.unknownName(worst)) +
+                     explainRounding(problem, scale, x, options);
   return report;
 }
 
-void requireConverged(const NewtonReport& report, const std::string& what, const std::string& advice) {
+void requireConverged(const NewtonReport& report, const std::string& what,
+                      const std::string& advice) {
   if (!report.converged)
-    throw ConvergenceError(what + " did not converge: " + report.message + (advice.empty() ? "" : " " + advice));
+    throw ConvergenceError(what + " did not converge: " + report.message +
+                           (advice.empty() ? "" : " " + advice));
 }
 
 }  // namespace tooljoint::statics

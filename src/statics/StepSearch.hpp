@@ -32,10 +32,12 @@ inline Vector vectorOf(const NOX::Abstract::Vector& x) {
   return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
 }
 
-/// Full step, the step limit of the problem, backtracking on the scaled residual from that limit, or the critical point below it.
+/// Full step, the step limit of the problem, backtracking on the scaled residual from that limit,
+/// or the critical point below it.
 class StepSearch : public NOX::LineSearch::Generic {
  public:
-  StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options, SearchRecord& record)
+  StepSearch(const model::NonlinearProblem& problem, const NewtonOptions& options,
+             SearchRecord& record)
       : problem_(problem), options_(options), record_(record), scale_(problem.residualScale()) {}
 
   bool compute(NOX::Abstract::Group& group, double& step, const NOX::Abstract::Vector& direction,
@@ -64,12 +66,15 @@ class StepSearch : public NOX::LineSearch::Generic {
     const Vector& dx;
   };
 
-  double limit(const Vector& x, const Vector& dx) const { return x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0; }
+  double limit(const Vector& x, const Vector& dx) const {
+    return x.allFinite() && dx.allFinite() ? problem_.stepLimit(x, dx) : 1.0;
+  }
 
   /// F at the end of the step s, left in the group.
   bool evaluate(const Line& line, double s) const {
     const auto there = line.group.getX().clone(NOX::ShapeCopy);
-    fromEigenVector(problem_.moved(line.x, line.dx, s), dynamic_cast<NOX::Thyra::Vector&>(*there).getThyraRCPVector());
+    fromEigenVector(problem_.moved(line.x, line.dx, s),
+                    dynamic_cast<NOX::Thyra::Vector&>(*there).getThyraRCPVector());
     line.group.setX(*there);
     return line.group.computeF() == NOX::Abstract::Group::Ok;
   }
@@ -80,7 +85,8 @@ class StepSearch : public NOX::LineSearch::Generic {
       if (!evaluate(line, step)) return false;
       const double after = line.group.getNormF();
       // Armijo, or already as good as asked for (there rounding decides about a decrease)
-      if (std::isfinite(after) && (after <= (1.0 - options_.armijo * step) * before || solved(line.group))) {
+      if (std::isfinite(after) &&
+          (after <= (1.0 - options_.armijo * step) * before || solved(line.group))) {
         record_.failuresInARow = 0;
         return true;
       }
@@ -91,15 +97,17 @@ class StepSearch : public NOX::LineSearch::Generic {
       step *= 0.5;
       ++record_.halvings;
     }
-    // No decrease: take the best of what was tried and hope for a better direction from there, a few times.
+    // No decrease: take the best of what was tried and hope for a better direction from there, a
+    // few times.
     ++record_.failuresInARow;
     const bool hopeless = bestStep == 0.0 || record_.failuresInARow >= options_.maxFailedSearches;
     step = hopeless ? 0.0 : bestStep;
     return evaluate(line, step) && !hopeless;
   }
 
-  /// From the step limit, unless work is still done there, to the zero of g(s) = r(x + s dx)' dx by regula falsi that cuts at
-  /// least a tenth off its bracket (Brune, Knepley, Smith and Tu 2015). A direction that is none of descent is taken as it is.
+  /// From the step limit, unless work is still done there, to the zero of g(s) = r(x + s dx)' dx by
+  /// regula falsi that cuts at least a tenth off its bracket (Brune, Knepley, Smith and Tu 2015). A
+  /// direction that is none of descent is taken as it is.
   bool criticalPoint(const Line& line, const Vector& start, double& step) {
     const Vector unscaled = line.dx.cwiseQuotient(scale_);  // F = S r
     const double before = start.dot(unscaled), enough = options_.workLeft * std::abs(before);
@@ -109,11 +117,14 @@ class StepSearch : public NOX::LineSearch::Generic {
       const double there = vectorOf(line.group.getF()).dot(unscaled);
       const bool finite = std::isfinite(there);
       const double work = finite ? there : -before;
-      if (finite && (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group))) return true;
+      if (finite &&
+          (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group)))
+        return true;
       if (k == options_.maxHalvings) break;
       (work > 0.0 ? high : low) = step;
       (work > 0.0 ? highWork : lowWork) = work;
-      const double cut = low - lowWork * (high - low) / (highWork - lowWork), edge = 0.1 * (high - low);
+      const double cut = low - lowWork * (high - low) / (highWork - lowWork),
+                   edge = 0.1 * (high - low);
       step = std::clamp(cut, low + edge, high - edge);
       ++record_.halvings;
     }
@@ -121,15 +132,22 @@ class StepSearch : public NOX::LineSearch::Generic {
     return evaluate(line, step);
   }
 
-  bool solved(const NOX::Abstract::Group& group) const { return group.getF().norm(NOX::Abstract::Vector::MaxNorm) <= options_.tolerance; }
+  bool solved(const NOX::Abstract::Group& group) const {
+    return group.getF().norm(NOX::Abstract::Vector::MaxNorm) <= options_.tolerance;
+  }
 
-  /// |J dx + F| / |F| with the Jacobian itself, whatever the linear solver says about its own success.
-  void recordLinearResidual(const NOX::Abstract::Group& start, const NOX::Abstract::Vector& direction) {
+  /// |J dx + F| / |F| with the Jacobian itself, whatever the linear solver says about its own
+  /// success.
+  void recordLinearResidual(const NOX::Abstract::Group& start,
+                            const NOX::Abstract::Vector& direction) {
     const auto residual = direction.clone(NOX::ShapeCopy);
-    if (!start.isJacobian() || start.applyJacobian(direction, *residual) != NOX::Abstract::Group::Ok) return;
+    if (!start.isJacobian() ||
+        start.applyJacobian(direction, *residual) != NOX::Abstract::Group::Ok)
+      return;
     residual->update(1.0, start.getF(), 1.0);
     const double size = start.getNormF();
-    if (size > 0.0) record_.linearResidual = std::max(record_.linearResidual, residual->norm() / size);
+    if (size > 0.0)
+      record_.linearResidual = std::max(record_.linearResidual, residual->norm() / size);
   }
 
   const model::NonlinearProblem& problem_;
@@ -140,7 +158,8 @@ class StepSearch : public NOX::LineSearch::Generic {
 
 class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {
  public:
-  explicit StepSearchFactory(Teuchos::RCP<NOX::LineSearch::Generic> search) : search_(std::move(search)) {}
+  explicit StepSearchFactory(Teuchos::RCP<NOX::LineSearch::Generic> search)
+      : search_(std::move(search)) {}
   Teuchos::RCP<NOX::LineSearch::Generic> buildLineSearch(const Teuchos::RCP<NOX::GlobalData>&,
                                                          Teuchos::ParameterList&) const override {
     return search_;
@@ -150,12 +169,15 @@ class StepSearchFactory : public NOX::LineSearch::UserDefinedFactory {
   Teuchos::RCP<NOX::LineSearch::Generic> search_;
 };
 
-/// Converged when the last full Newton step is small: |dx| <= tolerance |x| + floor, or nothing is left to solve.
+/// Converged when the last full Newton step is small: |dx| <= tolerance |x| + floor, or nothing is
+/// left to solve.
 class SmallStep : public NOX::StatusTest::Generic {
  public:
-  SmallStep(const NewtonOptions& options, const SearchRecord& record) : options_(options), record_(record) {}
+  SmallStep(const NewtonOptions& options, const SearchRecord& record)
+      : options_(options), record_(record) {}
 
-  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver, NOX::StatusTest::CheckType) override {
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver,
+                                          NOX::StatusTest::CheckType) override {
     const NOX::Abstract::Group& now = solver.getSolutionGroup();
     if (solver.getNumIterations() == 0) {
       status_ = now.getNormF() == 0.0 ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
@@ -171,7 +193,8 @@ class SmallStep : public NOX::StatusTest::Generic {
   }
   NOX::StatusTest::StatusType getStatus() const override { return status_; }
   std::ostream& print(std::ostream& stream, int indent) const override {
-    return stream << std::string(static_cast<std::size_t>(indent), ' ') << "relative Newton step = " << update_ << '\n';
+    return stream << std::string(static_cast<std::size_t>(indent), ' ')
+                  << "relative Newton step = " << update_ << '\n';
   }
   double update() const { return update_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A NonlinearProblem as a Thyra model evaluator on rank-local Tpetra vectors. Included by NewtonSolver.cpp only.
+/// A NonlinearProblem as a Thyra model evaluator on rank-local Tpetra vectors. Included by
+/// NewtonSolver.cpp only.
 #pragma once
 
 #include <Thyra_DefaultPreconditioner.hpp>
@@ -20,7 +21,8 @@
 namespace tooljoint::statics {
 
 namespace tpetra = linalg::tpetra;
-using Extraction = Thyra::TpetraOperatorVectorExtraction<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>;
+using Extraction = Thyra::TpetraOperatorVectorExtraction<double, tpetra::LocalOrdinal,
+                                                         tpetra::GlobalOrdinal, tpetra::Node>;
 
 inline Vector toEigenVector(const Teuchos::RCP<const Thyra::VectorBase<double>>& x) {
   return linalg::toEigen(*Extraction::getConstTpetraVector(x)).col(0);
@@ -32,11 +34,16 @@ inline void fromEigenVector(const Vector& from, const Teuchos::RCP<Thyra::Vector
   for (Eigen::Index i = 0; i < from.size(); ++i) host(static_cast<std::size_t>(i), 0) = from[i];
 }
 
-/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W that may be some steps old.
+/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W that may
+/// be some steps old.
 class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  public:
-  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options)
-      : problem_(problem), options_(options), scale_(problem.residualScale()), map_(linalg::serialMap(problem.size())) {
+  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start,
+               const NewtonOptions& options)
+      : problem_(problem),
+        options_(options),
+        scale_(problem.residualScale()),
+        map_(linalg::serialMap(problem.size())) {
     using MEB = Thyra::ModelEvaluatorBase;
     space_ = Thyra::createVectorSpace<double>(map_);
     problem_.jacobian(start, jacobian_);
@@ -70,11 +77,13 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   /// W^-1 (the latest factor). Applications are counted: about one more than Belos iterations.
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
-    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
-      ++applications_;
-      return factors_->solve(b);
-    }));
-    const Teuchos::RCP<const Thyra::LinearOpBase<double>> op = Thyra::tpetraLinearOp<double>(space_, space_, inverse);
+    const Teuchos::RCP<tpetra::Operator> inverse =
+        Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
+          ++applications_;
+          return factors_->solve(b);
+        }));
+    const Teuchos::RCP<const Thyra::LinearOpBase<double>> op =
+        Thyra::tpetraLinearOp<double>(space_, space_, inverse);
     const auto preconditioner = Teuchos::rcp(new Thyra::DefaultPreconditioner<double>());
     preconditioner->initializeUnspecified(op);
     return preconditioner;
@@ -86,7 +95,9 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   std::exception_ptr problemError() const { return problemError_; }
 
  private:
-  Thyra::ModelEvaluatorBase::OutArgs<double> createOutArgsImpl() const override { return prototypeOut_; }
+  Thyra::ModelEvaluatorBase::OutArgs<double> createOutArgsImpl() const override {
+    return prototypeOut_;
+  }
 
   void evalModelImpl(const Thyra::ModelEvaluatorBase::InArgs<double>& in,
                      const Thyra::ModelEvaluatorBase::OutArgs<double>& out) const override {
@@ -98,10 +109,11 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     }
     if (!out.get_W_op().is_null()) {
       updateJacobian(x);
-      const auto op =
-          Teuchos::rcp_dynamic_cast<Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
-              out.get_W_op(), true);
-      linalg::replaceValues(*Teuchos::rcp_dynamic_cast<tpetra::CrsMatrix>(op->getTpetraOperator(), true), jacobian_);
+      const auto op = Teuchos::rcp_dynamic_cast<
+          Thyra::TpetraLinearOp<double, tpetra::LocalOrdinal, tpetra::GlobalOrdinal, tpetra::Node>>(
+          out.get_W_op(), true);
+      linalg::replaceValues(
+          *Teuchos::rcp_dynamic_cast<tpetra::CrsMatrix>(op->getTpetraOperator(), true), jacobian_);
     }
     if (!out.get_W_prec().is_null()) updateFactors(x);
   }
@@ -124,7 +136,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     if (factors_)
       factors_->refactor(jacobian_);
     else
-      factors_ = std::make_unique<linalg::DirectSolver>(jacobian_, [this](int i) { return problem_.unknownName(i); });
+      factors_ = std::make_unique<linalg::DirectSolver>(
+          jacobian_, [this](int i) { return problem_.unknownName(i); });
     stepsSinceFactor_ = 0;
     ++factorisations_;
   }

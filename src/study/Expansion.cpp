@@ -16,7 +16,8 @@ void takeOut(const ReductionLists& lists, PlannedRun& run) {
 
 /// "Step 0.001", "Least squares": numbers need the name of what they are.
 std::string describe(const std::string& parameter, const std::string& value) {
-  const bool numeric = !value.empty() && (std::isdigit(static_cast<unsigned char>(value[0])) != 0 || value[0] == '.' || value[0] == '-');
+  const bool numeric = !value.empty() && (std::isdigit(static_cast<unsigned char>(value[0])) != 0 ||
+                                          value[0] == '.' || value[0] == '-');
   return numeric ? split(parameter, '/').back() + " " + value : value;
 }
 
@@ -31,7 +32,8 @@ void addProduct(const Method& method, const PlannedRun& base, std::vector<Planne
       const auto& value = dimension.values[index / rest];
       index %= rest;
       run.sweep.emplace_back(dimension.parameter, value);
-      run.overrides.push_back({dimension.parameter + "=" + value, base.source + "/Sweep/" + dimension.name});
+      run.overrides.push_back(
+          {dimension.parameter + "=" + value, base.source + "/Sweep/" + dimension.name});
       run.label += ", " + describe(dimension.parameter, value);
       if (&dimension != &method.sweep.back()) run.line = run.label;
     }
@@ -75,7 +77,8 @@ std::vector<PlannedRun> references(const StudySettings& settings, const Reductio
   reference.source = "Study/Reference";
   reference.method = reference.line = reference.label = "reference";
   takeOut(reduction, reference);
-  for (const auto& text : settings.reference) reference.overrides.push_back({text, referenceSource});
+  for (const auto& text : settings.reference)
+    reference.overrides.push_back({text, referenceSource});
   std::vector<PlannedRun> runs{reference};
 
   PlannedRun check = reference;

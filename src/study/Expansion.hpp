@@ -25,7 +25,8 @@ struct PlannedRun {
   RunKind kind = RunKind::Method;
   std::string source;  ///< the list it comes from, "Study/Methods/explicit"
   std::string method;  ///< label of its method
-  std::string line;    ///< label of the line of the plots it belongs to: the method and all but the last dimension
+  std::string line;    ///< label of the line of the plots it belongs to: the method and all but the
+                       ///< last dimension
   std::string label;   ///< its own: the method and all dimensions
   bool reduced = false;
   std::vector<SourcedOverride> overrides;
@@ -36,9 +37,12 @@ struct PlannedRun {
 using ReductionLists = std::vector<std::string>;
 
 /// The runs of all methods, in the order of the deck, the last dimension of a sweep varying first.
-std::vector<PlannedRun> expand(const StudySettings& settings, const ReductionLists& reduction = {"Substructures", "Reduction"});
+std::vector<PlannedRun> expand(const StudySettings& settings,
+                               const ReductionLists& reduction = {"Substructures", "Reduction"});
 
 /// The reference run, its check, and the perturbed one unless the perturbation is 0.
-std::vector<PlannedRun> references(const StudySettings& settings, const ReductionLists& reduction = {"Substructures", "Reduction"});
+std::vector<PlannedRun> references(const StudySettings& settings,
+                                   const ReductionLists& reduction = {"Substructures",
+                                                                      "Reduction"});
 
 }  // namespace tooljoint::study

@@ -26,7 +26,8 @@ Span span(const HistoryView& history, const Window& window) {
   const double* end = history.time + history.samples;
   const double* first = std::lower_bound(history.time, end, window.begin - timeTolerance);
   const double* last = std::upper_bound(first, end, window.end + timeTolerance);
-  return {static_cast<std::size_t>(first - history.time), static_cast<std::size_t>(last - history.time)};
+  return {static_cast<std::size_t>(first - history.time),
+          static_cast<std::size_t>(last - history.time)};
 }
 
 /// The samples of both histories inside the window, proved to be of the same nodes and times.
@@ -38,13 +39,15 @@ struct Pair {
 
   Pair(const HistoryView& a, const HistoryView& b, const Window& window)
       : history(a), reference(b), mine(span(a, window)), theirs(span(b, window)) {
-    const bool alike = a.nodes == b.nodes && a.components == b.components && a.judged == b.judged && a.vibrating == b.vibrating;
+    const bool alike = a.nodes == b.nodes && a.components == b.components && a.judged == b.judged &&
+                       a.vibrating == b.vibrating;
     if (!alike || a.components < std::max(a.judged, a.vibrating)) {
-      refuse("Two histories of " + std::to_string(a.nodes) + " and " + std::to_string(b.nodes) + " nodes cannot be compared.");
+      refuse("Two histories of " + std::to_string(a.nodes) + " and " + std::to_string(b.nodes) +
+             " nodes cannot be compared.");
     }
     if (mine.size() == 0 || mine.size() != theirs.size()) {
-      refuse("Two histories with " + std::to_string(mine.size()) + " and " + std::to_string(theirs.size()) +
-             " samples inside the window cannot be compared.");
+      refuse("Two histories with " + std::to_string(mine.size()) + " and " +
+             std::to_string(theirs.size()) + " samples inside the window cannot be compared.");
     }
     for (std::size_t i = 0; i < mine.size(); ++i) {
       if (std::abs(time(i) - b.time[theirs.first + i]) > timeTolerance) {
@@ -55,8 +58,12 @@ struct Pair {
   }
 
   double time(std::size_t i) const { return history.time[mine.first + i]; }
-  double value(std::size_t i, std::size_t n, std::size_t c) const { return history.at(mine.first + i, n, c); }
-  double exact(std::size_t i, std::size_t n, std::size_t c) const { return reference.at(theirs.first + i, n, c); }
+  double value(std::size_t i, std::size_t n, std::size_t c) const {
+    return history.at(mine.first + i, n, c);
+  }
+  double exact(std::size_t i, std::size_t n, std::size_t c) const {
+    return reference.at(theirs.first + i, n, c);
+  }
 };
 
 /// Sums of squares of one component.
@@ -94,42 +101,51 @@ double HistoryView::radius(std::size_t sample, std::size_t node) const {
   return std::sqrt(sum);
 }
 
-double ErrorProfile::max() const { return value.empty() ? 0.0 : *std::max_element(value.begin(), value.end()); }
-
-double ErrorProfile::mean() const {
-  return value.empty() ? 0.0 : std::accumulate(value.begin(), value.end(), 0.0) / static_cast<double>(value.size());
+double ErrorProfile::max() const {
+  return value.empty() ? 0.0 : *std::max_element(value.begin(), value.end());
 }
 
-ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& reference, const Window& window) {
+double ErrorProfile::mean() const {
+  return value.empty()
+             ? 0.0
+             : std::accumulate(value.begin(), value.end(), 0.0) / static_cast<double>(value.size());
+}
+
+ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& reference,
+                           const Window& window) {
   const Pair pair(history, reference, window);
   ErrorProfile profile;
   for (std::size_t i = 0; i < pair.mine.size(); ++i) {
     std::vector<Sums> sums(history.judged);
     for (std::size_t n = 0; n < history.nodes; ++n)
-      for (std::size_t c = 0; c < history.judged; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
+      for (std::size_t c = 0; c < history.judged; ++c)
+        add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
     addMean(profile, pair.time(i), sums);
   }
   return profile;
 }
 
-ErrorProfile errorOverNodes(const HistoryView& history, const HistoryView& reference, const Window& window) {
+ErrorProfile errorOverNodes(const HistoryView& history, const HistoryView& reference,
+                            const Window& window) {
   const Pair pair(history, reference, window);
   ErrorProfile profile;
   for (std::size_t n = 0; n < history.nodes; ++n) {
     std::vector<Sums> sums(history.judged);
     for (std::size_t i = 0; i < pair.mine.size(); ++i)
-      for (std::size_t c = 0; c < history.judged; ++c) add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
+      for (std::size_t c = 0; c < history.judged; ++c)
+        add(sums[c], pair.value(i, n, c), pair.exact(i, n, c));
     addMean(profile, static_cast<double>(n), sums);
   }
   return profile;
 }
 
-double vibrationError(const HistoryView& history, const HistoryView& reference, const std::vector<double>& staticReference,
-                      const Window& window) {
+double vibrationError(const HistoryView& history, const HistoryView& reference,
+                      const std::vector<double>& staticReference, const Window& window) {
   const Pair pair(history, reference, window);
   if (staticReference.size() != reference.nodes * reference.components) {
-    refuse("The static displacements of " + std::to_string(reference.nodes) + " nodes were expected, but " +
-           std::to_string(staticReference.size()) + " numbers were given.");
+    refuse("The static displacements of " + std::to_string(reference.nodes) +
+           " nodes were expected, but " + std::to_string(staticReference.size()) +
+           " numbers were given.");
   }
   double error = 0.0;
   double vibration = 0.0;
@@ -144,7 +160,8 @@ double vibrationError(const HistoryView& history, const HistoryView& reference, 
       }
     }
   }
-  if (!std::isfinite(error) || !std::isfinite(vibration)) refuse("A history to be compared holds numbers that are not finite.");
+  if (!std::isfinite(error) || !std::isfinite(vibration))
+    refuse("A history to be compared holds numbers that are not finite.");
   if (!(std::sqrt(vibration) > negligibleNorm))
     refuse("The reference history does not vibrate, so no vibration error can be given.");
   return std::sqrt(error / vibration);

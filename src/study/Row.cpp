@@ -19,17 +19,21 @@ void take(const Json& json, const char* key, T& value) {
 }
 
 void take(const Json& json, const char* key, std::optional<double>& value) {
-  if (json.at(key).is_null()) value.reset();
-  else value = json.at(key).get<double>();
+  if (json.at(key).is_null())
+    value.reset();
+  else
+    value = json.at(key).get<double>();
 }
 
 Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json toJson(const RowCurves& c) {
   const auto& s = c.statistics;
-  return {{"error_time", c.errorTime},   {"eps_t", c.errorOverTime},        {"bit_time", c.bitTime},     {"bit_speed", c.bitSpeed},
-          {"initial", c.initial},        {"growth_time", c.growthTime},     {"growth", c.growth},        {"samples", s.samples},            {"quantiles", s.bitSpeed},   {"duty", s.contactDuty},
-          {"lateral_rms", s.lateralRms}, {"frequency", s.frequency},        {"spectrum", s.spectrum}};
+  return {{"error_time", c.errorTime}, {"eps_t", c.errorOverTime},    {"bit_time", c.bitTime},
+          {"bit_speed", c.bitSpeed},   {"initial", c.initial},        {"growth_time", c.growthTime},
+          {"growth", c.growth},        {"samples", s.samples},        {"quantiles", s.bitSpeed},
+          {"duty", s.contactDuty},     {"lateral_rms", s.lateralRms}, {"frequency", s.frequency},
+          {"spectrum", s.spectrum}};
 }
 
 void fromJson(const Json& json, RowCurves& c) {
@@ -50,7 +54,8 @@ void fromJson(const Json& json, RowCurves& c) {
 }
 
 Json toJson(const ModeErrors& m) {
-  return {{"full", m.full}, {"coupled", m.coupled}, {"mac", m.mac}, {"error", m.error}, {"estimate", m.estimate}, {"definite", m.definite}};
+  return {{"full", m.full},   {"coupled", m.coupled},   {"mac", m.mac},
+          {"error", m.error}, {"estimate", m.estimate}, {"definite", m.definite}};
 }
 
 void fromJson(const Json& json, ModeErrors& m) {
@@ -62,7 +67,9 @@ void fromJson(const Json& json, ModeErrors& m) {
   take(json, "definite", m.definite);
 }
 
-double least(const std::vector<double>& values) { return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end()); }
+double least(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::min_element(values.begin(), values.end());
+}
 
 /// The numbers of a row with their keys, once for writing and once for reading.
 template <class Row, class Visit>
@@ -115,9 +122,12 @@ std::string StudyRow::toJson() const {
   json["step_or_tolerance"] = orNull(stepOrTolerance);
   json["energy_residual"] = orNull(energyResidual);
   json["estimated_dyn"] = orNull(estimatedDyn);
-  json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn} : Json(nullptr);
-  json["statistics"] = statistics ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean, statistics->lateralRms, statistics->spectrum}
-                                  : Json(nullptr);
+  json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn}
+                          : Json(nullptr);
+  json["statistics"] = statistics
+                           ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean,
+                                  statistics->lateralRms, statistics->spectrum}
+                           : Json(nullptr);
   json["mode_errors"] = study::toJson(modeErrors);
   json["curves"] = study::toJson(curves);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -132,12 +142,15 @@ void StudyRow::fromJson(const std::string& text) {
     take(json, "estimated_dyn", estimatedDyn);
     errors.reset();
     statistics.reset();
-    if (const auto& e = json.at("errors"); !e.is_null()) errors = PointwiseErrors{e.at(0), e.at(1), e.at(2), e.at(3)};
-    if (const auto& s = json.at("statistics"); !s.is_null()) statistics = StatisticsDifference{s.at(0), s.at(1), s.at(2), s.at(3), s.at(4)};
+    if (const auto& e = json.at("errors"); !e.is_null())
+      errors = PointwiseErrors{e.at(0), e.at(1), e.at(2), e.at(3)};
+    if (const auto& s = json.at("statistics"); !s.is_null())
+      statistics = StatisticsDifference{s.at(0), s.at(1), s.at(2), s.at(3), s.at(4)};
     study::fromJson(json.at("mode_errors"), modeErrors);
     study::fromJson(json.at("curves"), curves);
   } catch (const Json::exception& error) {
-    throw FileError(std::string("A stored row of the study cannot be read: ") + error.what() + ". Run the study with --fresh.");
+    throw FileError(std::string("A stored row of the study cannot be read: ") + error.what() +
+                    ". Run the study with --fresh.");
   }
 }
 
@@ -146,7 +159,8 @@ std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string&
   double baselineCost = 0.0;
   for (const auto& row : rows) {
     if (!row.done() || row.plan.kind != RunKind::Method || !row.errors) continue;
-    if (!row.plan.reduced) full.push_back({row.plan.line, row.errors->dyn, row.cpuPerSimulatedSecond()});
+    if (!row.plan.reduced)
+      full.push_back({row.plan.line, row.errors->dyn, row.cpuPerSimulatedSecond()});
     if (row.plan.label == baseline) baselineCost = row.cpuPerSimulatedSecond();
   }
   std::vector<Ratios> out(rows.size());

@@ -24,9 +24,10 @@ struct PointwiseErrors {
 struct ModeErrors {
   std::vector<double> full, coupled;  ///< [Hz], negative when divergent
   std::vector<double> mac;
-  std::vector<double> error;          ///< coupled / full - 1
-  std::vector<double> estimate;       ///< of `error`, without the full model; empty where a basis has none
-  std::vector<double> definite;       ///< 0 where a part lacks a mode below that frequency
+  std::vector<double> error;  ///< coupled / full - 1
+  std::vector<double>
+      estimate;  ///< of `error`, without the full model; empty where a basis has none
+  std::vector<double> definite;  ///< 0 where a part lacks a mode below that frequency
   bool known() const { return !full.empty(); }
   double worst() const;     ///< largest |error|
   double leastMac() const;  ///< 1 when nothing is known
@@ -36,30 +37,35 @@ struct ModeErrors {
 struct RowCurves {
   std::vector<double> errorTime, errorOverTime;  ///< [s], eps_t
   std::vector<double> bitTime, bitSpeed;         ///< [s], [rad/s]; thinned out
-  std::vector<double> initial;                   ///< lateral distance from the axis per node at the start [m]
-  std::vector<double> growthTime, growth;        ///< [s], largest lateral distance of a node from its place in the reference [m]
-  MotionStatistics statistics;                   ///< without samples where the motion ends with the window
+  std::vector<double> initial;  ///< lateral distance from the axis per node at the start [m]
+  std::vector<double> growthTime,
+      growth;  ///< [s], largest lateral distance of a node from its place in the reference [m]
+  MotionStatistics statistics;  ///< without samples where the motion ends with the window
 };
 
 struct StudyRow {
   PlannedRun plan;
   std::string status = "pending";  ///< "done", "failed", "pending"
-  std::string reason;              ///< of a failure; of a run that is done, why its frequencies could not be compared
-  std::string basis;               ///< "" for the full model
-  long modes = 0;                  ///< kept modal coordinates of all parts
-  long dofs = 0;                   ///< of the model that was integrated; 0 until there is one. A motion that fails leaves this and `modeErrors`
-  ModeErrors modeErrors;           ///< of a reduced model, where the study asks for frequencies
+  std::string
+      reason;  ///< of a failure; of a run that is done, why its frequencies could not be compared
+  std::string basis;  ///< "" for the full model
+  long modes = 0;     ///< kept modal coordinates of all parts
+  long dofs = 0;  ///< of the model that was integrated; 0 until there is one. A motion that fails
+                  ///< leaves this and `modeErrors`
+  ModeErrors modeErrors;  ///< of a reduced model, where the study asks for frequencies
   std::string integrator;
   std::optional<double> stepOrTolerance;
   double simulated = 0.0;         ///< [s]
   std::vector<double> cpu, wall;  ///< of each repeat, transient only [s]; CPU summed over the ranks
   double setupCpu = 0.0;          ///< reduction, coupling and the model in kernel form [s]
   double setupWall = 0.0;
-  long steps = 0, rejected = 0, halved = 0, unconverged = 0, newtonIterations = 0, factorisations = 0, rightHandSides = 0;
+  long steps = 0, rejected = 0, halved = 0, unconverged = 0, newtonIterations = 0,
+       factorisations = 0, rightHandSides = 0;
   double minStep = 0.0, maxStep = 0.0;
   std::optional<double> energyResidual;
   std::optional<PointwiseErrors> errors;  ///< none for the reference itself
-  std::optional<double> estimatedDyn;     ///< of dyn, without the reference; where Reduction/Error Estimate asks for it
+  std::optional<double>
+      estimatedDyn;  ///< of dyn, without the reference; where Reduction/Error Estimate asks for it
   std::optional<StatisticsDifference> statistics;
   double maxPenetration = 0.0;
   long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact
@@ -68,13 +74,14 @@ struct StudyRow {
 
   bool done() const { return status == "done"; }
   bool hasModel() const { return dofs > 0; }
-  double bestCpu() const;             ///< shortest of the repeats, 0 without any
+  double bestCpu() const;  ///< shortest of the repeats, 0 without any
   double bestWall() const;
-  double spread() const;              ///< (longest - shortest) / shortest of the CPU times
+  double spread() const;  ///< (longest - shortest) / shortest of the CPU times
   double cpuPerSimulatedSecond() const { return simulated > 0.0 ? bestCpu() / simulated : 0.0; }
   double realTimeFactor() const { return bestWall() > 0.0 ? simulated / bestWall() : 0.0; }
 
-  /// All of it but the plan as JSON, and back: a row that was read again is the row that was written. FileError for a text that is none.
+  /// All of it but the plan as JSON, and back: a row that was read again is the row that was
+  /// written. FileError for a text that is none.
   std::string toJson() const;
   void fromJson(const std::string& text);
 };
@@ -85,8 +92,8 @@ struct Ratios {
   std::optional<double> bestFull;  ///< time of the best full run at the same dyn / time of this run
 };
 
-/// The ratios of every row; those of rows that are not done, or have nothing to be compared with, are empty.
-/// \param baseline label of the run to divide by; empty: none
+/// The ratios of every row; those of rows that are not done, or have nothing to be compared with,
+/// are empty. \param baseline label of the run to divide by; empty: none
 std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string& baseline);
 
 /// study.csv: one line per row.

@@ -26,12 +26,14 @@ namespace {
 std::string fileStamp(const std::string& path) {
   struct stat info = {};
   if (::stat(path.c_str(), &info) != 0) return "";
-  return std::to_string(info.st_size) + "@" + std::to_string(info.st_mtim.tv_sec) + "." + std::to_string(info.st_mtim.tv_nsec);
+  return std::to_string(info.st_size) + "@" + std::to_string(info.st_mtim.tv_sec) + "." +
+         std::to_string(info.st_mtim.tv_nsec);
 }
 
 int addLibrary(dl_phdr_info* info, std::size_t, void* data) {
   const std::string name = info->dlpi_name == nullptr ? "" : info->dlpi_name;
-  if (name.find("libtooljoint") != std::string::npos) *static_cast<std::string*>(data) += " " + fileStamp(name);
+  if (name.find("libtooljoint") != std::string::npos)
+    *static_cast<std::string*>(data) += " " + fileStamp(name);
   return 0;
 }
 
@@ -42,7 +44,8 @@ std::string valueText(const Teuchos::ParameterEntry& entry) {
   if (any.type() == typeid(double)) return formatNumber(Teuchos::any_cast<double>(any));
   if (any.type() == typeid(Teuchos::Array<double>)) {
     std::string text;
-    for (double value : Teuchos::any_cast<Teuchos::Array<double>>(any)) text += formatNumber(value) + ",";
+    for (double value : Teuchos::any_cast<Teuchos::Array<double>>(any))
+      text += formatNumber(value) + ",";
     return text;
   }
   std::ostringstream out;
@@ -54,7 +57,8 @@ std::string canonicalText(const Teuchos::ParameterList& list) {
   std::map<std::string, std::string> lines;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const auto& name = list.name(it);
-    lines[name] = list.isSublist(name) ? "{\n" + canonicalText(list.sublist(name)) + "}" : "= " + valueText(list.entry(it));
+    lines[name] = list.isSublist(name) ? "{\n" + canonicalText(list.sublist(name)) + "}"
+                                       : "= " + valueText(list.entry(it));
   }
   std::string text;
   for (const auto& [name, value] : lines) text += name + " " + value + "\n";
@@ -76,11 +80,13 @@ std::string machineName() {
   std::ifstream cpu("/proc/cpuinfo");
   std::string line;
   while (std::getline(cpu, line))
-    if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos) return std::string(host) + ", " + trim(line.substr(line.find(':') + 1));
+    if (line.rfind("model name", 0) == 0 && line.find(':') != std::string::npos)
+      return std::string(host) + ", " + trim(line.substr(line.find(':') + 1));
   return host;
 }
 
-RowStore::RowStore(const std::string& folder) : folder_(folder + "/cache"), active_(parallel::rank() == 0) {
+RowStore::RowStore(const std::string& folder)
+    : folder_(folder + "/cache"), active_(parallel::rank() == 0) {
   if (!active_) return;
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -92,7 +98,8 @@ void RowStore::clear() const {
   std::vector<std::filesystem::path> ours;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     const auto name = entry.path().filename().string();
-    if (name.rfind("row_", 0) == 0 || name.rfind("reference_", 0) == 0) ours.push_back(entry.path());
+    if (name.rfind("row_", 0) == 0 || name.rfind("reference_", 0) == 0)
+      ours.push_back(entry.path());
   }
   for (const auto& path : ours) std::filesystem::remove(path);
 }
@@ -135,9 +142,12 @@ void RowStore::keepHistory(const std::string& key, const RecordedHistory& histor
   const std::size_t samples = history.time.size();
   io::ResultsFile file(historyFile(key), {});
   file.write("/time", history.time, {samples}, "s", "Time of the samples");
-  file.write("/displacement", history.displacement, {samples, history.nodes, history.components}, "m", "Displacements of the nodes of the reference run");
-  file.write("/vibrating", std::vector<double>{static_cast<double>(history.vibrating)}, {1}, "1", "Components in front that are the vibration");
-  if (!history.bitSpeed.empty()) file.write("/bit_speed", history.bitSpeed, {samples}, "rad/s", "Rotary speed of the last node");
+  file.write("/displacement", history.displacement, {samples, history.nodes, history.components},
+             "m", "Displacements of the nodes of the reference run");
+  file.write("/vibrating", std::vector<double>{static_cast<double>(history.vibrating)}, {1}, "1",
+             "Components in front that are the vibration");
+  if (!history.bitSpeed.empty())
+    file.write("/bit_speed", history.bitSpeed, {samples}, "rad/s", "Rotary speed of the last node");
   file.finish();
 }
 

@@ -18,7 +18,8 @@ std::string valueText(const Teuchos::ParameterEntry& entry);
 /// A list as text that depends on names and values alone, not on their order; numbers in full.
 std::string canonicalText(const Teuchos::ParameterList& list);
 
-/// The program that computes: version and commit, and for a build from changed sources also its files with their sizes and times.
+/// The program that computes: version and commit, and for a build from changed sources also its
+/// files with their sizes and times.
 std::string programStamp();
 
 /// Host name and processor: times of another machine are not ours.
@@ -32,11 +33,14 @@ struct RecordedHistory {
   std::vector<double> bitSpeed;      ///< [rad/s]; empty without a bit
   std::size_t components = 3;        ///< all of them are judged
   std::size_t vibrating = 2;         ///< how many of them, from the first on, are the vibration
-  HistoryView view() const { return {time.data(), displacement.data(), time.size(), nodes, components, components, vibrating}; }
+  HistoryView view() const {
+    return {time.data(), displacement.data(), time.size(), nodes,
+            components,  components,          vibrating};
+  }
 };
 
-/// Files FOLDER/cache/row_KEY.json and reference_KEY.h5. Rank 0 does all the work; other ranks find nothing and keep nothing. Files that
-/// cannot be read count as absent.
+/// Files FOLDER/cache/row_KEY.json and reference_KEY.h5. Rank 0 does all the work; other ranks find
+/// nothing and keep nothing. Files that cannot be read count as absent.
 class RowStore {
  public:
   /// Makes FOLDER/cache. FileError when that fails.
@@ -51,8 +55,12 @@ class RowStore {
   void keepHistory(const std::string& key, const RecordedHistory& history) const;
 
  private:
-  std::string rowFile(const std::string& key) const { return folder_ + "/row_" + key.substr(0, 24) + ".json"; }
-  std::string historyFile(const std::string& key) const { return folder_ + "/reference_" + key.substr(0, 24) + ".h5"; }
+  std::string rowFile(const std::string& key) const {
+    return folder_ + "/row_" + key.substr(0, 24) + ".json";
+  }
+  std::string historyFile(const std::string& key) const {
+    return folder_ + "/reference_" + key.substr(0, 24) + ".h5";
+  }
   std::string folder_;
   bool active_ = false;
 };

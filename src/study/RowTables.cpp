@@ -13,18 +13,62 @@ namespace {
 constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
 const std::vector<io::Csv::Column>& columns() {
-  static const std::vector<io::Csv::Column> all{
-      {"kind", ""}, {"method", ""}, {"line", ""}, {"label", ""}, {"model", ""}, {"basis", ""}, {"modes", ""}, {"reduced_dofs", ""},
-      {"frequency_error", ""}, {"least_mac", ""}, {"integrator", ""}, {"sweep", ""}, {"step_or_tolerance", ""}, {"status", ""}, {"reason", ""}, {"eps_t_max", ""}, {"eps_t_mean", ""}, {"eps_n_max", ""}, {"dyn", ""}, {"estimated_dyn", ""},
-      {"cpu", "s"}, {"cpu_spread", ""}, {"repeats", ""}, {"cpu_per_simulated_s", ""}, {"wall", "s"}, {"real_time_factor", ""}, {"setup_cpu", "s"},
-      {"setup_wall", "s"}, {"speedup_baseline", ""}, {"speedup_best_full", ""}, {"steps", ""}, {"rejected", ""}, {"halved", ""}, {"unconverged_steps", ""},
-      {"newton_iterations", ""}, {"factorisations", ""}, {"right_hand_sides", ""}, {"min_step", "s"}, {"max_step", "s"}, {"energy_residual", ""}, {"max_penetration", "m"},
-      {"missed_nodes", ""}, {"bit_speed_p05", "rpm"}, {"bit_speed_p50", "rpm"}, {"bit_speed_p95", "rpm"}, {"bit_speed_difference", "rpm"},
-      {"contact_duty_difference_max", ""}, {"contact_duty_difference_mean", ""}, {"lateral_rms_difference", ""}, {"spectrum_difference", "dB"}};
+  static const std::vector<io::Csv::Column> all{{"kind", ""},
+                                                {"method", ""},
+                                                {"line", ""},
+                                                {"label", ""},
+                                                {"model", ""},
+                                                {"basis", ""},
+                                                {"modes", ""},
+                                                {"reduced_dofs", ""},
+                                                {"frequency_error", ""},
+                                                {"least_mac", ""},
+                                                {"integrator", ""},
+                                                {"sweep", ""},
+                                                {"step_or_tolerance", ""},
+                                                {"status", ""},
+                                                {"reason", ""},
+                                                {"eps_t_max", ""},
+                                                {"eps_t_mean", ""},
+                                                {"eps_n_max", ""},
+                                                {"dyn", ""},
+                                                {"estimated_dyn", ""},
+                                                {"cpu", "s"},
+                                                {"cpu_spread", ""},
+                                                {"repeats", ""},
+                                                {"cpu_per_simulated_s", ""},
+                                                {"wall", "s"},
+                                                {"real_time_factor", ""},
+                                                {"setup_cpu", "s"},
+                                                {"setup_wall", "s"},
+                                                {"speedup_baseline", ""},
+                                                {"speedup_best_full", ""},
+                                                {"steps", ""},
+                                                {"rejected", ""},
+                                                {"halved", ""},
+                                                {"unconverged_steps", ""},
+                                                {"newton_iterations", ""},
+                                                {"factorisations", ""},
+                                                {"right_hand_sides", ""},
+                                                {"min_step", "s"},
+                                                {"max_step", "s"},
+                                                {"energy_residual", ""},
+                                                {"max_penetration", "m"},
+                                                {"missed_nodes", ""},
+                                                {"bit_speed_p05", "rpm"},
+                                                {"bit_speed_p50", "rpm"},
+                                                {"bit_speed_p95", "rpm"},
+                                                {"bit_speed_difference", "rpm"},
+                                                {"contact_duty_difference_max", ""},
+                                                {"contact_duty_difference_mean", ""},
+                                                {"lateral_rms_difference", ""},
+                                                {"spectrum_difference", "dB"}};
   return all;
 }
 
-std::string text(const std::optional<double>& value) { return value ? formatNumber(*value) : std::string(); }
+std::string text(const std::optional<double>& value) {
+  return value ? formatNumber(*value) : std::string();
+}
 
 std::string sweepText(const PlannedRun& plan) {
   std::vector<std::string> parts;
@@ -34,30 +78,41 @@ std::string sweepText(const PlannedRun& plan) {
 
 std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   const auto& p = row.plan;
-  std::vector<std::string> out{kindName(p.kind), p.method, p.line, p.label, p.reduced ? "reduced" : "full", row.basis};
+  std::vector<std::string> out{
+      kindName(p.kind), p.method, p.line, p.label, p.reduced ? "reduced" : "full", row.basis};
   const bool known = row.done();
-  const auto number = [&](auto value) { out.push_back(known ? formatNumber(static_cast<double>(value)) : std::string()); };
-  for (long count : {row.modes, row.dofs}) out.push_back(row.hasModel() ? std::to_string(count) : std::string());
+  const auto number = [&](auto value) {
+    out.push_back(known ? formatNumber(static_cast<double>(value)) : std::string());
+  };
+  for (long count : {row.modes, row.dofs})
+    out.push_back(row.hasModel() ? std::to_string(count) : std::string());
   const auto& modes = row.modeErrors;
-  for (double value : {modes.worst(), modes.leastMac()}) out.push_back(modes.known() ? formatNumber(value) : std::string());
-  out.insert(out.end(), {row.integrator, sweepText(p), known ? text(row.stepOrTolerance) : "", row.status, row.reason});
+  for (double value : {modes.worst(), modes.leastMac()})
+    out.push_back(modes.known() ? formatNumber(value) : std::string());
+  out.insert(out.end(), {row.integrator, sweepText(p), known ? text(row.stepOrTolerance) : "",
+                         row.status, row.reason});
   const auto* e = known && row.errors ? &*row.errors : nullptr;
-  for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean, &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
+  for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean,
+                      &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
     out.push_back(e != nullptr ? formatNumber(e->*member) : std::string());
   out.push_back(known ? text(row.estimatedDyn) : "");
-  number(row.bestCpu()), number(row.spread()), number(row.cpu.size()), number(row.cpuPerSimulatedSecond()), number(row.bestWall());
+  number(row.bestCpu()), number(row.spread()), number(row.cpu.size()),
+      number(row.cpuPerSimulatedSecond()), number(row.bestWall());
   number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
   out.push_back(text(ratios.baseline));
   out.push_back(text(ratios.bestFull));
-  number(row.steps), number(row.rejected), number(row.halved), number(row.unconverged), number(row.newtonIterations), number(row.factorisations);
+  number(row.steps), number(row.rejected), number(row.halved), number(row.unconverged),
+      number(row.newtonIterations), number(row.factorisations);
   number(row.rightHandSides), number(row.minStep), number(row.maxStep);
   out.push_back(known ? text(row.energyResidual) : "");
   number(row.maxPenetration), number(row.missedNodes);
   const auto& speeds = row.curves.statistics.bitSpeed;
-  for (std::size_t level : {0u, 2u, 4u}) out.push_back(known && speeds.size() > level ? formatNumber(rpm * speeds[level]) : "");
+  for (std::size_t level : {0u, 2u, 4u})
+    out.push_back(known && speeds.size() > level ? formatNumber(rpm * speeds[level]) : "");
   const auto* s = known && row.statistics ? &*row.statistics : nullptr;
   out.push_back(s != nullptr && !speeds.empty() ? formatNumber(rpm * s->bitSpeed) : "");
-  for (auto member : {&StatisticsDifference::dutyMax, &StatisticsDifference::dutyMean, &StatisticsDifference::lateralRms, &StatisticsDifference::spectrum})
+  for (auto member : {&StatisticsDifference::dutyMax, &StatisticsDifference::dutyMean,
+                      &StatisticsDifference::lateralRms, &StatisticsDifference::spectrum})
     out.push_back(s != nullptr ? formatNumber(s->*member) : std::string());
   return out;
 }
@@ -85,11 +140,12 @@ std::string table(const std::vector<StudyRow>& rows, const std::vector<Ratios>& 
 std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ratios>& ratios) {
   std::size_t width = 20;
   for (const auto& row : rows) width = std::max(width, row.plan.label.size());
-  const bool frequencies = std::any_of(rows.begin(), rows.end(), [](const StudyRow& row) { return row.modeErrors.known(); });
+  const bool frequencies = std::any_of(rows.begin(), rows.end(),
+                                       [](const StudyRow& row) { return row.modeErrors.known(); });
   char line[512];
-  std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %9s %10s %7s %9s %9s  %s", static_cast<int>(width), "run", "dofs",
-                frequencies ? "frequency " : "", "dyn", "eps_t max", "eps_n max",
-                "CPU s / s", "spread", "baseline", "best full", "counts");
+  std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %9s %10s %7s %9s %9s  %s",
+                static_cast<int>(width), "run", "dofs", frequencies ? "frequency " : "", "dyn",
+                "eps_t max", "eps_n max", "CPU s / s", "spread", "baseline", "best full", "counts");
   std::string out = line;
   double own = 0.0;  // error of the reference
   bool beyond = false;
@@ -98,7 +154,8 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!row.done()) {
-      out += "\n" + row.plan.label + std::string(width - row.plan.label.size(), ' ') + " " + row.status + (row.reason.empty() ? "" : ": " + row.reason);
+      out += "\n" + row.plan.label + std::string(width - row.plan.label.size(), ' ') + " " +
+             row.status + (row.reason.empty() ? "" : ": " + row.reason);
       continue;
     }
     char error[3][16] = {"-", "-", "-"};
@@ -110,16 +167,24 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
       std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
     }
     char worst[16] = "";
-    if (frequencies) std::snprintf(worst, sizeof worst, "%9s ", row.modeErrors.known() ? scientific(row.modeErrors.worst()).c_str() : "-");
-    std::snprintf(line, sizeof line, "%-*s %6ld %s%9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps", static_cast<int>(width), row.plan.label.c_str(), row.dofs,
-                  worst, error[0], error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(), ratioText(ratios[i].baseline).c_str(),
-                  ratioText(ratios[i].bestFull).c_str(), row.steps);
+    if (frequencies)
+      std::snprintf(worst, sizeof worst, "%9s ",
+                    row.modeErrors.known() ? scientific(row.modeErrors.worst()).c_str() : "-");
+    std::snprintf(line, sizeof line, "%-*s %6ld %s%9s %9s %9s %10.3g %5.0f %% %9s %9s  %ld steps",
+                  static_cast<int>(width), row.plan.label.c_str(), row.dofs, worst, error[0],
+                  error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(),
+                  ratioText(ratios[i].baseline).c_str(), ratioText(ratios[i].bestFull).c_str(),
+                  row.steps);
     out += std::string("\n") + line;
-    for (const auto& [count, name] : {std::pair{row.rejected, "rejected"}, {row.halved, "halved"}, {row.unconverged, "unconverged"}, {row.missedNodes, "missed nodes"}})
+    for (const auto& [count, name] : {std::pair{row.rejected, "rejected"},
+                                      {row.halved, "halved"},
+                                      {row.unconverged, "unconverged"},
+                                      {row.missedNodes, "missed nodes"}})
       if (count > 0) out += ", " + std::to_string(count) + " " + name;
     if (!row.reason.empty()) out += ". " + row.reason;
   }
-  if (beyond) out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";
+  if (beyond)
+    out += "\n* below the error of the reference itself: how wrong this run is cannot be told.";
   return out;
 }
 

@@ -16,7 +16,8 @@ std::optional<double> bestCostAt(double error, const std::vector<CostPoint>& poi
     if (point.error > 0.0 && point.cost > 0.0) lines[point.line].push_back(point);
   }
   for (auto& [name, line] : lines) {
-    std::sort(line.begin(), line.end(), [](const CostPoint& a, const CostPoint& b) { return a.error < b.error; });
+    std::sort(line.begin(), line.end(),
+              [](const CostPoint& a, const CostPoint& b) { return a.error < b.error; });
     for (std::size_t i = 1; i < line.size(); ++i) {
       const auto& a = line[i - 1];
       const auto& b = line[i];

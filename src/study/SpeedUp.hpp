@@ -16,8 +16,9 @@ struct CostPoint {
   double cost = 0.0;
 };
 
-/// The lowest cost at which any of the lines reaches `error`: that of a run at most as wrong, or, where two neighbours of one line have errors
-/// on both sides, the straight line between them in log(error), log(cost). Nothing when no run is as good as `error`.
+/// The lowest cost at which any of the lines reaches `error`: that of a run at most as wrong, or,
+/// where two neighbours of one line have errors on both sides, the straight line between them in
+/// log(error), log(cost). Nothing when no run is as good as `error`.
 std::optional<double> bestCostAt(double error, const std::vector<CostPoint>& points);
 
 }  // namespace tooljoint::study

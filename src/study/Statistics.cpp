@@ -25,7 +25,8 @@ class Welch {
     while (2 * length_ * 4 <= samples) length_ *= 2;
     hann_.resize(length_);
     for (std::size_t i = 0; i < length_; ++i) {
-      hann_[i] = 0.5 - 0.5 * std::cos(2.0 * pi * static_cast<double>(i) / static_cast<double>(length_));
+      hann_[i] =
+          0.5 - 0.5 * std::cos(2.0 * pi * static_cast<double>(i) / static_cast<double>(length_));
       power_ += hann_[i] * hann_[i];
     }
     sum_.assign(length_ / 2 + 1, 0.0);
@@ -34,11 +35,13 @@ class Welch {
 
   void add(const std::vector<double>& signal) {
     if (length_ == 0) return;
-    for (std::size_t first = 0; first + length_ <= signal.size(); first += length_ / 2) addSegment(signal.data() + first);
+    for (std::size_t first = 0; first + length_ <= signal.size(); first += length_ / 2)
+      addSegment(signal.data() + first);
   }
 
   /// S(f_k) = 2 dt sum |X_k|^2 / (segments sum w^2), without the factor 2 at f = 0 and at Nyquist.
-  void finish(std::size_t signals, std::vector<double>& frequency, std::vector<double>& spectrum) const {
+  void finish(std::size_t signals, std::vector<double>& frequency,
+              std::vector<double>& spectrum) const {
     if (length_ == 0 || segments_ == 0 || signals == 0) return;
     const double segmentsPerSignal = static_cast<double>(segments_) / static_cast<double>(signals);
     for (std::size_t k = 0; k < sum_.size(); ++k) {
@@ -68,7 +71,8 @@ class Welch {
 };
 
 /// Mean density in bands a third of an octave wide, from the second line of the spectrum on.
-std::vector<double> thirdOctaves(const std::vector<double>& frequency, const std::vector<double>& spectrum) {
+std::vector<double> thirdOctaves(const std::vector<double>& frequency,
+                                 const std::vector<double>& spectrum) {
   std::vector<double> bands;
   if (frequency.size() < 3) return bands;
   const double ratio = std::cbrt(2.0);
@@ -91,7 +95,8 @@ double bandDifference(const MotionStatistics& a, const MotionStatistics& b) {
   int bands = 0;
   for (std::size_t i = 0; i < mine.size(); ++i) {
     if (!(theirs[i] > dynamicRange * highest)) continue;
-    const double decibel = 10.0 * std::log10(std::max(mine[i], dynamicRange * dynamicRange * highest) / theirs[i]);
+    const double decibel =
+        10.0 * std::log10(std::max(mine[i], dynamicRange * dynamicRange * highest) / theirs[i]);
     sum += decibel * decibel;
     ++bands;
   }
@@ -109,14 +114,19 @@ double quantile(std::vector<double> values, double fraction) {
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed, const std::vector<double>& clearance,
-                              const Window& window) {
-  if ((!bitSpeed.empty() && bitSpeed.size() != history.samples) || clearance.size() != history.nodes)
-    throw Error(ExitCode::Internal, "Bit speeds or clearances do not belong to the history whose statistics are asked for.");
+MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed,
+                              const std::vector<double>& clearance, const Window& window) {
+  if ((!bitSpeed.empty() && bitSpeed.size() != history.samples) ||
+      clearance.size() != history.nodes)
+    throw Error(
+        ExitCode::Internal,
+        "Bit speeds or clearances do not belong to the history whose statistics are asked for.");
   std::vector<std::size_t> samples;
   for (std::size_t i = 0; i < history.samples; ++i)
-    if (history.time[i] >= window.begin - 1e-9 && history.time[i] <= window.end + 1e-9) samples.push_back(i);
-  if (samples.size() < 2) throw Error(ExitCode::Internal, "Statistics need at least two samples in their window.");
+    if (history.time[i] >= window.begin - 1e-9 && history.time[i] <= window.end + 1e-9)
+      samples.push_back(i);
+  if (samples.size() < 2)
+    throw Error(ExitCode::Internal, "Statistics need at least two samples in their window.");
 
   MotionStatistics s;
   s.samples = samples.size();
@@ -136,7 +146,8 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
     double variance = 0.0;
     for (std::size_t c = 0; c < history.vibrating; ++c) {
       double mean = 0.0;
-      for (std::size_t k = 0; k < samples.size(); ++k) mean += (signal[k] = history.at(samples[k], n, c)) / count;
+      for (std::size_t k = 0; k < samples.size(); ++k)
+        mean += (signal[k] = history.at(samples[k], n, c)) / count;
       for (double x : signal) variance += (x - mean) * (x - mean) / count;
       welch.add(signal);
     }
@@ -147,10 +158,12 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
 }
 
 StatisticsDifference difference(const MotionStatistics& motion, const MotionStatistics& reference) {
-  if (motion.contactDuty.size() != reference.contactDuty.size() || motion.bitSpeed.size() != reference.bitSpeed.size())
+  if (motion.contactDuty.size() != reference.contactDuty.size() ||
+      motion.bitSpeed.size() != reference.bitSpeed.size())
     throw Error(ExitCode::Internal, "Statistics of different numbers of nodes cannot be compared.");
   StatisticsDifference d;
-  for (std::size_t i = 0; i < reference.bitSpeed.size(); ++i) d.bitSpeed = std::max(d.bitSpeed, std::abs(motion.bitSpeed[i] - reference.bitSpeed[i]));
+  for (std::size_t i = 0; i < reference.bitSpeed.size(); ++i)
+    d.bitSpeed = std::max(d.bitSpeed, std::abs(motion.bitSpeed[i] - reference.bitSpeed[i]));
   double error = 0.0;
   double size = 0.0;
   const std::size_t nodes = reference.contactDuty.size();

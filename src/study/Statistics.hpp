@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a motion is like without looking at it sample by sample: for times at which two correct integrators no longer agree pointwise.
+/// What a motion is like without looking at it sample by sample: for times at which two correct
+/// integrators no longer agree pointwise.
 #pragma once
 
 #include <array>
@@ -16,25 +17,30 @@ constexpr std::array<double, 5> quantileLevels{0.05, 0.25, 0.5, 0.75, 0.95};
 struct MotionStatistics {
   std::size_t samples = 0;
   std::vector<double> bitSpeed;     ///< quantiles at quantileLevels [rad/s]; empty without a bit
-  std::vector<double> contactDuty;  ///< per node: fraction of the samples at which |x| exceeds the clearance, x the vibrating components
+  std::vector<double> contactDuty;  ///< per node: fraction of the samples at which |x| exceeds the
+                                    ///< clearance, x the vibrating components
   std::vector<double> lateralRms;   ///< per node: sqrt(mean |x - mean x|^2) [m]
   std::vector<double> frequency;    ///< of the spectrum [Hz]; empty for fewer than 32 samples
-  std::vector<double> spectrum;     ///< one-sided density, sum of the vibrating components, mean of the nodes [m2/Hz]
+  std::vector<double>
+      spectrum;  ///< one-sided density, sum of the vibrating components, mean of the nodes [m2/Hz]
 };
 
-/// Statistics of the samples inside the window. `bitSpeed` has one value per sample of the history, or none, `clearance` one per node (infinite where
-/// nothing can be touched). Spectra after P. D. Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73: halves of neighbouring segments
-/// overlap, Hann windows, segment means removed. Error(Internal) for other sizes or a window without samples.
-MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed, const std::vector<double>& clearance,
-                              const Window& window);
+/// Statistics of the samples inside the window. `bitSpeed` has one value per sample of the history,
+/// or none, `clearance` one per node (infinite where nothing can be touched). Spectra after P. D.
+/// Welch, IEEE Trans. Audio Electroacoust. 15 (1967) 70-73: halves of neighbouring segments
+/// overlap, Hann windows, segment means removed. Error(Internal) for other sizes or a window
+/// without samples.
+MotionStatistics statisticsOf(const HistoryView& history, const std::vector<double>& bitSpeed,
+                              const std::vector<double>& clearance, const Window& window);
 
 /// How far the statistics of one motion are from those of another.
 struct StatisticsDifference {
-  double bitSpeed = 0.0;     ///< largest difference of a quantile [rad/s]
-  double dutyMax = 0.0;      ///< largest difference of the contact duty of a node
-  double dutyMean = 0.0;     ///< mean over the nodes
-  double lateralRms = 0.0;   ///< |rms - rms_ref| / |rms_ref| over the nodes
-  double spectrum = 0.0;     ///< root mean square over third-octave bands of 10 lg(S/S_ref) [dB]; bands 60 dB below the highest left out
+  double bitSpeed = 0.0;    ///< largest difference of a quantile [rad/s]
+  double dutyMax = 0.0;     ///< largest difference of the contact duty of a node
+  double dutyMean = 0.0;    ///< mean over the nodes
+  double lateralRms = 0.0;  ///< |rms - rms_ref| / |rms_ref| over the nodes
+  double spectrum = 0.0;    ///< root mean square over third-octave bands of 10 lg(S/S_ref) [dB];
+                            ///< bands 60 dB below the highest left out
 };
 
 StatisticsDifference difference(const MotionStatistics& motion, const MotionStatistics& reference);

@@ -37,15 +37,16 @@ struct Published {
 };
 
 struct StudySettings {
-  std::optional<double> window;  ///< length of the window of pointwise errors, from the start of the motion [s]
-  std::optional<double> end;     ///< end time of every run [s]
+  std::optional<double>
+      window;  ///< length of the window of pointwise errors, from the start of the motion [s]
+  std::optional<double> end;  ///< end time of every run [s]
   int repeats = 3;
   bool statistics = true;
   bool pictures = true;
-  int frequencies = 0;              ///< how many coupled ones are compared with the full model's
-  std::string baseline;             ///< label of a run; empty: none
-  double perturbation = 1e-10;      ///< [m]; 0: no sensitivity
-  std::optional<double> timeLimit;  ///< CPU seconds of one run
+  int frequencies = 0;                 ///< how many coupled ones are compared with the full model's
+  std::string baseline;                ///< label of a run; empty: none
+  double perturbation = 1e-10;         ///< [m]; 0: no sensitivity
+  std::optional<double> timeLimit;     ///< CPU seconds of one run
   std::vector<std::string> reference;  ///< overrides of the reference run
   std::vector<std::string> check;      ///< further overrides of its check
   std::vector<Method> methods;
@@ -58,8 +59,8 @@ constexpr double defaultWindow = 3.0;
 /// Description of the list `Study`.
 deck::ListSpec parameters();
 
-/// The list as plain values. DeckError with one line per fault: no method, an empty sweep, two labels alike, a reference without its check,
-/// overrides that are none.
+/// The list as plain values. DeckError with one line per fault: no method, an empty sweep, two
+/// labels alike, a reference without its check, overrides that are none.
 StudySettings readStudy(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::study

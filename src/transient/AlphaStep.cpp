@@ -23,16 +23,19 @@ AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
   if (parameters.phaseCorrection) setPhaseCorrection();
 }
 
-/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors of the scheme,
+/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors
+/// of the scheme,
 ///
 ///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
 ///
-/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1 M, is that for low
-/// frequencies, (1 - k) M for high ones, symmetric and positive between, so that the scheme stays unconditionally stable;
-/// what is at rest stays where it is. s keeps k at 0.7 or below.
+/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1
+/// M, is that for low frequencies, (1 - k) M for high ones, symmetric and positive between, so that
+/// the scheme stays unconditionally stable; what is at rest stays where it is. s keeps k at 0.7 or
+/// below.
 void AlphaStep::setPhaseCorrection() {
   const double d = alphaM_ - alphaF_;
-  const double ofVelocity = gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
+  const double ofVelocity =
+      gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
   const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
   const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
   const double whole = (ofVelocity + ofDisplacement) * ca;
@@ -78,7 +81,8 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
     mass_->factor.solve(state.a.data());
   } else {
     log::warn("The mass matrix is singular at " + model.dofName(bad) +
-              " although there is mass on it: the motion starts without acceleration, with an error of first order in the step.");
+              " although there is mass on it: the motion starts without acceleration, with an "
+              "error of first order in the step.");
     state.a.setZero();
   }
   equation_.bind(model, parameters_.equations);
@@ -109,7 +113,9 @@ void AlphaStep::clear(Impacts& impacts) const {
 
 void AlphaStep::addImpacts(double factor, const Impacts& impacts, Vector& y) const {
   const auto& pattern = model_->pattern();
-  for (int b : impacts.blocks) y.segment(pattern.start(b), pattern.width(b)) += factor * impacts.a.segment(pattern.start(b), pattern.width(b));
+  for (int b : impacts.blocks)
+    y.segment(pattern.start(b), pattern.width(b)) +=
+        factor * impacts.a.segment(pattern.start(b), pattern.width(b));
 }
 
 void AlphaStep::startWhere(const AlphaStep& other) {
@@ -117,11 +123,13 @@ void AlphaStep::startWhere(const AlphaStep& other) {
   lastImpacts_ = other.lastImpacts_;
 }
 
-/// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q'' is no part of it.
+/// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q''
+/// is no part of it.
 void AlphaStep::predict(const State& from, State& to, double h) {
   for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
   const StepScheme s = scheme(h);
-  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_), perVelocity = 1 / s.velocity, ofVelocity = s.acceleration / s.velocity;
+  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_), perVelocity = 1 / s.velocity,
+               ofVelocity = s.acceleration / s.velocity;
   for (int i = 0; i < A_.size(); ++i) {
     const double v = from.v[i] + h * A_[i];
     to.v[i] = v;
@@ -143,7 +151,8 @@ bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counte
 
 /// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
 void AlphaStep::complete(const State& from, State& to, double h) {
-  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_), last = alphaM_ / (1 - alphaM_);
+  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_),
+               last = alphaM_ / (1 - alphaM_);
   const double s = scheme(h).impact;
   findImpacts();
   for (int i = 0; i < A_.size(); ++i) nextA_[i] = now * to.a[i] + before * from.a[i] - last * A_[i];
@@ -165,7 +174,8 @@ void AlphaStep::findImpacts() {
       if (mass_->missing[static_cast<std::size_t>(i)]) impacts_.a[i] = 0.0;
       largest = std::max(largest, std::abs(mass_->perUnit[i] * impacts_.a[i]));
     }
-  mass_->factor.solveNear(impacts_.a.data(), impacts_.blocks, mass_->perUnit.data(), negligible * largest);
+  mass_->factor.solveNear(impacts_.a.data(), impacts_.blocks, mass_->perUnit.data(),
+                          negligible * largest);
 }
 
 void AlphaStep::keep() {
@@ -174,12 +184,14 @@ void AlphaStep::keep() {
 }
 
 void AlphaStep::addImpactVelocity(double factor, double h, bool before, Vector& v) const {
-  addImpacts(factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact, before ? lastImpacts_ : impacts_, v);
+  addImpacts(factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact,
+             before ? lastImpacts_ : impacts_, v);
 }
 
 const Vector& AlphaStep::localError(double h, bool impacts) {
   error_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
-  if (impacts) addImpacts(1.0 / scheme(h).acceleration, impacts_, error_);  // h^2/2 M^-1 R'f, see complete()
+  if (impacts)
+    addImpacts(1.0 / scheme(h).acceleration, impacts_, error_);  // h^2/2 M^-1 R'f, see complete()
   return error_;
 }
 
@@ -194,7 +206,8 @@ void AlphaStep::restore(const double*& memory) {
   lastImpacts_.blocks.clear();
   const auto& pattern = model_->pattern();
   for (int b = 0; b < pattern.blocks(); ++b)
-    if (!lastImpacts_.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0)) lastImpacts_.blocks.push_back(b);
+    if (!lastImpacts_.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0))
+      lastImpacts_.blocks.push_back(b);
   equation_.restore(memory);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One step of the generalized-alpha scheme (its equations stand in GeneralizedAlpha.cpp) from a state and what the scheme remembers
-/// of the steps before. It chooses nothing: GeneralizedAlpha does, and StepHalving takes steps a second time with one of its own.
+/// One step of the generalized-alpha scheme (its equations stand in GeneralizedAlpha.cpp) from a
+/// state and what the scheme remembers of the steps before. It chooses nothing: GeneralizedAlpha
+/// does, and StepHalving takes steps a second time with one of its own.
 #pragma once
 
 #include <memory>
@@ -30,19 +31,21 @@ class AlphaStep {
   /// What depends on the length alone.
   void prepare(double h, double t) { equation_.prepare(scheme(h), t); }
 
-  /// A step of length h from `from` to to.t; false when the equations have no solution that can be found (with `anyway` their last
-  /// iterate is taken, if it is made of numbers).
+  /// A step of length h from `from` to to.t; false when the equations have no solution that can be
+  /// found (with `anyway` their last iterate is taken, if it is made of numbers).
   bool take(const State& from, State& to, double h, bool anyway, Counters& counters);
   /// The step just taken counts: the next one starts where it ends.
   void keep();
   /// Start the next step where another has started the one it has just taken and not kept.
   void startWhere(const AlphaStep& other);
 
-  /// What contact that lasts as an impact leaves in the velocity of a step of length h, where the step just taken starts (`before`) or ends,
-  /// is added to v `factor` times. While q rests the scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
+  /// What contact that lasts as an impact leaves in the velocity of a step of length h, where the
+  /// step just taken starts (`before`) or ends, is added to v `factor` times. While q rests the
+  /// scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
   void addImpactVelocity(double factor, double h, bool before, Vector& v) const;
 
-  /// Local error of the displacement in the step just taken, with or without what impacts have moved.
+  /// Local error of the displacement in the step just taken, with or without what impacts have
+  /// moved.
   const Vector& localError(double h, bool impacts);
   const Vector& lastError() const { return error_; }
   const ImplicitStep& equation() const { return equation_; }

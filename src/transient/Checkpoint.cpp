@@ -17,7 +17,8 @@ namespace tooljoint::transient {
 template <class Archive>
 void save(Archive& archive, const State& state) {
   archive(state.t);
-  for (const Vector* x : {&state.q, &state.v, &state.a}) archive(std::vector<double>(x->begin(), x->end()));
+  for (const Vector* x : {&state.q, &state.v, &state.a})
+    archive(std::vector<double>(x->begin(), x->end()));
 }
 
 template <class Archive>
@@ -33,7 +34,8 @@ void load(Archive& archive, State& state) {
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
   // long has another size on other machines
-  for (long* count : {&c.steps, &c.rejected, &c.halved, &c.newtonIterations, &c.unconvergedSteps, &c.factorisations, &c.rightHandSides}) {
+  for (long* count : {&c.steps, &c.rejected, &c.halved, &c.newtonIterations, &c.unconvergedSteps,
+                      &c.factorisations, &c.rightHandSides}) {
     auto portable = static_cast<std::int64_t>(*count);
     archive(portable);
     *count = static_cast<long>(portable);
@@ -45,46 +47,56 @@ namespace {
 
 constexpr char magic[] = "Tooljoint checkpoint";
 constexpr std::size_t magicLength = sizeof magic - 1;
-/// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves changes.
+/// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves
+/// changes.
 constexpr std::uint32_t layout = 6;
 constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
-constexpr std::size_t headerLength = magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;
+constexpr std::size_t headerLength =
+    magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;
 
 /// Numbers of the header have their lowest byte first.
 template <class Number>
 std::string littleEndian(Number number) {
   std::string bytes;
-  for (std::size_t i = 0; i < sizeof number; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
+  for (std::size_t i = 0; i < sizeof number; ++i)
+    bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
   return bytes;
 }
 
 template <class Number>
 Number fromLittleEndian(const std::string& bytes, std::size_t at) {
   Number number = 0;
-  for (std::size_t i = 0; i < sizeof number; ++i) number |= static_cast<Number>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  for (std::size_t i = 0; i < sizeof number; ++i)
+    number |= static_cast<Number>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
   return number;
 }
 
 template <class Archive, class Point>
 void transfer(Archive& archive, Point& point) {
-  archive(point.run, point.program, point.integrator, point.model, point.state, point.counters, point.contactEvaluations, point.samples,
-          point.runawaySamples, point.memory, point.recorder, point.rows);
+  archive(point.run, point.program, point.integrator, point.model, point.state, point.counters,
+          point.contactEvaluations, point.samples, point.runawaySamples, point.memory,
+          point.recorder, point.rows);
 }
 
 [[noreturn]] void refuseLayout(const std::string& file, const std::string& found) {
-  throw FileError("The checkpoint \"" + file + "\" has the layout " + found + " of another version of the program; this one reads layout " +
-                  std::to_string(layout) + ". Go on with the program that wrote it, or run the deck from the start.");
+  throw FileError("The checkpoint \"" + file + "\" has the layout " + found +
+                  " of another version of the program; this one reads layout " +
+                  std::to_string(layout) +
+                  ". Go on with the program that wrote it, or run the deck from the start.");
 }
 
 /// The part of the file behind the header, proved to be what was written.
 std::string verifiedBody(const std::string& bytes, const std::string& file) {
   const auto damaged = [&file](const std::string& what) {
-    throw FileError("The checkpoint \"" + file + "\" is damaged: " + what + ". Restore it from a copy, or run the deck from the start.");
+    throw FileError("The checkpoint \"" + file + "\" is damaged: " + what +
+                    ". Restore it from a copy, or run the deck from the start.");
   };
   if (bytes.compare(0, magicLength, magic) != 0) {
     // layouts up to 5 begin with the length of a text "Tooljoint checkpoint N"
     const std::size_t text = sizeof(std::uint64_t), number = text + magicLength + 1;
-    if (bytes.compare(std::min(text, bytes.size()), magicLength, magic) == 0 && bytes.size() > number) refuseLayout(file, bytes.substr(number, 1));
+    if (bytes.compare(std::min(text, bytes.size()), magicLength, magic) == 0 &&
+        bytes.size() > number)
+      refuseLayout(file, bytes.substr(number, 1));
     throw FileError("\"" + file + "\" is not a checkpoint.");
   }
   if (bytes.size() < headerLength) damaged("it is cut short within its header");
@@ -93,8 +105,10 @@ std::string verifiedBody(const std::string& bytes, const std::string& file) {
   const auto length = fromLittleEndian<std::uint64_t>(bytes, magicLength + sizeof layout);
   std::string body = bytes.substr(headerLength);
   if (body.size() != length)
-    damaged("its header promises " + std::to_string(length) + " bytes, " + std::to_string(body.size()) + " follow");
-  if (sha256(body) != bytes.substr(headerLength - digestLength, digestLength)) damaged("its SHA-256 does not match its content");
+    damaged("its header promises " + std::to_string(length) + " bytes, " +
+            std::to_string(body.size()) + " follow");
+  if (sha256(body) != bytes.substr(headerLength - digestLength, digestLength))
+    damaged("its SHA-256 does not match its content");
   return body;
 }
 
@@ -107,7 +121,8 @@ std::string Checkpoint::encode() const {
     transfer(archive, *this);
   }
   const std::string body = out.str();
-  return magic + littleEndian(layout) + littleEndian(static_cast<std::uint64_t>(body.size())) + sha256(body) + body;
+  return magic + littleEndian(layout) + littleEndian(static_cast<std::uint64_t>(body.size())) +
+         sha256(body) + body;
 }
 
 Checkpoint Checkpoint::decode(const std::string& bytes, const std::string& file) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Everything a run needs to go on as if it had never stopped: same steps, same factors, same numbers.
+/// Everything a run needs to go on as if it had never stopped: same steps, same factors, same
+/// numbers.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +14,23 @@
 
 namespace tooljoint::transient {
 
-/// A state of a run and the identity of the run. The file is a header (magic, layout, length and SHA-256 of the body) and a body
-/// in the portable binary format of cereal; docs/file-formats.md describes it.
+/// A state of a run and the identity of the run. The file is a header (magic, layout, length and
+/// SHA-256 of the body) and a body in the portable binary format of cereal; docs/file-formats.md
+/// describes it.
 struct Checkpoint {
-  std::string run;         ///< what the run computes, a line "PATH = VALUE" per input; empty when the caller says nothing
-  std::string program;     ///< version and commit of the program that wrote it
+  std::string run;      ///< what the run computes, a line "PATH = VALUE" per input; empty when the
+                        ///< caller says nothing
+  std::string program;  ///< version and commit of the program that wrote it
   std::string integrator;  ///< its name in the deck
   std::string model;       ///< modelIdentity() of the model and the options
   State state;             ///< in positions of the compiled model
   Counters counters;
   long contactEvaluations = 0;
-  long samples = 0;                         ///< samples handed out so far
-  int runawaySamples = 0;                   ///< samples in a row with more energy made than given
-  std::vector<double> memory;               ///< of the model, the integrator, the point batches and the ledger
-  std::vector<double> recorder;             ///< of the sink of the samples, set by whoever keeps the checkpoint
+  long samples = 0;            ///< samples handed out so far
+  int runawaySamples = 0;      ///< samples in a row with more energy made than given
+  std::vector<double> memory;  ///< of the model, the integrator, the point batches and the ledger
+  std::vector<double>
+      recorder;  ///< of the sink of the samples, set by whoever keeps the checkpoint
   std::map<std::string, std::uint64_t> rows;  ///< rows of each time series of the results, likewise
 
   /// The file as bytes.

@@ -18,13 +18,15 @@ constexpr double lookAhead = 32;
 
 }  // namespace
 
-ClearanceWatch::ClearanceWatch(int points, int width, int reach, const std::vector<int>& rowBegin, const std::vector<int>& column,
-                               const std::vector<double>& value, const linalg::BlockPattern& pattern)
+ClearanceWatch::ClearanceWatch(int points, int width, int reach, const std::vector<int>& rowBegin,
+                               const std::vector<int>& column, const std::vector<double>& value,
+                               const linalg::BlockPattern& pattern)
     : reach_(reach), isAwake_(z(points), 1) {
   std::map<std::vector<int>, std::vector<int>> byBlocks;  // points that hang on the same blocks
   for (int p = 0; p < points; ++p) {
     std::vector<int> blocks;
-    for (int i = rowBegin[z(p * width)]; i < rowBegin[z((p + 1) * width)]; ++i) blocks.push_back(pattern.blockOf(column[z(i)]));
+    for (int i = rowBegin[z(p * width)]; i < rowBegin[z((p + 1) * width)]; ++i)
+      blocks.push_back(pattern.blockOf(column[z(i)]));
     if (static_cast<int>(blocks.size()) < cheapPoint) continue;
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -65,7 +67,8 @@ double ClearanceWatch::bound(const Group& group, const double* q) const {
   for (int c = 0; c < reach_; ++c) {
     double sum = 0;
     const double* r = group.bound.data() + c;
-    for (std::size_t j = 0; j < group.columns.size(); ++j, r += reach_) sum += *r * std::abs(q[group.columns[j]] - group.reference[j]);
+    for (std::size_t j = 0; j < group.columns.size(); ++j, r += reach_)
+      sum += *r * std::abs(q[group.columns[j]] - group.reference[j]);
     square += sum * sum;
   }
   return std::sqrt(square);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which points of a batch have to be measured to know that none touches. Points inside a reduced part hang on many
-/// coordinates, so measuring one is dear; but all points of a part hang on the same coordinates, so one bound serves them all:
+/// Which points of a batch have to be measured to know that none touches. Points inside a reduced
+/// part hang on many coordinates, so measuring one is dear; but all points of a part hang on the
+/// same coordinates, so one bound serves them all:
 ///
-///     |d_p(q) - d_p(q_0)| <= B(q) = | sum_j r_j |q_j - q_0j| |,   r_j = max_p |R_pj|, coordinate by coordinate
+///     |d_p(q) - d_p(q_0)| <= B(q) = | sum_j r_j |q_j - q_0j| |,   r_j = max_p |R_pj|, coordinate
+///     by coordinate
 ///
-/// As long as B stays below the least clearance the sleeping points of a group had at q_0, none of them can have lost it.
+/// As long as B stays below the least clearance the sleeping points of a group had at q_0, none of
+/// them can have lost it.
 #pragma once
 
 #include <vector>
@@ -17,14 +20,16 @@ namespace tooljoint::transient {
 class ClearanceWatch {
  public:
   ClearanceWatch() = default;
-  /// Rows (point * width + coordinate) as CSR in positions; clearances change by no more than the length of the change of the
-  /// first `reach` coordinates.
-  ClearanceWatch(int points, int width, int reach, const std::vector<int>& rowBegin, const std::vector<int>& column,
-                 const std::vector<double>& value, const linalg::BlockPattern& pattern);
+  /// Rows (point * width + coordinate) as CSR in positions; clearances change by no more than the
+  /// length of the change of the first `reach` coordinates.
+  ClearanceWatch(int points, int width, int reach, const std::vector<int>& rowBegin,
+                 const std::vector<int>& column, const std::vector<double>& value,
+                 const linalg::BlockPattern& pattern);
 
   /// Points to measure, increasing.
   const std::vector<int>& awake() const { return awake_; }
-  /// Wakes all points of every group whose bound is reached at q. These are woken() until the next call.
+  /// Wakes all points of every group whose bound is reached at q. These are woken() until the next
+  /// call.
   void wake(const double* q);
   const std::vector<int>& woken() const { return woken_; }
   /// After all awake points were measured at q: the woken ones with clearance to spare sleep again.
@@ -39,9 +44,9 @@ class ClearanceWatch {
     std::vector<int> columns;
     std::vector<double> bound;      ///< r, coordinate by coordinate
     std::vector<double> reference;  ///< q_0 at the columns
-    double least = -1;              ///< clearance of the sleeping points at q_0; < 0: not measured yet
-    double steps = 0;               ///< calls of wake() since then
-    double reached = 0;             ///< B of the last call
+    double least = -1;   ///< clearance of the sleeping points at q_0; < 0: not measured yet
+    double steps = 0;    ///< calls of wake() since then
+    double reached = 0;  ///< B of the last call
     bool stirred = false;
   };
   double bound(const Group& group, const double* q) const;

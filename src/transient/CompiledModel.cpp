@@ -12,11 +12,12 @@ namespace {
 
 std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
-/// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long runs.
+/// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long
+/// runs.
 constexpr int positionsPerRun = 2048;
 
-/// Which dofs the tangents of each point couple: its first dof with all others, and one dof per entity with one of every other
-/// entity, which is all the partition into blocks needs to know.
+/// Which dofs the tangents of each point couple: its first dof with all others, and one dof per
+/// entity with one of every other entity, which is all the partition into blocks needs to know.
 Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) {
   const int width = set.law->width();
   const auto n = static_cast<Eigen::Index>(group.size());
@@ -41,8 +42,9 @@ Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) 
   return coupling;
 }
 
-/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there are families that neither
-/// matrices nor point laws couple among each other: lateral modes of one run between two kept nodes, torsional ones, ...
+/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there
+/// are families that neither matrices nor point laws couple among each other: lateral modes of one
+/// run between two kept nodes, torsional ones, ...
 struct Groups {
   std::vector<int> group, kind;
 };
@@ -65,7 +67,8 @@ Groups groupDofs(const model::SecondOrderModel& model) {
     for (int i = 0; i < n; ++i)
       if (isModal(i))
         for (Sparse::InnerIterator it(matrix, i); it; ++it)
-          if (it.value() != 0.0 && isModal(static_cast<int>(it.col()))) join(i, static_cast<int>(it.col()));
+          if (it.value() != 0.0 && isModal(static_cast<int>(it.col())))
+            join(i, static_cast<int>(it.col()));
   };
   joinModes(model.mass);
   for (const auto* terms : {&model.damping, &model.stiffness})
@@ -77,7 +80,8 @@ Groups groupDofs(const model::SecondOrderModel& model) {
       for (int r = p * set.law->width(); r < (p + 1) * set.law->width(); ++r)
         for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
           const int dof = static_cast<int>(it.col());
-          if (it.value() != 0.0 && isModal(dof)) join(first.emplace(model.dofs[z(dof)].entity, dof).first->second, dof);
+          if (it.value() != 0.0 && isModal(dof))
+            join(first.emplace(model.dofs[z(dof)].entity, dof).first->second, dof);
         }
     }
   Groups groups;
@@ -96,7 +100,8 @@ bool isSkew(const Sparse& matrix) {
   const Sparse sum = matrix + transposed;
   double largest = 0;
   for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it) largest = std::max(largest, std::abs(it.value()));
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      largest = std::max(largest, std::abs(it.value()));
   for (int k = 0; k < sum.outerSize(); ++k)
     for (Sparse::InnerIterator it(sum, k); it; ++it)
       if (std::abs(it.value()) > 1e-14 * largest) return false;
@@ -105,8 +110,9 @@ bool isSkew(const Sparse& matrix) {
 
 }  // namespace
 
-MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
-                     const linalg::BlockPattern& pattern, const linalg::BlockProduct& like) {
+MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
+                     const std::vector<model::ScalarLaw>& laws, const linalg::BlockPattern& pattern,
+                     const linalg::BlockProduct& like) {
   std::map<std::string, std::size_t> byLaw;  // laws of one name are one law
   std::vector<Sparse> matrices;
   for (const auto& term : terms) {
@@ -142,8 +148,10 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
     if (!(value == last_[i])) changed = true;
     last_[i] = value;
   }
-  if (changed) formed_ = false;
-  else if (!constant_ && !formed_) form();
+  if (changed)
+    formed_ = false;
+  else if (!constant_ && !formed_)
+    form();
   return changed;
 }
 
@@ -188,7 +196,8 @@ void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const
     if (last_[i] != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, last_[i], rows);
 }
 
-void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const {
+void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x,
+                               double* y) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const double difference = factor * (last_[i] - then[z(terms_[i].law)]);
     if (difference != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, difference);
@@ -250,7 +259,8 @@ void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
 }
 
 std::string CompiledModel::dofName(int position) const {
-  return model::describe(model_.dofs[z(pattern_.partition().dof[z(position)])], model_.componentNames);
+  return model::describe(model_.dofs[z(pattern_.partition().dof[z(position)])],
+                         model_.componentNames);
 }
 
 void CompiledModel::setTime(double t) {
@@ -288,7 +298,8 @@ void CompiledModel::comeBack(const Snapshot& snapshot) {
 }
 
 void CompiledModel::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {time_, damping_.isFormed() ? 1.0 : 0.0, stiffness_.isFormed() ? 1.0 : 0.0});
+  memory.insert(memory.end(),
+                {time_, damping_.isFormed() ? 1.0 : 0.0, stiffness_.isFormed() ? 1.0 : 0.0});
 }
 
 void CompiledModel::restore(const double*& memory) {
@@ -296,7 +307,8 @@ void CompiledModel::restore(const double*& memory) {
   for (MatrixSum* sum : {&damping_, &stiffness_}) sum->setFormed(*memory++ != 0.0);
 }
 
-void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x, double* y) {
+void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x,
+                                   double* y) {
   damping_.addChangeSince(then, c, x, y);
   stiffness_.addChangeSince(then, 1.0, x, y);
 }

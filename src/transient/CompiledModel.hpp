@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A SecondOrderModel in the form a step loop wants: dofs gathered into dense blocks, terms that share a law merged, matrices
-/// of equal layout combined only when a law has changed, loads likewise. Built once; nothing here allocates afterwards.
+/// A SecondOrderModel in the form a step loop wants: dofs gathered into dense blocks, terms that
+/// share a law merged, matrices of equal layout combined only when a law has changed, loads
+/// likewise. Built once; nothing here allocates afterwards.
 ///
-/// Vectors are raw arrays in *positions* (dofs renumbered block by block); toPositions()/toDofs() translate.
+/// Vectors are raw arrays in *positions* (dofs renumbered block by block); toPositions()/toDofs()
+/// translate.
 #pragma once
 
 #include <string>
@@ -32,10 +34,11 @@ class MatrixSum {
   MatrixSum(const std::vector<model::MatrixTerm>& terms, const std::vector<model::ScalarLaw>& laws,
             const linalg::BlockPattern& pattern, const linalg::BlockProduct& like);
   bool empty() const { return terms_.empty(); }
-  /// True if a law has another value than last time. The sum is formed when the laws stand still or somebody asks for it;
-  /// while they change, products go term by term.
+  /// True if a law has another value than last time. The sum is formed when the laws stand still or
+  /// somebody asks for it; while they change, products go term by term.
   bool update(const std::vector<double>& lawValues);
-  /// What update() and products have left, to come back to: the sum is formed anew where another has been.
+  /// What update() and products have left, to come back to: the sum is formed anew where another
+  /// has been.
   struct Snapshot {
     std::vector<double> last;
     bool formed = false;
@@ -45,7 +48,8 @@ class MatrixSum {
   bool isFormed() const { return formed_; }
   void setFormed(bool formed);
   /// y += factor (A(t) - A(then)) x, where `then` are the law values at another time.
-  void addChangeSince(const std::vector<double>& then, double factor, const double* x, double* y) const;
+  void addChangeSince(const std::vector<double>& then, double factor, const double* x,
+                      double* y) const;
   /// y += A(t) x, rows of these blocks.
   void addTo(const double* x, double* y, linalg::BlockRange rows) const;
   /// values += factor * A(t).
@@ -57,7 +61,9 @@ class MatrixSum {
   /// Constant and symmetric: forces of a potential x'Ax / 2.
   bool isConservative() const { return constant_ && product_.isSymmetric(); }
   /// The part of x'Ax that the rows of some blocks add, of a conservative A.
-  double form(const double* x, linalg::BlockRange rows) const { return product_.form(current(), x, rows); }
+  double form(const double* x, linalg::BlockRange rows) const {
+    return product_.form(current(), x, rows);
+  }
   /// Values of A(t) on the pattern; undefined when empty().
   const double* current() const {
     if (constant_) return terms_.front().values.data();
@@ -94,7 +100,8 @@ class CompiledModel {
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
   double time() const { return time_; }
-  /// What setTime() has left, for somebody who takes the model to other times and wants to leave no trace. Allocates once.
+  /// What setTime() has left, for somebody who takes the model to other times and wants to leave no
+  /// trace. Allocates once.
   struct Snapshot {
     double time = 0;
     bool timeSet = false;
@@ -106,7 +113,8 @@ class CompiledModel {
   void remember(Snapshot& snapshot) const;
   /// Products and loads are then bit by bit those of the time of remember().
   void comeBack(const Snapshot& snapshot);
-  /// The same for a restart: append / take back the time, and which sums are formed. The matrix stamp is not one of before.
+  /// The same for a restart: append / take back the time, and which sums are formed. The matrix
+  /// stamp is not one of before.
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
   /// Changes whenever C(t) or K(t) changed.
@@ -124,9 +132,14 @@ class CompiledModel {
   void addMass(const double* x, double* y, linalg::BlockRange rows, double factor = 1.0) const {
     massProduct_.addTo(mass_.data(), x, y, factor, rows);
   }
-  void addDamping(const double* x, double* y, linalg::BlockRange rows) const { damping_.addTo(x, y, rows); }
-  void addStiffness(const double* x, double* y, linalg::BlockRange rows) const { stiffness_.addTo(x, y, rows); }
-  /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long vectors once.
+  void addDamping(const double* x, double* y, linalg::BlockRange rows) const {
+    damping_.addTo(x, y, rows);
+  }
+  void addStiffness(const double* x, double* y, linalg::BlockRange rows) const {
+    stiffness_.addTo(x, y, rows);
+  }
+  /// All blocks in runs whose vectors stay in a near cache: what is done run by run reads long
+  /// vectors once.
   const std::vector<linalg::BlockRange>& runs() const { return runs_; }
   bool hasDamping() const { return !damping_.empty(); }
 

@@ -15,7 +15,8 @@ double EnergyAccount::numerical() const {
 }
 
 double EnergyAccount::residual() const {
-  const double scale = std::max({exchanged, std::abs(initial), std::abs(kinetic) + std::abs(strain) + std::abs(contact)});
+  const double scale = std::max(
+      {exchanged, std::abs(initial), std::abs(kinetic) + std::abs(strain) + std::abs(contact)});
   return scale > 0 ? numerical() / scale : 0.0;
 }
 
@@ -57,7 +58,9 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   q_ = state.q;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
-  stored_ = sumPowers(model, [&](auto& batch) { return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint()); }).stored;
+  stored_ = sumPowers(model, [&](auto& batch) {
+              return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
+            }).stored;
   EnergyAccount now = account(model, state);
   now.contact = stored_;
   account_.initial = now.kinetic + now.strain + now.contact;
@@ -70,15 +73,17 @@ void EnergyLedger::book(CompiledModel& model, const State& to) {
   enter(model, to);
 }
 
-/// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2 . dq, which is the change of q'K q / 2 for a constant
-/// symmetric K; the rest is circulatory. Of each damping term: dq' C_i dq.
+/// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2
+/// . dq, which is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory. Of
+/// each damping term: dq' C_i dq.
 EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const State& to) {
   const bool conservative = model.stiffness().isConservative();
   const auto& terms = model.damping().terms();
   double strain = 0, work = 0;
   std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
   for (const auto& run : model.runs()) {
-    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
+    const int begin = model.pattern().start(run.begin),
+              length = model.pattern().start(run.end) - begin;
     if (conservative) {
       strain += 0.5 * model.stiffness().form(to.q.data(), run);
     } else {
@@ -92,7 +97,8 @@ EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const St
     }
     for (std::size_t i = 0; i < dissipative_.size(); ++i) {
       const auto& term = terms[dissipative_[i]];
-      if (model.damping().factor(dissipative_[i]) != 0.0) dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
+      if (model.damping().factor(dissipative_[i]) != 0.0)
+        dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
     }
   }
   return {strain, conservative ? strain - strain_ : work};
@@ -125,11 +131,12 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   strain_ = strain;
   for (std::size_t i = 0; i < dissipative_.size(); ++i)
     entry(account_.damping[i], model.damping().factor(dissipative_[i]) * dissipated_[i] / h);
-  // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at the end of a step that meets
-  // a wall is not what it went in with)
+  // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
+  // the end of a step that meets a wall is not what it went in with)
   if (!model.points().empty()) {
-    const Powers mean =
-        sumPowers(model, [&](auto& batch) { return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted()); });
+    const Powers mean = sumPowers(model, [&](auto& batch) {
+      return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
+    });
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
@@ -138,13 +145,17 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     stored_ = mean.stored;
   }
   account_.exchanged += exchanged;
-  account_.supplied +=
-      std::abs(account_.loads - given) + std::abs(account_.drive - driven) + std::abs(account_.circulatory - turned);
+  account_.supplied += std::abs(account_.loads - given) + std::abs(account_.drive - driven) +
+                       std::abs(account_.circulatory - turned);
 }
 
 /// Points that are not active store nothing.
 double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
-  return sumPowers(model, [&](auto& batch) { return batch.power(state.t, state.q.data(), state.v.data(), batch.active()); }).stored;
+  return sumPowers(model,
+                   [&](auto& batch) {
+                     return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
+                   })
+      .stored;
 }
 
 bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
@@ -166,10 +177,13 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(skipped_), static_cast<double>(unwatched_), time_, strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
-                               account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
+  memory.insert(memory.end(), {static_cast<double>(skipped_), static_cast<double>(unwatched_),
+                               time_, strain_, stored_, account_.initial, account_.loads,
+                               account_.drive, account_.friction, account_.contactDamping,
+                               account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
-  for (const Vector* x : {&q_, &internal_, &load_}) memory.insert(memory.end(), x->begin(), x->end());
+  for (const Vector* x : {&q_, &internal_, &load_})
+    memory.insert(memory.end(), x->begin(), x->end());
 }
 
 void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memory) {
@@ -178,8 +192,8 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   allocate(model);
   skipped_ = static_cast<int>(*memory++);
   unwatched_ = static_cast<int>(*memory++);
-  for (double* x : {&time_, &strain_, &stored_, &account_.initial,
-                    &account_.loads, &account_.drive, &account_.friction, &account_.contactDamping, &account_.circulatory,
+  for (double* x : {&time_, &strain_, &stored_, &account_.initial, &account_.loads, &account_.drive,
+                    &account_.friction, &account_.contactDamping, &account_.circulatory,
                     &account_.exchanged, &account_.supplied})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Where the energy went: kinetic + strain + contact energy at the end equals what was there at the start plus the work of loads
-/// and drive, minus every dissipation; what is missing is the numerical dissipation of the integrator and the error of these
-/// sums, which are trapezoidal over the steps.
+/// Where the energy went: kinetic + strain + contact energy at the end equals what was there at the
+/// start plus the work of loads and drive, minus every dissipation; what is missing is the
+/// numerical dissipation of the integrator and the error of these sums, which are trapezoidal over
+/// the steps.
 #pragma once
 
 #include <string>
@@ -14,21 +15,26 @@ namespace tooljoint::transient {
 
 struct State;
 
-/// Energies in J. Stored ones are those of the time reached, exchanged ones are summed from the start.
+/// Energies in J. Stored ones are those of the time reached, exchanged ones are summed from the
+/// start.
 struct EnergyAccount {
-  double kinetic = 0;                     ///< v'M v / 2
-  double strain = 0;                      ///< q'K q / 2
-  double contact = 0;                     ///< stored in point laws
-  double initial = 0;                     ///< kinetic + strain + contact at the start
-  double loads = 0;                       ///< work of F(t)
-  double drive = 0;                       ///< work fed in through prescribed motion (the rotary drive acting through friction)
-  double friction = 0;                    ///< dissipated in friction
-  double contactDamping = 0;              ///< dissipated in normal damping of point laws
-  double circulatory = 0;                 ///< work given to skew stiffness (torque) and to stiffness that changes with time
-  std::vector<std::string> dampingNames;  ///< groups of damping terms with one law; those that do no work are left out
-  std::vector<double> damping;            ///< dissipated per group
-  double exchanged = 0;                   ///< sum of the sizes of all exchanges over all steps
-  double supplied = 0;                    ///< |initial| and the sum of the sizes of all work of loads, drive and skew stiffness
+  double kinetic = 0;  ///< v'M v / 2
+  double strain = 0;   ///< q'K q / 2
+  double contact = 0;  ///< stored in point laws
+  double initial = 0;  ///< kinetic + strain + contact at the start
+  double loads = 0;    ///< work of F(t)
+  double drive =
+      0;  ///< work fed in through prescribed motion (the rotary drive acting through friction)
+  double friction = 0;        ///< dissipated in friction
+  double contactDamping = 0;  ///< dissipated in normal damping of point laws
+  double circulatory =
+      0;  ///< work given to skew stiffness (torque) and to stiffness that changes with time
+  std::vector<std::string>
+      dampingNames;  ///< groups of damping terms with one law; those that do no work are left out
+  std::vector<double> damping;  ///< dissipated per group
+  double exchanged = 0;         ///< sum of the sizes of all exchanges over all steps
+  double supplied =
+      0;  ///< |initial| and the sum of the sizes of all work of loads, drive and skew stiffness
 
   /// initial + loads + drive - dissipations - stored: what the integrator lost (> 0) or made (< 0).
   double numerical() const;
@@ -46,7 +52,8 @@ class EnergyLedger {
   void book(CompiledModel& model, const State& to);
   /// The account at `state`, the last one booked or later: what is left is booked first.
   EnergyAccount account(CompiledModel& model, const State& state);
-  /// Whether enough steps have been booked since the last runaway() for another look, which costs as much as a booking.
+  /// Whether enough steps have been booked since the last runaway() for another look, which costs
+  /// as much as a booking.
   bool isDue() const { return unwatched_ >= watchStride; }
   /// EnergyAccount::runaway() at `state`. Allocates nothing.
   bool runaway(CompiledModel& model, const State& state);
@@ -76,8 +83,8 @@ class EnergyLedger {
   int stride_ = 1;
   static constexpr int watchStride = 8;
   int unwatched_ = 0;  ///< steps since the last runaway()
-  int skipped_ = 0;  ///< steps since the last one booked
-  double time_ = 0;  ///< the last one booked
+  int skipped_ = 0;    ///< steps since the last one booked
+  double time_ = 0;    ///< the last one booked
   Vector q_;
   Vector step_, product_, internal_, load_;
   double stored_ = 0;  ///< by point laws at the last booking

@@ -9,16 +9,18 @@
 
 namespace tooljoint::transient {
 
-void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integrator, Counters& counters) {
+void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integrator,
+                                 Counters& counters) {
   model_ = &model;
   counters_ = &counters;
   mass_ = linalg::BlockFactor(model.pattern());
   model.combine(1.0, 0.0, 0.0, mass_.values());
   const int bad = mass_.factor();
   if (bad >= 0)
-    throw ModelError(
-        "The mass matrix is singular at " + model.dofName(bad) + ": the explicit integrator \"" + integrator +
-        "\" needs a mass on every degree of freedom. Use \"Generalized-alpha\", or give that degree of freedom a mass.");
+    throw ModelError("The mass matrix is singular at " + model.dofName(bad) +
+                     ": the explicit integrator \"" + integrator +
+                     "\" needs a mass on every degree of freedom. Use \"Generalized-alpha\", or "
+                     "give that degree of freedom a mass.");
 }
 
 void ExplicitRightHandSide::acceleration(double t, const double* q, const double* v, double* a) {
@@ -61,7 +63,8 @@ double ExplicitRightHandSide::largestFrequency(const State& state) {
     for (auto& batch : model.points()) batch.addTangentTimes(x.data(), contact.data());
     y -= contact;
   };
-  // Lanczos for K x = omega^2 M x: M-orthonormal vectors, full re-orthogonalisation, deterministic start.
+  // Lanczos for K x = omega^2 M x: M-orthonormal vectors, full re-orthogonalisation, deterministic
+  // start.
   const int steps = std::min(n, 60);
   Matrix V(n, steps + 1);
   Matrix MV(n, steps + 1);
@@ -89,7 +92,8 @@ double ExplicitRightHandSide::largestFrequency(const State& state) {
     alpha[k] = x.dot(y);
     mass_.solve(y.data());
     x = y;
-    for (int pass = 0; pass < 2; ++pass) x -= V.leftCols(k + 1) * (MV.leftCols(k + 1).transpose() * x);
+    for (int pass = 0; pass < 2; ++pass)
+      x -= V.leftCols(k + 1) * (MV.leftCols(k + 1).transpose() * x);
     used = k + 1;
     largest = std::max(largest, std::abs(alpha[k]));
   }
@@ -103,7 +107,8 @@ double ExplicitRightHandSide::largestFrequency(const State& state) {
     if (k > 0) T(k, k - 1) = T(k - 1, k) = beta[k];
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> ritz(T);
-  const double bound = ritz.eigenvalues()[used - 1] + std::abs(last * ritz.eigenvectors()(used - 1, used - 1));
+  const double bound =
+      ritz.eigenvalues()[used - 1] + std::abs(last * ritz.eigenvectors()(used - 1, used - 1));
   return std::sqrt(std::max(0.0, bound));
 }
 
@@ -111,8 +116,8 @@ void RungeKuttaStep::resize(int n) {
   for (Vector* x : {&qi_, &vi_, &vj_, &a2_, &a3_, &a4_}) x->setZero(n);
 }
 
-void RungeKuttaStep::take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0,
-                          Vector& q, Vector& v) {
+void RungeKuttaStep::take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0,
+                          const Vector& v0, const Vector& a0, Vector& q, Vector& v) {
   // k1 = (v0, a0);  q += h/6 (k1 + 2 k2 + 2 k3 + k4) gathers in q and v as the stages come
   qi_ = q0 + 0.5 * h * v0;
   vi_ = v0 + 0.5 * h * a0;

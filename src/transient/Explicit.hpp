@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the explicit integrators share: the acceleration M^-1 (F + R'f - C v - K q), the classical Runge-Kutta step, and the
-/// largest frequency that bounds its length.
+/// What the explicit integrators share: the acceleration M^-1 (F + R'f - C v - K q), the classical
+/// Runge-Kutta step, and the largest frequency that bounds its length.
 #pragma once
 
 #include "linalg/BlockFactor.hpp"
@@ -11,7 +11,8 @@ namespace tooljoint::transient {
 
 class ExplicitRightHandSide {
  public:
-  /// Factors M; evaluations are added to counters.rightHandSides. Throws ModelError naming a dof without mass.
+  /// Factors M; evaluations are added to counters.rightHandSides. Throws ModelError naming a dof
+  /// without mass.
   void bind(CompiledModel& model, const std::string& integrator, Counters& counters);
 
   /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look().
@@ -22,8 +23,8 @@ class ExplicitRightHandSide {
   /// True when a point that was not looked at has touched at q; it is active from then on.
   bool missed(const double* q);
 
-  /// Largest angular frequency [rad/s] of M^-1 (K + point tangents at the initial state), by Lanczos iteration in the mass inner
-  /// product; an upper estimate (Ritz value plus residual).
+  /// Largest angular frequency [rad/s] of M^-1 (K + point tangents at the initial state), by
+  /// Lanczos iteration in the mass inner product; an upper estimate (Ritz value plus residual).
   double largestFrequency(const State& state);
 
   CompiledModel& model() { return *model_; }
@@ -34,13 +35,14 @@ class ExplicitRightHandSide {
   linalg::BlockFactor mass_;
 };
 
-/// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 where (B.4) prints k31, k32).
+/// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 where
+/// (B.4) prints k31, k32).
 class RungeKuttaStep {
  public:
   void resize(int n);
   /// q, v at t+h from (t, q0, v0), a0 = acceleration there.
-  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0, const Vector& a0, Vector& q,
-            Vector& v);
+  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0,
+            const Vector& a0, Vector& q, Vector& v);
 
  private:
   Vector qi_, vi_, vj_, a2_, a3_, a4_;

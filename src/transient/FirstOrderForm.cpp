@@ -16,15 +16,17 @@ void FirstOrderForm::bind(CompiledModel& model, const std::string& integrator) {
   ++factorisations_;
   const int bad = mass_.factor();
   if (bad >= 0)
-    throw ModelError(
-        "The mass matrix is singular at " + model.dofName(bad) + ": the integrator \"" + integrator +
-        "\" solves for accelerations and needs a mass on every degree of freedom. Use \"Generalized-alpha\", or give "
-        "that degree of freedom a mass.");
+    throw ModelError("The mass matrix is singular at " + model.dofName(bad) +
+                     ": the integrator \"" + integrator +
+                     "\" solves for accelerations and needs a mass on every degree of freedom. Use "
+                     "\"Generalized-alpha\", or give "
+                     "that degree of freedom a mass.");
   right_.setZero(n_);
   product_.setZero(n_);
 }
 
-/// Solvers evaluate at stages they choose, forwards and backwards in time: no point is left out by what was seen before.
+/// Solvers evaluate at stages they choose, forwards and backwards in time: no point is left out by
+/// what was seen before.
 void FirstOrderForm::touch(double t, const double* q) {
   model_->setTime(t);
   for (auto& batch : model_->points()) batch.look(t, 0.0, q);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A compiled model as y' = f(t, y) with y = (q, v), for solvers of first-order systems, and the Newton matrix of their implicit
-/// formulas solved with blocks of the second-order model. With x = (x_q, x_v), r = (r_q, r_v) and J = df/dy,
+/// A compiled model as y' = f(t, y) with y = (q, v), for solvers of first-order systems, and the
+/// Newton matrix of their implicit formulas solved with blocks of the second-order model. With x =
+/// (x_q, x_v), r = (r_q, r_v) and J = df/dy,
 ///
 ///     (I - g J) x = r   <=>   (M + g C* + g^2 K*) x_v = M r_v - g K* r_q,   x_q = r_q + g x_v,
 ///
-/// where C* = C - R' df/dv R and K* = K - R' df/dd R hold the tangents of the point laws: one factor of the size of q.
+/// where C* = C - R' df/dv R and K* = K - R' df/dd R hold the tangents of the point laws: one
+/// factor of the size of q.
 #pragma once
 
 #include <string>
@@ -24,7 +26,8 @@ class FirstOrderForm {
   int dofs() const { return n_; }
   int size() const { return 2 * n_; }
 
-  /// yDot = (v, M^-1 (F(t) + R' f(q, v, t) - C(t) v - K(t) q)); `size()` numbers each. Every point that touches at y acts.
+  /// yDot = (v, M^-1 (F(t) + R' f(q, v, t) - C(t) v - K(t) q)); `size()` numbers each. Every point
+  /// that touches at y acts.
   void rightHandSide(double t, const double* y, double* yDot);
 
   /// Factor I - gamma J(t, y) with the tangents at y; false when it is singular.

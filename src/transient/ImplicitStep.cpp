@@ -15,7 +15,8 @@ constexpr double slowestRelaxation = 0.25;
 /// Once points take turns: what two sweeps must make of it.
 constexpr int perSweeps = 2 * PointRelaxation::colours;
 constexpr double slowestSweeps = 0.8;
-/// Pairs of sweeps in a row that may make less of it: the first ones spread what stuck at a few points.
+/// Pairs of sweeps in a row that may make less of it: the first ones spread what stuck at a few
+/// points.
 constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 45;
@@ -23,17 +24,20 @@ constexpr double factorPrice = 45;
 /// PointRelaxation::wrongShare() of an iterate that the phase correction may be taken from.
 constexpr double mostWrong = 0.1;
 
-/// A product with what the laws have changed, in relaxations; what a relaxation near few points costs beside the blocks it reaches, in blocks.
+/// A product with what the laws have changed, in relaxations; what a relaxation near few points
+/// costs beside the blocks it reaches, in blocks.
 constexpr double driftPrice = 0.5, nearPrice = 16;
 
 /// max_i w_i sum_j |A_ij|
-double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight, Vector& rows) {
+double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight,
+               Vector& rows) {
   rows.setZero();
   for (int b = 0; b < pattern.blocks(); ++b)
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
       for (int j = 0; j < pattern.width(pattern.column(e)); ++j)
         for (int i = 0; i < pattern.width(b); ++i)
-          rows[pattern.start(b) + i] += std::abs(values[pattern.offset(e) + z(j * pattern.width(b) + i)]);
+          rows[pattern.start(b) + i] +=
+              std::abs(values[pattern.offset(e) + z(j * pattern.width(b) + i)]);
   return rows.cwiseProduct(weight).maxCoeff();
 }
 
@@ -43,20 +47,24 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
   model_ = &model;
   options_ = options;
   const int n = model.size();
-  for (Vector* x : {&linear_, &residual_, &delta_, &change_, &q0_, &v0_, &a0_, &linear0_, &weight_, &scratch_, &base_, &saved_,
-                    &savedChange_, &guess_, &drift_, &rowSize_, &inertia_, &correction_, &filtered_, &acceleration_})
+  for (Vector* x :
+       {&linear_,  &residual_, &delta_,   &change_,     &q0_,       &v0_,          &a0_,
+        &linear0_, &weight_,   &scratch_, &base_,       &saved_,    &savedChange_, &guess_,
+        &drift_,   &rowSize_,  &inertia_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   predicted_.resize(n);
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);
   relaxes_ = true;
-  for (const auto& batch : model.points()) relaxes_ = relaxes_ && batch.width() <= PointRelaxation::widest;
+  for (const auto& batch : model.points())
+    relaxes_ = relaxes_ && batch.width() <= PointRelaxation::widest;
   factor_ = linalg::BlockFactor(model.pattern());
   if (!model.points().empty()) factor_.reserveInverse();
 }
 
-/// Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as displacements.
+/// Scale of each row: the diagonal of the effective matrix, so that forces and moments both read as
+/// displacements.
 void ImplicitStep::scale(const StepScheme& scheme, double t) {
   model_->setTime(t);
   scaleTime_ = t;
@@ -76,19 +84,21 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
     stiffnessNorms_.push_back(rowNorm(pattern, term.values.data(), weight_, scratch_));
   // |K| row sums bound the rounding of K q.
   rowSize_.setZero();
-  if (!model_->stiffness().empty()) rowNorm(pattern, model_->stiffness().current(), weight_, rowSize_);
+  if (!model_->stiffness().empty())
+    rowNorm(pattern, model_->stiffness().current(), weight_, rowSize_);
   rowSize_ = 4e-16 * rowSize_.cwiseProduct(weight_);
 }
 
-/// linear_ = M a + K q - F where v = 0, or M a + C v + K q - F, with the sizes of what it is made of (a the predicted one); run by
-/// run, while it is in the cache.
+/// linear_ = M a + K q - F where v = 0, or M a + C v + K q - F, with the sizes of what it is made
+/// of (a the predicted one); run by run, while it is in the cache.
 void ImplicitStep::linearResidual(const State& to, From from) {
   const CompiledModel& model = *model_;
   const Eigen::Map<const Vector> load(model.load(), model.size());
   const double ahead = from == From::Rest ? scheme_.acceleration / scheme_.velocity : 0.0;
   double size = 0, floor = 0;
   for (const auto& run : model.runs()) {
-    const int begin = model.pattern().start(run.begin), length = model.pattern().start(run.end) - begin;
+    const int begin = model.pattern().start(run.begin),
+              length = model.pattern().start(run.end) - begin;
     const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
     auto sum = linear_.segment(begin, length).array();
     sum.setZero();
@@ -138,14 +148,17 @@ double ImplicitStep::driftNorm() const {
   const auto& laws = model_->lawValues();
   const auto& damping = model_->damping().terms();
   for (std::size_t i = 0; i < damping.size(); ++i)
-    norm += scheme_.velocity * std::abs(laws[z(damping[i].law)] - factorLaws_[z(damping[i].law)]) * dampingNorms_[i];
+    norm += scheme_.velocity * std::abs(laws[z(damping[i].law)] - factorLaws_[z(damping[i].law)]) *
+            dampingNorms_[i];
   const auto& stiffness = model_->stiffness().terms();
   for (std::size_t i = 0; i < stiffness.size(); ++i)
-    norm += std::abs(laws[z(stiffness[i].law)] - factorLaws_[z(stiffness[i].law)]) * stiffnessNorms_[i];
+    norm +=
+        std::abs(laws[z(stiffness[i].law)] - factorLaws_[z(stiffness[i].law)]) * stiffnessNorms_[i];
   return norm;
 }
 
-/// Relaxation of the point forces. False, with `to` and linear_ as they were and delta_ where it stopped, when it does not get there.
+/// Relaxation of the point forces. False, with `to` and linear_ as they were and delta_ where it
+/// stopped, when it does not get there.
 bool ImplicitStep::relax(State& to) {
   if (!factored_ || factorScheme_.h != scheme_.h || wanted_) {
     predicted_ = to;
@@ -172,7 +185,8 @@ bool ImplicitStep::relax(State& to) {
   return true;
 }
 
-/// Newton from where relaxation stopped, which is often wrong at a few points only, and from the predicted state.
+/// Newton from where relaxation stopped, which is often wrong at a few points only, and from the
+/// predicted state.
 bool ImplicitStep::finish(State& to) {
   predicted_ = to;
   predict(predicted_);
@@ -190,8 +204,10 @@ bool ImplicitStep::finish(State& to) {
   return iterate(to);
 }
 
-/// Where iterations begin: at the predicted v. Points whose tangent in S is far stiffer than they are stay there in the first iterate, which the phase
-/// correction is taken from, and what is extrapolated further makes vibration of a few steps per period grow. With what laws have changed, drift_ is that of guess_.
+/// Where iterations begin: at the predicted v. Points whose tangent in S is far stiffer than they
+/// are stay there in the first iterate, which the phase correction is taken from, and what is
+/// extrapolated further makes vibration of a few steps per period grow. With what laws have
+/// changed, drift_ is that of guess_.
 void ImplicitStep::guess(const State& to, double norm) {
   const double c = scheme_.velocity;
   relaxation_.guess(to.t, c, to.v);
@@ -217,7 +233,8 @@ const Vector* ImplicitStep::otherForces(double norm) {
   return &scratch_;
 }
 
-/// The iteration itself: delta_. When it has been found before points were found to be missed, it goes on from there, at these points first.
+/// The iteration itself: delta_. When it has been found before points were found to be missed, it
+/// goes on from there, at these points first.
 bool ImplicitStep::settle(State& to, bool again) {
   const double c = scheme_.velocity;
   const double norm = drifted() ? driftNorm() : 0.0;
@@ -230,7 +247,8 @@ bool ImplicitStep::settle(State& to, bool again) {
   double last = 0, work = again ? 0 : 1;
   int turn = -1;  // of the colours, once points take turns
   int idle = 0;   // pairs of sweeps in a row without progress
-  for (int iteration = 1; turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
+  for (int iteration = 1;
+       turn >= 0 || iteration <= std::min(maxRelaxations, options_.maxIterations); ++iteration) {
     const bool joins = again && iteration == 1;
     if (!joins) {
       work += relaxOnce(to, near, norm);
@@ -259,11 +277,14 @@ bool ImplicitStep::settle(State& to, bool again) {
       last = error_;
     } else if (turn > 0 && turn % perSweeps == 0) {
       idle = error_ > slowestSweeps * last ? idle + 1 : 0;
-      if (turn >= PointRelaxation::colours * options_.maxIterations || idle > mostIdle) return false;
+      if (turn >= PointRelaxation::colours * options_.maxIterations || idle > mostIdle)
+        return false;
       last = error_;
     }
     near = turn < 0 ? relaxation_.correct(to.t, c, tolerance(), changed)
-                    : relaxation_.correctColour(to.t, c, tolerance(), turn++ % PointRelaxation::colours) && !changed;
+                    : relaxation_.correctColour(to.t, c, tolerance(),
+                                                turn++ % PointRelaxation::colours) &&
+                          !changed;
     if (!near) work += 1.0;
   }
   return false;
@@ -292,8 +313,8 @@ bool ImplicitStep::begin(const State& to, double norm) {
   return correctsPhase();
 }
 
-/// Take in the points that were missed; the phase correction stays as it is, since they have only just touched. True when one of them is
-/// an impact and there is none to be after all.
+/// Take in the points that were missed; the phase correction stays as it is, since they have only
+/// just touched. True when one of them is an impact and there is none to be after all.
 bool ImplicitStep::join(const State& to) {
   error_ = relaxation_.join(to.t, scheme_.velocity, delta_, tolerance(), reference_);
   if (!corrected_ || correctsPhase()) return false;
@@ -345,8 +366,9 @@ bool ImplicitStep::correctsPhase() const {
   return true;
 }
 
-/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once, from the first delta that is near, which is without it:
-/// what that misses is of the order of the square of k (I - F) F.
+/// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once,
+/// from the first delta that is near, which is without it: what that misses is of the order of the
+/// square of k (I - F) F.
 void ImplicitStep::correctPhase(const State& to) {
   const auto& pattern = model_->pattern();
   const double k = scheme_.phase, kF = k * scheme_.filter * scheme_.acceleration;
@@ -359,18 +381,23 @@ void ImplicitStep::correctPhase(const State& to) {
     correction_.segment(begin, length) = k * inertia;
   }
   filter_.solve(filtered_.data());
-  for (const auto& run : model_->runs()) model_->addMass(filtered_.data(), correction_.data(), run, -kF);
+  for (const auto& run : model_->runs())
+    model_->addMass(filtered_.data(), correction_.data(), run, -kF);
   corrected_ = true;
 }
 
 double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
 
-int ImplicitStep::worstPosition() const { return transient::worstPosition(residual_.cwiseProduct(weight_)); }
+int ImplicitStep::worstPosition() const {
+  return transient::worstPosition(residual_.cwiseProduct(weight_));
+}
 
 void ImplicitStep::save(std::vector<double>& memory) const {
   for (const StepScheme* each : {&scheme_, &factorScheme_})
-    memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter, each->phase, each->impact});
-  memory.insert(memory.end(), {scaleTime_, factored_ ? 1.0 : 0.0, factorTime_, drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
+    memory.insert(memory.end(), {each->h, each->velocity, each->acceleration, each->filter,
+                                 each->phase, each->impact});
+  memory.insert(memory.end(), {scaleTime_, factored_ ? 1.0 : 0.0, factorTime_,
+                               drifted() ? 0.0 : 1.0, wanted_ ? 1.0 : 0.0, debt_, usual_});
   memory.insert(memory.end(), weight_.begin(), weight_.end());
   memory.insert(memory.end(), factorLaws_.begin(), factorLaws_.end());
   relaxation_.save(memory);
@@ -379,7 +406,8 @@ void ImplicitStep::save(std::vector<double>& memory) const {
 void ImplicitStep::restore(const double*& memory) {
   StepScheme scheme;
   for (StepScheme* each : {&scheme, &factorScheme_})
-    for (double* value : {&each->h, &each->velocity, &each->acceleration, &each->filter, &each->phase, &each->impact})
+    for (double* value : {&each->h, &each->velocity, &each->acceleration, &each->filter,
+                          &each->phase, &each->impact})
       *value = *memory++;
   scaleTime_ = *memory++;
   const bool factored = *memory++ != 0.0;

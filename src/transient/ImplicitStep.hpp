@@ -5,10 +5,11 @@
 ///     M (a + ca delta) + cv C delta + K (q + delta) = F + R' f(q + delta, cv delta, t)
 ///
 /// (with M replaced by M - k M (I - s ca (s ca M + K)^-1 M) where the scheme asks for it, see
-/// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point forces with the effective matrix S = ca M + cv C + K - R'PR factored
-/// once (PointRelaxation), and where that is slow by modified Newton with exact tangents: the factor is renewed, each update
-/// backtracked on the residual scaled by the diagonal of S, points whose force jumps are solved by themselves
-/// (NodalCorrection), and a jump along the search direction is bracketed.
+/// AlphaStep::setPhaseCorrection) is solved for delta = v / cv, first by relaxation of the point
+/// forces with the effective matrix S = ca M + cv C + K - R'PR factored once (PointRelaxation), and
+/// where that is slow by modified Newton with exact tangents: the factor is renewed, each update
+/// backtracked on the residual scaled by the diagonal of S, points whose force jumps are solved by
+/// themselves (NodalCorrection), and a jump along the search direction is bracketed.
 #pragma once
 
 #include <cmath>
@@ -22,14 +23,15 @@
 
 namespace tooljoint::transient {
 
-/// Derivatives of a scheme's velocity and acceleration with respect to its displacement over a step of length h.
+/// Derivatives of a scheme's velocity and acceleration with respect to its displacement over a step
+/// of length h.
 struct StepScheme {
   double h = 0;
   double velocity = 0;      ///< cv
   double acceleration = 0;  ///< ca
   double filter = 0;        ///< s and
   double phase = 0;         ///< k of the phase correction, 0 for none
-  double impact = 1;        ///< what forces of impacts (PointRelaxation::setImpacts) are multiplied by
+  double impact = 1;  ///< what forces of impacts (PointRelaxation::setImpacts) are multiplied by
 };
 
 class ImplicitStep {
@@ -43,8 +45,8 @@ class ImplicitStep {
 
   /// What depends on the scheme alone; solve() calls it when it has another one.
   void prepare(const StepScheme& scheme, double t);
-  /// Completes `to`, which has q and a as they are where v = 0, and the predicted v; false when nothing converged (`to` then holds
-  /// the last iterate).
+  /// Completes `to`, which has q and a as they are where v = 0, and the predicted v; false when
+  /// nothing converged (`to` then holds the last iterate).
   bool solve(State& to, const StepScheme& scheme, Counters& counters);
 
   /// Whether the iterate left by a failed solve() is made of numbers.
@@ -123,11 +125,11 @@ class ImplicitStep {
   Vector base_, saved_, savedChange_;
   Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
-  Vector inertia_;  ///< w_i M_ii
+  Vector inertia_;                                     ///< w_i M_ii
   std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
-  double error_ = 0;      ///< max |w R|
-  double merit_ = 0;      ///< |w R|_2
-  double reference_ = 0;  ///< largest scaled force of this step
+  double error_ = 0;                                   ///< max |w R|
+  double merit_ = 0;                                   ///< |w R|_2
+  double reference_ = 0;                               ///< largest scaled force of this step
   double linearReference_ = 0;
   double floor_ = 0;  ///< rounding of K q, scaled alike
 };

@@ -8,12 +8,14 @@
 namespace tooljoint::transient {
 namespace {
 
-/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation ...
+/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation
+/// ...
 constexpr double slowestRate = 0.5;
-/// ... and so does one that would need more iterations than this to converge: a factorisation costs about as much.
+/// ... and so does one that would need more iterations than this to converge: a factorisation costs
+/// about as much.
 constexpr double patience = 5;
-/// Iterations in a row that hardly change the residual before the step is given up, and times in a step that points are solved by
-/// themselves.
+/// Iterations in a row that hardly change the residual before the step is given up, and times in a
+/// step that points are solved by themselves.
 constexpr int maxStalled = 3;
 constexpr int maxRescues = 5;
 
@@ -54,8 +56,8 @@ bool ImplicitStep::isSlow(double rate) const {
   return left > 1 && std::log(left) > -std::log(rate) * patience;
 }
 
-/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force: -R + force + R'P R delta, corrected by what the
-/// laws have changed in C and K since S was built.
+/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force: -R + force + R'P R
+/// delta, corrected by what the laws have changed in C and K since S was built.
 void ImplicitStep::findChange() {
   change_ -= residual_;
   for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
@@ -81,8 +83,8 @@ bool ImplicitStep::backtrack(State& to) {
   return false;
 }
 
-/// The points that spoil the Newton step are solved as what they are. False, with the iterate and its step restored, when that
-/// does not help.
+/// The points that spoil the Newton step are solved as what they are. False, with the iterate and
+/// its step restored, when that does not help.
 bool ImplicitStep::solveTroubledPoints(State& to, double before) {
   saved_ = delta_, savedChange_ = change_;
   place(to, 0);
@@ -90,7 +92,8 @@ bool ImplicitStep::solveTroubledPoints(State& to, double before) {
   nodal_.begin();
   place(to, 1);
   bool good = false;
-  for (int attempt = 0; attempt < 4 && !good && nodal_.addTroubled(delta_.data(), weight_.data()); ++attempt) {
+  for (int attempt = 0; attempt < 4 && !good && nodal_.addTroubled(delta_.data(), weight_.data());
+       ++attempt) {
     buildFactor();
     ++counters_->factorisations;
     if (!factored_ || !nodal_.solve(to.t, scheme_.velocity, factor_, base_, delta_, change_)) break;
@@ -106,9 +109,10 @@ bool ImplicitStep::solveTroubledPoints(State& to, double before) {
   return good;
 }
 
-/// Contact that switches within the step, or friction that reverses, is a jump of the residual that no decrease of its norm can
-/// find: search for the sign change of delta . R between 0 and `beyond` by bisection. The law is continuous, so there is a root,
-/// and at the root the tangent knows the steep branch.
+/// Contact that switches within the step, or friction that reverses, is a jump of the residual that
+/// no decrease of its norm can find: search for the sign change of delta . R between 0 and `beyond`
+/// by bisection. The law is continuous, so there is a root, and at the root the tangent knows the
+/// steep branch.
 bool ImplicitStep::bracket(State& to, double beyond) {
   double low = 0;
   double high = beyond;

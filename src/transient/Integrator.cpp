@@ -14,11 +14,13 @@ void Counters::accept(double h) {
 
 double fittedStep(const Window& window, double asked) {
   const double duration = window.end - window.begin;
-  const double unit = window.sampling > 0 && asked <= window.sampling * (1 + 1e-9) ? window.sampling : duration;
+  const double unit =
+      window.sampling > 0 && asked <= window.sampling * (1 + 1e-9) ? window.sampling : duration;
   return unit / std::max(1.0, std::ceil(unit / asked * (1 - 1e-9)));
 }
 
-Teuchos::ParameterList withDefaults(const Teuchos::ParameterList& given, const deck::ListSpec& spec) {
+Teuchos::ParameterList withDefaults(const Teuchos::ParameterList& given,
+                                    const deck::ListSpec& spec) {
   Teuchos::ParameterList list(given);
   for (const auto& parameter : spec.parameters()) {
     if (list.isParameter(parameter.name)) continue;

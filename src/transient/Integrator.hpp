@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What every time integrator is: it carries a state from one accepted step to the next on a compiled model.
-/// A new integrator is one new file that registers itself.
+/// What every time integrator is: it carries a state from one accepted step to the next on a
+/// compiled model. A new integrator is one new file that registers itself.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -29,9 +29,11 @@ struct Counters {
   long rejected = 0;          ///< steps computed and thrown away by error control
   long halved = 0;            ///< times a step was halved because Newton failed
   long newtonIterations = 0;  ///< linear solves inside Newton
-  long unconvergedSteps = 0;  ///< steps kept although Newton had not converged (only when the deck accepts that)
-  long factorisations = 0;    ///< of the mass matrix or the effective matrix
-  long rightHandSides = 0;    ///< evaluations of q'' = M^-1 (all forces); 0 for an integrator that makes none
+  long unconvergedSteps =
+      0;  ///< steps kept although Newton had not converged (only when the deck accepts that)
+  long factorisations = 0;  ///< of the mass matrix or the effective matrix
+  long rightHandSides =
+      0;  ///< evaluations of q'' = M^-1 (all forces); 0 for an integrator that makes none
   double minStep = 0;
   double maxStep = 0;
   void accept(double h);
@@ -45,7 +47,8 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
-/// How well fixed steps follow the motion, as parts of 1 (StepResolution.hpp); 0 where it is not known.
+/// How well fixed steps follow the motion, as parts of 1 (StepResolution.hpp); 0 where it is not
+/// known.
 struct StepErrors {
   double local = 0;    ///< R
   double halving = 0;  ///< D
@@ -57,36 +60,42 @@ class Integrator {
   /// True when the step is bounded by the largest frequency of the model.
   virtual bool isExplicit() const { return false; }
 
-  /// Every how many steps the energy ledger has to look, for steps that are short beside what moves.
+  /// Every how many steps the energy ledger has to look, for steps that are short beside what
+  /// moves.
   virtual int ledgerStride() const { return 1; }
 
   /// What to change when a motion is wrong: "Choose a smaller ...", without a full stop.
   virtual std::string advice() const = 0;
 
-  /// What can be said without a model about the parameters together and with Transient/Step (0 when the deck gives none).
-  /// Throws DeckError.
+  /// What can be said without a model about the parameters together and with Transient/Step (0 when
+  /// the deck gives none). Throws DeckError.
   virtual void checkParameters(double /*step*/) const {}
 
-  /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the integrator.
-  /// Throws ModelError for a model this integrator cannot treat (a singular mass matrix for an explicit one).
+  /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the
+  /// integrator. Throws ModelError for a model this integrator cannot treat (a singular mass matrix
+  /// for an explicit one).
   virtual void prepare(CompiledModel& model, const Window& window, State& state) = 0;
 
-  /// One accepted step: writes `to` (all vectors sized already). Allocates nothing. Throws ConvergenceError.
+  /// One accepted step: writes `to` (all vectors sized already). Allocates nothing. Throws
+  /// ConvergenceError.
   virtual void advance(const State& from, State& to) = 0;
 
-  /// After the last step: throws ConvergenceError when the steps, taken together, did not follow the motion.
+  /// After the last step: throws ConvergenceError when the steps, taken together, did not follow
+  /// the motion.
   virtual void finish() const {}
   /// Of the steps done so far.
   virtual StepErrors stepErrors() const { return {}; }
 
-  /// Append / take back everything beyond State that the next steps depend on, so that a run goes on with the same numbers.
+  /// Append / take back everything beyond State that the next steps depend on, so that a run goes
+  /// on with the same numbers.
   virtual void save(std::vector<double>& memory) const = 0;
   virtual void restore(const double*& memory) = 0;
 
-  /// False when a part of what the next steps depend on cannot be saved. A run then goes on from where forgetHistory() was called only.
+  /// False when a part of what the next steps depend on cannot be saved. A run then goes on from
+  /// where forgetHistory() was called only.
   virtual bool goesOnFromAnywhere() const { return true; }
-  /// Called at each checkpoint, before save(): what cannot be saved is given up by the run that writes the checkpoint too, so that
-  /// both take the same steps from there.
+  /// Called at each checkpoint, before save(): what cannot be saved is given up by the run that
+  /// writes the checkpoint too, so that both take the same steps from there.
   virtual void forgetHistory() {}
 
   const Counters& counters() const { return counters_; }
@@ -99,12 +108,13 @@ class Integrator {
 /// Arguments: the sublist named after the integrator (defaults filled in by ownParameters()).
 using IntegratorRegistry = deck::Registry<Integrator, const Teuchos::ParameterList&>;
 
-/// The fixed step that divides the sampling interval: interval / ceil(interval / asked), or, for steps above the interval, the
-/// one that divides the whole duration.
+/// The fixed step that divides the sampling interval: interval / ceil(interval / asked), or, for
+/// steps above the interval, the one that divides the whole duration.
 double fittedStep(const Window& window, double asked);
 
 /// A copy of `given` with the defaults of `spec` filled in where it is silent.
-Teuchos::ParameterList withDefaults(const Teuchos::ParameterList& given, const deck::ListSpec& spec);
+Teuchos::ParameterList withDefaults(const Teuchos::ParameterList& given,
+                                    const deck::ListSpec& spec);
 
 /// Position of the entry of largest size, or of the first that is not a finite number.
 int worstPosition(const Vector& x);

@@ -15,10 +15,12 @@ namespace {
 
 /// Intervals of the window at whose ends laws of time are looked at.
 constexpr int lawIntervals = 32;
-/// How far beyond its clearance a point is moved, and how fast it moves there, to see its force [m], [m/s].
+/// How far beyond its clearance a point is moved, and how fast it moves there, to see its force
+/// [m], [m/s].
 constexpr double probeDepth = 1e-3, probeSpeed = 0.1;
 
-/// Collects bytes; the length stands before each array, so that different data never make the same bytes.
+/// Collects bytes; the length stands before each array, so that different data never make the same
+/// bytes.
 class Bytes {
  public:
   void add(double x) { append(&x, 1); }
@@ -63,12 +65,15 @@ void addDofs(const model::SecondOrderModel& model, Bytes& bytes) {
 void addLaws(const model::SecondOrderModel& model, const TransientOptions& options, Bytes& bytes) {
   for (const auto& law : model.laws) {
     bytes.add(law.name);
-    for (int i = 0; i <= lawIntervals; ++i) bytes.add(law.value(options.start + (options.end - options.start) * i / lawIntervals));
+    for (int i = 0; i <= lawIntervals; ++i)
+      bytes.add(law.value(options.start + (options.end - options.start) * i / lawIntervals));
   }
 }
 
-/// Forces at the start, and with every point moved just beyond its clearance, each way along each coordinate that decides about it.
-void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t, Bytes& bytes) {
+/// Forces at the start, and with every point moved just beyond its clearance, each way along each
+/// coordinate that decides about it.
+void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t,
+               Bytes& bytes) {
   const auto& law = *set.law;
   const int width = law.width();
   std::vector<int> all;
@@ -78,7 +83,8 @@ void addPoints(const model::PointSet& set, const model::SecondOrderModel& model,
   bytes.add(set.rows);
   bytes.add(set.offset);
   const Vector start = set.offset + set.rows * model.initialDisplacement;
-  Vector clearance = Vector::Zero(law.size()), force = Vector::Zero(start.size()), velocity = set.rows * model.initialVelocity;
+  Vector clearance = Vector::Zero(law.size()), force = Vector::Zero(start.size()),
+         velocity = set.rows * model.initialVelocity;
   law.evaluate(t, all, start.data(), velocity.data(), force.data());
   law.clearanceLeft(all, start.data(), clearance.data());
   bytes.add(force);

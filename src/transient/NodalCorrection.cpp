@@ -41,11 +41,14 @@ void NodalCorrection::begin() {
 }
 
 bool NodalCorrection::isIn(int batch, int point) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) { return at.batch == batch && at.problem.point == point; });
+  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) {
+    return at.batch == batch && at.problem.point == point;
+  });
 }
 
 /// max_r |w_r (f - f0 - P R delta)_r|, w_r by the strongest dof of the row.
-double NodalCorrection::error(const PointBatch& batch, int b, int p, const double* delta, const double* weight) const {
+double NodalCorrection::error(const PointBatch& batch, int b, int p, const double* delta,
+                              const double* weight) const {
   double worst = 0;
   for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
     const double wrong = batch.force()[r] - f_[z(b)][z(r)] - batch.frozenTimes(r, delta);
@@ -66,8 +69,11 @@ bool NodalCorrection::addTroubled(const double* delta, const double* weight) {
     auto& batch = model_->points()[b];
     if (batch.width() > NodalProblem::widest) continue;
     for (int p : batch.active()) {
-      if (isIn(static_cast<int>(b), p) || error(batch, static_cast<int>(b), p, delta, weight) < troubledShare * worst) continue;
-      const int first = points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
+      if (isIn(static_cast<int>(b), p) ||
+          error(batch, static_cast<int>(b), p, delta, weight) < troubledShare * worst)
+        continue;
+      const int first =
+          points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
       if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
       const int w = batch.width();
       Point at{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
@@ -84,8 +90,8 @@ bool NodalCorrection::addTroubled(const double* delta, const double* weight) {
   return any;
 }
 
-bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& factor, const Vector& residual, Vector& delta,
-                            Vector& force) {
+bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& factor,
+                            const Vector& residual, Vector& delta, Vector& force) {
   delta = -residual;
   factor.solve(delta.data());
   for (const Point& at : points_) {
@@ -102,7 +108,8 @@ bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& facto
     const auto& batch = model_->points()[z(at.batch)];
     for (int k = 0; k < batch.width(); ++k)
       for (int j = 0; j < total; ++j)
-        compliance_(at.first + k, j) = batch.rowTimesVector(at.problem.point * batch.width() + k, columns_.col(j).data());
+        compliance_(at.first + k, j) =
+            batch.rowTimesVector(at.problem.point * batch.width() + k, columns_.col(j).data());
   }
   bool settled = false;
   for (int sweep = 0; sweep < mostSweeps && !settled; ++sweep) {
@@ -112,7 +119,8 @@ bool NodalCorrection::solve(double t, double c, const linalg::BlockFactor& facto
       const auto w = static_cast<int>(at.y.size());
       Local& free = at.problem.free;
       free.resize(w);
-      for (int k = 0; k < w; ++k) free[k] = batch.rowTimesVector(at.problem.point * w + k, delta.data());
+      for (int k = 0; k < w; ++k)
+        free[k] = batch.rowTimesVector(at.problem.point * w + k, delta.data());
       for (const Point& other : points_) {
         if (&other == &at) continue;
         const auto columns = static_cast<int>(other.y.size());

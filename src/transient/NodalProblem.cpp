@@ -15,14 +15,15 @@ constexpr int mostIdle = 2;
 }  // namespace
 
 /// y - free - G phi(y); phi and, if asked, its derivative in y.
-NodalProblem::Local NodalProblem::defect(PointBatch& batch, double t, double c, const Local& y, Local& phi,
-                                         LocalMatrix* slope) const {
+NodalProblem::Local NodalProblem::defect(PointBatch& batch, double t, double c, const Local& y,
+                                         Local& phi, LocalMatrix* slope) const {
   const Local position = d + y;
   const Local velocity = v + c * y;
   phi.resize(y.size());
   if (slope != nullptr) {
     LocalMatrix dfdd(y.size(), y.size()), dfdv(y.size(), y.size());
-    batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), dfdd.data(), dfdv.data());
+    batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), dfdd.data(),
+                      dfdv.data());
     *slope = dfdd.transpose() + c * dfdv.transpose() - P;  // the law's arrays are row-major
   } else {
     batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), nullptr, nullptr);
@@ -31,9 +32,11 @@ NodalProblem::Local NodalProblem::defect(PointBatch& batch, double t, double c, 
   return y - free - G * phi;
 }
 
-/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it goes where forces balance in a stable way, past what stops
-/// Newton (friction that falls with speed has up to three balances, and folds between them).
-void NodalProblem::flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const {
+/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it goes where forces balance in a
+/// stable way, past what stops Newton (friction that falls with speed has up to three balances, and
+/// folds between them).
+void NodalProblem::flow(PointBatch& batch, double t, double c, const Local& scale, double enough,
+                        Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   LocalMatrix slope(w, w);
@@ -55,11 +58,14 @@ void NodalProblem::flow(PointBatch& batch, double t, double c, const Local& scal
   }
 }
 
-/// The path y(s) of y = free + s G phi(y) from y(0) = free to s = 1, followed along its length: forces that push back keep it
-/// bounded, so that it gets there, through folds (friction that falls with speed) and round corners (sticking, touching).
-void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const {
+/// The path y(s) of y = free + s G phi(y) from y(0) = free to s = 1, followed along its length:
+/// forces that push back keep it bounded, so that it gets there, through folds (friction that falls
+/// with speed) and round corners (sticking, touching).
+void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& scale, double enough,
+                          Local& y, Local& phi) const {
   using Path = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest + 1, 1>;  // y scaled, s
-  using PathMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest + 1, widest + 1>;
+  using PathMatrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest + 1, widest + 1>;
   constexpr int mostSteps = 400, mostIterations = 8, quick = 4;
   constexpr double shortest = 1e-14, longest = 0.5;
   const Eigen::Index w = free.size();
@@ -75,7 +81,9 @@ void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& sc
     const Local here = at.head(w).cwiseQuotient(size);
     defect(batch, t, c, here, phi, &slope);
     const Local answer = G * phi;
-    J.topLeftCorner(w, w) = LocalMatrix::Identity(w, w) - at[w] * (size.asDiagonal() * G * slope * size.cwiseInverse().asDiagonal());
+    J.topLeftCorner(w, w) =
+        LocalMatrix::Identity(w, w) -
+        at[w] * (size.asDiagonal() * G * slope * size.cwiseInverse().asDiagonal());
     J.topRightCorner(w, 1) = -answer.cwiseProduct(size);
     J.row(w) = row.transpose();
     wrong.head(w) = (here - free - at[w] * answer).cwiseProduct(size);
@@ -112,9 +120,11 @@ void NodalProblem::follow(PointBatch& batch, double t, double c, const Local& sc
   }
 }
 
-/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is found, the sign change of
-/// step . defect is bracketed. y becomes the best of what was seen; returns the size of its defect.
-double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const {
+/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is
+/// found, the sign change of step . defect is bracketed. y becomes the best of what was seen;
+/// returns the size of its defect.
+double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y,
+                             Local& phi) const {
   const Eigen::Index w = free.size();
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   LocalMatrix slope(w, w);
@@ -156,8 +166,10 @@ double NodalProblem::iterate(PointBatch& batch, double t, double c, const Local&
   return bestSize;
 }
 
-/// What rounding of d + y and v + c y may leave of the scaled defect: contact that is on within 1e-12 m is no better known than that.
-double NodalProblem::rounding(PointBatch& batch, double t, double c, const Local& scale, const Local& y) const {
+/// What rounding of d + y and v + c y may leave of the scaled defect: contact that is on within
+/// 1e-12 m is no better known than that.
+double NodalProblem::rounding(PointBatch& batch, double t, double c, const Local& scale,
+                              const Local& y) const {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   LocalMatrix slope(y.size(), y.size());
   Local phi;
@@ -166,18 +178,20 @@ double NodalProblem::rounding(PointBatch& batch, double t, double c, const Local
   return (G.cwiseAbs() * (slope.cwiseAbs() * unsure)).cwiseProduct(scale).norm();
 }
 
-/// Newton from the guess and from without force, then pseudo-time from both, then the path: each only where the one before ends
-/// elsewhere than in a balance.
+/// Newton from the guess and from without force, then pseudo-time from both, then the path: each
+/// only where the one before ends elsewhere than in a balance.
 bool NodalProblem::solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const {
   const Eigen::Index w = free.size();
   Local scale(w);
-  for (Eigen::Index i = 0; i < w; ++i) scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), 1e-300));
+  for (Eigen::Index i = 0; i < w; ++i)
+    scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), 1e-300));
   const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
   const Local guess = y;
   Local best = y;
   double bestSize = INFINITY;
   const auto balanced = [&] {
-    return bestSize <= 1e-9 * (size(free) + size(best)) || (std::isfinite(bestSize) && bestSize <= rounding(batch, t, c, scale, best));
+    return bestSize <= 1e-9 * (size(free) + size(best)) ||
+           (std::isfinite(bestSize) && bestSize <= rounding(batch, t, c, scale, best));
   };
   const auto keep = [&](double reached) {
     if (reached < bestSize) best = y, bestSize = reached;

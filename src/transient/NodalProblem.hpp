@@ -4,7 +4,8 @@
 ///
 ///     y = free + G phi(y),   phi(y) = f(d + y, v + c y) - f0 - P y
 ///
-/// for its own few coordinates y. Safe where Newton for the whole model is not: forces that jump are bracketed.
+/// for its own few coordinates y. Safe where Newton for the whole model is not: forces that jump
+/// are bracketed.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,15 +24,20 @@ struct NodalProblem {
   LocalMatrix P, G;
   Local free;
 
-  /// Solves from the guess y; phi(y) is left in `phi`. False when only something that is not a number was found.
+  /// Solves from the guess y; phi(y) is left in `phi`. False when only something that is not a
+  /// number was found.
   bool solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const;
 
  private:
-  double iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y, Local& phi) const;
-  void flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
-  void follow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y, Local& phi) const;
+  double iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y,
+                 Local& phi) const;
+  void flow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y,
+            Local& phi) const;
+  void follow(PointBatch& batch, double t, double c, const Local& scale, double enough, Local& y,
+              Local& phi) const;
   double rounding(PointBatch& batch, double t, double c, const Local& scale, const Local& y) const;
-  Local defect(PointBatch& batch, double t, double c, const Local& y, Local& phi, LocalMatrix* slope) const;
+  Local defect(PointBatch& batch, double t, double c, const Local& y, Local& phi,
+               LocalMatrix* slope) const;
 };
 
 }  // namespace tooljoint::transient

@@ -18,7 +18,11 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 }  // namespace
 
 PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern)
-    : name_(set.name), law_(set.law), entities_(set.entities), points_(set.law->size()), width_(set.law->width()) {
+    : name_(set.name),
+      law_(set.law),
+      entities_(set.entities),
+      points_(set.law->size()),
+      width_(set.law->width()) {
   const int rows = points_ * width_;
   const auto& position = pattern.partition().position;
   offset_.assign(set.offset.data(), set.offset.data() + rows);
@@ -45,24 +49,28 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
         for (int j = 0; j < width_; ++j) {
           const int row = index_[z(p * width_ + i)];
           const int column = index_[z(p * width_ + j)];
-          if (row >= 0 && column >= 0) entryAddress_[z((p * width_ + i) * width_ + j)] = pattern.address(row, column);
+          if (row >= 0 && column >= 0)
+            entryAddress_[z((p * width_ + i) * width_ + j)] = pattern.address(row, column);
         }
   } else {
     touchBegin_.push_back(0);
     pairBegin_.push_back(0);
     for (int p = 0; p < points_; ++p) {
       std::map<int, std::size_t> blocks;
-      for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i) blocks[pattern.blockOf(column_[z(i)])] = 0;
+      for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i)
+        blocks[pattern.blockOf(column_[z(i)])] = 0;
       for (auto& [block, begin] : blocks) {
         begin = touchRows_.size();
         touches_.push_back({pattern.start(block), pattern.width(block), begin});
         touchRows_.resize(begin + z(width_ * pattern.width(block)), 0.0);
-        for (const auto& [other, ignored] : blocks) pairOffset_.push_back(pattern.offset(pattern.find(block, other)));
+        for (const auto& [other, ignored] : blocks)
+          pairOffset_.push_back(pattern.offset(pattern.find(block, other)));
       }
       for (int c = 0; c < width_; ++c)
         for (int i = rowBegin_[z(p * width_ + c)]; i < rowBegin_[z(p * width_ + c + 1)]; ++i) {
           const int block = pattern.blockOf(column_[z(i)]);
-          touchRows_[blocks[block] + z((column_[z(i)] - pattern.start(block)) * width_ + c)] = value_[z(i)];
+          touchRows_[blocks[block] + z((column_[z(i)] - pattern.start(block)) * width_ + c)] =
+              value_[z(i)];
         }
       touchBegin_.push_back(static_cast<int>(touches_.size()));
       pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
@@ -90,7 +98,8 @@ void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
   blockBegin_.push_back(0);
   for (int p = 0; p < points_; ++p) {
     const auto begin = static_cast<std::ptrdiff_t>(block_.size());
-    for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i) block_.push_back(pattern.blockOf(column_[z(i)]));
+    for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i)
+      block_.push_back(pattern.blockOf(column_[z(i)]));
     std::sort(block_.begin() + begin, block_.end());
     block_.erase(std::unique(block_.begin() + begin, block_.end()), block_.end());
     blockBegin_.push_back(static_cast<int>(block_.size()));
@@ -101,12 +110,14 @@ void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
   point_.resize(block_.size());
   std::vector<int> next(pointBegin_.begin(), pointBegin_.end() - 1);
   for (int p = 0; p < points_; ++p)
-    for (int i = blockBegin_[z(p)]; i < blockBegin_[z(p + 1)]; ++i) point_[z(next[z(block_[z(i)])]++)] = p;
+    for (int i = blockBegin_[z(p)]; i < blockBegin_[z(p + 1)]; ++i)
+      point_[z(next[z(block_[z(i)])]++)] = p;
 }
 
 double PointBatch::rowTimes(int row, const double* x) const {
   double sum = 0;
-  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i) sum += value_[z(i)] * x[column_[z(i)]];
+  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
+    sum += value_[z(i)] * x[column_[z(i)]];
   return sum;
 }
 
@@ -129,7 +140,8 @@ void PointBatch::gatherAll(const double* q, const double* v) {
 void PointBatch::gatherPositions(const std::vector<int>& points, const double* q) {
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r)
-      d_[z(r)] = offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
+      d_[z(r)] =
+          offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
 }
 
 void PointBatch::gatherThese(const std::vector<int>& points, const double* q, const double* v) {
@@ -168,8 +180,10 @@ void PointBatch::look(double t, double h, const double* q) {
     measure(q, gap_);
   }
   checkTime_ = std::numeric_limits<double>::quiet_NaN();
-  // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank since the look before.
-  const double reach = gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
+  // A point acts in the step when gap <= 2 h closing, closing = rate at which its clearance shrank
+  // since the look before.
+  const double reach =
+      gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
   for (int p : active_) isActive_[z(p)] = 0;
   for (int p : watch_.awake()) {
     const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
@@ -186,12 +200,14 @@ void PointBatch::listActive() {
     if (isActive_[z(p)]) active_.push_back(p), hasActed_[z(p)] = 1;
 }
 
-model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v, const std::vector<int>& points) {
+model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v,
+                                         const std::vector<int>& points) {
   gatherThese(points, q, v);
   return law_->power(t, points, d_.data(), v_.data());
 }
 
-model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* q, const double* step, const std::vector<int>& points) {
+model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* q,
+                                              const double* step, const std::vector<int>& points) {
   gatherThese(points, q, step);
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] -= 0.5 * v_[z(r)], v_[z(r)] /= h;
@@ -241,7 +257,8 @@ void PointBatch::scalePoint(int p, bool tangent) {
   if (scale == 1.0) return;
   for (int r = p * width_; r < (p + 1) * width_; ++r) f_[z(r)] *= scale;
   if (!tangent) return;
-  for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) dfdd_[z(i)] *= scale, dfdv_[z(i)] *= scale;
+  for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i)
+    dfdd_[z(i)] *= scale, dfdv_[z(i)] *= scale;
 }
 
 void PointBatch::addScaledForce(double* y, std::vector<int>& blocks) const {
@@ -263,7 +280,8 @@ void PointBatch::addForce(double factor, double* y) const {
       if (single_) {
         if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
       } else {
-        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * force;
+        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
+          y[column_[z(i)]] += value_[z(i)] * force;
       }
     }
 }
@@ -272,7 +290,8 @@ void PointBatch::gather(const std::vector<int>& points, const double* x, double*
   withWidth(width_, [&](auto width) {
     const int w = width;
     for (int p : points)
-      for (int r = p * w; r < (p + 1) * w; ++r) rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+      for (int r = p * w; r < (p + 1) * w; ++r)
+        rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
   });
 }
 
@@ -284,7 +303,8 @@ void PointBatch::scatter(const std::vector<int>& points, const double* rows, dou
         if (single_) {
           if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
         } else {
-          for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * rows[r];
+          for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
+            y[column_[z(i)]] += value_[z(i)] * rows[r];
         }
       }
   });
@@ -292,7 +312,8 @@ void PointBatch::scatter(const std::vector<int>& points, const double* rows, dou
 
 void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tangent) {
   if (tangent)
-    law_->evaluateWithTangent(t, points, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
+    law_->evaluateWithTangent(t, points, d_.data(), v_.data(), f_.data(), dfdd_.data(),
+                              dfdv_.data());
   else
     law_->evaluate(t, points, d_.data(), v_.data(), f_.data());
   if (scaled_ > 0) applyScale(points, tangent);
@@ -304,7 +325,8 @@ void PointBatch::markBlocks(std::vector<char>& blocks) const {
 }
 
 void PointBatch::appendBlocks(int point, std::vector<int>& blocks) const {
-  blocks.insert(blocks.end(), block_.begin() + blockBegin_[z(point)], block_.begin() + blockBegin_[z(point + 1)]);
+  blocks.insert(blocks.end(), block_.begin() + blockBegin_[z(point)],
+                block_.begin() + blockBegin_[z(point + 1)]);
 }
 
 double PointBatch::rowTimesVector(int row, const double* x) const {
@@ -313,7 +335,8 @@ double PointBatch::rowTimesVector(int row, const double* x) const {
 }
 
 void PointBatch::addRow(int row, double factor, double* y) const {
-  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i) y[column_[z(i)]] += factor * value_[z(i)];
+  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
+    y[column_[z(i)]] += factor * value_[z(i)];
 }
 
 double PointBatch::rowWeight(int row, const double* weight) const {
@@ -323,7 +346,8 @@ double PointBatch::rowWeight(int row, const double* weight) const {
   return largest;
 }
 
-void PointBatch::evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv) {
+void PointBatch::evaluateOne(double t, int point, const double* d, const double* v, double* f,
+                             double* dfdd, double* dfdv) {
   const int first = point * width_;
   std::copy(d, d + width_, d_.begin() + first);
   std::copy(v, v + width_, v_.begin() + first);
@@ -345,14 +369,16 @@ void PointBatch::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {gapTime_, lastGapTime_, static_cast<double>(gapsSeen_)});
   memory.insert(memory.end(), gap_.begin(), gap_.end());
   memory.insert(memory.end(), lastGap_.begin(), lastGap_.end());
-  for (const auto* flags : {&isActive_, &hasActed_}) memory.insert(memory.end(), flags->begin(), flags->end());
+  for (const auto* flags : {&isActive_, &hasActed_})
+    memory.insert(memory.end(), flags->begin(), flags->end());
   memory.insert(memory.end(), scale_.begin(), scale_.end());
   watch_.save(memory);
   memory.push_back(static_cast<double>(frozen_.size()));
   for (int p : frozen_) {
     memory.push_back(p);
     for (const auto* tangent : {&P_, &positionP_})
-      memory.insert(memory.end(), tangent->begin() + p * width_ * width_, tangent->begin() + (p + 1) * width_ * width_);
+      memory.insert(memory.end(), tangent->begin() + p * width_ * width_,
+                    tangent->begin() + (p + 1) * width_ * width_);
   }
 }
 
@@ -373,7 +399,8 @@ void PointBatch::restore(const double*& memory) {
     p = static_cast<int>(*memory++);
     isFrozen_[z(p)] = 1;
     for (auto* tangent : {&P_, &positionP_})
-      for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i) (*tangent)[z(i)] = *memory++;
+      for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i)
+        (*tangent)[z(i)] = *memory++;
   }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can act, scatters R' f and its
-/// tangents into the block matrix.
+/// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can
+/// act, scatters R' f and its tangents into the block matrix.
 ///
-/// A point is looked at in a step when its clearance may close within the step at twice the rate last seen; after the step
-/// every other point is checked (by itself or by the bound of ClearanceWatch), and one that has touched is added and the step
-/// corrected: none is ever missed.
+/// A point is looked at in a step when its clearance may close within the step at twice the rate
+/// last seen; after the step every other point is checked (by itself or by the bound of
+/// ClearanceWatch), and one that has touched is added and the step corrected: none is ever missed.
 #pragma once
 
 #include <limits>
@@ -31,10 +31,12 @@ class PointBatch {
   const std::string& name() const { return name_; }
   std::int64_t entity(int point) const { return entities_[static_cast<std::size_t>(point)]; }
 
-  /// Measure the clearances at q (time t) and choose the points to look at in a step of length h from there.
+  /// Measure the clearances at q (time t) and choose the points to look at in a step of length h
+  /// from there.
   void look(double t, double h, const double* q);
-  /// Measure the clearances at q and add points that have touched without being looked at; true if there were any.
-  /// When the next look() is at the time t given here, it is at this q and the clearances are not measured again.
+  /// Measure the clearances at q and add points that have touched without being looked at; true if
+  /// there were any. When the next look() is at the time t given here, it is at this q and the
+  /// clearances are not measured again.
   bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
 
   /// Forces of the active points at (q, v).
@@ -53,7 +55,8 @@ class PointBatch {
   void rescale(int point) { scalePoint(point, true); }
   bool isScaled() const { return scaled_ > 0; }
 
-  // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the points given.
+  // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the
+  // points given.
   /// rows = R x.
   void gather(const std::vector<int>& points, const double* x, double* rows) const;
   /// y += R' rows.
@@ -88,8 +91,8 @@ class PointBatch {
 
   /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
   void freezeTangent(double cd, double cv);
-  /// Take out of P what pushes on as its point moves (friction that falls with speed), at points where it pushes on in one
-  /// coordinate at least: an effective matrix with it may be indefinite.
+  /// Take out of P what pushes on as its point moves (friction that falls with speed), at points
+  /// where it pushes on in one coordinate at least: an effective matrix with it may be indefinite.
   void takeOutPush();
   /// Matrix -= R' P R on the pattern.
   void subtractTangent(double* values) const;
@@ -109,13 +112,17 @@ class PointBatch {
   void addRow(int row, double factor, double* y) const;
   /// Largest |R_row,i| weight_i.
   double rowWeight(int row, const double* weight) const;
-  /// The law at one point for width() coordinates d, v; tangents row-major, both null if not wanted.
-  void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd, double* dfdv);
+  /// The law at one point for width() coordinates d, v; tangents row-major, both null if not
+  /// wanted.
+  void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd,
+                   double* dfdv);
 
   /// Powers at (q, v), summed over these points.
-  model::PointLaw::Power power(double t, const double* q, const double* v, const std::vector<int>& points);
+  model::PointLaw::Power power(double t, const double* q, const double* v,
+                               const std::vector<int>& points);
   /// The same in the middle of the chord `step` that ends at q after h seconds, at its velocity.
-  model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step, const std::vector<int>& points);
+  model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step,
+                                    const std::vector<int>& points);
   /// All points, and those that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
@@ -157,7 +164,8 @@ class PointBatch {
   std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
   std::vector<int> pointBegin_, point_;  ///< per block: the points whose rows touch it
 
-  // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x block, column-major).
+  // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x
+  // block, column-major).
   struct Touch {
     int start;
     int width;
@@ -166,9 +174,10 @@ class PointBatch {
   std::vector<int> touchBegin_;
   std::vector<Touch> touches_;
   std::vector<double> touchRows_;
-  std::vector<int> pairBegin_;             ///< per point into pairOffset_
-  std::vector<std::size_t> pairOffset_;    ///< block offsets for all pairs of touches (general rows)
-  std::vector<std::size_t> entryAddress_;  ///< single: address per point of (row, column), width x width; npos for none
+  std::vector<int> pairBegin_;           ///< per point into pairOffset_
+  std::vector<std::size_t> pairOffset_;  ///< block offsets for all pairs of touches (general rows)
+  std::vector<std::size_t>
+      entryAddress_;  ///< single: address per point of (row, column), width x width; npos for none
 
   std::vector<int> active_;
   std::vector<char> isActive_;
@@ -182,8 +191,8 @@ class PointBatch {
   double gapTime_ = 0, lastGapTime_ = 0;
   double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
   ClearanceWatch watch_;
-  int gapsSeen_ = 0;         ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
-  std::vector<int> frozen_;  ///< points of the frozen tangent
+  int gapsSeen_ = 0;                   ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
+  std::vector<int> frozen_;            ///< points of the frozen tangent
   std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd
   mutable std::vector<double> small_;
   std::vector<int> one_;

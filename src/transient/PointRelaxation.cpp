@@ -15,14 +15,16 @@ std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// A point whose error shrinks by less in an iteration is solved by itself.
 constexpr double slowestRate = 0.5;
-/// Points wrong by less than this part of what is allowed stay as they are when few are left, and what is dropped then.
+/// Points wrong by less than this part of what is allowed stay as they are when few are left, and
+/// what is dropped then.
 constexpr double rightEnough = 0.25, negligible = 1e-4;
 /// Few: as many points as there are this many positions.
 constexpr int positionsPerPoint = 100;
 
 /// B = A^-1 for A 3 x 3, row-major, by cofactors; false when A is singular to rounding.
 bool invertThree(const double* A, double* B) {
-  const double c0 = A[4] * A[8] - A[5] * A[7], c1 = A[5] * A[6] - A[3] * A[8], c2 = A[3] * A[7] - A[4] * A[6];
+  const double c0 = A[4] * A[8] - A[5] * A[7], c1 = A[5] * A[6] - A[3] * A[8],
+               c2 = A[3] * A[7] - A[4] * A[6];
   const double determinant = A[0] * c0 + A[1] * c1 + A[2] * c2;
   const double size = std::abs(A[0] * c0) + std::abs(A[1] * c1) + std::abs(A[2] * c2);
   if (!(std::abs(determinant) > 1e-12 * size)) return false;
@@ -61,7 +63,8 @@ void PointRelaxation::bind(CompiledModel& model) {
   for (const auto& batch : model.points()) {
     Set set;
     const std::size_t rows = z(batch.points()) * z(batch.width());
-    for (auto* array : {&set.d, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change}) array->assign(rows, 0.0);
+    for (auto* array : {&set.d, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change})
+      array->assign(rows, 0.0);
     set.compliance.assign(rows * z(batch.width()), 0.0);
     set.answer.assign(rows * z(batch.width()), 0.0);
     set.started.assign(z(batch.points()), 0);
@@ -95,7 +98,8 @@ void PointRelaxation::setImpacts(double h, double impact) {
       model_->points()[b].setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
 }
 
-/// After an evaluation of set.points with tangents: those that turn out to be stiff are impacts from now on.
+/// After an evaluation of set.points with tangents: those that turn out to be stiff are impacts
+/// from now on.
 ///
 ///     G0 = G (I + P G)^-1,   stiffness = -tr(df/dd G0) / h^2
 void PointRelaxation::findImpacts(Set& set, PointBatch& batch, double t) {
@@ -120,7 +124,8 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch, double t) {
       }
     const double unit = batch.scale(p) * h_ * h_, here = yielding(w, J, G0);
     if (here / unit <= set.stiffness[z(p)]) continue;
-    set.stiffness[z(p)] = std::max(set.stiffness[z(p)], std::min(here, yieldingDeeper(batch, p, t, G0)) / unit);
+    set.stiffness[z(p)] =
+        std::max(set.stiffness[z(p)], std::min(here, yieldingDeeper(batch, p, t, G0)) / unit);
     if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
       batch.setScale(p, impact_);
       batch.rescale(p);
@@ -128,13 +133,17 @@ void PointRelaxation::findImpacts(Set& set, PointBatch& batch, double t) {
   }
 }
 
-/// -tr(df/dd G0) as far beyond a point as its force moves it in the step: what is steep there too is the wall, and not the depth in which a
-/// regularised law begins.
+/// -tr(df/dd G0) as far beyond a point as its force moves it in the step: what is steep there too
+/// is the wall, and not the depth in which a regularised law begins.
 double PointRelaxation::yieldingDeeper(PointBatch& batch, int point, double t, const double* G0) {
-  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  using Rows =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   const int w = batch.width();
-  const auto local = [&](const double* rows) -> NodalProblem::Local { return Eigen::Map<const Vector>(rows + point * w, w); };
-  const NodalProblem::Local d = local(batch.d()), v = local(batch.v()), deeper = d - Rows(G0, w, w).lazyProduct(local(batch.force()));
+  const auto local = [&](const double* rows) -> NodalProblem::Local {
+    return Eigen::Map<const Vector>(rows + point * w, w);
+  };
+  const NodalProblem::Local d = local(batch.d()), v = local(batch.v()),
+                            deeper = d - Rows(G0, w, w).lazyProduct(local(batch.force()));
   NodalProblem::Local f = d;
   double dfdd[widest * widest] = {}, dfdv[widest * widest];
   batch.evaluateOne(t, point, deeper.data(), v.data(), f.data(), dfdd, dfdv);
@@ -150,7 +159,8 @@ void PointRelaxation::setCompliance(linalg::BlockFactor& factor) {
 }
 
 void PointRelaxation::save(std::vector<double>& memory) const {
-  for (const auto& set : sets_) memory.insert(memory.end(), set.stiffness.begin(), set.stiffness.end());
+  for (const auto& set : sets_)
+    memory.insert(memory.end(), set.stiffness.begin(), set.stiffness.end());
 }
 
 void PointRelaxation::restore(const double*& memory) {
@@ -215,7 +225,8 @@ void PointRelaxation::place(Set& set, PointBatch& batch, double t, double c, boo
   batch.evaluateHere(t, set.points, tangent);
 }
 
-double PointRelaxation::evaluate(double t, double c, const Vector& delta, double small, double& force) {
+double PointRelaxation::evaluate(double t, double c, const Vector& delta, double small,
+                                 double& force) {
   double worst = 0;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
@@ -227,13 +238,14 @@ double PointRelaxation::evaluate(double t, double c, const Vector& delta, double
     batch.gather(set.points, delta.data(), set.y.data());
     place(set, batch, t, c, false);
     measure(set, batch, small, force);
-    for (int p : isNear_ && allMoved_ ? set.points : batch.active())
+    for (int p : isNear_&& allMoved_ ? set.points : batch.active())
       if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
   }
   return worst;
 }
 
-/// The points corrected, whose small change may have ended where it began, and those that solveNear() reached.
+/// The points corrected, whose small change may have ended where it began, and those that
+/// solveNear() reached.
 void PointRelaxation::listMoved(Set& set, const PointBatch& batch) const {
   for (int p : set.points) set.listed[z(p)] = 1;
   for (int block : live_)
@@ -259,11 +271,13 @@ void PointRelaxation::measure(Set& set, PointBatch& batch, double small, double&
         double known = set.p[z(r)];
         for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
         const double defect = set.defect[z(r)] = f[r] - known;
-        const double size = set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
+        const double size =
+            set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
         if (!(size <= wrong)) wrong = size;  // keeps a NaN
         largest = std::max(largest, weight[r] * std::abs(f[r]));
       }
-      if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)]) set.exact[z(p)] = 1;
+      if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)])
+        set.exact[z(p)] = 1;
       set.error[z(p)] = wrong;
     }
   });
@@ -277,11 +291,13 @@ double PointRelaxation::wrongShare() const {
     const PointBatch& batch = model_->points()[b];
     for (int p : batch.active())
       for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
-        const double error = set.weight[z(r)] * set.defect[z(r)], force = set.weight[z(r)] * batch.force()[r];
+        const double error = set.weight[z(r)] * set.defect[z(r)],
+                     force = set.weight[z(r)] * batch.force()[r];
         wrong += error * error, whole += force * force;
       }
   }
-  return wrong == 0 ? 0.0 : std::sqrt(wrong / whole);  // infinite where all that was expected is gone
+  return wrong == 0 ? 0.0
+                    : std::sqrt(wrong / whole);  // infinite where all that was expected is gone
 }
 
 void PointRelaxation::guess(double t, double c, const Vector& v) {
@@ -358,17 +374,21 @@ void PointRelaxation::solveNear(const linalg::BlockFactor& factor, double small,
   factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
   const auto& pattern = model_->pattern();
   for (int b : live_)
-    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) delta[i] += near_[i], near_[i] = 0;
+    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i)
+      delta[i] += near_[i], near_[i] = 0;
   nearShare_ = static_cast<double>(live_.size()) / pattern.blocks();
   isNear_ = true;
 }
 
 /// y = free + G p is what the point does for a force p while the others keep theirs.
 void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double t, double c) {
-  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  using Rows =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   const int w = batch.width();
   const int first = point * w;
-  const auto local = [&](const std::vector<double>& rows) { return Eigen::Map<const Vector>(&rows[z(first)], w); };
+  const auto local = [&](const std::vector<double>& rows) {
+    return Eigen::Map<const Vector>(&rows[z(first)], w);
+  };
   problem_.point = point;
   problem_.d = local(set.d);
   problem_.v = NodalProblem::Local::Zero(w);
@@ -384,9 +404,13 @@ void PointRelaxation::solvePoint(Set& set, PointBatch& batch, int point, double 
 }
 
 /// Not a number counts as wrong.
-bool PointRelaxation::isWrong(const Set& set, int point, double small) const { return !(set.error[z(point)] <= rightEnough * small); }
+bool PointRelaxation::isWrong(const Set& set, int point, double small) const {
+  return !(set.error[z(point)] <= rightEnough * small);
+}
 
-bool PointRelaxation::isFew(long points) const { return positionsPerPoint * points < model_->size(); }
+bool PointRelaxation::isFew(long points) const {
+  return positionsPerPoint * points < model_->size();
+}
 
 /// p += B defect, or to where the point is alone in equilibrium.
 void PointRelaxation::move(Set& set, PointBatch& batch, int point, double t, double c) {
@@ -417,7 +441,8 @@ bool PointRelaxation::correct(double t, double c, double small, bool all) {
     PointBatch& batch = model_->points()[b];
     if (few) {
       const auto isRight = [&](int p) { return (set.moved[z(p)] = isWrong(set, p, small)) == 0; };
-      set.points.erase(std::remove_if(set.points.begin(), set.points.end(), isRight), set.points.end());
+      set.points.erase(std::remove_if(set.points.begin(), set.points.end(), isRight),
+                       set.points.end());
     } else {
       set.points = batch.active();
       for (int p : set.points) set.moved[z(p)] = 1;

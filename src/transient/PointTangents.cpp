@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents of a PointBatch: frozen for a factor, added to matrices on the pattern, and what a matrix is at a point.
+// Tangents of a PointBatch: frozen for a factor, added to matrices on the pattern, and what a
+// matrix is at a point.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
@@ -35,7 +36,8 @@ void PointBatch::project(int point, const double* values, double* block) const {
         for (int i = 0; i < row.width; ++i)
           for (int k = 0; k < w; ++k) {
             const double left = touchRows_[row.rows + z(i * w + k)] * Z[j * row.width + i];
-            for (int l = 0; l < w; ++l) block[k * w + l] += left * touchRows_[column.rows + z(j * w + l)];
+            for (int l = 0; l < w; ++l)
+              block[k * w + l] += left * touchRows_[column.rows + z(j * w + l)];
           }
     }
 }
@@ -64,7 +66,8 @@ void PointBatch::takeOutPush() {
     if (parts.compute(symmetric).info() != Eigen::Success) continue;
     for (int i = 0; i < width_; ++i)
       if (parts.eigenvalues()[i] > 0)
-        tangent.noalias() -= parts.eigenvalues()[i] * parts.eigenvectors().col(i) * parts.eigenvectors().col(i).transpose();
+        tangent.noalias() -= parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
+                             parts.eigenvectors().col(i).transpose();
   }
 }
 
@@ -109,7 +112,8 @@ void PointBatch::subtract(const std::vector<double>& frozen, double* values) con
         }
         for (int a = 0; a < count; ++a) {
           const Touch& row = touches_[z(first + a)];
-          double* target = values + pairOffset_[z(pairBegin_[z(p)] + a * count + b)] + z(j * row.width);
+          double* target =
+              values + pairOffset_[z(pairBegin_[z(p)] + a * count + b)] + z(j * row.width);
           const double* R = &touchRows_[row.rows];
           for (int i = 0; i < row.width; ++i) {
             double sum = 0;
@@ -137,7 +141,8 @@ void PointBatch::addTangentTimes(const double* x, double* y) const {
       if (single_) {
         if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
       } else {
-        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i) y[column_[z(i)]] += value_[z(i)] * force;
+        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
+          y[column_[z(i)]] += value_[z(i)] * force;
       }
     }
   }
@@ -152,7 +157,8 @@ double PointBatch::frozenTimes(int row, const double* x) const {
   const int point = row / width_;
   if (std::find(frozen_.begin(), frozen_.end(), point) == frozen_.end()) return 0.0;
   double sum = 0;
-  for (int k = 0; k < width_; ++k) sum += P_[z(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
+  for (int k = 0; k < width_; ++k)
+    sum += P_[z(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
   return sum;
 }
 

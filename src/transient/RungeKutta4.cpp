@@ -13,16 +13,20 @@ namespace {
 deck::ListSpec specification() {
   return deck::ListSpec("RK4", "Parameters of the fixed-step Runge-Kutta integrator.")
       .real("Safety", "", 0.9, deck::Range{0.0, 1.0, true, false},
-            "Fraction of the stability limit 2.78 / omega_max taken as the step when Step is not given.");
+            "Fraction of the stability limit 2.78 / omega_max taken as the step when Step is not "
+            "given.");
 }
 
 class RungeKutta4 final : public Integrator {
  public:
-  explicit RungeKutta4(const Teuchos::ParameterList& own) : safety_(withDefaults(own, specification()).get<double>("Safety")) {}
+  explicit RungeKutta4(const Teuchos::ParameterList& own)
+      : safety_(withDefaults(own, specification()).get<double>("Safety")) {}
 
   bool isExplicit() const override { return true; }
   int ledgerStride() const override { return 4; }
-  std::string advice() const override { return "Choose a smaller Transient/Step, or the integrator \"Generalized-alpha\""; }
+  std::string advice() const override {
+    return "Choose a smaller Transient/Step, or the integrator \"Generalized-alpha\"";
+  }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {
     rhs_.bind(model, "RK4", counters_);
@@ -41,7 +45,8 @@ class RungeKutta4 final : public Integrator {
 
   void advance(const State& from, State& to) override {
     // Grid times are products, not sums: no drift over many steps.
-    const double end = std::min(window_.begin + static_cast<double>(index_ + 1) * step_, window_.end);
+    const double end =
+        std::min(window_.begin + static_cast<double>(index_ + 1) * step_, window_.end);
     to.t = window_.end - end < 1e-9 * step_ ? window_.end : end;
     const double h = to.t - from.t;
     rhs_.look(from.t, h, from.q.data());
@@ -53,7 +58,9 @@ class RungeKutta4 final : public Integrator {
     counters_.accept(h);
   }
 
-  void save(std::vector<double>& memory) const override { memory.push_back(static_cast<double>(index_)); }
+  void save(std::vector<double>& memory) const override {
+    memory.push_back(static_cast<double>(index_));
+  }
   void restore(const double*& memory) override { index_ = static_cast<long>(*memory++); }
 
  private:
@@ -66,7 +73,9 @@ class RungeKutta4 final : public Integrator {
 };
 
 const bool registered = IntegratorRegistry::instance().add(
-    "RK4", {"Classical fourth-order Runge-Kutta method with a fixed step (Nguyen et al. 2020, appendix B).", specification(),
+    "RK4", {"Classical fourth-order Runge-Kutta method with a fixed step (Nguyen et al. 2020, "
+            "appendix B).",
+            specification(),
             [](const Teuchos::ParameterList& own) { return std::make_unique<RungeKutta4>(own); }});
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `RK4 adaptive`: classical Runge-Kutta, one step against two half steps, Nguyen et al. 2020, appendix B:
+/// `RK4 adaptive`: classical Runge-Kutta, one step against two half steps, Nguyen et al. 2020,
+/// appendix B:
 ///
-///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15        over all coordinates, in their own units, as printed there
-///     error <= e0/100: keep the half steps, dt := growth * dt;   error <= e0: keep them;   else dt := dt / shrink and again
+///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15        over all coordinates, in their own units, as
+///     printed there error <= e0/100: keep the half steps, dt := growth * dt;   error <= e0: keep
+///     them;   else dt := dt / shrink and again
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -21,8 +23,10 @@ deck::ListSpec specification() {
       .real("First Step", "s", 1e-5, deck::Range::positive(), "Length of the first step.")
       .real("Growth", "", 1.01, deck::Range::atLeast(1.0),
             "Factor on the step after an error below a hundredth of the tolerance.")
-      .real("Shrink", "", 1.1, deck::Range{1.0, 100.0, true, false}, "Divisor of the step after an error above the tolerance.")
-      .real("Smallest Step", "s", 1e-9, deck::Range::positive(), "A step that would have to be shorter than this ends the run.");
+      .real("Shrink", "", 1.1, deck::Range{1.0, 100.0, true, false},
+            "Divisor of the step after an error above the tolerance.")
+      .real("Smallest Step", "s", 1e-9, deck::Range::positive(),
+            "A step that would have to be shorter than this ends the run.");
 }
 
 class RungeKutta4Adaptive final : public Integrator {
@@ -38,7 +42,8 @@ class RungeKutta4Adaptive final : public Integrator {
 
   bool isExplicit() const override { return true; }
   std::string advice() const override {
-    return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator \"Generalized-alpha\"";
+    return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator "
+           "\"Generalized-alpha\"";
   }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {
@@ -76,7 +81,8 @@ class RungeKutta4Adaptive final : public Integrator {
   void restore(const double*& memory) override { step_ = *memory++; }
 
  private:
-  /// Two half steps into `to`, their error against one whole step as result (not a number when the step blew up).
+  /// Two half steps into `to`, their error against one whole step as result (not a number when the
+  /// step blew up).
   double tryStep(const State& from, State& to, double h) {
     rhs_.look(from.t, h, from.q.data());
     do {
@@ -92,13 +98,16 @@ class RungeKutta4Adaptive final : public Integrator {
     qHalf_ = (q1_ - to.q).cwiseAbs() + (v1_ - to.v).cwiseAbs();
     std::ostringstream text;
     if (!std::isfinite(error)) {
-      text << "The motion is not finite however short the step from t = " << from.t << " s, first at "
-           << rhs_.model().dofName(worstPosition(qHalf_)) << ": a load, a law of time or a point law gives no number there.";
+      text << "The motion is not finite however short the step from t = " << from.t
+           << " s, first at " << rhs_.model().dofName(worstPosition(qHalf_))
+           << ": a load, a law of time or a point law gives no number there.";
       throw ConvergenceError(text.str());
     }
-    text << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t << " s: the error " << error
-         << " exceeds the tolerance " << tolerance_ << ", most at " << rhs_.model().dofName(worstPosition(qHalf_))
-         << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
+    text
+        << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t
+        << " s: the error " << error << " exceeds the tolerance " << tolerance_ << ", most at "
+        << rhs_.model().dofName(worstPosition(qHalf_))
+        << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
     throw ConvergenceError(text.str());
   }
 
@@ -109,10 +118,12 @@ class RungeKutta4Adaptive final : public Integrator {
 };
 
 const bool registered = IntegratorRegistry::instance().add(
-    "RK4 adaptive",
-    {"Runge-Kutta of fourth order, its step controlled by comparing one step with two half steps (Nguyen et al. 2020, appendix "
-     "B).",
-     specification(), [](const Teuchos::ParameterList& own) { return std::make_unique<RungeKutta4Adaptive>(own); }});
+    "RK4 adaptive", {"Runge-Kutta of fourth order, its step controlled by comparing one step with "
+                     "two half steps (Nguyen et al. 2020, appendix "
+                     "B).",
+                     specification(), [](const Teuchos::ParameterList& own) {
+                       return std::make_unique<RungeKutta4Adaptive>(own);
+                     }});
 
 }  // namespace
 }  // namespace tooljoint::transient

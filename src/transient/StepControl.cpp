@@ -16,7 +16,8 @@ constexpr double perHalving = 0.125;
 /// Calm steps before a longer one is tried, at first and at most; a change costs about three steps.
 constexpr int shortestPatience = 4;
 constexpr int longestPatience = 256;
-/// A longer step that has to be given up before it has lasted this many times as long was not worth it.
+/// A longer step that has to be given up before it has lasted this many times as long was not worth
+/// it.
 constexpr int proof = 4;
 /// Doublings at a time, so that the wait for a multiple of the longer step stays short.
 constexpr int longestJump = 2;
@@ -28,13 +29,16 @@ void MassNorm::bind(const CompiledModel& model) {
   const auto& source = model.source();
   const auto components = static_cast<Eigen::Index>(source.componentNames.size());
   std::vector<char> moves;
-  for (const auto& name : source.componentNames) moves.push_back(coupling::kindOf(name) == coupling::ComponentKind::Translation);
+  for (const auto& name : source.componentNames)
+    moves.push_back(coupling::kindOf(name) == coupling::ComponentKind::Translation);
   double moved = 0;
   for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
     if (!moves[static_cast<std::size_t>(row % components)]) continue;
-    for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it) moved += it.value() * it.value();
+    for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
+      moved += it.value() * it.value();
   }
-  if (components > 0 && source.recovery.rows() > 0) moved /= static_cast<double>(source.recovery.rows() / components);
+  if (components > 0 && source.recovery.rows() > 0)
+    moved /= static_cast<double>(source.recovery.rows() / components);
   const double mass = source.mass.diagonal().sum();
   mass_ = moved > 0 ? mass / moved : mass;
 }
@@ -73,7 +77,8 @@ int StepControl::next(double error, int level, long done) {
   if (level == 0 || calm_ < patience_) return level;
   int jump = 0;
   double expected = largest_;
-  while (jump < std::min(level, longestJump) && expected <= aim * perHalving * tolerance_) ++jump, expected /= perHalving;
+  while (jump < std::min(level, longestJump) && expected <= aim * perHalving * tolerance_)
+    ++jump, expected /= perHalving;
   if (jump == 0) {
     forget();
     return level;
@@ -87,7 +92,8 @@ int StepControl::next(double error, int level, long done) {
 }
 
 void StepControl::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(patience_), static_cast<double>(calm_), largest_, tried_ ? 1.0 : 0.0, static_cast<double>(since_)});
+  memory.insert(memory.end(), {static_cast<double>(patience_), static_cast<double>(calm_), largest_,
+                               tried_ ? 1.0 : 0.0, static_cast<double>(since_)});
 }
 
 void StepControl::restore(const double*& memory) {

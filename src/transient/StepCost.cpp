@@ -18,13 +18,14 @@ constexpr double lawWork = 150;
 /// Vectors read or written once per dof in a step.
 constexpr double implicitVectors = 40, explicitVectors = 30;
 
-/// Time of a multiplication in a block that is not six by six, against one in a block that is (their kernel is unrolled), and of
-/// one in a row of a point, which is gathered entry by entry.
+/// Time of a multiplication in a block that is not six by six, against one in a block that is
+/// (their kernel is unrolled), and of one in a row of a point, which is gathered entry by entry.
 constexpr double oddBlock = 2.5, gathered = 4;
 
 std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
-/// Multiplications of a product with these values: whole blocks where one has entries beside its diagonal.
+/// Multiplications of a product with these values: whole blocks where one has entries beside its
+/// diagonal.
 double productWork(const linalg::BlockPattern& pattern, const double* values) {
   double work = 0;
   for (int b = 0; b < pattern.blocks(); ++b)
@@ -33,7 +34,8 @@ double productWork(const linalg::BlockPattern& pattern, const double* values) {
       bool diagonal = false, beside = false;
       for (int j = 0; j < columns; ++j)
         for (int i = 0; i < rows; ++i)
-          if (values[pattern.offset(e) + z(j * rows + i)] != 0.0) (i == j && rows == columns ? diagonal : beside) = true;
+          if (values[pattern.offset(e) + z(j * rows + i)] != 0.0)
+            (i == j && rows == columns ? diagonal : beside) = true;
       const double each = rows == 6 && columns == 6 ? 1.0 : oddBlock;
       work += beside ? each * rows * columns : diagonal ? rows : 0;
     }
@@ -45,7 +47,8 @@ double pace(const linalg::BlockPattern& pattern) {
   double all = 0, odd = 0;
   for (int b = 0; b < pattern.blocks(); ++b)
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
-      const double entries = static_cast<double>(pattern.width(b)) * pattern.width(pattern.column(e));
+      const double entries =
+          static_cast<double>(pattern.width(b)) * pattern.width(pattern.column(e));
       all += entries;
       if (pattern.width(b) != 6 || pattern.width(pattern.column(e)) != 6) odd += entries;
     }
@@ -57,7 +60,8 @@ double pace(const linalg::BlockPattern& pattern) {
 StepCost stepCost(const model::SecondOrderModel& source, const TransientOptions& options) {
   CompiledModel model(source);
   const auto& pattern = model.pattern();
-  const bool isExplicit = IntegratorRegistry::instance().make(options.integrator, options.own)->isExplicit();
+  const bool isExplicit =
+      IntegratorRegistry::instance().make(options.integrator, options.own)->isExplicit();
   StepCost cost;
   cost.size = model.size();
 
@@ -70,7 +74,8 @@ StepCost stepCost(const model::SecondOrderModel& source, const TransientOptions&
   };
   const double mass = work(1, 0, 0), damping = work(0, 1, 0), stiffness = work(0, 0, 1);
 
-  // At each evaluation rows of points near contact are gathered and scattered; clearances of all are looked at once.
+  // At each evaluation rows of points near contact are gathered and scattered; clearances of all
+  // are looked at once.
   Vector q(model.size());
   model.toPositions(source.initialDisplacement, q);
   double near = 0, rows = 0, all = 0;
@@ -93,7 +98,8 @@ StepCost stepCost(const model::SecondOrderModel& source, const TransientOptions&
     cost.vectors = explicitVectors * cost.size;
   } else {
     cost.solves = (relaxations + phaseSolves) * solve;
-    cost.products = (1 + phaseProducts) * mass + damping + stiffness + booked * (damping + stiffness);
+    cost.products =
+        (1 + phaseProducts) * mass + damping + stiffness + booked * (damping + stiffness);
     cost.points = (relaxations + booked) * evaluation + 5 * all;
     cost.vectors = implicitVectors * cost.size;
   }

@@ -8,8 +8,8 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Steps between those looked at, each at the price of about three, since its factor is not in the cache; runs that are short beside it
-/// still have `fewest` of them, long ones no more than `most`.
+/// Steps between those looked at, each at the price of about three, since its factor is not in the
+/// cache; runs that are short beside it still have `fewest` of them, long ones no more than `most`.
 constexpr long usualStride = 100, shortestStride = 25, fewest = 8, most = 128;
 /// Sums over less say nothing.
 constexpr std::size_t least = 4;
@@ -25,7 +25,8 @@ void StepHalving::bind(const AlphaStep& step, const State& state, double h, long
   parameters.equations.tolerance *= strictness;
   halves_.emplace(parameters);
   points_.clear();
-  for (const auto& set : step.model().source().points) points_.emplace_back(set, step.model().pattern());
+  for (const auto& set : step.model().source().points)
+    points_.emplace_back(set, step.model().pattern());
   withModel(step.model(), [&] {
     halves_->startLike(step);
     halves_->prepare(0.5 * h, state.t);
@@ -67,7 +68,8 @@ bool StepHalving::takeHalves(const AlphaStep& step, const State& from, double en
   return halves_->take(middle_, end_, 0.5 * h_, false, unused_);
 }
 
-/// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has no part of its force.
+/// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has
+/// no part of its force.
 void StepHalving::shareImpacts(const std::vector<PointBatch>& points) {
   for (std::size_t b = 0; b < points.size(); ++b)
     for (int p = 0; p < points[b].points(); ++p) points_[b].setScale(p, points[b].scale(p));
@@ -98,11 +100,14 @@ double StepHalving::ratio(double speed) const {
   auto errors = errors_;
   std::sort(errors.begin(), errors.end());
   const auto kept = errors.size() - errors.size() / leftOut;
-  return std::sqrt(std::accumulate(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) / static_cast<double>(kept) / motion);
+  return std::sqrt(
+      std::accumulate(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) /
+      static_cast<double>(kept) / motion);
 }
 
 void StepHalving::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(seen_), change_, static_cast<double>(errors_.size())});
+  memory.insert(memory.end(),
+                {static_cast<double>(seen_), change_, static_cast<double>(errors_.size())});
   memory.insert(memory.end(), errors_.begin(), errors_.end());
   for (const auto& batch : points_) batch.save(memory);
   halves_->save(memory);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Whether fixed steps follow the motion. Two measures: R, the local error of the scheme beside what moves in a step, in mean squares over
-/// the run,
+/// Whether fixed steps follow the motion. Two measures: R, the local error of the scheme beside
+/// what moves in a step, in mean squares over the run,
 ///
 ///     R^2 = sum |e|^2 / sum |q_{n+1} - q_n|^2
 ///
-/// which knows nothing of contact and iterations (vibration of frequency w gives R of about (w h)^2 / 10), and D, by how much two steps of half
-/// the length end elsewhere (StepHalving), which knows both. D counts where something moves. Its bounds and those of R are empirical:
-/// docs/theory.md has the figures.
+/// which knows nothing of contact and iterations (vibration of frequency w gives R of about (w h)^2
+/// / 10), and D, by how much two steps of half the length end elsewhere (StepHalving), which knows
+/// both. D counts where something moves. Its bounds and those of R are empirical: docs/theory.md
+/// has the figures.
 #pragma once
 
 #include <cmath>
@@ -38,9 +39,13 @@ class StepResolution {
   }
 
   /// Root of the mean square of the change [m].
-  double change() const { return count_ > 0 ? std::sqrt(change_ / static_cast<double>(count_)) : 0.0; }
+  double change() const {
+    return count_ > 0 ? std::sqrt(change_ / static_cast<double>(count_)) : 0.0;
+  }
 
-  void save(std::vector<double>& memory) const { memory.insert(memory.end(), {error_, change_, size_, static_cast<double>(count_)}); }
+  void save(std::vector<double>& memory) const {
+    memory.insert(memory.end(), {error_, change_, size_, static_cast<double>(count_)});
+  }
   void restore(const double*& memory) {
     for (double* sum : {&error_, &change_, &size_}) *sum = *memory++;
     count_ = static_cast<long>(*memory++);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward differentiation) on y = (q, v), with the
-/// error of each step held below
+/// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward
+/// differentiation) on y = (q, v), with the error of each step held below
 ///
-///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of velocities
+///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of
+///     velocities
 ///
 /// Both choose their steps; samples are interpolated.
 #include <cmath>
@@ -29,35 +30,41 @@ void addCommon(deck::ListSpec& spec) {
   spec.real("Relative Tolerance", "", 1e-4, deck::Range::positive(),
             "Error of a step allowed in each coordinate and velocity, relative to its size.")
       .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
-            "Error of a step allowed in displacements beside that, and by the same number in rotations (rad) and coordinates of "
+            "Error of a step allowed in displacements beside that, and by the same number in "
+            "rotations (rad) and coordinates of "
             "modes; by default 0.01 m times Relative Tolerance.")
       .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
             "The same for velocities; by default 1 m/s times Relative Tolerance.")
       .real("Initial Step", "s", deck::Optional{}, deck::Range::positive(),
-            "Length of the first step; by default Transient/Step, and without that what SUNDIALS estimates.")
-      .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(), "Longest step allowed; by default there is no limit.")
-      .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2), "Newton iterations before a step is tried shorter.")
+            "Length of the first step; by default Transient/Step, and without that what SUNDIALS "
+            "estimates.")
+      .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(),
+            "Longest step allowed; by default there is no limit.")
+      .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2),
+               "Newton iterations before a step is tried shorter.")
       .integer("Maximum Steps", 100000000, deck::Range::atLeast(1),
                "Steps after which the run stops as one that cannot be afforded.");
 }
 
 deck::ListSpec arkodeSpecification() {
   deck::ListSpec spec(arkode, "Parameters of ARKODE.");
-  spec.choice("Method", std::string("ESDIRK436L2SA_6_3_4"),
-              {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3", "SDIRK_5_3_4", "KVAERNO_5_3_4",
-               "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4", "ESDIRK437L2SA_7_3_4", "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5",
-               "ESDIRK547L2SA2_7_4_5"},
-              "Butcher table by its name in SUNDIALS, which ends in stages, order of the error estimate and order.");
+  spec.choice(
+      "Method", std::string("ESDIRK436L2SA_6_3_4"),
+      {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3", "SDIRK_5_3_4",
+       "KVAERNO_5_3_4", "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4", "ESDIRK437L2SA_7_3_4",
+       "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5", "ESDIRK547L2SA2_7_4_5"},
+      "Butcher table by its name in SUNDIALS, which ends in stages, order of the error estimate "
+      "and order.");
   addCommon(spec);
   return spec;
 }
 
 deck::ListSpec cvodeSpecification() {
   deck::ListSpec spec(cvode, "Parameters of CVODE.");
-  spec.integer(
-      "Maximum Order", 2, deck::Range::between(1, 5),
-      "Highest order of the formulas. Above 2 they are unstable for lightly damped vibration, and the fastest vibration of "
-      "the mesh then bounds the step.");
+  spec.integer("Maximum Order", 2, deck::Range::between(1, 5),
+               "Highest order of the formulas. Above 2 they are unstable for lightly damped "
+               "vibration, and the fastest vibration of "
+               "the mesh then bounds the step.");
   addCommon(spec);
   return spec;
 }
@@ -65,7 +72,8 @@ deck::ListSpec cvodeSpecification() {
 class Sundials final : public Integrator {
  public:
   Sundials(const std::string& name, const Teuchos::ParameterList& given) : name_(name) {
-    const auto own = withDefaults(given, name == arkode ? arkodeSpecification() : cvodeSpecification());
+    const auto own =
+        withDefaults(given, name == arkode ? arkodeSpecification() : cvodeSpecification());
     options_.relative = own.get<double>("Relative Tolerance");
     const auto asked = [&own](const char* parameter, double usual) {
       return own.isParameter(parameter) ? own.get<double>(parameter) : usual;
@@ -81,7 +89,8 @@ class Sundials final : public Integrator {
   }
 
   std::string advice() const override {
-    return "Choose a smaller Transient/" + name_ + "/Relative Tolerance, and smaller absolute tolerances there if given, or the "
+    return "Choose a smaller Transient/" + name_ +
+           "/Relative Tolerance, and smaller absolute tolerances there if given, or the "
            "integrator \"Generalized-alpha\"";
   }
   void checkParameters(double step) const override {
@@ -91,8 +100,10 @@ class Sundials final : public Integrator {
       return;
     }
     std::ostringstream text;
-    text << "The first step (" << first << " s, " << (options_.firstStep > 0 ? "Transient/" + name_ + "/Initial Step" : "Transient/Step")
-         << ") is longer than Transient/" << name_ << "/Maximum Step (" << options_.maxStep << " s).";
+    text << "The first step (" << first << " s, "
+         << (options_.firstStep > 0 ? "Transient/" + name_ + "/Initial Step" : "Transient/Step")
+         << ") is longer than Transient/" << name_ << "/Maximum Step (" << options_.maxStep
+         << " s).";
     throw DeckError(text.str());
   }
 
@@ -128,7 +139,8 @@ class Sundials final : public Integrator {
     beginsAnew_ = true;
   }
 
-  /// SUNDIALS does not hand out its history (Nordsieck array, errors and steps before, age of the Newton matrix), and takes none.
+  /// SUNDIALS does not hand out its history (Nordsieck array, errors and steps before, age of the
+  /// Newton matrix), and takes none.
   bool goesOnFromAnywhere() const override { return false; }
   void forgetHistory() override {
     // BDF begins again at first order: a step of its own choice
@@ -142,14 +154,15 @@ class Sundials final : public Integrator {
   /// Throws where makeStepper() has nothing to make.
   void requireLibrary() const {
 #ifndef TOOLJOINT_HAS_SUNDIALS
-    throw DeckError(
-        "Transient/Integrator: this program was built without SUNDIALS, which \"" + name_ +
-        "\" needs. Install libsundials-dev and configure with -D TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
+    throw DeckError("Transient/Integrator: this program was built without SUNDIALS, which \"" +
+                    name_ +
+                    "\" needs. Install libsundials-dev and configure with -D "
+                    "TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
 #endif
   }
 
-  /// From a checkpoint, with its step but without what the method remembers of earlier ones. The rest of a step that reached
-  /// beyond the checkpoint is given up.
+  /// From a checkpoint, with its step but without what the method remembers of earlier ones. The
+  /// rest of a step that reached beyond the checkpoint is given up.
   void beginAnew(const State& from) {
     beginsAnew_ = false;
     stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, firstStep_);
@@ -161,9 +174,11 @@ class Sundials final : public Integrator {
   void step(const State& from) {
     if (counters_.steps >= maxSteps_) {
       std::ostringstream text;
-      text << name_ << " has taken " << counters_.steps << " steps by t = " << from.t << " s, as many as Transient/" << name_
-           << "/Maximum Steps allows; the step is now " << stepper_->nextStep()
-           << " s. Raise Relative Tolerance, Absolute Tolerance and Absolute Velocity Tolerance there, or allow more steps.";
+      text << name_ << " has taken " << counters_.steps << " steps by t = " << from.t
+           << " s, as many as Transient/" << name_ << "/Maximum Steps allows; the step is now "
+           << stepper_->nextStep()
+           << " s. Raise Relative Tolerance, Absolute Tolerance and Absolute Velocity Tolerance "
+              "there, or allow more steps.";
       throw ConvergenceError(text.str());
     }
     const double before = stepper_->time();
@@ -176,7 +191,8 @@ class Sundials final : public Integrator {
 
   double nextSample(double t) const {
     if (!(window_.sampling > 0)) return std::numeric_limits<double>::infinity();
-    return window_.begin + (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
+    return window_.begin +
+           (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
   }
 
   /// state.a from the equations of motion.
@@ -215,22 +231,29 @@ class Sundials final : public Integrator {
     if (!state.a.allFinite()) trouble = SundialsTrouble::NotFinite;
     switch (trouble) {
       case SundialsTrouble::Accuracy:
-        text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise " << own
-             << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
+        text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise "
+             << own << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
         break;
       case SundialsTrouble::ErrorTest:
-        text << name_ << " cannot hold its tolerances at t = " << t << " s however short the step, least at "
-             << form_.model().dofName(stepper_->worstPosition()) << ": a force jumps there. Raise " << own
-             << "Absolute Velocity Tolerance and Relative Tolerance, or use the integrator \"Generalized-alpha\".";
+        text << name_ << " cannot hold its tolerances at t = " << t
+             << " s however short the step, least at "
+             << form_.model().dofName(stepper_->worstPosition()) << ": a force jumps there. Raise "
+             << own
+             << "Absolute Velocity Tolerance and Relative Tolerance, or use the integrator "
+                "\"Generalized-alpha\".";
         break;
       case SundialsTrouble::Newton:
-        text << "Newton of " << name_ << " does not converge at t = " << t << " s however short the step. Allow more " << own
-             << "Maximum Newton Iterations, lower the tolerances there, or use the integrator \"Generalized-alpha\".";
+        text << "Newton of " << name_ << " does not converge at t = " << t
+             << " s however short the step. Allow more " << own
+             << "Maximum Newton Iterations, lower the tolerances there, or use the integrator "
+                "\"Generalized-alpha\".";
         break;
       case SundialsTrouble::NotFinite: {
-        const int worst = state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
-        text << "The motion is not finite however short the step of " << name_ << " from t = " << t << " s, first at "
-             << form_.model().dofName(worst) << ": a load, a law of time or a point law gives no number there.";
+        const int worst =
+            state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
+        text << "The motion is not finite however short the step of " << name_ << " from t = " << t
+             << " s, first at " << form_.model().dofName(worst)
+             << ": a load, a law of time or a point law gives no number there.";
         break;
       }
       default:
@@ -257,20 +280,26 @@ std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
   return name_ == arkode ? makeArkode(form_, options_) : makeCvode(form_, options_);
 }
 #else
-std::unique_ptr<SundialsStepper> Sundials::makeStepper() { return nullptr; }  // prepare() has refused before
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
+  return nullptr;
+}  // prepare() has refused before
 #endif
 
 const bool registeredArkode = IntegratorRegistry::instance().add(
-    arkode,
-    {"Implicit Runge-Kutta methods of SUNDIALS with error control (Reynolds et al. 2023); needs a mass on every degree of "
-     "freedom, and a build with SUNDIALS.",
-     arkodeSpecification(), [](const Teuchos::ParameterList& own) { return std::make_unique<Sundials>(arkode, own); }});
+    arkode, {"Implicit Runge-Kutta methods of SUNDIALS with error control (Reynolds et al. 2023); "
+             "needs a mass on every degree of "
+             "freedom, and a build with SUNDIALS.",
+             arkodeSpecification(), [](const Teuchos::ParameterList& own) {
+               return std::make_unique<Sundials>(arkode, own);
+             }});
 
 const bool registeredCvode = IntegratorRegistry::instance().add(
-    cvode,
-    {"Backward differentiation formulas of SUNDIALS with control of error and order (Hindmarsh et al. 2005); needs a mass on "
-     "every degree of freedom, and a build with SUNDIALS.",
-     cvodeSpecification(), [](const Teuchos::ParameterList& own) { return std::make_unique<Sundials>(cvode, own); }});
+    cvode, {"Backward differentiation formulas of SUNDIALS with control of error and order "
+            "(Hindmarsh et al. 2005); needs a mass on "
+            "every degree of freedom, and a build with SUNDIALS.",
+            cvodeSpecification(), [](const Teuchos::ParameterList& own) {
+              return std::make_unique<Sundials>(cvode, own);
+            }});
 
 }  // namespace
 }  // namespace tooljoint::transient

@@ -15,15 +15,17 @@
 namespace tooljoint::transient {
 namespace {
 
-/// Tries of one step before SUNDIALS gives up; impacts and stick-slip need more than its own 7 and 10.
+/// Tries of one step before SUNDIALS gives up; impacts and stick-slip need more than its own 7
+/// and 10.
 constexpr int maxTries = 40;
 
-/// What both solvers share: context, vectors, the Newton matrix as a SUNMatrix without entries and its solver, callbacks that
-/// keep exceptions of the model out of C.
+/// What both solvers share: context, vectors, the Newton matrix as a SUNMatrix without entries and
+/// its solver, callbacks that keep exceptions of the model out of C.
 class Stepper : public SundialsStepper {
  public:
   Stepper(FirstOrderForm& form, const SundialsOptions& options) : form_(form), options_(options) {
-    if (SUNContext_Create(nullptr, &context_) != 0) throw std::runtime_error("SUNDIALS cannot create its context");
+    if (SUNContext_Create(nullptr, &context_) != 0)
+      throw std::runtime_error("SUNDIALS cannot create its context");
     y_ = N_VNew_Serial(form.size(), context_);
     tolerance_ = N_VNew_Serial(form.size(), context_);
     work_ = N_VNew_Serial(form.size(), context_);
@@ -37,7 +39,9 @@ class Stepper : public SundialsStepper {
     solver_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
     solver_->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
     solver_->ops->initialize = [](SUNLinearSolver) { return 0; };
-    solver_->ops->setup = [](SUNLinearSolver s, SUNMatrix) { return self(s->content).regular_ ? 0 : 1; };
+    solver_->ops->setup = [](SUNLinearSolver s, SUNMatrix) {
+      return self(s->content).regular_ ? 0 : 1;
+    };
     solver_->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype) {
       return self(s->content).solve(x, b);
     };
@@ -59,7 +63,8 @@ class Stepper : public SundialsStepper {
   static Stepper& self(void* data) { return *static_cast<Stepper*>(data); }
   static double* data(N_Vector x) { return N_VGetArrayPointer(x); }
 
-  /// yDot = f(t, y): 0, or 1 when it is no number (a shorter step may do), or -1 when the model threw.
+  /// yDot = f(t, y): 0, or 1 when it is no number (a shorter step may do), or -1 when the model
+  /// threw.
   static int rightHandSide(realtype t, N_Vector y, N_Vector yDot, void* me) {
     return self(me).guarded([&](FirstOrderForm& form) {
       form.rightHandSide(t, data(y), data(yDot));
@@ -80,7 +85,9 @@ class Stepper : public SundialsStepper {
       return isFinite(x) ? 0 : 1;
     });
   }
-  static void listen(int, const char*, const char*, char* text, void* me) { self(me).message_ = text; }
+  static void listen(int, const char*, const char*, char* text, void* me) {
+    self(me).message_ = text;
+  }
 
   void load(double t, const double* q, const double* v) {
     std::copy_n(q, form_.dofs(), data(y_));
@@ -97,7 +104,8 @@ class Stepper : public SundialsStepper {
     int position = 0;
     double largest = -1;
     for (int i = 0; i < form_.size(); ++i) {
-      const double size = std::abs(data(work_)[i]) / (options_.relative * std::abs(data(y_)[i]) + data(tolerance_)[i]);
+      const double size = std::abs(data(work_)[i]) /
+                          (options_.relative * std::abs(data(y_)[i]) + data(tolerance_)[i]);
       if (!std::isfinite(size)) return i % form_.dofs();
       if (size > largest) largest = size, position = i % form_.dofs();
     }
@@ -196,8 +204,8 @@ class Arkode final : public Stepper {
     require(ARKStepGetCurrentStep(memory_, &h), "ARKStepGetCurrentStep");
     return h;
   }
-  /// The interpolation of ARKODE is of the third degree, less than the methods are worth; q, v and a at both ends of the step
-  /// give one of the fifth.
+  /// The interpolation of ARKODE is of the third degree, less than the methods are worth; q, v and
+  /// a at both ends of the step give one of the fifth.
   void at(double t, double* q, double* v) override {
     if (t == time_) return unload(y_, q, v);
     if (!interpolates_) {
@@ -211,10 +219,14 @@ class Arkode final : public Stepper {
     const double x = (t - (time_ - h)) / h;
     const int n = form_.dofs();
     const double p = x * x * x * (10 - x * (15 - 6 * x)), dp = 30 * x * x * (1 - x) * (1 - x) / h;
-    const double v0 = h * x * (1 - x * x * (6 - x * (8 - 3 * x))), dv0 = 1 - x * x * (18 - x * (32 - 15 * x));
-    const double v1 = -h * x * x * x * (4 - x * (7 - 3 * x)), dv1 = -x * x * (12 - x * (28 - 15 * x));
-    const double a0 = 0.5 * h * h * x * x * (1 - x * (3 - x * (3 - x))), da0 = 0.5 * h * x * (2 - x * (9 - x * (12 - 5 * x)));
-    const double a1 = 0.5 * h * h * x * x * x * (1 - x * (2 - x)), da1 = 0.5 * h * x * x * (3 - x * (8 - 5 * x));
+    const double v0 = h * x * (1 - x * x * (6 - x * (8 - 3 * x))),
+                 dv0 = 1 - x * x * (18 - x * (32 - 15 * x));
+    const double v1 = -h * x * x * x * (4 - x * (7 - 3 * x)),
+                 dv1 = -x * x * (12 - x * (28 - 15 * x));
+    const double a0 = 0.5 * h * h * x * x * (1 - x * (3 - x * (3 - x))),
+                 da0 = 0.5 * h * x * (2 - x * (9 - x * (12 - 5 * x)));
+    const double a1 = 0.5 * h * h * x * x * x * (1 - x * (2 - x)),
+                 da1 = 0.5 * h * x * x * (3 - x * (8 - 5 * x));
     const double *Y0 = data(from_), *F0 = data(fromRate_), *Y1 = data(y_), *F1 = data(rate_);
     for (int i = 0, k = n; i < n; ++i, ++k) {
       const double step = Y1[i] - Y0[i];
@@ -226,14 +238,18 @@ class Arkode final : public Stepper {
     SundialsCounts c;
     require(ARKStepGetNumErrTestFails(memory_, &c.rejected), "ARKStepGetNumErrTestFails");
     require(ARKStepGetNumStepSolveFails(memory_, &c.newtonFailures), "ARKStepGetNumStepSolveFails");
-    require(ARKStepGetNumNonlinSolvIters(memory_, &c.newtonIterations), "ARKStepGetNumNonlinSolvIters");
+    require(ARKStepGetNumNonlinSolvIters(memory_, &c.newtonIterations),
+            "ARKStepGetNumNonlinSolvIters");
     return c;
   }
-  int worstPosition() override { return ARKStepGetEstLocalErrors(memory_, work_) < 0 ? 0 : worst(); }
+  int worstPosition() override {
+    return ARKStepGetEstLocalErrors(memory_, work_) < 0 ? 0 : worst();
+  }
 
  private:
-  static int newtonMatrix(realtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, booleantype, booleantype* fresh, realtype gamma,
-                          void* me, N_Vector, N_Vector, N_Vector) {
+  static int newtonMatrix(realtype t, N_Vector y, N_Vector, SUNMatrix, SUNMatrix, booleantype,
+                          booleantype* fresh, realtype gamma, void* me, N_Vector, N_Vector,
+                          N_Vector) {
     return static_cast<Arkode*>(&self(me))->formNewtonMatrix(t, y, fresh, gamma);
   }
   void create(double t) {
@@ -242,20 +258,24 @@ class Arkode final : public Stepper {
     require(ARKStepSetErrHandlerFn(memory_, listen, this), "ARKStepSetErrHandlerFn");
     require(ARKStepSetUserData(memory_, static_cast<Stepper*>(this)), "ARKStepSetUserData");
     require(ARKStepSVtolerances(memory_, options_.relative, tolerance_), "ARKStepSVtolerances");
-    require(ARKStepSetTableName(memory_, ("ARKODE_" + options_.table).c_str(), "ARKODE_ERK_NONE"), "ARKStepSetTableName");
+    require(ARKStepSetTableName(memory_, ("ARKODE_" + options_.table).c_str(), "ARKODE_ERK_NONE"),
+            "ARKStepSetTableName");
     require(ARKStepSetLinearSolver(memory_, solver_, matrix_), "ARKStepSetLinearSolver");
     require(ARKStepSetLinSysFn(memory_, newtonMatrix), "ARKStepSetLinSysFn");
     require(ARKStepSetMaxNonlinIters(memory_, options_.maxIterations), "ARKStepSetMaxNonlinIters");
-    // ARKODE takes a first correction as good when corrections shrank fast before, even if the factor has another gamma since.
+    // ARKODE takes a first correction as good when corrections shrank fast before, even if the
+    // factor has another gamma since.
     require(ARKStepSetDeltaGammaMax(memory_, 1e-6), "ARKStepSetDeltaGammaMax");
     require(ARKStepSetMaxErrTestFails(memory_, maxTries), "ARKStepSetMaxErrTestFails");
     require(ARKStepSetMaxConvFails(memory_, maxTries), "ARKStepSetMaxConvFails");
-    if (options_.maxStep > 0) require(ARKStepSetMaxStep(memory_, options_.maxStep), "ARKStepSetMaxStep");
+    if (options_.maxStep > 0)
+      require(ARKStepSetMaxStep(memory_, options_.maxStep), "ARKStepSetMaxStep");
   }
   void* memory_ = nullptr;
   double end_ = 0;
-  N_Vector from_ = nullptr, fromRate_ = nullptr, rate_ = nullptr;  ///< y and f where the last step began, f where it ended
-  bool interpolates_ = false;                                      ///< they belong to the last step
+  N_Vector from_ = nullptr, fromRate_ = nullptr,
+           rate_ = nullptr;    ///< y and f where the last step began, f where it ended
+  bool interpolates_ = false;  ///< they belong to the last step
 };
 
 /// CVODE, backward differentiation formulas.
@@ -320,8 +340,9 @@ class Cvode final : public Stepper {
   int worstPosition() override { return CVodeGetEstLocalErrors(memory_, work_) < 0 ? 0 : worst(); }
 
  private:
-  static int newtonMatrix(realtype t, N_Vector y, N_Vector, SUNMatrix, booleantype, booleantype* fresh, realtype gamma, void* me,
-                          N_Vector, N_Vector, N_Vector) {
+  static int newtonMatrix(realtype t, N_Vector y, N_Vector, SUNMatrix, booleantype,
+                          booleantype* fresh, realtype gamma, void* me, N_Vector, N_Vector,
+                          N_Vector) {
     return static_cast<Cvode*>(&self(me))->formNewtonMatrix(t, y, fresh, gamma);
   }
   void create(double t) {
@@ -337,7 +358,8 @@ class Cvode final : public Stepper {
     require(CVodeSetMaxNonlinIters(memory_, options_.maxIterations), "CVodeSetMaxNonlinIters");
     require(CVodeSetMaxErrTestFails(memory_, maxTries), "CVodeSetMaxErrTestFails");
     require(CVodeSetMaxConvFails(memory_, maxTries), "CVodeSetMaxConvFails");
-    if (options_.maxStep > 0) require(CVodeSetMaxStep(memory_, options_.maxStep), "CVodeSetMaxStep");
+    if (options_.maxStep > 0)
+      require(CVodeSetMaxStep(memory_, options_.maxStep), "CVodeSetMaxStep");
   }
   void* memory_ = nullptr;
   double end_ = 0;

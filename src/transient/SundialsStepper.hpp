@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// ARKODE and CVODE of SUNDIALS (Hindmarsh et al. 2005; Reynolds et al. 2023) behind a plain interface: one step after the other
-/// on a FirstOrderForm, whose Newton matrix they solve. A build without SUNDIALS has this header but not its source.
+/// ARKODE and CVODE of SUNDIALS (Hindmarsh et al. 2005; Reynolds et al. 2023) behind a plain
+/// interface: one step after the other on a FirstOrderForm, whose Newton matrix they solve. A build
+/// without SUNDIALS has this header but not its source.
 #pragma once
 
 #include <memory>
@@ -41,7 +42,8 @@ class SundialsStepper {
  public:
   virtual ~SundialsStepper() = default;
   /// Begin at (t, y) and never step past `end`; firstStep 0 leaves the first step to SUNDIALS.
-  virtual void restart(double t, const double* q, const double* v, double end, double firstStep) = 0;
+  virtual void restart(double t, const double* q, const double* v, double end,
+                       double firstStep) = 0;
   /// One step, however short. Rethrows what the model throws.
   virtual SundialsTrouble step() = 0;
   /// Time the last step reached, and its length.
@@ -52,7 +54,8 @@ class SundialsStepper {
   /// The solution at a time within the last step, by an interpolation as good as the method.
   virtual void at(double t, double* q, double* v) = 0;
   virtual SundialsCounts counts() const = 0;
-  /// Position (of q, whose velocity or acceleration it may be) where the error of the last try was largest against its tolerance.
+  /// Position (of q, whose velocity or acceleration it may be) where the error of the last try was
+  /// largest against its tolerance.
   virtual int worstPosition() = 0;
   /// What SUNDIALS itself said last.
   virtual const std::string& message() const = 0;

@@ -33,7 +33,12 @@ double cpuSeconds() {
 class Sampler {
  public:
   Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done)
-      : model_(model), begin_(options.start), end_(options.end), interval_(options.sampling), sink_(sink), count_(done) {
+      : model_(model),
+        begin_(options.start),
+        end_(options.end),
+        interval_(options.sampling),
+        sink_(sink),
+        count_(done) {
     middle_.resize(model.size());
     for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.size());
   }
@@ -54,7 +59,8 @@ class Sampler {
   void first(const State& state) { give(state.t, state); }
 
  private:
-  /// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the step.
+  /// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the
+  /// step.
   const State& between(const State& from, const State& to, double x) {
     const double h = to.t - from.t;
     const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
@@ -81,16 +87,18 @@ class Sampler {
 };
 
 /// Not a number, infinite or absurdly large: say when and where.
-void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from, const State& to) {
+void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from,
+                 const State& to) {
   const double size = to.q.cwiseAbs().sum() + to.v.cwiseAbs().sum() * 1e-6;
   if (std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp)) return;
   const int q = worstPosition(to.q);
   const int v = worstPosition(to.v);
   const int worst = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]) ? v : q;
   std::ostringstream text;
-  text << "The motion blew up in the step from t = " << from.t << " s to " << to.t << " s: " << model.dofName(worst)
-       << " reached " << (worst == q ? to.q[worst] : to.v[worst])
-       << ". " << integrator.advice() << "; if it happens however small, the model itself is unstable there.";
+  text << "The motion blew up in the step from t = " << from.t << " s to " << to.t
+       << " s: " << model.dofName(worst) << " reached " << (worst == q ? to.q[worst] : to.v[worst])
+       << ". " << integrator.advice()
+       << "; if it happens however small, the model itself is unstable there.";
   throw ConvergenceError(text.str());
 }
 
@@ -103,7 +111,8 @@ long contactEvaluations(const CompiledModel& model) {
 /// One run: the loop and what surrounds it.
 class Run {
  public:
-  Run(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink, const RunHooks& hooks)
+  Run(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
+      const RunHooks& hooks)
       : options_(options),
         hooks_(hooks),
         model_(model),
@@ -136,8 +145,10 @@ class Run {
     report.realTimeFactor = report.wall > 0 ? (state_.t - from) / report.wall : 0.0;
     count("factorisations", report.counters.factorisations);
     if (report.counters.unconvergedSteps > 0)
-      log::warn(std::to_string(report.counters.unconvergedSteps) + " of " + std::to_string(report.counters.steps) +
-                " steps were kept although Newton had not converged (Transient/Generalized-alpha/Accept Unconverged is true).");
+      log::warn(std::to_string(report.counters.unconvergedSteps) + " of " +
+                std::to_string(report.counters.steps) +
+                " steps were kept although Newton had not converged "
+                "(Transient/Generalized-alpha/Accept Unconverged is true).");
     return report;
   }
 
@@ -148,7 +159,8 @@ class Run {
     model_.toPositions(source.initialDisplacement, state_.q);
     model_.toPositions(source.initialVelocity, state_.v);
     model_.setTime(state_.t);
-    integrator_->prepare(model_, {options_.start, options_.end, options_.sampling, options_.step}, state_);
+    integrator_->prepare(model_, {options_.start, options_.end, options_.sampling, options_.step},
+                         state_);
     if (hooks_.resume != nullptr) {
       resume(*hooks_.resume);
       return;
@@ -161,10 +173,13 @@ class Run {
 
   void resume(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
-      throw DeckError("The checkpoint was written by the integrator \"" + point.integrator + "\", the deck asks for \"" +
-                      options_.integrator + "\". Restart with the same deck.");
+      throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
+                      "\", the deck asks for \"" + options_.integrator +
+                      "\". Restart with the same deck.");
     if (point.state.q.size() != model_.size() || point.model != identity())
-      throw DeckError("The checkpoint belongs to another model, or to other steps, than this deck describes. Restart with the same deck.");
+      throw DeckError(
+          "The checkpoint belongs to another model, or to other steps, than this deck describes. "
+          "Restart with the same deck.");
     state_ = point.state;
     runawaySamples_ = point.runawaySamples;
     const double* memory = point.memory.data();
@@ -173,7 +188,9 @@ class Run {
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
     if (memory != point.memory.data() + point.memory.size())
-      throw FileError("The checkpoint holds another amount of memory than this program reads. Go on with the program that wrote it.");
+      throw FileError(
+          "The checkpoint holds another amount of memory than this program reads. Go on with the "
+          "program that wrote it.");
     memory = point.memory.data();
     model_.restore(memory);  // the others have taken it to other times
     // what was done again to get here is not counted twice
@@ -206,7 +223,8 @@ class Run {
   /// True when stopped before the end.
   bool loop() {
     std::unique_ptr<Progress> bar;
-    if (options_.progress) bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
+    if (options_.progress)
+      bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
     long intervals = checkpointIntervals(state_.t);
     while (state_.t < options_.end) {
       if (hooks_.stop ? hooks_.stop() : interruptRequested()) {
@@ -233,13 +251,16 @@ class Run {
     return false;
   }
 
-  /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its checkpoint.
+  /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its
+  /// checkpoint.
   long checkpointIntervals(double t) const {
     if (!(options_.checkpointInterval > 0)) return 0;
-    return static_cast<long>(std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
+    return static_cast<long>(
+        std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
   }
 
-  /// A start far off balance may overshoot and is damped again: energy made out of nothing counts when it stays.
+  /// A start far off balance may overshoot and is damped again: energy made out of nothing counts
+  /// when it stays.
   void watchEnergy() {
     runawaySamples_ = ledger_.runaway(model_, next_) ? runawaySamples_ + 1 : 0;
     if (runawaySamples_ == sustained) std::swap(state_, next_), runaway();
@@ -248,9 +269,10 @@ class Run {
   [[noreturn]] void runaway() {
     const auto account = ledger_.account(model_, state_);
     std::ostringstream text;
-    text << "By t = " << state_.t << " s the integrator had made " << -account.numerical() << " J out of nothing, more than the "
-         << account.supplied
-         << " J the model was given: the motion is an artefact of the step, not a result. " << integrator_->advice() << ".";
+    text << "By t = " << state_.t << " s the integrator had made " << -account.numerical()
+         << " J out of nothing, more than the " << account.supplied
+         << " J the model was given: the motion is an artefact of the step, not a result. "
+         << integrator_->advice() << ".";
     throw ConvergenceError(text.str());
   }
 
@@ -280,20 +302,24 @@ void refuseForcesWithMass(const model::SecondOrderModel& model) {
   const Vector mass = model.mass.diagonal();
   for (std::size_t i = 0; i < model.dofs.size(); ++i)
     if (model.dofs[i].force != 0 && mass[static_cast<Eigen::Index>(i)] != 0.0)
-      throw ModelError("The model has no bounded motion: " + model::describe(model.dofs[i], model.componentNames) +
-                       " has a mass, that of the residual flexibility of the dual Craig-Bampton basis, and so a negative eigenvalue. Such a model is good for "
-                       "frequencies only; for motion set \"Residual Mass\" of \"Dual Craig-Bampton\" to false, or take \"Rubin\".");
+      throw ModelError("The model has no bounded motion: " +
+                       model::describe(model.dofs[i], model.componentNames) +
+                       " has a mass, that of the residual flexibility of the dual Craig-Bampton "
+                       "basis, and so a negative eigenvalue. Such a model is good for "
+                       "frequencies only; for motion set \"Residual Mass\" of \"Dual "
+                       "Craig-Bampton\" to false, or take \"Rubin\".");
 }
 
 }  // namespace
 
-TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
-                          const RunHooks& hooks) {
+TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options,
+                          SampleSink& sink, const RunHooks& hooks) {
   refuseForcesWithMass(model);
   return Run(model, options, sink, hooks).go();
 }
 
-TransientReport integrate(const model::SecondOrderModel& model, const Teuchos::ParameterList& transient, SampleSink& sink,
+TransientReport integrate(const model::SecondOrderModel& model,
+                          const Teuchos::ParameterList& transient, SampleSink& sink,
                           const RunHooks& hooks) {
   return integrate(model, readOptions(transient), sink, hooks);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From a model and the deck list `Transient` to sampled motion and a report. Full and reduced models alike.
+/// From a model and the deck list `Transient` to sampled motion and a report. Full and reduced
+/// models alike.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -18,7 +19,8 @@
 
 namespace tooljoint::transient {
 
-/// Receives the motion at every multiple of the sampling interval, first one included; vectors in the dofs of the model.
+/// Receives the motion at every multiple of the sampling interval, first one included; vectors in
+/// the dofs of the model.
 class SampleSink {
  public:
   virtual ~SampleSink() = default;
@@ -45,20 +47,22 @@ struct TransientReport {
 
 /// What a run may be given beyond its model and its list.
 struct RunHooks {
-  std::string title = "transient";              ///< in front of the progress bar
-  const Checkpoint* resume = nullptr;           ///< go on from here instead of the initial state
-  /// Called at every checkpoint and at an interrupt; for an integrator that cannot go on from anywhere at the start instead of at an
-  /// interrupt. Checkpoints come at multiples of the interval whether or not this is given: some integrators begin anew there.
+  std::string title = "transient";     ///< in front of the progress bar
+  const Checkpoint* resume = nullptr;  ///< go on from here instead of the initial state
+  /// Called at every checkpoint and at an interrupt; for an integrator that cannot go on from
+  /// anywhere at the start instead of at an interrupt. Checkpoints come at multiples of the
+  /// interval whether or not this is given: some integrators begin anew there.
   std::function<void(const Checkpoint&)> keep;
-  std::function<bool()> stop;                   ///< looked at each step; default: the interrupt flag
+  std::function<bool()> stop;  ///< looked at each step; default: the interrupt flag
 };
 
 /// Integrate. Samples go to `sink`; with hooks.resume only those after the checkpoint.
-/// Throws ModelError (a model the integrator cannot treat), ConvergenceError naming time and dof (Newton, blow-up, not a number),
-/// DeckError.
-TransientReport integrate(const model::SecondOrderModel& model, const Teuchos::ParameterList& transient, SampleSink& sink,
+/// Throws ModelError (a model the integrator cannot treat), ConvergenceError naming time and dof
+/// (Newton, blow-up, not a number), DeckError.
+TransientReport integrate(const model::SecondOrderModel& model,
+                          const Teuchos::ParameterList& transient, SampleSink& sink,
                           const RunHooks& hooks = {});
-TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options, SampleSink& sink,
-                          const RunHooks& hooks = {});
+TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options,
+                          SampleSink& sink, const RunHooks& hooks = {});
 
 }  // namespace tooljoint::transient

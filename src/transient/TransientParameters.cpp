@@ -9,21 +9,29 @@ namespace tooljoint::transient {
 
 deck::ListSpec parameters() {
   const auto& registry = IntegratorRegistry::instance();
-  deck::ListSpec spec("Transient", "Motion in time. Without this list a run stops at the static state.");
+  deck::ListSpec spec("Transient",
+                      "Motion in time. Without this list a run stops at the static state.");
   spec.choice("Integrator", std::string("Generalized-alpha"), registry.names(),
               "Time integration method; its own parameters stand in the sublist of that name.")
       .real("Start Time", "s", 0.0, deck::Range::any(), "Time at which the motion starts.")
-      .real("End Time", "s", deck::Required{}, deck::Range::any(), "Time at which the motion ends; later than Start Time.")
+      .real("End Time", "s", deck::Required{}, deck::Range::any(),
+            "Time at which the motion ends; later than Start Time.")
       .real("Step", "s", deck::Optional{}, deck::Range::positive(),
-            "Fixed step, or with Generalized-alpha/Step Tolerance the longest; shortened so that it divides the sampling interval. "
-            "By default 0.001 s for Generalized-alpha and 0.9 of the stability limit for RK4; RK4 adaptive chooses its own.")
+            "Fixed step, or with Generalized-alpha/Step Tolerance the longest; shortened so that "
+            "it divides the sampling interval. "
+            "By default 0.001 s for Generalized-alpha and 0.9 of the stability limit for RK4; RK4 "
+            "adaptive chooses its own.")
       .real("Sampling Interval", "s", 0.005, deck::Range::positive(),
-            "Time between two recorded states; both ends of the motion are recorded when they fall on it.")
-      .boolean("Progress", true, "Show a progress bar, or a line per 10 % when the output is not a terminal.")
+            "Time between two recorded states; both ends of the motion are recorded when they fall "
+            "on it.")
+      .boolean("Progress", true,
+               "Show a progress bar, or a line per 10 % when the output is not a terminal.")
       .boolean("Energy Ledger", true,
-               "Keep account of kinetic, strain and contact energy, of the work of all loads and of every dissipation.")
+               "Keep account of kinetic, strain and contact energy, of the work of all loads and "
+               "of every dissipation.")
       .real("Checkpoint Interval", "s", 1.0, deck::Range::nonNegative(),
-            "Simulated time between two states saved for a restart; 0 saves one only when the run is interrupted. The integrators of SUNDIALS begin "
+            "Simulated time between two states saved for a restart; 0 saves one only when the run "
+            "is interrupted. The integrators of SUNDIALS begin "
             "anew at each of them and go on only from there.");
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);
@@ -35,7 +43,8 @@ deck::ListSpec parameters() {
 
 namespace {
 
-/// A motion of more steps would take years, and of more samples would fill any disk: slips in a number.
+/// A motion of more steps would take years, and of more samples would fill any disk: slips in a
+/// number.
 constexpr double mostSteps = 1e12;
 constexpr double mostSamples = 1e8;
 
@@ -44,8 +53,10 @@ void requireCounts(const TransientOptions& options) {
   const auto require = [&](const char* what, double interval, double most) {
     const double count = duration / interval;
     if (count <= most) return;
-    throw DeckError(std::string("Transient/") + what + " is " + formatNumber(interval) + " s, which makes " + countText(count) + " of them in the " +
-                    formatNumber(duration) + " s from Start Time to End Time; at most " + countText(most) +
+    throw DeckError(std::string("Transient/") + what + " is " + formatNumber(interval) +
+                    " s, which makes " + countText(count) + " of them in the " +
+                    formatNumber(duration) + " s from Start Time to End Time; at most " +
+                    countText(most) +
                     " can be computed. Take a longer one, or an earlier End Time.");
   };
   if (options.step > 0.0) require("Step", options.step, mostSteps);
@@ -56,7 +67,9 @@ void requireCounts(const TransientOptions& options) {
 
 bool isExplicit(const Teuchos::ParameterList& transient) {
   const auto list = withDefaults(transient, parameters());
-  return IntegratorRegistry::instance().make(list.get<std::string>("Integrator"), Teuchos::ParameterList())->isExplicit();
+  return IntegratorRegistry::instance()
+      .make(list.get<std::string>("Integrator"), Teuchos::ParameterList())
+      ->isExplicit();
 }
 
 TransientOptions readOptions(const Teuchos::ParameterList& given) {
@@ -64,7 +77,8 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   TransientOptions options;
   options.integrator = list.get<std::string>("Integrator");
   options.start = list.get<double>("Start Time");
-  if (!list.isParameter("End Time")) throw DeckError("Transient/End Time is required: the time in s at which the motion ends.");
+  if (!list.isParameter("End Time"))
+    throw DeckError("Transient/End Time is required: the time in s at which the motion ends.");
   options.end = list.get<double>("End Time");
   if (list.isParameter("Step")) options.step = list.get<double>("Step");
   options.sampling = list.get<double>("Sampling Interval");
@@ -73,10 +87,13 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   options.checkpointInterval = list.get<double>("Checkpoint Interval");
   if (list.isSublist(options.integrator)) options.own = list.sublist(options.integrator);
   if (!(options.end > options.start))
-    throw DeckError("Transient/End Time (" + formatNumber(options.end) + " s) must be later than Transient/Start Time (" +
-                    formatNumber(options.start) + " s).");
+    throw DeckError("Transient/End Time (" + formatNumber(options.end) +
+                    " s) must be later than Transient/Start Time (" + formatNumber(options.start) +
+                    " s).");
   requireCounts(options);
-  IntegratorRegistry::instance().make(options.integrator, options.own)->checkParameters(options.step);
+  IntegratorRegistry::instance()
+      .make(options.integrator, options.own)
+      ->checkParameters(options.step);
   return options;
 }
 

@@ -22,14 +22,17 @@ struct TransientOptions {
   double sampling = 0.005;  ///< [s]
   bool progress = true;
   bool ledger = true;
-  double checkpointInterval = 0;  ///< simulated time between checkpoints [s]; 0: none but at an interrupt
-  Teuchos::ParameterList own;     ///< the integrator's sublist
+  double checkpointInterval =
+      0;  ///< simulated time between checkpoints [s]; 0: none but at an interrupt
+  Teuchos::ParameterList own;  ///< the integrator's sublist
 };
 
-/// Read a validated list. Throws DeckError for what the registry cannot check alone (End Time not after Start Time).
+/// Read a validated list. Throws DeckError for what the registry cannot check alone (End Time not
+/// after Start Time).
 TransientOptions readOptions(const Teuchos::ParameterList& transient);
 
-/// Whether the list asks for an integrator whose step is bounded by the largest frequency of the model.
+/// Whether the list asks for an integrator whose step is bounded by the largest frequency of the
+/// model.
 bool isExplicit(const Teuchos::ParameterList& transient);
 
 }  // namespace tooljoint::transient

@@ -14,17 +14,19 @@ using Matrix3x12 = Eigen::Matrix<double, 3, 12>;
 using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 using Row12 = Eigen::Matrix<double, 1, 12>;
 
-/// Kinematics of the chord frame, everything in element axes: q_i is the turned y axis of node i, q their mean.
+/// Kinematics of the chord frame, everything in element axes: q_i is the turned y axis of node i, q
+/// their mean.
 struct ChordFrame {
   double length;
   Vector3 q1;
   Vector3 q2;
-  double qy;   ///< y component of the mean axis (its x component is zero by construction)
-  double eta;  ///< q_z / q_y
+  double qy;        ///< y component of the mean axis (its x component is zero by construction)
+  double eta;       ///< q_z / q_y
   Matrix3x12 spin;  ///< G': spin of the frame from the nodal motions
 };
 
-/// z' = w x z gives w_x, w_y from the lateral motion of the ends; q' - w x q has no x component gives w_z.
+/// z' = w x z gives w_x, w_y from the lateral motion of the ends; q' - w x q has no x component
+/// gives w_z.
 ChordFrame chordFrame(double length, const Vector3& q1, const Vector3& q2) {
   ChordFrame f{length, q1, q2, 0.5 * (q1.y() + q2.y()), 0.0, Matrix3x12::Zero()};
   f.eta = 0.5 * (q1.z() + q2.z()) / f.qy;
@@ -51,8 +53,10 @@ Matrix6x12 relativeSpin(const ChordFrame& f) {
   return p;
 }
 
-/// d(G m) for a constant moment m in element axes, as a 12 x 12 matrix on the nodal motions in element axes.
-Matrix12 spinTransposeDerivative(const ChordFrame& f, const Matrix6x12& relative, const Vector3& m) {
+/// d(G m) for a constant moment m in element axes, as a 12 x 12 matrix on the nodal motions in
+/// element axes.
+Matrix12 spinTransposeDerivative(const ChordFrame& f, const Matrix6x12& relative,
+                                 const Vector3& m) {
   const double l = f.length;
   Row12 dl = Row12::Zero();
   dl(2) = -1.0;
@@ -96,14 +100,16 @@ CorotationalElement::CorotationalElement(const Section& section, double initialL
   rotational_ << k.block<3, 3>(3, 3), k.block<3, 3>(3, 9), k.block<3, 3>(9, 3), k.block<3, 3>(9, 9);
 }
 
-CorotationalElement::CorotationalElement(const Section& section, double initialLength, const Matrix3& element0,
-                                         const Matrix3& node1, const Matrix3& node2)
+CorotationalElement::CorotationalElement(const Section& section, double initialLength,
+                                         const Matrix3& element0, const Matrix3& node1,
+                                         const Matrix3& node2)
     : CorotationalElement(section, initialLength) {
   attach1_ = node1.transpose() * element0;
   attach2_ = node2.transpose() * element0;
 }
 
-CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose, bool withTangent) const {
+CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose,
+                                                   bool withTangent) const {
   const Matrix3 t1 = pose.triad1 * attach1_;
   const Matrix3 t2 = pose.triad2 * attach2_;
   CorotationalResponse out;
@@ -127,7 +133,8 @@ CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose, bool
   spinMoment << inverse1.transpose() * moment.head<3>(), inverse2.transpose() * moment.tail<3>();
 
   // f = E (r' N + P' m) with r the elongation
-  const ChordFrame frame = chordFrame(out.length, e.transpose() * t1.col(1), e.transpose() * t2.col(1));
+  const ChordFrame frame =
+      chordFrame(out.length, e.transpose() * t1.col(1), e.transpose() * t2.col(1));
   const Matrix6x12 relative = relativeSpin(frame);
   Vector12 local = relative.transpose() * spinMoment;
   local(2) -= out.axialForce;
@@ -142,8 +149,10 @@ CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose, bool
   inverse.topLeftCorner<3, 3>() = inverse1;
   inverse.bottomRightCorner<3, 3>() = inverse2;
   Matrix6 curvature = Matrix6::Zero();
-  curvature.topLeftCorner<3, 3>() = inverseSpinTransposeDerivative(out.rotation1, moment.head<3>()) * inverse1;
-  curvature.bottomRightCorner<3, 3>() = inverseSpinTransposeDerivative(out.rotation2, moment.tail<3>()) * inverse2;
+  curvature.topLeftCorner<3, 3>() =
+      inverseSpinTransposeDerivative(out.rotation1, moment.head<3>()) * inverse1;
+  curvature.bottomRightCorner<3, 3>() =
+      inverseSpinTransposeDerivative(out.rotation2, moment.tail<3>()) * inverse2;
   const Matrix6 material = inverse.transpose() * rotational_ * inverse + curvature;
   Matrix12 tangent = relative.transpose() * material * relative;
   tangent(2, 2) += axialStiffness_;
@@ -151,7 +160,8 @@ CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose, bool
   tangent(2, 8) -= axialStiffness_;
   tangent(8, 2) -= axialStiffness_;
   // the frame turns: w x (r' N + P' m), and P' changes
-  for (int b = 0; b < 4; ++b) tangent.middleRows<3>(3 * b) -= skew(local.segment<3>(3 * b)) * frame.spin;
+  for (int b = 0; b < 4; ++b)
+    tangent.middleRows<3>(3 * b) -= skew(local.segment<3>(3 * b)) * frame.spin;
   const Vector3 total = spinMoment.head<3>() + spinMoment.tail<3>();
   tangent -= spinTransposeDerivative(frame, relative, total);
 

@@ -11,7 +11,8 @@ namespace {
 using Block4 = Eigen::Matrix4d;
 using Row4 = Eigen::RowVector4d;
 
-/// Bending dofs of a plane in the order (displacement, slope) of node 1, then node 2; slope = sign * rotation.
+/// Bending dofs of a plane in the order (displacement, slope) of node 1, then node 2; slope = sign
+/// * rotation.
 struct Plane {
   std::array<int, 4> dof;
   std::array<double, 4> sign;
@@ -22,7 +23,8 @@ constexpr Plane kV{{1, 3, 7, 9}, {1.0, -1.0, 1.0, -1.0}};  // v' = -theta_x
 /// Adds a 4x4 block that acts between the (displacement, slope) dofs of two planes.
 void addBlock(const Plane& row, const Plane& column, const Block4& block, Matrix12& out) {
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) out(row.dof[i], column.dof[j]) += row.sign[i] * column.sign[j] * block(i, j);
+    for (int j = 0; j < 4; ++j)
+      out(row.dof[i], column.dof[j]) += row.sign[i] * column.sign[j] * block(i, j);
 }
 
 /// Adds factor * length/6 [2 1; 1 2] on one dof of both ends.
@@ -33,13 +35,16 @@ void addLinear(int dof, double factor, Matrix12& out) {
   out(dof + 6, dof) += factor / 6.0;
 }
 
-/// Hermite cubics of (displacement, slope) at z = x l, differentiated `order` times with respect to z.
+/// Hermite cubics of (displacement, slope) at z = x l, differentiated `order` times with respect to
+/// z.
 Row4 hermite(double x, double l, int order) {
   switch (order) {
     case 0:
-      return {1 - 3 * x * x + 2 * x * x * x, l * (x - 2 * x * x + x * x * x), 3 * x * x - 2 * x * x * x, l * (x * x * x - x * x)};
+      return {1 - 3 * x * x + 2 * x * x * x, l * (x - 2 * x * x + x * x * x),
+              3 * x * x - 2 * x * x * x, l * (x * x * x - x * x)};
     case 1:
-      return {(6 * x * x - 6 * x) / l, 1 - 4 * x + 3 * x * x, (6 * x - 6 * x * x) / l, 3 * x * x - 2 * x};
+      return {(6 * x * x - 6 * x) / l, 1 - 4 * x + 3 * x * x, (6 * x - 6 * x * x) / l,
+              3 * x * x - 2 * x};
     default:
       return {(12 * x - 6) / (l * l), (6 * x - 4) / l, (6 - 12 * x) / (l * l), (6 * x - 2) / l};
   }
@@ -85,10 +90,15 @@ Block4 bending(double rigidity, double phi, double l) {
 Matrix12 stiffness(const Section& section, double length) {
   const double e = section.youngModulus();
   Matrix12 k = Matrix12::Zero();
-  addBlock(kU, kU, bending(e * section.inertiaY(), section.shearFactor(section.inertiaY(), length), length), k);
-  addBlock(kV, kV, bending(e * section.inertiaX(), section.shearFactor(section.inertiaX(), length), length), k);
+  addBlock(kU, kU,
+           bending(e * section.inertiaY(), section.shearFactor(section.inertiaY(), length), length),
+           k);
+  addBlock(kV, kV,
+           bending(e * section.inertiaX(), section.shearFactor(section.inertiaX(), length), length),
+           k);
   const std::array<int, 2> dofs{2, 5};
-  const std::array<double, 2> springs{section.axialRigidity() / length, section.torsionalRigidity() / length};
+  const std::array<double, 2> springs{section.axialRigidity() / length,
+                                      section.torsionalRigidity() / length};
   for (int i = 0; i < 2; ++i) {
     k(dofs[i], dofs[i]) = k(dofs[i] + 6, dofs[i] + 6) = springs[i];
     k(dofs[i], dofs[i] + 6) = k(dofs[i] + 6, dofs[i]) = -springs[i];
@@ -172,14 +182,17 @@ Matrix12 slopeRotation(const Matrix12& rotation) {
   return r;
 }
 
-Matrix3 elementTriad(const Vector3& x1, const Vector3& x2, const Matrix3& node1, const Matrix3& node2) {
+Matrix3 elementTriad(const Vector3& x1, const Vector3& x2, const Matrix3& node1,
+                     const Matrix3& node2) {
   const Vector3 chord = x2 - x1;
   const double length = chord.norm();
   if (!(length > 0.0)) throw ModelError("A beam element has no length: its two nodes coincide.");
   Matrix3 e;
   e.col(2) = chord / length;
   const Vector3 x = (0.5 * (node1.col(1) + node2.col(1))).cross(e.col(2));
-  if (!(x.norm() > 1e-8)) throw ModelError("A beam element lies along the mean y axis of its nodes: its frame is undefined.");
+  if (!(x.norm() > 1e-8))
+    throw ModelError(
+        "A beam element lies along the mean y axis of its nodes: its frame is undefined.");
   e.col(0) = x.normalized();
   e.col(1) = e.col(2).cross(e.col(0));
   return e;

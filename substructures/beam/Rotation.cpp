@@ -34,8 +34,10 @@ Matrix3 skew(const Vector3& v) {
 Matrix3 rotationExponential(const Vector3& theta) {
   const double a = theta.norm();
   // sin a/a and (1 - cos a)/a^2 = 2 (sin(a/2)/a)^2
-  const double first = a < kSmallAngle ? 1.0 - a * a / 6.0 + a * a * a * a / 120.0 : std::sin(a) / a;
-  const double half = a < kSmallAngle ? 0.5 - a * a / 48.0 + a * a * a * a / 3840.0 : std::sin(0.5 * a) / a;
+  const double first =
+      a < kSmallAngle ? 1.0 - a * a / 6.0 + a * a * a * a / 120.0 : std::sin(a) / a;
+  const double half =
+      a < kSmallAngle ? 0.5 - a * a / 48.0 + a * a * a * a / 3840.0 : std::sin(0.5 * a) / a;
   const Matrix3 s = skew(theta);
   return Matrix3::Identity() + first * s + 2.0 * half * half * s * s;
 }
@@ -56,7 +58,8 @@ Matrix3 spinFromRotationVector(const Vector3& theta) {
   if (a < kSmallAngle)
     return Matrix3::Identity() + (0.5 - a * a / 24.0 + a * a * a * a / 720.0) * s +
            (1.0 / 6.0 - a * a / 120.0 + a * a * a * a / 5040.0) * s * s;
-  return Matrix3::Identity() + (1.0 - std::cos(a)) / (a * a) * s + (a - std::sin(a)) / (a * a * a) * s * s;
+  return Matrix3::Identity() + (1.0 - std::cos(a)) / (a * a) * s +
+         (a - std::sin(a)) / (a * a * a) * s * s;
 }
 
 Matrix3 rotationVectorFromSpin(const Vector3& theta) {
@@ -69,7 +72,8 @@ Matrix3 inverseSpinTransposeDerivative(const Vector3& theta, const Vector3& v) {
   const double a = theta.norm();
   const Vector3 once = theta.cross(v);
   const Vector3 twice = theta.cross(once);
-  return -0.5 * skew(v) - eta(a) * (skew(once) + skew(theta) * skew(v)) + etaSlope(a) * twice * theta.transpose();
+  return -0.5 * skew(v) - eta(a) * (skew(once) + skew(theta) * skew(v)) +
+         etaSlope(a) * twice * theta.transpose();
 }
 
 }  // namespace tooljoint::beam

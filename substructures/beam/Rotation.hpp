@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Finite rotations by rotation vectors: exponential, logarithm and the maps between spins and rotation vectors.
+/// Finite rotations by rotation vectors: exponential, logarithm and the maps between spins and
+/// rotation vectors.
 #pragma once
 
 #include "common/Types.hpp"

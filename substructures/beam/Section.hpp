@@ -22,9 +22,11 @@ struct Material {
 /// Shear area over area of the Timoshenko correction (Nguyen et al. 2020, section 2.1).
 constexpr double kShearCoefficient = 0.9;
 
-/// Cross section of a beam: hollow circular, or general (principal axes x, y) without shear deformation.
+/// Cross section of a beam: hollow circular, or general (principal axes x, y) without shear
+/// deformation.
 ///
-/// inertiaX() resists bending in the v-z plane (rotation theta_x), inertiaY() bending in the u-z plane (theta_y).
+/// inertiaX() resists bending in the v-z plane (rotation theta_x), inertiaY() bending in the u-z
+/// plane (theta_y).
 class Section {
  public:
   Section() = default;
@@ -40,7 +42,7 @@ class Section {
     s.material_ = material;
     s.outerRadius_ = outerRadius;
     s.innerRadius_ = innerRadius;
-    s.area_ = pi * (outer2 - inner2);                               // S = pi (R_e^2 - R_i^2)
+    s.area_ = pi * (outer2 - inner2);                              // S = pi (R_e^2 - R_i^2)
     s.inertiaX_ = pi * (outer2 * outer2 - inner2 * inner2) / 4.0;  // I = pi (R_e^4 - R_i^4) / 4
     s.inertiaY_ = s.inertiaX_;
     s.torsion_ = 2.0 * s.inertiaX_;
@@ -48,10 +50,12 @@ class Section {
     return s;
   }
 
-  /// General section: area [m2], second moments I_x, I_y [m4] and torsion constant J [m4], all positive; ModelError
-  /// otherwise. Shear deformation is off; the radii (mud, contact) are zero unless given.
-  static Section general(double area, double inertiaX, double inertiaY, double torsion, const Material& material,
-                         double outerRadius = 0.0, double innerRadius = 0.0) {
+  /// General section: area [m2], second moments I_x, I_y [m4] and torsion constant J [m4], all
+  /// positive; ModelError otherwise. Shear deformation is off; the radii (mud, contact) are zero
+  /// unless given.
+  static Section general(double area, double inertiaX, double inertiaY, double torsion,
+                         const Material& material, double outerRadius = 0.0,
+                         double innerRadius = 0.0) {
     if (!(area > 0.0) || !(inertiaX > 0.0) || !(inertiaY > 0.0) || !(torsion > 0.0))
       throw ModelError("A general section needs a positive area, I_x, I_y and J.");
     Section s;
@@ -74,22 +78,23 @@ class Section {
   }
 
   const Material& material() const { return material_; }
-  double outerRadius() const { return outerRadius_; }        ///< R_e [m]
-  double innerRadius() const { return innerRadius_; }        ///< R_i [m]
-  double area() const { return area_; }                      ///< S [m2]
-  double inertiaX() const { return inertiaX_; }              ///< about x [m4]
-  double inertiaY() const { return inertiaY_; }              ///< about y [m4]
-  double polar() const { return inertiaX_ + inertiaY_; }     ///< I_p, of the spinning mass [m4]
-  double torsion() const { return torsion_; }                ///< J of G J theta_z' [m4]; equals I_p for a circle
+  double outerRadius() const { return outerRadius_; }     ///< R_e [m]
+  double innerRadius() const { return innerRadius_; }     ///< R_i [m]
+  double area() const { return area_; }                   ///< S [m2]
+  double inertiaX() const { return inertiaX_; }           ///< about x [m4]
+  double inertiaY() const { return inertiaY_; }           ///< about y [m4]
+  double polar() const { return inertiaX_ + inertiaY_; }  ///< I_p, of the spinning mass [m4]
+  double torsion() const { return torsion_; }  ///< J of G J theta_z' [m4]; equals I_p for a circle
   bool shearDeformable() const { return shear_; }
   double youngModulus() const { return material_.youngModulus; }
   double shearModulus() const { return material_.shearModulus(); }
   double density() const { return material_.density; }
   double axialRigidity() const { return material_.youngModulus * area_; }           ///< E S [N]
   double torsionalRigidity() const { return material_.shearModulus() * torsion_; }  ///< G J [N m2]
-  double massPerLength() const { return material_.density * area_; }                ///< rho S [kg/m]
+  double massPerLength() const { return material_.density * area_; }  ///< rho S [kg/m]
 
-  /// phi = 12 E I / (G S beta l^2) for bending with second moment `inertia` in an element of length l; 0 without shear.
+  /// phi = 12 E I / (G S beta l^2) for bending with second moment `inertia` in an element of length
+  /// l; 0 without shear.
   double shearFactor(double inertia, double length) const {
     if (!shear_) return 0.0;
     return 12.0 * material_.youngModulus * inertia /

@@ -22,8 +22,11 @@ SparseAssembler::SparseAssembler(int size, std::vector<std::vector<int>> unknown
     std::vector<int> slots;
     for (const int i : rows)
       for (const int j : rows)
-        slots.push_back(i < 0 || j < 0 ? -1
-                                       : static_cast<int>(std::lower_bound(column + start[i], column + start[i + 1], j) - column));
+        slots.push_back(
+            i < 0 || j < 0
+                ? -1
+                : static_cast<int>(std::lower_bound(column + start[i], column + start[i + 1], j) -
+                                   column));
     slots_.push_back(std::move(slots));
   }
 }

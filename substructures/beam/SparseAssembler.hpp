@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Sparse matrix of a mesh: the pattern is found once, entries are then added in place without searching.
+/// Sparse matrix of a mesh: the pattern is found once, entries are then added in place without
+/// searching.
 #pragma once
 
 #include <vector>
@@ -9,20 +10,25 @@
 
 namespace tooljoint::beam {
 
-/// Assembles element matrices into one fixed pattern. Unknown -1 marks a held dof, whose rows and columns are left out.
+/// Assembles element matrices into one fixed pattern. Unknown -1 marks a held dof, whose rows and
+/// columns are left out.
 class SparseAssembler {
  public:
   SparseAssembler() = default;
-  /// `unknowns[e]` lists the global unknown of each local dof of element e. The diagonal is always in the pattern.
+  /// `unknowns[e]` lists the global unknown of each local dof of element e. The diagonal is always
+  /// in the pattern.
   SparseAssembler(int size, std::vector<std::vector<int>> unknowns);
 
   int size() const { return size_; }
-  const std::vector<int>& unknowns(int element) const { return unknowns_[static_cast<std::size_t>(element)]; }
+  const std::vector<int>& unknowns(int element) const {
+    return unknowns_[static_cast<std::size_t>(element)];
+  }
 
   /// Gives `matrix` the pattern (unless it has it already) and sets all entries to zero.
   void clear(Sparse& matrix) const;
 
-  /// matrix += element matrix (local dofs x local dofs); `matrix` must have been cleared by this assembler.
+  /// matrix += element matrix (local dofs x local dofs); `matrix` must have been cleared by this
+  /// assembler.
   template <class Derived>
   void add(int element, const Eigen::MatrixBase<Derived>& local, Sparse& matrix) const {
     const std::vector<int>& slots = slots_[static_cast<std::size_t>(element)];
@@ -46,7 +52,8 @@ class SparseAssembler {
  private:
   int size_ = 0;
   std::vector<std::vector<int>> unknowns_;
-  std::vector<std::vector<int>> slots_;  ///< position in valuePtr() of each local entry, -1 when held
+  std::vector<std::vector<int>>
+      slots_;  ///< position in valuePtr() of each local entry, -1 when held
   Sparse pattern_;
 };
 

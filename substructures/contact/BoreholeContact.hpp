@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Contact and friction between string nodes and the wall of the hole in motion, as a batch of points with the
-/// coordinates u, v, theta_z in nodal frames. Nguyen et al. 2020, eqs. (6)-(9).
+/// Contact and friction between string nodes and the wall of the hole in motion, as a batch of
+/// points with the coordinates u, v, theta_z in nodal frames. Nguyen et al. 2020, eqs. (6)-(9).
 ///
 ///     r = sqrt(u^2 + v^2 + e^2),  n = (u, v)/r,  t = (-v, u)/r,  G = r - j0,  G' = n.(u', v')
-///     force  -F_n n - mu(v_g) F_n t,  torque  -mu(v_g) F_n R_c,  v_g = t.(u', v') + (Omega + theta_z') R_c
+///     force  -F_n n - mu(v_g) F_n t,  torque  -mu(v_g) F_n R_c,  v_g = t.(u', v') + (Omega +
+///     theta_z') R_c
 ///
-/// with F_n(G, G') of the contact law. e = 1e-9 m keeps forces and tangents finite on the axis, where n has no direction.
+/// with F_n(G, G') of the contact law. e = 1e-9 m keeps forces and tangents finite on the axis,
+/// where n has no direction.
 #pragma once
 
 #include <functional>
@@ -19,7 +21,8 @@ namespace tooljoint::contact {
 
 /// e of the regularised radius [m].
 inline constexpr double axisRadius = 1e-9;
-/// A law whose tail (the force on a node far from the wall) is below this [N] lets nodes be skipped.
+/// A law whose tail (the force on a node far from the wall) is below this [N] lets nodes be
+/// skipped.
 inline constexpr double negligibleForce = 1e-3;
 
 /// Rotary speed of the string [rad/s] at time t [s].
@@ -27,11 +30,12 @@ using RotarySpeed = std::function<double(double)>;
 
 /// width() = 3: u [m], v [m], theta_z [rad]; forces F_u [N], F_v [N], T_z [N m].
 ///
-/// Channels: normal_force [N] (F_n, positive pushes the string away from the wall), gap [m] (j0 - r, negative in contact),
-/// and with friction tangential_force [N] (component along t) and friction_torque [N m].
-/// Power: stored energy relative to G = 0, losses F_n G' beyond the elastic part and mu F_n v_g, drive mu F_n Omega R_c,
-/// so that d(stored)/dt + damping + friction - drive = -(force . velocity).
-/// A batch without friction has neither the friction channels nor any friction arithmetic.
+/// Channels: normal_force [N] (F_n, positive pushes the string away from the wall), gap [m] (j0 -
+/// r, negative in contact), and with friction tangential_force [N] (component along t) and
+/// friction_torque [N m]. Power: stored energy relative to G = 0, losses F_n G' beyond the elastic
+/// part and mu F_n v_g, drive mu F_n Omega R_c, so that d(stored)/dt + damping + friction - drive =
+/// -(force . velocity). A batch without friction has neither the friction channels nor any friction
+/// arithmetic.
 class BoreholeContact : public model::PointLaw {
  public:
   explicit BoreholeContact(ContactPoints points) : points_(std::move(points)) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A wall that only pushes: the regularised spring and damper act for G > 0 alone and their sum is never negative.
+// A wall that only pushes: the regularised spring and damper act for G > 0 alone and their sum is
+// never negative.
 #include <algorithm>
 
 #include "substructures/contact/LawKernel.hpp"
@@ -7,14 +8,15 @@
 namespace tooljoint::contact {
 namespace {
 
-/// F_n = max(0, K(G) G + C(G) G') for G > 0, zero for G <= 0, with K = (2 k/pi) atan(pi lambda G) and C likewise: both rise
-/// from zero, so force and elastic tangent are continuous at the wall.
+/// F_n = max(0, K(G) G + C(G) G') for G > 0, zero for G <= 0, with K = (2 k/pi) atan(pi lambda G)
+/// and C likewise: both rise from zero, so force and elastic tangent are continuous at the wall.
 class ClampedKernel {
  public:
   void prepare(const ContactPoints& points) {
     for (int p = 0; p < points.size(); ++p) {
       const ContactPoint point = points.at(p);
-      constants_.push_back({2.0 * point.stiffness / pi, 2.0 * point.damping / pi, pi * point.lambdaK, pi * point.lambdaC});
+      constants_.push_back({2.0 * point.stiffness / pi, 2.0 * point.damping / pi,
+                            pi * point.lambdaK, pi * point.lambdaC});
     }
   }
 
@@ -65,8 +67,11 @@ class ClampedKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Clamped", {"Regularised spring and damper that only push: no force without penetration, none that pulls.", deck::ListSpec(),
-                [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<ClampedKernel>>(); }});
+    "Clamped",
+    {"Regularised spring and damper that only push: no force without penetration, none that pulls.",
+     deck::ListSpec(), [](const Teuchos::ParameterList&) {
+       return std::make_unique<ContactLawOf<ClampedKernel>>();
+     }});
 
 }  // namespace
 }  // namespace tooljoint::contact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Contact laws by name. A law is one file: a kernel F_n(G, G') and its registration (see Clamped.cpp).
+/// Contact laws by name. A law is one file: a kernel F_n(G, G') and its registration (see
+/// Clamped.cpp).
 #pragma once
 
 #include <memory>
@@ -15,12 +16,14 @@ class ParameterList;
 
 namespace tooljoint::contact {
 
-/// A law of the normal force, from which the batches for the motion and for the static problem are made.
+/// A law of the normal force, from which the batches for the motion and for the static problem are
+/// made.
 class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
   /// Contact and friction in motion; `speed` is the rotary speed of the string.
-  virtual std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points, RotarySpeed speed) const = 0;
+  virtual std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points,
+                                                          RotarySpeed speed) const = 0;
   /// Contact and full sliding at rest.
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;
 };
@@ -28,7 +31,8 @@ class ContactLaw {
 /// Laws by name; each gets its own sublist (empty when the law has no parameters of its own).
 using LawRegistry = deck::Registry<ContactLaw, const Teuchos::ParameterList&>;
 
-/// A law without a deck, with the default values of its own parameters. Throws DeckError for an unknown name.
+/// A law without a deck, with the default values of its own parameters. Throws DeckError for an
+/// unknown name.
 std::shared_ptr<const ContactLaw> makeLaw(const std::string& name);
 
 }  // namespace tooljoint::contact

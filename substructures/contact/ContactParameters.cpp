@@ -30,11 +30,13 @@ void takeValues(const Teuchos::ParameterList& list, ContactPoint& values) {
   take(friction, "Dynamic", values.muDynamic);
   take(friction, "Regularisation Velocity", values.regularisationVelocity);
   if (values.muDynamic > values.muStatic)
-    throw DeckError(friction.name() + ": the dynamic friction coefficient " + formatNumber(values.muDynamic) +
-                    " is above the static one, " + formatNumber(values.muStatic) + "; the friction law needs Dynamic <= Static.");
+    throw DeckError(friction.name() + ": the dynamic friction coefficient " +
+                    formatNumber(values.muDynamic) + " is above the static one, " +
+                    formatNumber(values.muStatic) + "; the friction law needs Dynamic <= Static.");
 }
 
-std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, const ContactPoint& base) {
+std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list,
+                                           const ContactPoint& base) {
   std::vector<ContactInterval> intervals;
   for (auto it = list.begin(); it != list.end(); ++it) {
     const std::string& name = list.name(it);
@@ -46,19 +48,25 @@ std::vector<ContactInterval> readIntervals(const Teuchos::ParameterList& list, c
                       " m must be deeper than From = " + formatNumber(interval.from) + " m.");
     intervals.push_back(interval);
   }
-  std::sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+  std::sort(intervals.begin(), intervals.end(),
+            [](const auto& a, const auto& b) { return a.from < b.from; });
   for (std::size_t i = 1; i < intervals.size(); ++i)
     if (intervals[i].from < intervals[i - 1].to)
-      throw DeckError(list.name() + ": \"" + intervals[i - 1].name + "\" and \"" + intervals[i].name +
+      throw DeckError(list.name() + ": \"" + intervals[i - 1].name + "\" and \"" +
+                      intervals[i].name +
                       "\" overlap; end the upper one where the lower one starts.");
   return intervals;
 }
 
 deck::ListSpec frictionSpec(bool base) {
-  deck::ListSpec spec("Friction",
-                      base ? "Smoothed Coulomb friction (Nguyen et al. 2020, eq. 9); without this list the wall is frictionless."
-                           : "Friction in this stretch, where it differs; 0 and 0 make it frictionless.");
-  const auto value = [base](deck::Default standard) { return base ? standard : deck::Default(Optional{}); };
+  deck::ListSpec spec(
+      "Friction",
+      base ? "Smoothed Coulomb friction (Nguyen et al. 2020, eq. 9); without this list the wall is "
+             "frictionless."
+           : "Friction in this stretch, where it differs; 0 and 0 make it frictionless.");
+  const auto value = [base](deck::Default standard) {
+    return base ? standard : deck::Default(Optional{});
+  };
   spec.real("Static", "", value(Required{}), Range::nonNegative(),
             "Peak of the friction coefficient, mu_s; also that of the static state.");
   spec.real("Dynamic", "", value(Required{}), Range::nonNegative(),
@@ -69,7 +77,8 @@ deck::ListSpec frictionSpec(bool base) {
 }
 
 deck::ListSpec intervalSpec() {
-  return deck::ListSpec("Interval", "A stretch of the hole; what it does not give is as outside it.")
+  return deck::ListSpec("Interval",
+                        "A stretch of the hole; what it does not give is as outside it.")
       .real("From", "m", Required{}, Range::nonNegative(), "Measured depth of its upper end.")
       .real("To", "m", Required{}, Range::positive(),
             "Measured depth of its lower end; a node exactly there belongs to the next stretch.")
@@ -82,7 +91,8 @@ deck::ListSpec intervalSpec() {
 
 }  // namespace
 
-ContactPoint ContactSettings::pointAt(double s, int node, double clearance, double contactRadius) const {
+ContactPoint ContactSettings::pointAt(double s, int node, double clearance,
+                                      double contactRadius) const {
   ContactPoint point = values;
   for (const ContactInterval& interval : intervals)
     if (s >= interval.from && s < interval.to) point = interval.values;
@@ -94,17 +104,21 @@ ContactPoint ContactSettings::pointAt(double s, int node, double clearance, doub
 
 deck::ListSpec parameters() {
   const auto& registry = LawRegistry::instance();
-  deck::ListSpec spec("Contact", "Contact of the string with the wall; without this list there is none.");
+  deck::ListSpec spec("Contact",
+                      "Contact of the string with the wall; without this list there is none.");
   spec.choice("Law", std::string("Clamped"), registry.names(), "Law of the normal force.");
   spec.real("Stiffness", "N/m", Required{}, Range::positive(), "Contact stiffness k_c.");
   spec.real("Damping", "N s/m", 0.0, Range::nonNegative(), "Contact damping c_c.");
   spec.real("Stiffness Regularisation", "1/m", 1e6, Range::positive(),
-            "lambda_k: the stiffness rises over about 1/lambda_k of penetration; above 1e6 it is a step for every purpose.");
-  spec.real("Damping Regularisation", "1/m", 1e6, Range::positive(), "lambda_c: the same for the damping.");
+            "lambda_k: the stiffness rises over about 1/lambda_k of penetration; above 1e6 it is a "
+            "step for every purpose.");
+  spec.real("Damping Regularisation", "1/m", 1e6, Range::positive(),
+            "lambda_c: the same for the damping.");
   spec.list(frictionSpec(true));
   for (const auto& [name, entry] : registry.entries())
     if (!entry.parameters.parameters().empty()) spec.list(entry.parameters);
-  spec.list(deck::ListSpec("Intervals", "Stretches of the hole with other parameters.").namedLists(intervalSpec()));
+  spec.list(deck::ListSpec("Intervals", "Stretches of the hole with other parameters.")
+                .namedLists(intervalSpec()));
   return spec;
 }
 
@@ -115,10 +129,13 @@ ContactSettings readContact(const Teuchos::ParameterList& list) {
   settings.law = entry.make(deck::variantList(list, settings.lawName, entry.parameters));
   takeValues(list, settings.values);
   if (settings.lawName == "Hunt-Crossley" && settings.values.damping > 0.0)
-    throw DeckError(list.name() + "/Damping is not used by the law Hunt-Crossley; give its Dissipation instead.");
-  if (list.isSublist("Intervals")) settings.intervals = readIntervals(list.sublist("Intervals"), settings.values);
+    throw DeckError(list.name() +
+                    "/Damping is not used by the law Hunt-Crossley; give its Dissipation instead.");
+  if (list.isSublist("Intervals"))
+    settings.intervals = readIntervals(list.sublist("Intervals"), settings.values);
   settings.friction = settings.values.muStatic > 0.0;
-  for (const ContactInterval& interval : settings.intervals) settings.friction |= interval.values.muStatic > 0.0;
+  for (const ContactInterval& interval : settings.intervals)
+    settings.friction |= interval.values.muStatic > 0.0;
   return settings;
 }
 

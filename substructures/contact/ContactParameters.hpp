@@ -13,7 +13,8 @@
 
 namespace tooljoint::contact {
 
-/// Stretch of the hole with its own parameters (node, clearance and contact radius of `values` are not used).
+/// Stretch of the hole with its own parameters (node, clearance and contact radius of `values` are
+/// not used).
 struct ContactInterval {
   std::string name;
   double from = 0.0;  ///< measured depth [m], included
@@ -36,8 +37,8 @@ struct ContactSettings {
 /// Description of the list `Contact`.
 deck::ListSpec parameters();
 
-/// Settings of a validated list `Contact`. Throws DeckError for what no single parameter shows: dynamic friction above
-/// static friction, overlapping intervals.
+/// Settings of a validated list `Contact`. Throws DeckError for what no single parameter shows:
+/// dynamic friction above static friction, overlapping intervals.
 ContactSettings readContact(const Teuchos::ParameterList& list);
 
 }  // namespace tooljoint::contact

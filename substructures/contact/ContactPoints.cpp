@@ -20,14 +20,20 @@ void require(bool good, int node, const std::string& sentence) {
 void ContactPoints::add(const ContactPoint& p) {
   const auto atLeastZero = [](double x) { return std::isfinite(x) && x >= 0.0; };
   require(atLeastZero(p.clearance), p.node, "the clearance must be finite and not negative.");
-  require(atLeastZero(p.contactRadius), p.node, "the contact radius must be finite and not negative.");
-  require(std::isfinite(p.stiffness) && p.stiffness > 0.0, p.node, "the stiffness must be above 0.");
+  require(atLeastZero(p.contactRadius), p.node,
+          "the contact radius must be finite and not negative.");
+  require(std::isfinite(p.stiffness) && p.stiffness > 0.0, p.node,
+          "the stiffness must be above 0.");
   require(atLeastZero(p.damping), p.node, "the damping must not be negative.");
-  require(std::isfinite(p.lambdaK) && p.lambdaK > 0.0, p.node, "the stiffness regularisation must be above 0.");
-  require(std::isfinite(p.lambdaC) && p.lambdaC > 0.0, p.node, "the damping regularisation must be above 0.");
-  require(atLeastZero(p.muStatic) && atLeastZero(p.muDynamic), p.node, "friction coefficients must not be negative.");
+  require(std::isfinite(p.lambdaK) && p.lambdaK > 0.0, p.node,
+          "the stiffness regularisation must be above 0.");
+  require(std::isfinite(p.lambdaC) && p.lambdaC > 0.0, p.node,
+          "the damping regularisation must be above 0.");
+  require(atLeastZero(p.muStatic) && atLeastZero(p.muDynamic), p.node,
+          "friction coefficients must not be negative.");
   require(p.muDynamic <= p.muStatic, p.node,
-          "the dynamic friction coefficient is above the static one; the friction law needs dynamic <= static.");
+          "the dynamic friction coefficient is above the static one; the friction law needs "
+          "dynamic <= static.");
   require(std::isfinite(p.regularisationVelocity) && p.regularisationVelocity > 0.0, p.node,
           "the regularisation velocity must be above 0.");
   node.push_back(p.node);
@@ -57,8 +63,8 @@ ContactPoints ContactPoints::subset(const std::vector<int>& positions) const {
 ContactPoints ContactPoints::slidingAt(double omega) const {
   ContactPoints out = *this;
   for (std::size_t i = 0; i < out.muStatic.size(); ++i)
-    out.muStatic[i] =
-        FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i]).value(std::abs(omega) * contactRadius[i]);
+    out.muStatic[i] = FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i])
+                          .value(std::abs(omega) * contactRadius[i]);
   return out;
 }
 

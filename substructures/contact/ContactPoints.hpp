@@ -35,15 +35,16 @@ struct ContactPoints {
   std::vector<double> regularisationVelocity;
 
   int size() const { return static_cast<int>(node.size()); }
-  /// Append a point. Throws DeckError when a parameter makes no sense (muDynamic above muStatic, a negative stiffness ...).
+  /// Append a point. Throws DeckError when a parameter makes no sense (muDynamic above muStatic, a
+  /// negative stiffness ...).
   void add(const ContactPoint& point);
   ContactPoint at(int i) const;
   /// The points at these 0-based positions.
   ContactPoints subset(const std::vector<int>& positions) const;
   /// No point has friction.
   bool frictionless() const;
-  /// The same points with mu_s replaced by mu(|Omega| R_c) of eq. (9): what a section that turns at Omega [rad/s] without moving
-  /// sideways slides with. For StaticContact, which knows mu_s alone.
+  /// The same points with mu_s replaced by mu(|Omega| R_c) of eq. (9): what a section that turns at
+  /// Omega [rad/s] without moving sideways slides with. For StaticContact, which knows mu_s alone.
   ContactPoints slidingAt(double omega) const;
 };
 

@@ -7,7 +7,8 @@
 
 namespace tooljoint::contact {
 
-/// mu(v) = v/(2 v_r) [ (1-xi) q + (1+xi) q^2 ],  q = 1/(1 + c |v|),  xi = sqrt(1 - mu_d/mu_s),  c = (1-xi)/(2 v_r mu_d).
+/// mu(v) = v/(2 v_r) [ (1-xi) q + (1+xi) q^2 ],  q = 1/(1 + c |v|),  xi = sqrt(1 - mu_d/mu_s),  c =
+/// (1-xi)/(2 v_r mu_d).
 ///
 /// Odd in v; slope 1/v_r at zero, peak mu_s at 2 v_r mu_d/(xi (1-xi)), limit mu_d for fast sliding.
 struct FrictionCurve {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hunt and Crossley, J. Appl. Mech. 42 (1975): the damping grows with the penetration, so the force starts and ends at zero.
+// Hunt and Crossley, J. Appl. Mech. 42 (1975): the damping grows with the penetration, so the force
+// starts and ends at zero.
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 
@@ -11,7 +12,8 @@ namespace {
 /// F_n = k G^n (1 + chi G') for G > 0, never negative, zero for G <= 0. No regularisation.
 class HuntCrossleyKernel {
  public:
-  explicit HuntCrossleyKernel(double exponent = 1.0, double dissipation = 0.0) : n_(exponent), chi_(dissipation) {}
+  explicit HuntCrossleyKernel(double exponent = 1.0, double dissipation = 0.0)
+      : n_(exponent), chi_(dissipation) {}
 
   void prepare(const ContactPoints& points) { k_ = points.stiffness; }
 
@@ -37,7 +39,9 @@ class HuntCrossleyKernel {
 
   double pull(std::size_t, double) const { return 0.0; }
 
-  double energy(std::size_t i, double G) const { return G <= 0.0 ? 0.0 : k_[i] * G * G * power(G) / (n_ + 1.0); }
+  double energy(std::size_t i, double G) const {
+    return G <= 0.0 ? 0.0 : k_[i] * G * G * power(G) / (n_ + 1.0);
+  }
 
   double skin(std::size_t) const { return 0.0; }
 
@@ -54,19 +58,22 @@ class HuntCrossleyKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Hunt-Crossley", {"Power-law spring whose damping grows with the penetration (Hunt and Crossley 1975); Damping and the "
-                      "regularisations are not used.",
-                      deck::ListSpec("Hunt-Crossley", "Force k G^n (1 + chi dG/dt), only while it pushes.")
-                          .real("Exponent", "", 1.0, deck::Range::between(1.0, 3.0), "n; above 1 the Stiffness k is in N/m^n.")
-                          .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
-                                "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
-                      [](const Teuchos::ParameterList& list) {
-                        const auto value = [&list](const char* name, double standard) {
-                          return list.isParameter(name) ? list.get<double>(name) : standard;
-                        };
-                        return std::make_unique<ContactLawOf<HuntCrossleyKernel>>(
-                            HuntCrossleyKernel(value("Exponent", 1.0), value("Dissipation", 0.0)));
-                      }});
+    "Hunt-Crossley",
+    {"Power-law spring whose damping grows with the penetration (Hunt and Crossley 1975); Damping "
+     "and the "
+     "regularisations are not used.",
+     deck::ListSpec("Hunt-Crossley", "Force k G^n (1 + chi dG/dt), only while it pushes.")
+         .real("Exponent", "", 1.0, deck::Range::between(1.0, 3.0),
+               "n; above 1 the Stiffness k is in N/m^n.")
+         .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
+               "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
+     [](const Teuchos::ParameterList& list) {
+       const auto value = [&list](const char* name, double standard) {
+         return list.isParameter(name) ? list.get<double>(name) : standard;
+       };
+       return std::make_unique<ContactLawOf<HuntCrossleyKernel>>(
+           HuntCrossleyKernel(value("Exponent", 1.0), value("Dissipation", 0.0)));
+     }});
 
 }  // namespace
 }  // namespace tooljoint::contact

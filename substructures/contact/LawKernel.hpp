@@ -6,11 +6,13 @@
 ///   void prepare(const ContactPoints&)                               constants per point, once
 ///   double forceOnly(size_t i, double G, double rate) const          F_n
 ///   NormalForce force(size_t i, double G, double rate) const         F_n and its derivatives
-///   double elastic(size_t i, double G, double lambda, double& dG) const   F_n at rest and its derivative; lambda 0 = the
+///   double elastic(size_t i, double G, double lambda, double& dG) const   F_n at rest and its
+///   derivative; lambda 0 = the
 ///                                                                    point's own regularisation
-///   double pull(size_t i, double lambda) const                       what an open point is pulled with at most
-///   double energy(size_t i, double G) const                          int_0^G of the elastic part
-///   double skin(size_t i) const                                      gap beyond which the force is negligible [m];
+///   double pull(size_t i, double lambda) const                       what an open point is pulled
+///   with at most double energy(size_t i, double G) const                          int_0^G of the
+///   elastic part double skin(size_t i) const                                      gap beyond which
+///   the force is negligible [m];
 ///                                                                    infinite when it never is
 #pragma once
 
@@ -27,21 +29,26 @@ namespace tooljoint::contact {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// atan2(1, -x) = pi/2 + atan(x) without cancellation for large negative x; by its asymptote for |x| > 32, where the first
-/// term left out is below 1e-19.
+/// atan2(1, -x) = pi/2 + atan(x) without cancellation for large negative x; by its asymptote for
+/// |x| > 32, where the first term left out is below 1e-19.
 inline double risingAngle(double x) {
   const double size = std::abs(x);
   if (size < 32.0) return std::atan2(1.0, -x);
   const double y = 1.0 / size;
   const double y2 = y * y;
-  const double a = y * (1.0 - y2 * (1.0 / 3.0 - y2 * (1.0 / 5.0 - y2 * (1.0 / 7.0 - y2 * (1.0 / 9.0 - y2 / 11.0)))));
+  const double a =
+      y *
+      (1.0 - y2 * (1.0 / 3.0 - y2 * (1.0 / 5.0 - y2 * (1.0 / 7.0 - y2 * (1.0 / 9.0 - y2 / 11.0)))));
   return x > 0.0 ? pi - a : a;
 }
 
 /// atan(x) = pi/2 - (asymptote) for x >= 0.
-inline double positiveAngle(double x) { return x < 32.0 ? std::atan(x) : 0.5 * pi - risingAngle(-x); }
+inline double positiveAngle(double x) {
+  return x < 32.0 ? std::atan(x) : 0.5 * pi - risingAngle(-x);
+}
 
-/// (x^2 atan(x) + atan(x) - x)/2 = int_0^x y atan(y) dy for x >= 0, without cancellation for small x.
+/// (x^2 atan(x) + atan(x) - x)/2 = int_0^x y atan(y) dy for x >= 0, without cancellation for small
+/// x.
 inline double angleMoment(double x) {
   if (x < 1e-2) return x * x * x * (1.0 / 3.0 - x * x * (1.0 / 15.0 - x * x / 35.0));
   return 0.5 * ((x * x + 1.0) * positiveAngle(x) - x);
@@ -72,7 +79,10 @@ template <class Kernel>
 class BoreholeContactOf final : public BoreholeContact, public model::Frictional {
  public:
   BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed)
-      : BoreholeContact(std::move(points)), original_(kernel), kernel_(std::move(kernel)), speed_(std::move(speed)) {
+      : BoreholeContact(std::move(points)),
+        original_(kernel),
+        kernel_(std::move(kernel)),
+        speed_(std::move(speed)) {
     kernel_.prepare(points_);
     frictionless_ = points_.frictionless();
     if (frictionless_) return;
@@ -82,25 +92,29 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     }
   }
 
-  void evaluate(double t, const std::vector<int>& active, const double* d, const double* v, double* f) const override {
+  void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const override {
     contactCount() += static_cast<long>(active.size());
     if (frictionless_) {
-      for (const int p : active) frictionlessForce(static_cast<std::size_t>(p), d + 3 * p, v + 3 * p, f + 3 * p);
+      for (const int p : active)
+        frictionlessForce(static_cast<std::size_t>(p), d + 3 * p, v + 3 * p, f + 3 * p);
       return;
     }
     const double omega = speed_(t);
     long slid = 0;
-    for (const int p : active) slid += force(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p);
+    for (const int p : active)
+      slid += force(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p);
     frictionCount() += slid;
   }
 
-  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv) const override {
     contactCount() += static_cast<long>(active.size());
     const double omega = frictionless_ ? 0.0 : speed_(t);
     long slid = 0;
     for (const int p : active)
-      slid += tangent(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p, dfdd + 9 * p, dfdv + 9 * p);
+      slid += tangent(static_cast<std::size_t>(p), omega, d + 3 * p, v + 3 * p, f + 3 * p,
+                      dfdd + 9 * p, dfdv + 9 * p);
     if (slid > 0) frictionCount() += slid;
   }
 
@@ -114,7 +128,8 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     }
   }
 
-  Power power(double t, const std::vector<int>& points, const double* d, const double* v) const override {
+  Power power(double t, const std::vector<int>& points, const double* d,
+              const double* v) const override {
     Power sum;
     const double omega = frictionless_ ? 0.0 : speed_(t);
     for (int p : points) {
@@ -135,7 +150,8 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
 
   std::vector<model::Channel> channels() const override {
     std::vector<model::Channel> list = {
-        {"normal_force", "N", "Normal contact force; positive pushes the string away from the wall"},
+        {"normal_force", "N",
+         "Normal contact force; positive pushes the string away from the wall"},
         {"gap", "m", "Radial clearance left; negative is penetration"}};
     if (!frictionless_) {
       list.push_back({"tangential_force", "N", "Friction force on the string along (-v, u)/r"});
@@ -155,7 +171,8 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
       out[n + p] = -at.penetration;
       if (frictionless_) continue;
       const double radius = points_.contactRadius[i];
-      const double traction = friction_[i].value(at.slip + (omega + v[3 * p + 2]) * radius) * normal;
+      const double traction =
+          friction_[i].value(at.slip + (omega + v[3 * p + 2]) * radius) * normal;
       out[2 * n + p] = -traction;
       out[3 * n + p] = -traction * radius;
     }
@@ -209,8 +226,10 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     return slides ? 1 : 0;
   }
 
-  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t. Returns 1 when friction was evaluated.
-  int tangent(std::size_t i, double omega, const double* d, const double* v, double* f, double* dfdd, double* dfdv) const {
+  /// Forces and tangents; `N` is the normal force, `T` = mu N the traction against t. Returns 1
+  /// when friction was evaluated.
+  int tangent(std::size_t i, double omega, const double* d, const double* v, double* f,
+              double* dfdd, double* dfdv) const {
     const WallKinematics at = where(i, d, v);
     const double nu = at.nu;
     const double nv = at.nv;
@@ -241,7 +260,9 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     dfdv[4] = -NvDot * nv;
     dfdv[2] = dfdv[5] = dfdv[6] = dfdv[7] = dfdv[8] = 0.0;
     // outside the skin of a clamped law nothing acts and nothing changes
-    if (frictionless_ || friction_[i].h == 0.0 || (N == 0.0 && normal.dG == 0.0 && normal.dRate == 0.0)) return 0;
+    if (frictionless_ || friction_[i].h == 0.0 ||
+        (N == 0.0 && normal.dG == 0.0 && normal.dRate == 0.0))
+      return 0;
 
     const double radius = points_.contactRadius[i];
     double slope = 0.0;
@@ -285,11 +306,13 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
 template <class Kernel>
 class StaticContactOf final : public StaticContact {
  public:
-  StaticContactOf(ContactPoints points, Kernel kernel) : StaticContact(std::move(points)), kernel_(std::move(kernel)) {
+  StaticContactOf(ContactPoints points, Kernel kernel)
+      : StaticContact(std::move(points)), kernel_(std::move(kernel)) {
     kernel_.prepare(points_);
   }
 
-  void evaluate(const Options& options, const double* uv, double* f, double* tangent) const override {
+  void evaluate(const Options& options, const double* uv, double* f,
+                double* tangent) const override {
     for (int p = 0; p < size(); ++p) {
       const auto i = static_cast<std::size_t>(p);
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
@@ -325,14 +348,16 @@ class StaticContactOf final : public StaticContact {
 
   double largestPull() const override {
     double largest = 0.0;
-    for (int p = 0; p < size(); ++p) largest = std::max(largest, kernel_.pull(static_cast<std::size_t>(p), 0.0));
+    for (int p = 0; p < size(); ++p)
+      largest = std::max(largest, kernel_.pull(static_cast<std::size_t>(p), 0.0));
     return largest;
   }
 
  private:
   /// F_n and its derivative, lifted by the part of the pull that is left out.
   double elastic(const Options& options, std::size_t i, double G, double& dG) const {
-    const double force = kernel_.elastic(i, G, options.lambda, dG) + (1.0 - options.pull) * kernel_.pull(i, options.lambda);
+    const double force = kernel_.elastic(i, G, options.lambda, dG) +
+                         (1.0 - options.pull) * kernel_.pull(i, options.lambda);
     dG *= options.stiffnessScale;
     return options.stiffnessScale * force;
   }
@@ -344,8 +369,10 @@ template <class Kernel>
 class ContactLawOf final : public ContactLaw {
  public:
   explicit ContactLawOf(Kernel kernel = Kernel()) : kernel_(std::move(kernel)) {}
-  std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points, RotarySpeed speed) const override {
-    return std::make_shared<BoreholeContactOf<Kernel>>(std::move(points), kernel_, std::move(speed));
+  std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points,
+                                                  RotarySpeed speed) const override {
+    return std::make_shared<BoreholeContactOf<Kernel>>(std::move(points), kernel_,
+                                                       std::move(speed));
   }
   std::shared_ptr<const StaticContact> atRest(ContactPoints points) const override {
     return std::make_shared<StaticContactOf<Kernel>>(std::move(points), kernel_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contact law as printed in Nguyen et al. 2020, eqs. (6), (7). It pulls on rebound, its damping jumps at G = 0, and it
-// pulls every open node to the wall with k_c/(pi^2 lambda) at any gap.
+// The contact law as printed in Nguyen et al. 2020, eqs. (6), (7). It pulls on rebound, its damping
+// jumps at G = 0, and it pulls every open node to the wall with k_c/(pi^2 lambda) at any gap.
 #include <limits>
 
 #include "substructures/contact/LawKernel.hpp"
@@ -14,7 +14,8 @@ class NguyenKernel {
   void prepare(const ContactPoints& points) {
     for (int p = 0; p < points.size(); ++p) {
       const ContactPoint point = points.at(p);
-      constants_.push_back({point.stiffness / pi, point.damping / pi, pi * point.lambdaK, pi * point.lambdaC});
+      constants_.push_back(
+          {point.stiffness / pi, point.damping / pi, pi * point.lambdaK, pi * point.lambdaC});
     }
   }
 
@@ -33,7 +34,8 @@ class NguyenKernel {
     const double angleC = at.bk == at.bc ? angleK : risingAngle(y);
     const double C = at.c * angleC;
     // d angle / dG = b / (1 + (b G)^2)
-    return {at.k * angleK * G + C * rate, at.k * (angleK + x / (1.0 + x * x)) + at.c * at.bc / (1.0 + y * y) * rate, C};
+    return {at.k * angleK * G + C * rate,
+            at.k * (angleK + x / (1.0 + x * x)) + at.c * at.bc / (1.0 + y * y) * rate, C};
   }
 
   double elastic(std::size_t i, double G, double lambda, double& dG) const {
@@ -45,7 +47,9 @@ class NguyenKernel {
   }
 
   // k/(pi^2 lambda), reached far from the wall
-  double pull(std::size_t i, double lambda) const { return constants_[i].k / (lambda > 0.0 ? pi * lambda : constants_[i].bk); }
+  double pull(std::size_t i, double lambda) const {
+    return constants_[i].k / (lambda > 0.0 ? pi * lambda : constants_[i].bk);
+  }
 
   // with x = b G: (k/pi)/b^2 int_0^x y (pi/2 + atan y) dy
   double energy(std::size_t i, double G) const {
@@ -60,7 +64,8 @@ class NguyenKernel {
 
   double skin(std::size_t i) const {
     const Constants& at = constants_[i];
-    // tails: k/(pi b) and, at 1 m/s and a gap g, c/(pi b g), both in the k/pi, c/pi of the constants
+    // tails: k/(pi b) and, at 1 m/s and a gap g, c/(pi b g), both in the k/pi, c/pi of the
+    // constants
     if (at.k / at.bk > negligibleForce) return std::numeric_limits<double>::infinity();
     return at.c / (at.bc * negligibleForce);
   }
@@ -73,9 +78,11 @@ class NguyenKernel {
 };
 
 const bool registered = LawRegistry::instance().add(
-    "Nguyen",
-    {"The regularised law as printed in Nguyen et al. 2020, eqs. (6), (7): it pulls on rebound and has a tail in the open.",
-     deck::ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<ContactLawOf<NguyenKernel>>(); }});
+    "Nguyen", {"The regularised law as printed in Nguyen et al. 2020, eqs. (6), (7): it pulls on "
+               "rebound and has a tail in the open.",
+               deck::ListSpec(), [](const Teuchos::ParameterList&) {
+                 return std::make_unique<ContactLawOf<NguyenKernel>>();
+               }});
 
 }  // namespace
 }  // namespace tooljoint::contact

@@ -22,8 +22,9 @@ std::string shortNumber(double value) {
   return text;
 }
 
-/// The line searches tried in turn from the same start. Without friction the string has an energy, and the work of a step judges
-/// it; friction has none, and full steps follow a small change of it best.
+/// The line searches tried in turn from the same start. Without friction the string has an energy,
+/// and the work of a step judges it; friction has none, and full steps follow a small change of it
+/// best.
 using Searches = std::vector<model::LineSearch>;
 const Searches minimising{model::LineSearch::Work, model::LineSearch::None};
 const Searches following{model::LineSearch::None, model::LineSearch::Work};
@@ -37,13 +38,15 @@ class Stages {
       : problem_(problem), options_(options), solve_(solve) {}
 
   /// One stage from x.
-  void run(const std::string& name, const StaticSwitches& switches, double tolerance, const Searches& searches, Vector& x) {
+  void run(const std::string& name, const StaticSwitches& switches, double tolerance,
+           const Searches& searches, Vector& x) {
     if (tryRun(name, switches, tolerance, searches, x)) return;
     throw ConvergenceError(complaint(std::max(options_.tolerance, tolerance)) + message_);
   }
 
   /// The same; false, with x as it was, when it does not converge.
-  bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance, const Searches& searches, Vector& x) {
+  bool tryRun(const std::string& name, const StaticSwitches& switches, double tolerance,
+              const Searches& searches, Vector& x) {
     problem_.set(switches);
     for (const model::LineSearch search : searches) {
       Vector end = x;
@@ -57,10 +60,10 @@ class Stages {
   /// What a stage at a value is called and changes.
   using StageAt = std::function<std::string(double, StaticSwitches&)>;
 
-  /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies between: at equal ratios or, from
-  /// 0, at equal distances.
-  void march(double from, double to, double tolerance, const StageAt& stage, StaticSwitches switches, const Searches& searches,
-             Vector& x, int cuts = 5) {
+  /// Stages from where x is (`from`) to `to`; where one does not converge, by way of what lies
+  /// between: at equal ratios or, from 0, at equal distances.
+  void march(double from, double to, double tolerance, const StageAt& stage,
+             StaticSwitches switches, const Searches& searches, Vector& x, int cuts = 5) {
     const std::string name = stage(to, switches);
     if (cuts == 0) return run(name, switches, tolerance, searches, x);
     if (tryRun(name, switches, tolerance, searches, x)) return;
@@ -91,14 +94,17 @@ class Stages {
   }
 
   std::string complaint(double tolerance) const {
-    std::string text = "The static equilibrium did not converge to " + shortNumber(tolerance) + " of the largest load; tried ";
+    std::string text = "The static equilibrium did not converge to " + shortNumber(tolerance) +
+                       " of the largest load; tried ";
     for (const StageReport& stage : report_.stages)
-      text +=
-          stage.name + " (" + std::to_string(stage.iterations) + " iterations, residual " + shortNumber(stage.residual) + "), ";
+      text += stage.name + " (" + std::to_string(stage.iterations) + " iterations, residual " +
+              shortNumber(stage.residual) + "), ";
     return text + (options_.recipe == Recipe::Source
                        ? "by the recipe \"Source\". Use /Static/Recipe \"Continuation\". "
-                       : "by the recipe \"Continuation\". Allow more /Static/Max Iterations or /Static/Friction Steps, a shorter "
-                         "/Static/Lateral Step Limit, or check that the supports and the well can carry the loads. ");
+                       : "by the recipe \"Continuation\". Allow more /Static/Max Iterations or "
+                         "/Static/Friction Steps, a shorter "
+                         "/Static/Lateral Step Limit, or check that the supports and the well can "
+                         "carry the loads. ");
   }
 
   StaticProblem& problem_;
@@ -108,8 +114,9 @@ class Stages {
   std::string message_;
 };
 
-/// The string held on the axis: tension and torque of the loads, no lateral motion. From D = 0 a long string has no tension
-/// yet to hold it, and the first Newton step would throw it far through the wall.
+/// The string held on the axis: tension and torque of the loads, no lateral motion. From D = 0 a
+/// long string has no tension yet to hold it, and the first Newton step would throw it far through
+/// the wall.
 Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   switches.geometricStiffness = switches.contact = false;
   problem.set(switches);
@@ -121,14 +128,15 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   const double stiff = 1e6 * Matrix(stiffness.diagonal()).cwiseAbs().maxCoeff();
   for (int i = 0; i < problem.size(); ++i)
     if (problem.isLateral(i)) stiffness.coeffRef(i, i) += stiff;
-  return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); }).solve(-negativeLoad);
+  return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); })
+      .solve(-negativeLoad);
 }
 
-/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law of the scene, then each
-/// point's own. Until then a wall is no stiffer than that the largest load presses a point in by 1/lambda, over which its law
-/// bends.
-void sharpen(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
-             const StaticSwitches& switches, double tolerance, Vector& x) {
+/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law
+/// of the scene, then each point's own. Until then a wall is no stiffer than that the largest load
+/// presses a point in by 1/lambda, over which its law bends.
+void sharpen(const StaticInput& input, const StaticOptions& options, StaticProblem& problem,
+             Stages& stages, const StaticSwitches& switches, double tolerance, Vector& x) {
   const contact::ContactPoints& points = input.contact->points();
   const double sharpest = *std::max_element(points.lambdaK.begin(), points.lambdaK.end());
   const double stiffest = *std::max_element(points.stiffness.begin(), points.stiffness.end());
@@ -144,45 +152,51 @@ void sharpen(const StaticInput& input, const StaticOptions& options, StaticProbl
   values.push_back(sharpest);
   double last = 0.1 * values.front();
   for (const double lambda : values) {
-    stages.march(last, lambda, lambda < sharpest ? kStageTolerance : tolerance, sharpness, switches, minimising, x);
+    stages.march(last, lambda, lambda < sharpest ? kStageTolerance : tolerance, sharpness, switches,
+                 minimising, x);
     last = lambda;
   }
 }
 
 /// Friction in equal steps.
-void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& switches, Vector& x) {
+void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& switches,
+           Vector& x) {
   const double steps = options.frictionSteps;
   const auto friction = [](double scale, StaticSwitches& with) {
     with.frictionScale = scale;
     return shortNumber(scale) + " of the friction";
   };
   for (int step = 1; step <= options.frictionSteps; ++step)
-    stages.march((step - 1) / steps, step / steps, step < options.frictionSteps ? kStageTolerance : 0.0, friction, switches,
+    stages.march((step - 1) / steps, step / steps,
+                 step < options.frictionSteps ? kStageTolerance : 0.0, friction, switches,
                  following, x);
 }
 
-/// Some laws pull open points to the wall, and friction turns what is pulled about the axis. Throws ConvergenceError saying so
-/// when the string does not come to rest under the whole of the pull.
+/// Some laws pull open points to the wall, and friction turns what is pulled about the axis. Throws
+/// ConvergenceError saying so when the string does not come to rest under the whole of the pull.
 void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& switches, Vector& x) {
   const auto pull = [](double share, StaticSwitches& with) {
     with.pull = share;
-    return share < 1.0 ? shortNumber(share) + " of the pull on open points" : std::string("the laws as they are");
+    return share < 1.0 ? shortNumber(share) + " of the pull on open points"
+                       : std::string("the laws as they are");
   };
   try {
     stages.march(0.0, 1.0, 0.0, pull, switches, following, x);
   } catch (const ConvergenceError& error) {
-    throw ConvergenceError(std::string(error.what()) +
-                           " The string rests against walls that only push; the contact law also pulls every " +
-                           "open point to the wall with up to " + shortNumber(input.contact->largestPull()) +
-                           " N and, by friction, around the hole. Raise " +
-                           "/Contact/Stiffness Regularisation, or use /Contact/Law \"Clamped\", which does not pull.");
+    throw ConvergenceError(
+        std::string(error.what()) +
+        " The string rests against walls that only push; the contact law also pulls every " +
+        "open point to the wall with up to " + shortNumber(input.contact->largestPull()) +
+        " N and, by friction, around the hole. Raise " +
+        "/Contact/Stiffness Regularisation, or use /Contact/Law \"Clamped\", which does not pull.");
   }
 }
 
-/// Held on the axis; then walls that only push, from soft to sharp, without friction; then friction in steps; then what the
-/// contact laws pull with. The cap on lateral motion keeps the first steps inside the hole.
-void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem, Stages& stages,
-                  StaticSwitches switches, Vector& x) {
+/// Held on the axis; then walls that only push, from soft to sharp, without friction; then friction
+/// in steps; then what the contact laws pull with. The cap on lateral motion keeps the first steps
+/// inside the hole.
+void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem,
+                  Stages& stages, StaticSwitches switches, Vector& x) {
   if (input.contact == nullptr || input.contact->size() == 0) {
     stages.run("no contact", switches, 0.0, inTheOpen, x);
     return;
@@ -208,10 +222,12 @@ void asTheSource(StaticProblem& problem, Stages& stages, StaticSwitches switches
   Sparse stiffness;
   problem.residual(Vector::Zero(problem.size()), negativeLoad);
   problem.jacobian(Vector::Zero(problem.size()), stiffness);
-  const linalg::DirectSolver solver(stiffness, [&problem](int i) { return problem.unknownName(i); });
+  const linalg::DirectSolver solver(stiffness,
+                                    [&problem](int i) { return problem.unknownName(i); });
   x = solver.solve(-negativeLoad);
   switches.geometricStiffness = false;
-  stages.run("without geometric stiffness", switches, geometric ? kStageTolerance : 0.0, fullSteps, x);
+  stages.run("without geometric stiffness", switches, geometric ? kStageTolerance : 0.0, fullSteps,
+             x);
   if (!geometric) return;
   switches.geometricStiffness = true;
   stages.run("with geometric stiffness", switches, 0.0, fullSteps, x);
@@ -239,7 +255,8 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
     state.tangentialForce(n) = r > 0.0 ? (u * forces(3 * p + 1) - v * forces(3 * p)) / r : 0.0;
     state.frictionTorque(n) = forces(3 * p + 2);
     const auto dof = static_cast<std::size_t>(6 * n);
-    if ((input.held[dof] == 0 || input.held[dof + 1] == 0) && state.gap(n) > 0.0) ++state.contactNodes;
+    if ((input.held[dof] == 0 || input.held[dof + 1] == 0) && state.gap(n) > 0.0)
+      ++state.contactNodes;
     state.totalNormalForce += normal(p);
     state.totalFrictionTorque += forces(3 * p + 2);
     if (normal(p) > state.maxNormalForce) {
@@ -249,8 +266,8 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
   }
 }
 
-/// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic force, so the torque at the
-/// top equals what loads, friction and supports below ask for.
+/// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic
+/// force, so the torque at the top equals what loads, friction and supports below ask for.
 void describeTorque(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
   state.topTorque = state.torque(0);
   const Vector unbalanced = problem.unbalanced(state.displacement);
@@ -259,13 +276,16 @@ void describeTorque(const StaticInput& input, const StaticProblem& problem, Stat
     state.appliedTorque += input.load(dof);
     if (input.held[static_cast<std::size_t>(dof)] != 0) state.appliedTorque += unbalanced(dof);
   }
-  for (const StaticElement& element : input.elements) state.torqueScale = std::max(state.torqueScale, element.bendingMoment);
-  state.torqueScale = std::max(state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
+  for (const StaticElement& element : input.elements)
+    state.torqueScale = std::max(state.torqueScale, element.bendingMoment);
+  state.torqueScale = std::max(
+      state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
 }
 
 }  // namespace
 
-StaticState describe(const StaticInput& input, const StaticProblem& problem, const Vector& displacement) {
+StaticState describe(const StaticInput& input, const StaticProblem& problem,
+                     const Vector& displacement) {
   StaticState state;
   state.displacement = displacement;
   const int elements = static_cast<int>(input.elements.size());
@@ -285,7 +305,8 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem, con
   return state;
 }
 
-StaticState solveStatic(const StaticInput& input, const StaticOptions& options, const model::NonlinearSolver& solve) {
+StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
+                        const model::NonlinearSolver& solve) {
   StaticProblem problem(input);
   StaticSwitches switches;
   switches.geometricStiffness = input.geometricStiffness && options.geometricStiffness;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Finds the static equilibrium by one of two recipes that are known to converge (Nguyen et al. 2020, section 3.2).
+/// Finds the static equilibrium by one of two recipes that are known to converge (Nguyen et al.
+/// 2020, section 3.2).
 #pragma once
 
 #include <vector>
@@ -17,7 +18,8 @@ class ParameterList;
 namespace tooljoint::equilibrium {
 
 enum class Recipe {
-  Continuation,  ///< from D = 0: contacts from soft to sharp, then friction in steps; capped steps, else line search
+  Continuation,  ///< from D = 0: contacts from soft to sharp, then friction in steps; capped steps,
+                 ///< else line search
   Source,        ///< from K_pa^-1 F_s with full Newton steps: first without, then with K_gpo
 };
 
@@ -34,11 +36,12 @@ struct StaticOptions {
   FrictionRule friction = FrictionRule::SlidingSpeed;
   bool exactJacobian = true;
   bool geometricStiffness = true;
-  double tolerance = 1e-9;                     ///< on the largest scaled residual
-  int maxIterations = 200;                     ///< per stage
-  double lateralStepLimit = 0.05;              ///< [m], `Continuation`
-  std::vector<double> lambdas{1e3, 1e4, 1e6};  ///< stages before each point's own lambda [1/m], `Continuation`
-  int frictionSteps = 4;                       ///< `Continuation`
+  double tolerance = 1e-9;         ///< on the largest scaled residual
+  int maxIterations = 200;         ///< per stage
+  double lateralStepLimit = 0.05;  ///< [m], `Continuation`
+  std::vector<double> lambdas{
+      1e3, 1e4, 1e6};     ///< stages before each point's own lambda [1/m], `Continuation`
+  int frictionSteps = 4;  ///< `Continuation`
 };
 
 /// Description of the deck list `Static`.
@@ -47,11 +50,13 @@ deck::ListSpec parameters();
 /// Reads a validated `Static` list.
 StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 
-/// The static state. Throws ConvergenceError naming the stage that failed and what to change; ModelError for input that
-/// does not fit together.
-StaticState solveStatic(const StaticInput& input, const StaticOptions& options, const model::NonlinearSolver& solve);
+/// The static state. Throws ConvergenceError naming the stage that failed and what to change;
+/// ModelError for input that does not fit together.
+StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
+                        const model::NonlinearSolver& solve);
 
 /// Everything a state is described by, from its displacement (6 per node) alone.
-StaticState describe(const StaticInput& input, const StaticProblem& problem, const Vector& displacement);
+StaticState describe(const StaticInput& input, const StaticProblem& problem,
+                     const Vector& displacement);
 
 }  // namespace tooljoint::equilibrium

@@ -17,15 +17,17 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void check(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;
-  const bool fits = input.nodes == static_cast<int>(input.elements.size()) + 1 && input.load.size() == dofs &&
+  const bool fits = input.nodes == static_cast<int>(input.elements.size()) + 1 &&
+                    input.load.size() == dofs &&
                     (input.pathReaction.size() == 0 || input.pathReaction.size() == dofs) &&
                     static_cast<int>(input.held.size()) == dofs;
-  if (!fits) throw ModelError("The static equilibrium got elements, loads and supports of different sizes.");
+  if (!fits)
+    throw ModelError("The static equilibrium got elements, loads and supports of different sizes.");
   if (input.contact != nullptr)
     for (const int node : input.contact->points().node)
       if (node < 1 || node > input.nodes)
-        throw ModelError("Contact at node " + std::to_string(node) + ", but the string has nodes 1 to " +
-                         std::to_string(input.nodes) + ".");
+        throw ModelError("Contact at node " + std::to_string(node) +
+                         ", but the string has nodes 1 to " + std::to_string(input.nodes) + ".");
 }
 
 }  // namespace
@@ -36,7 +38,9 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
   index_.assign(input.held.size(), -1);
   for (std::size_t i = 0; i < index_.size(); ++i)
     if (input.held[i] == 0) index_[i] = unknowns_++;
-  if (unknowns_ == 0) throw ModelError("The supports hold every degree of freedom of the string: nothing is left to compute.");
+  if (unknowns_ == 0)
+    throw ModelError(
+        "The supports hold every degree of freedom of the string: nothing is left to compute.");
 
   std::vector<std::vector<int>> lists;
   double length = 0.0;
@@ -44,7 +48,8 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
     const StaticElement& element = input.elements[e];
     const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * kDofs;
     lists.emplace_back(first, first + 2 * kDofs);
-    const beam::Matrix12 r = input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
+    const beam::Matrix12 r =
+        input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
     unitAxial_.push_back(r.transpose() * beam::geometricAxial(element.length) * r);
     unitTorque_.push_back(r.transpose() * beam::geometricTorque(element.length) * r);
     length += element.length;
@@ -56,13 +61,15 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
     }
   assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
 
-  // Forces are measured against the largest load, moments against that load on a mean element length.
+  // Forces are measured against the largest load, moments against that load on a mean element
+  // length.
   const double mean = length / static_cast<double>(input.elements.size());
   double largest = 0.0;
   for (int i = 0; i < input.load.size(); ++i) {
     const double arm = i % kDofs < 3 ? 1.0 : 1.0 / mean;
     largest = std::max(largest, arm * std::abs(input.load(i)));
-    if (input.pathReaction.size() > 0) largest = std::max(largest, arm * std::abs(input.pathReaction(i)));
+    if (input.pathReaction.size() > 0)
+      largest = std::max(largest, arm * std::abs(input.pathReaction(i)));
   }
   forceScale_ = largest > 0.0 ? largest : 1.0;
   momentScale_ = forceScale_ * mean;
@@ -84,17 +91,20 @@ Vector StaticProblem::restrict(const Vector& full) const {
 
 double StaticProblem::axialForce(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return e.axialRigidity / e.length * (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
+  return e.axialRigidity / e.length *
+         (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
 }
 
 double StaticProblem::torque(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return e.torsionalRigidity / e.length * (e.rotation.row(11) - e.rotation.row(5)).dot(full.segment<12>(kDofs * element));
+  return e.torsionalRigidity / e.length *
+         (e.rotation.row(11) - e.rotation.row(5)).dot(full.segment<12>(kDofs * element));
 }
 
 beam::Matrix12 StaticProblem::geometricStiffness(int element, const Vector& full) const {
   if (!switches_.geometricStiffness) return beam::Matrix12::Zero();
-  return axialForce(element, full) * unitAxial_[at(element)] + torque(element, full) * unitTorque_[at(element)];
+  return axialForce(element, full) * unitAxial_[at(element)] +
+         torque(element, full) * unitTorque_[at(element)];
 }
 
 contact::StaticContact::Options StaticProblem::contactOptions() const {
@@ -110,7 +120,8 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
 Vector StaticProblem::lateral(const Vector& full) const {
   const std::vector<int>& nodes = input_.contact->points().node;
   Vector uv(2 * static_cast<int>(nodes.size()));
-  for (std::size_t p = 0; p < nodes.size(); ++p) uv.segment<2>(2 * static_cast<int>(p)) = full.segment<2>(kDofs * (nodes[p] - 1));
+  for (std::size_t p = 0; p < nodes.size(); ++p)
+    uv.segment<2>(2 * static_cast<int>(p)) = full.segment<2>(kDofs * (nodes[p] - 1));
   return uv;
 }
 
@@ -124,7 +135,9 @@ void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& no
   input_.contact->normalForce(contactOptions(), uv.data(), normal.data());
 }
 
-void StaticProblem::residual(const Vector& x, Vector& r) const { r = restrict(unbalanced(expand(x))); }
+void StaticProblem::residual(const Vector& x, Vector& r) const {
+  r = restrict(unbalanced(expand(x)));
+}
 
 Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector external = input_.load;
@@ -132,7 +145,8 @@ Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector r = -external;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const beam::Vector12 d = full.segment<12>(kDofs * e);
-    r.segment<12>(kDofs * e) += (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
+    r.segment<12>(kDofs * e) +=
+        (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
   }
   if (!touches()) return r;
   Vector forces(3 * input_.contact->size());
@@ -158,7 +172,8 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
       // dK_gpo/dD D: F_apo and T_apo change with D
       const beam::Matrix12& r = element.rotation;
       k += element.axialRigidity / element.length * (unitAxial_[at(e)] * d) * (r.row(8) - r.row(2));
-      k += element.torsionalRigidity / element.length * (unitTorque_[at(e)] * d) * (r.row(11) - r.row(5));
+      k += element.torsionalRigidity / element.length * (unitTorque_[at(e)] * d) *
+           (r.row(11) - r.row(5));
     }
     assembler_.add(e, k, jacobian);
   }
@@ -169,7 +184,8 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data(), tangents.data());
   for (int p = 0; p < points; ++p) {
     Matrix3 k = Matrix3::Zero();
-    k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>(tangents.data() + 6 * p);
+    k.leftCols<2>() =
+        -Eigen::Map<const Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>(tangents.data() + 6 * p);
     assembler_.add(static_cast<int>(input_.elements.size()) + p, k, jacobian);
   }
 }
@@ -177,7 +193,8 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
 Vector StaticProblem::residualScale() const {
   Vector scale(unknowns_);
   for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0) scale(index_[i]) = 1.0 / (static_cast<int>(i) % kDofs < 3 ? forceScale_ : momentScale_);
+    if (index_[i] >= 0)
+      scale(index_[i]) = 1.0 / (static_cast<int>(i) % kDofs < 3 ? forceScale_ : momentScale_);
   return scale;
 }
 
@@ -185,7 +202,8 @@ double StaticProblem::stepLimit(const Vector& /*x*/, const Vector& dx) const {
   if (switches_.lateralStepLimit <= 0.0) return 1.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < index_.size(); ++i)
-    if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2) largest = std::max(largest, std::abs(dx(index_[i])));
+    if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2)
+      largest = std::max(largest, std::abs(dx(index_[i])));
   return largest > switches_.lateralStepLimit ? switches_.lateralStepLimit / largest : 1.0;
 }
 
@@ -213,7 +231,8 @@ bool StaticProblem::isLateral(int i) const {
 }
 
 std::string StaticProblem::unknownName(int i) const {
-  static constexpr std::array<const char*, kDofs> names{"u", "v", "w", "theta_x", "theta_y", "theta_z"};
+  static constexpr std::array<const char*, kDofs> names{"u",       "v",       "w",
+                                                        "theta_x", "theta_y", "theta_z"};
   const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
   return std::string(names[at(dof % kDofs)]) + " of node " + std::to_string(dof / kDofs + 1);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static equilibrium of the bent string in contact with the well as a nonlinear problem (Nguyen et al. 2020, eq. 19).
+/// Static equilibrium of the bent string in contact with the well as a nonlinear problem (Nguyen et
+/// al. 2020, eq. 19).
 #pragma once
 
 #include <memory>
@@ -24,18 +25,20 @@ struct StaticElement {
   double bendingMoment = 0.0;      ///< E I kappa of the well [N m], the scale of the torque balance
 };
 
-/// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path state.
+/// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path
+/// state.
 struct StaticInput {
   int nodes = 0;
   std::vector<StaticElement> elements;
-  Vector load;                                            ///< F_s: weight, mud, WOB, TOB [N, N m]
-  Vector pathReaction;                                    ///< R_ipa; empty means zero
-  std::vector<char> held;                                 ///< 1 where a support (or the choice of dof families) holds the dof
+  Vector load;             ///< F_s: weight, mud, WOB, TOB [N, N m]
+  Vector pathReaction;     ///< R_ipa; empty means zero
+  std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
   std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
-  double direction = 1.0;                                 ///< sign of the rotary speed the string slides with; 0: no friction
-  bool geometricStiffness = true;                         ///< K_gpo(D)
-  /// K_gpo takes its slopes from all rotations in the element frame, spin included, as the source does. False: from the change of
-  /// the nodal tangents (beam::slopeRotation), so that a section that spins about its own axis meets no geometric stiffness.
+  double direction = 1.0;  ///< sign of the rotary speed the string slides with; 0: no friction
+  bool geometricStiffness = true;  ///< K_gpo(D)
+  /// K_gpo takes its slopes from all rotations in the element frame, spin included, as the source
+  /// does. False: from the change of the nodal tangents (beam::slopeRotation), so that a section
+  /// that spins about its own axis meets no geometric stiffness.
   bool chordSlopes = false;
 };
 
@@ -50,7 +53,8 @@ struct StaticSwitches {
   double stiffnessScale = 1.0;    ///< on the stiffness of the wall
   double pull = 1.0;              ///< share of what contact laws pull open points with
   double lateralStepLimit = 0.0;  ///< largest change of u or v in a step [m]; 0: none
-  bool slideAlongWall = false;    ///< steps take points that touch along the wall, not along its tangent
+  bool slideAlongWall =
+      false;  ///< steps take points that touch along the wall, not along its tangent
 };
 
 /// r(D) = (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa on the free dofs.
@@ -67,8 +71,9 @@ class StaticProblem : public model::NonlinearProblem {
   void jacobian(const Vector& x, Sparse& jacobian) const override;
   Vector residualScale() const override;
   double stepLimit(const Vector& x, const Vector& dx) const override;
-  /// With slideAlongWall a point that the step leaves outside its clearance keeps the distance from the axis that the step has
-  /// along the normal: moving on by t along a wall of radius r would press it in by t^2/2r, far more than a stiff wall yields.
+  /// With slideAlongWall a point that the step leaves outside its clearance keeps the distance from
+  /// the axis that the step has along the normal: moving on by t along a wall of radius r would
+  /// press it in by t^2/2r, far more than a stiff wall yields.
   Vector moved(const Vector& x, const Vector& dx, double s) const override;
   std::string unknownName(int i) const override;
   /// Whether an unknown is u or v.
@@ -78,11 +83,12 @@ class StaticProblem : public model::NonlinearProblem {
   Vector expand(const Vector& x) const;
   Vector restrict(const Vector& full) const;
 
-  /// (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa at every dof of a full vector D; at a held dof it is the reaction of its support
-  /// on the string [N, N m].
+  /// (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa at every dof of a full vector D; at a held dof it
+  /// is the reaction of its support on the string [N, N m].
   Vector unbalanced(const Vector& full) const;
 
-  /// F_apo = E S (w2 - w1)/l and T_apo = G J (theta_z2 - theta_z1)/l in the element frame, equation (20) [N, N m].
+  /// F_apo = E S (w2 - w1)/l and T_apo = G J (theta_z2 - theta_z1)/l in the element frame, equation
+  /// (20) [N, N m].
   double axialForce(int element, const Vector& full) const;
   double torque(int element, const Vector& full) const;
   /// F_apo K_gF + T_apo K_gT of an element in nodal frames.

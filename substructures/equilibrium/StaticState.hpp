@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The string at rest in the well: displacements, contact, element forces, and how well the result balances.
+/// The string at rest in the well: displacements, contact, element forces, and how well the result
+/// balances.
 #pragma once
 
 #include <cmath>
@@ -28,13 +29,16 @@ struct StaticReport {
 
 /// Solution of (K_pa + K_gpo(D)) D = F_s + F_cs(D) + R_ipa (Nguyen et al. 2020, equation 19).
 struct StaticState {
-  Vector displacement;     ///< D_s, 6 per node, nodal frames [m, rad]
-  Vector normalForce;      ///< K_c(G) G per node, positive in contact, 0 where there is no contact node [N]
-  Vector tangentialForce;  ///< friction force along the direction of rotation per node, negative against Omega > 0 [N]
+  Vector displacement;  ///< D_s, 6 per node, nodal frames [m, rad]
+  Vector normalForce;  ///< K_c(G) G per node, positive in contact, 0 where there is no contact node
+                       ///< [N]
+  Vector tangentialForce;  ///< friction force along the direction of rotation per node, negative
+                           ///< against Omega > 0 [N]
   Vector frictionTorque;   ///< per node about z [N m]
-  Vector gap;              ///< G per node, positive in contact; NaN-free: -infinity where there is no contact node [m]
-  Vector axialForce;       ///< F_apo per element, element frames, equation (20) [N]
-  Vector torque;           ///< T_apo per element [N m]
+  Vector gap;  ///< G per node, positive in contact; NaN-free: -infinity where there is no contact
+               ///< node [m]
+  Vector axialForce;  ///< F_apo per element, element frames, equation (20) [N]
+  Vector torque;      ///< T_apo per element [N m]
   /// K_gpo(D_s) of each element in nodal frames; zero matrices when geometric stiffness is off.
   std::vector<beam::Matrix12> geometricStiffness;
 
@@ -46,17 +50,21 @@ struct StaticState {
   double maxNormalForce = 0.0;
   int maxNormalForceNode = 0;  ///< 1-based, 0 when nothing touches
   double totalNormalForce = 0.0;
-  double topTorque = 0.0;  ///< T_apo of the first element, from displacements [N m]
-  double appliedTorque =
-      0.0;  ///< theta_z entries of F_s and of the support reactions below the first node (TOB, usually), summed [N m]
+  double topTorque = 0.0;      ///< T_apo of the first element, from displacements [N m]
+  double appliedTorque = 0.0;  ///< theta_z entries of F_s and of the support reactions below the
+                               ///< first node (TOB, usually), summed [N m]
   double totalFrictionTorque = 0.0;  ///< [N m]
-  double torqueScale = 0.0;  ///< the larger of |appliedTorque| + sum |friction torque| and E I kappa_max of the well [N m]
+  double torqueScale = 0.0;  ///< the larger of |appliedTorque| + sum |friction torque| and E I
+                             ///< kappa_max of the well [N m]
   /// Top torque that loads, friction and supports below ask for [N m].
   double topTorqueEquilibrium() const { return appliedTorque + totalFrictionTorque; }
-  /// topTorque - topTorqueEquilibrium [N m]: zero for a shaft that turns freely about its curved axis.
+  /// topTorque - topTorqueEquilibrium [N m]: zero for a shaft that turns freely about its curved
+  /// axis.
   double torqueBalanceDefect() const { return topTorque - topTorqueEquilibrium(); }
   /// |torqueBalanceDefect| / torqueScale; 0 for a string without torque in a straight well.
-  double relativeTorqueDefect() const { return torqueScale > 0.0 ? std::abs(torqueBalanceDefect()) / torqueScale : 0.0; }
+  double relativeTorqueDefect() const {
+    return torqueScale > 0.0 ? std::abs(torqueBalanceDefect()) / torqueScale : 0.0;
+  }
   StaticReport report;
 };
 

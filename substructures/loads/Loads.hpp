@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Loads of a scene: gravity, weight and torque on bit, mass unbalances, forces at nodes, and Rayleigh damping.
+/// Loads of a scene: gravity, weight and torque on bit, mass unbalances, forces at nodes, and
+/// Rayleigh damping.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -44,13 +45,16 @@ struct NodalForce {
 /// What the deck list `Loads` says.
 struct LoadsData {
   double gravity = 0.0;      ///< g [m/s2], along global +Z (down); 0 models no weight
-  double weightOnBit = 0.0;  ///< [N], positive pushes the string up the hole: the force along w at the bit is its negative
-  double torqueOnBit = 0.0;  ///< [N m], positive resists a positive rotary speed: the torque about z at the bit is its negative
+  double weightOnBit = 0.0;  ///< [N], positive pushes the string up the hole: the force along w at
+                             ///< the bit is its negative
+  double torqueOnBit = 0.0;  ///< [N m], positive resists a positive rotary speed: the torque about
+                             ///< z at the bit is its negative
   std::vector<Unbalance> unbalances;
   std::vector<NodalForce> forces;
 };
 
-/// Rayleigh damping c_M M_a + c_K (K_a + K_gpa + K_gpo), (28) of Nguyen et al. 2020. Both 0 without the deck list.
+/// Rayleigh damping c_M M_a + c_K (K_a + K_gpa + K_gpo), (28) of Nguyen et al. 2020. Both 0 without
+/// the deck list.
 struct RayleighDamping {
   double massCoefficient = 0.0;       ///< c_M [1/s]
   double stiffnessCoefficient = 0.0;  ///< c_K [s]
@@ -61,13 +65,14 @@ struct RayleighDamping {
 deck::ListSpec parameters();
 deck::ListSpec dampingParameters();
 
-/// From the validated deck list `Loads`. DeckError when an entry names its place, or its unbalance, twice or not at all.
+/// From the validated deck list `Loads`. DeckError when an entry names its place, or its unbalance,
+/// twice or not at all.
 LoadsData readLoads(const Teuchos::ParameterList& list);
 /// From the validated deck list `Damping`.
 RayleighDamping readDamping(const Teuchos::ParameterList& list);
 
-/// Node number (1-based) of a place, given the arc length of every node [m]. DeckError when there is no such node; a
-/// position must meet a node within 1e-6 m, and the message names the nearest.
+/// Node number (1-based) of a place, given the arc length of every node [m]. DeckError when there
+/// is no such node; a position must meet a node within 1e-6 m, and the message names the nearest.
 int nodeOf(const Place& place, const std::vector<double>& arcLength, const std::string& who);
 
 /// A load on one dof: value times a scalar law of time.
@@ -79,17 +84,18 @@ struct PointLoad {
   model::ScalarLaw law;
 };
 
-/// All loads at nodes (weight and torque on bit at the last node, forces, unbalances), as loads on dofs. Loads under the
-/// law "1" are the static ones. Unbalances are left out, with a warning, when nothing rotates; each one built counts
-/// as "unbalance loads" in the census.
+/// All loads at nodes (weight and torque on bit at the last node, forces, unbalances), as loads on
+/// dofs. Loads under the law "1" are the static ones. Unbalances are left out, with a warning, when
+/// nothing rotates; each one built counts as "unbalance loads" in the census.
 ///
 /// A mass unbalance m e with phi = int Omega dt + phi_0 loads its node with
 ///     m e (phi'^2 cos phi + phi'' sin phi, phi'^2 sin phi - phi'' cos phi)
 /// in local x and y; phi_0 goes into the vectors, so all unbalances share two scalar laws.
-std::vector<PointLoad> pointLoads(const LoadsData& loads, const RotarySpeed& rotary, const std::vector<double>& arcLength);
+std::vector<PointLoad> pointLoads(const LoadsData& loads, const RotarySpeed& rotary,
+                                  const std::vector<double>& arcLength);
 
-/// Add loads to a model with physical dofs, one LoadTerm per name and law. Loads on dofs the model does not have (held ones) are
-/// left out.
+/// Add loads to a model with physical dofs, one LoadTerm per name and law. Loads on dofs the model
+/// does not have (held ones) are left out.
 void addTo(model::SecondOrderModel& model, const std::vector<PointLoad>& loads);
 
 }  // namespace tooljoint::loads

@@ -14,7 +14,8 @@ const char* const unbalanceSine = "Omega^2 sin - dOmega/dt cos";
 deck::ListSpec rotarySpeedParameters() {
   const auto& laws = SpeedLaws::instance();
   deck::ListSpec spec("Rotary Speed",
-                      "Speed imposed at the surface; without this list nothing rotates and no gyroscopic matrix is built.");
+                      "Speed imposed at the surface; without this list nothing rotates and no "
+                      "gyroscopic matrix is built.");
   spec.choice("Law", deck::Required{}, laws.names(),
               "Form of the speed over time; its numbers stand in the sublist of the same name.");
   for (const auto& [name, entry] : laws.entries()) spec.list(entry.parameters);
@@ -36,8 +37,10 @@ RotarySpeed RotarySpeed::fromDeck(const Teuchos::ParameterList& deck) {
 
 double RotarySpeed::sense(double from) const {
   if (!law_) return 0.0;
-  constexpr double rounding = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude, of either sign
-  constexpr double justAfter = 1e-6;  // share of a smooth stretch: the sign with which the stretch begins
+  constexpr double rounding =
+      1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude, of either sign
+  constexpr double justAfter =
+      1e-6;  // share of a smooth stretch: the sign with which the stretch begins
   std::vector<double> starts{from};
   for (double corner : law_->corners())
     if (corner > from) starts.push_back(corner);
@@ -54,22 +57,27 @@ model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
   // F = m e (phi'^2 cos phi + phi'' sin phi, phi'^2 sin phi - phi'' cos phi), phi' = Omega
   static const std::map<std::string, double (*)(const RotarySpeed&, double)> functions{
       {"Omega", [](const RotarySpeed& r, double t) { return r.speed(t); }},
-      {"sqrt|Omega|", [](const RotarySpeed& r, double t) { return std::sqrt(std::abs(r.speed(t))); }},
+      {"sqrt|Omega|",
+       [](const RotarySpeed& r, double t) { return std::sqrt(std::abs(r.speed(t))); }},
       {"Omega^2", [](const RotarySpeed& r, double t) { return r.speed(t) * r.speed(t); }},
-      {"Omega sqrt|Omega|", [](const RotarySpeed& r, double t) { return r.speed(t) * std::sqrt(std::abs(r.speed(t))); }},
+      {"Omega sqrt|Omega|",
+       [](const RotarySpeed& r, double t) { return r.speed(t) * std::sqrt(std::abs(r.speed(t))); }},
       {"dOmega/dt", [](const RotarySpeed& r, double t) { return r.acceleration(t); }},
       {unbalanceCosine,
        [](const RotarySpeed& r, double t) {
-         return r.speed(t) * r.speed(t) * std::cos(r.angle(t)) + r.acceleration(t) * std::sin(r.angle(t));
+         return r.speed(t) * r.speed(t) * std::cos(r.angle(t)) +
+                r.acceleration(t) * std::sin(r.angle(t));
        }},
       {unbalanceSine,
        [](const RotarySpeed& r, double t) {
-         return r.speed(t) * r.speed(t) * std::sin(r.angle(t)) - r.acceleration(t) * std::cos(r.angle(t));
+         return r.speed(t) * r.speed(t) * std::sin(r.angle(t)) -
+                r.acceleration(t) * std::cos(r.angle(t));
        }},
   };
   if (name == "1") return model::ScalarLaw::one();
   const auto it = functions.find(name);
-  if (it == functions.end()) throw Error(ExitCode::Internal, "\"" + name + "\" is no scalar law of the rotary speed.");
+  if (it == functions.end())
+    throw Error(ExitCode::Internal, "\"" + name + "\" is no scalar law of the rotary speed.");
   return {name, [self = *this, function = it->second](double t) { return function(self, t); }};
 }
 

@@ -18,11 +18,12 @@ namespace tooljoint::loads {
 class SpeedLaw {
  public:
   virtual ~SpeedLaw() = default;
-  virtual double speed(double t) const = 0;         ///< Omega [rad/s]
-  virtual double acceleration(double t) const = 0;  ///< dOmega/dt [rad/s2]; at a corner the value to its right
-  virtual double angle(double t) const = 0;         ///< int_0^t Omega [rad]
-  /// Increasing times [s] at which the formula changes; between them and after the last one the law is smooth, and zero
-  /// everywhere or at single instants only.
+  virtual double speed(double t) const = 0;  ///< Omega [rad/s]
+  virtual double acceleration(
+      double t) const = 0;  ///< dOmega/dt [rad/s2]; at a corner the value to its right
+  virtual double angle(double t) const = 0;  ///< int_0^t Omega [rad]
+  /// Increasing times [s] at which the formula changes; between them and after the last one the law
+  /// is smooth, and zero everywhere or at single instants only.
   virtual std::vector<double> corners() const { return {}; }
 };
 
@@ -32,13 +33,15 @@ using SpeedLaws = deck::Registry<SpeedLaw, const Teuchos::ParameterList&>;
 /// The deck list `Rotary Speed`, with one sublist per registered law.
 deck::ListSpec rotarySpeedParameters();
 
-/// The rotary speed of a scene. Without the deck list it is none: Omega = 0 for ever and no gyroscopic matrix is needed.
+/// The rotary speed of a scene. Without the deck list it is none: Omega = 0 for ever and no
+/// gyroscopic matrix is needed.
 class RotarySpeed {
  public:
   /// No rotation.
   RotarySpeed() = default;
   explicit RotarySpeed(std::shared_ptr<const SpeedLaw> law) : law_(std::move(law)) {}
-  /// From the validated deck list `Rotary Speed`. DeckError when the parameters of the chosen law make no sense together.
+  /// From the validated deck list `Rotary Speed`. DeckError when the parameters of the chosen law
+  /// make no sense together.
   explicit RotarySpeed(const Teuchos::ParameterList& list);
   /// From the whole deck: the list `Rotary Speed` when it is there, else no rotation.
   static RotarySpeed fromDeck(const Teuchos::ParameterList& deck);
@@ -49,12 +52,13 @@ class RotarySpeed {
   double speed(double t) const { return law_ ? law_->speed(t) : 0.0; }
   double acceleration(double t) const { return law_ ? law_->acceleration(t) : 0.0; }
   double angle(double t) const { return law_ ? law_->angle(t) : 0.0; }
-  /// Sign of the speed at `from` [s] or, where it is zero there, of the first rotation after it; 0 when nothing ever turns.
+  /// Sign of the speed at `from` [s] or, where it is zero there, of the first rotation after it; 0
+  /// when nothing ever turns.
   double sense(double from) const;
 
-  /// Law of time by name: "1", "Omega", "sqrt|Omega|", "Omega^2", "Omega sqrt|Omega|", "dOmega/dt", and the two of a mass
-  /// unbalance, "Omega^2 cos + dOmega/dt sin" and "Omega^2 sin - dOmega/dt cos" (of the angle int Omega dt).
-  /// Throws Error(Internal) for another name.
+  /// Law of time by name: "1", "Omega", "sqrt|Omega|", "Omega^2", "Omega sqrt|Omega|", "dOmega/dt",
+  /// and the two of a mass unbalance, "Omega^2 cos + dOmega/dt sin" and "Omega^2 sin - dOmega/dt
+  /// cos" (of the angle int Omega dt). Throws Error(Internal) for another name.
   model::ScalarLaw scalar(const std::string& name) const;
 
  private:

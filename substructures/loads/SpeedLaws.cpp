@@ -37,7 +37,9 @@ class Exponential : public SpeedLaw {
         tau_(list.get<double>("Time Constant")) {}
   double speed(double t) const override { return final_ + missing_ * std::exp(-t / tau_); }
   double acceleration(double t) const override { return -missing_ / tau_ * std::exp(-t / tau_); }
-  double angle(double t) const override { return final_ * t - missing_ * tau_ * std::expm1(-t / tau_); }
+  double angle(double t) const override {
+    return final_ * t - missing_ * tau_ * std::expm1(-t / tau_);
+  }
 
  private:
   double final_;
@@ -45,8 +47,8 @@ class Exponential : public SpeedLaw {
   double tau_;
 };
 
-/// Omega_0 before the start, Omega_1 after the end; between them, with x from 0 to 1, Omega_0 + (Omega_1 - Omega_0) r(x) and
-/// r = x (linear) or 3 x^2 - 2 x^3 (smooth: dOmega/dt has no jumps).
+/// Omega_0 before the start, Omega_1 after the end; between them, with x from 0 to 1, Omega_0 +
+/// (Omega_1 - Omega_0) r(x) and r = x (linear) or 3 x^2 - 2 x^3 (smooth: dOmega/dt has no jumps).
 class Ramp : public SpeedLaw {
  public:
   explicit Ramp(const ParameterList& list)
@@ -89,10 +91,15 @@ class Harmonic : public SpeedLaw {
         amplitude_(list.get<double>("Amplitude")),
         pulsation_(twoPi * list.get<double>("Frequency")),
         phase_(list.get<double>("Phase")) {}
-  double speed(double t) const override { return mean_ + amplitude_ * std::sin(pulsation_ * t + phase_); }
-  double acceleration(double t) const override { return amplitude_ * pulsation_ * std::cos(pulsation_ * t + phase_); }
+  double speed(double t) const override {
+    return mean_ + amplitude_ * std::sin(pulsation_ * t + phase_);
+  }
+  double acceleration(double t) const override {
+    return amplitude_ * pulsation_ * std::cos(pulsation_ * t + phase_);
+  }
   double angle(double t) const override {
-    return mean_ * t - amplitude_ / pulsation_ * (std::cos(pulsation_ * t + phase_) - std::cos(phase_));
+    return mean_ * t -
+           amplitude_ / pulsation_ * (std::cos(pulsation_ * t + phase_) - std::cos(phase_));
   }
 
  private:
@@ -105,39 +112,49 @@ class Harmonic : public SpeedLaw {
 template <class Law>
 bool add(ListSpec parameters, const std::string& doc) {
   const std::string name = parameters.name();
-  return SpeedLaws::instance().add(name, {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> {
-                                            return std::make_unique<Law>(list);
-                                          }});
+  return SpeedLaws::instance().add(
+      name,
+      {doc, std::move(parameters), [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> {
+         return std::make_unique<Law>(list);
+       }});
 }
 
-[[maybe_unused]] const bool constant = add<Constant>(
-    ListSpec("Constant", "One speed from the first instant on.")
-        .real("Speed", "rad/s", deck::Required{}, Range::any(), "Rotary speed; positive turns local x into local y."),
-    "One speed from the first instant on.");
+[[maybe_unused]] const bool constant =
+    add<Constant>(ListSpec("Constant", "One speed from the first instant on.")
+                      .real("Speed", "rad/s", deck::Required{}, Range::any(),
+                            "Rotary speed; positive turns local x into local y."),
+                  "One speed from the first instant on.");
 
 [[maybe_unused]] const bool exponential = add<Exponential>(
-    ListSpec("Exponential", "Approach to a final speed, Omega = Final + (Initial - Final) exp(-t/Time Constant).")
-        .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed approached as time goes on.")
+    ListSpec("Exponential",
+             "Approach to a final speed, Omega = Final + (Initial - Final) exp(-t/Time Constant).")
+        .real("Final Speed", "rad/s", deck::Required{}, Range::any(),
+              "Speed approached as time goes on.")
         .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed at time 0.")
-        .real("Time Constant", "s", deck::Required{}, Range::positive(), "Time after which 63 % of the change is done."),
-    "Exponential approach to a final speed (section 5.3 of Nguyen et al. 2020: 120 - 120 exp(-6 t) rpm).");
+        .real("Time Constant", "s", deck::Required{}, Range::positive(),
+              "Time after which 63 % of the change is done."),
+    "Exponential approach to a final speed (section 5.3 of Nguyen et al. 2020: 120 - 120 exp(-6 t) "
+    "rpm).");
 
-[[maybe_unused]] const bool ramp =
-    add<Ramp>(ListSpec("Ramp", "From one speed to another in a given time, constant before and after.")
-                  .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed before the ramp.")
-                  .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed after the ramp.")
-                  .real("Start Time", "s", 0.0, Range::nonNegative(), "Time at which the ramp begins.")
-                  .real("Duration", "s", deck::Required{}, Range::positive(), "Time the ramp takes.")
-                  .boolean("Smooth", true, "Cubic ramp whose angular acceleration has no jumps; false for a straight one."),
-              "Straight or smooth ramp between two speeds, then hold.");
+[[maybe_unused]] const bool ramp = add<Ramp>(
+    ListSpec("Ramp", "From one speed to another in a given time, constant before and after.")
+        .real("Initial Speed", "rad/s", 0.0, Range::any(), "Speed before the ramp.")
+        .real("Final Speed", "rad/s", deck::Required{}, Range::any(), "Speed after the ramp.")
+        .real("Start Time", "s", 0.0, Range::nonNegative(), "Time at which the ramp begins.")
+        .real("Duration", "s", deck::Required{}, Range::positive(), "Time the ramp takes.")
+        .boolean("Smooth", true,
+                 "Cubic ramp whose angular acceleration has no jumps; false for a straight one."),
+    "Straight or smooth ramp between two speeds, then hold.");
 
-[[maybe_unused]] const bool harmonic =
-    add<Harmonic>(ListSpec("Harmonic", "Mean speed plus a sine, Omega = Mean + Amplitude sin(2 pi Frequency t + Phase).")
-                      .real("Mean Speed", "rad/s", deck::Required{}, Range::any(), "Mean rotary speed.")
-                      .real("Amplitude", "rad/s", deck::Required{}, Range::any(), "Amplitude of the fluctuation.")
-                      .real("Frequency", "Hz", deck::Required{}, Range::positive(), "Frequency of the fluctuation.")
-                      .real("Phase", "rad", 0.0, Range::any(), "Phase of the fluctuation at time 0."),
-                  "Mean speed with a harmonic fluctuation.");
+[[maybe_unused]] const bool harmonic = add<Harmonic>(
+    ListSpec("Harmonic",
+             "Mean speed plus a sine, Omega = Mean + Amplitude sin(2 pi Frequency t + Phase).")
+        .real("Mean Speed", "rad/s", deck::Required{}, Range::any(), "Mean rotary speed.")
+        .real("Amplitude", "rad/s", deck::Required{}, Range::any(), "Amplitude of the fluctuation.")
+        .real("Frequency", "Hz", deck::Required{}, Range::positive(),
+              "Frequency of the fluctuation.")
+        .real("Phase", "rad", 0.0, Range::any(), "Phase of the fluctuation at time 0."),
+    "Mean speed with a harmonic fluctuation.");
 
 }  // namespace
 }  // namespace tooljoint::loads

@@ -14,10 +14,11 @@ namespace {
 
 using Teuchos::ParameterList;
 
-/// Piecewise cubic in Hermite form (linear: slopes are those of the chords), held constant before the first and after
-/// the last entry. Between t_i and t_i+1 = t_i + h, with x from 0 to 1:
+/// Piecewise cubic in Hermite form (linear: slopes are those of the chords), held constant before
+/// the first and after the last entry. Between t_i and t_i+1 = t_i + h, with x from 0 to 1:
 ///
-///     Omega = y_i + h m_i x + (3 d - h (2 m_i + m_i+1)) x^2 + (h (m_i + m_i+1) - 2 d) x^3,  d = y_i+1 - y_i
+///     Omega = y_i + h m_i x + (3 d - h (2 m_i + m_i+1)) x^2 + (h (m_i + m_i+1) - 2 d) x^3,  d =
+///     y_i+1 - y_i
 class Table : public SpeedLaw {
  public:
   explicit Table(const ParameterList& list)
@@ -79,20 +80,23 @@ class Table : public SpeedLaw {
 
   void check() const {
     if (time_.size() != speed_.size() || time_.empty()) {
-      throw DeckError("Rotary Speed/Table has " + std::to_string(time_.size()) + " Times and " + std::to_string(speed_.size()) +
+      throw DeckError("Rotary Speed/Table has " + std::to_string(time_.size()) + " Times and " +
+                      std::to_string(speed_.size()) +
                       " Speeds; it needs at least one time, and a speed for each.");
     }
     if (time_.front() < 0.0) throw DeckError("Rotary Speed/Table/Times begins before time 0.");
     for (std::size_t i = 1; i < time_.size(); ++i) {
       if (!(time_[i] > time_[i - 1])) {
-        throw DeckError("Rotary Speed/Table/Times must increase, but entry " + std::to_string(i + 1) + " does not follow entry " +
-                        std::to_string(i) + ".");
+        throw DeckError("Rotary Speed/Table/Times must increase, but entry " +
+                        std::to_string(i + 1) + " does not follow entry " + std::to_string(i) +
+                        ".");
       }
     }
   }
 
-  /// Slopes of Fritsch and Carlson (1980) in Brodlie's weighted harmonic form: no overshoot between entries; zero at both
-  /// ends, so that the hold before and after joins without a jump of dOmega/dt.
+  /// Slopes of Fritsch and Carlson (1980) in Brodlie's weighted harmonic form: no overshoot between
+  /// entries; zero at both ends, so that the hold before and after joins without a jump of
+  /// dOmega/dt.
   std::vector<double> monotoneSlopes() const {
     std::vector<double> slope(time_.size(), 0.0);
     for (std::size_t i = 1; i + 1 < time_.size(); ++i) {
@@ -110,13 +114,16 @@ class Table : public SpeedLaw {
 
   /// Index of the piece that holds t, for t inside the table.
   std::size_t piece(double t) const {
-    return static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), t) - time_.begin()) - 1;
+    return static_cast<std::size_t>(std::upper_bound(time_.begin(), time_.end(), t) -
+                                    time_.begin()) -
+           1;
   }
 
   /// int of Omega over the first part x of piece i.
   double integral(std::size_t i, double x) const {
     const Piece& p = pieces_[i];
-    return p.width * x * (speed_[i] + x * (p.linear / 2.0 + x * (p.quadratic / 3.0 + x * p.cubic / 4.0)));
+    return p.width * x *
+           (speed_[i] + x * (p.linear / 2.0 + x * (p.quadratic / 3.0 + x * p.cubic / 4.0)));
   }
 
   std::vector<double> time_;
@@ -128,12 +135,17 @@ class Table : public SpeedLaw {
 [[maybe_unused]] const bool registered = SpeedLaws::instance().add(
     "Table",
     {"Speeds at given times, joined by straight lines or by cubics that do not overshoot.",
-     deck::ListSpec("Table", "Speeds at given times; the first and the last speed hold before and after.")
-         .realArray("Times", "s", deck::Required{}, deck::Range::nonNegative(), "Times of the entries, increasing.")
-         .realArray("Speeds", "rad/s", deck::Required{}, deck::Range::any(), "Rotary speed at each time; may change its sign.")
+     deck::ListSpec("Table",
+                    "Speeds at given times; the first and the last speed hold before and after.")
+         .realArray("Times", "s", deck::Required{}, deck::Range::nonNegative(),
+                    "Times of the entries, increasing.")
+         .realArray("Speeds", "rad/s", deck::Required{}, deck::Range::any(),
+                    "Rotary speed at each time; may change its sign.")
          .choice("Interpolation", std::string("Monotone cubic"), {"Monotone cubic", "Linear"},
                  "Curve between the entries: a cubic without overshoot, or straight lines."),
-     [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> { return std::make_unique<Table>(list); }});
+     [](const ParameterList& list) -> std::unique_ptr<SpeedLaw> {
+       return std::make_unique<Table>(list);
+     }});
 
 }  // namespace
 }  // namespace tooljoint::loads

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Above this chi the annulus is a film (gap below 5 % of the radius) and the added-mass theory is only an extrapolation.
+/// Above this chi the annulus is a film (gap below 5 % of the radius) and the added-mass theory is
+/// only an extrapolation.
 constexpr double filmConfinement = 20.0;
 
 double square(double x) { return x * x; }
@@ -33,8 +34,9 @@ MudProperties read(const Teuchos::ParameterList& list) {
 
 std::string metres(double value) { return formatNumber(value) + " m"; }
 
-/// Turns (u, v) into (v, -u) and (theta_x, theta_y) into (theta_y, -theta_x) at both ends. It commutes with the isotropic
-/// lateral integrals, so int N'N times it couples the two planes: its u row holds +int N'N v, its v row -int N'N u.
+/// Turns (u, v) into (v, -u) and (theta_x, theta_y) into (theta_y, -theta_x) at both ends. It
+/// commutes with the isotropic lateral integrals, so int N'N times it couples the two planes: its u
+/// row holds +int N'N v, its v row -int N'N u.
 beam::Matrix12 quarterTurn() {
   beam::Matrix12 turn = beam::Matrix12::Zero();
   for (int first : {0, 3, 6, 9}) {
@@ -44,7 +46,8 @@ beam::Matrix12 quarterTurn() {
   return turn;
 }
 
-void addTerm(std::vector<MatrixTerm>& terms, const char* name, const char* law, double factor, const beam::Matrix12& matrix) {
+void addTerm(std::vector<MatrixTerm>& terms, const char* name, const char* law, double factor,
+             const beam::Matrix12& matrix) {
   if (factor != 0.0) terms.push_back({name, law, factor * matrix});
 }
 
@@ -52,21 +55,30 @@ void addTerm(std::vector<MatrixTerm>& terms, const char* name, const char* law, 
 
 deck::ListSpec parameters() {
   using deck::Range;
-  return deck::ListSpec("Mud", "Drilling mud inside and around the string; without this list nothing of it is modelled.")
+  return deck::ListSpec("Mud",
+                        "Drilling mud inside and around the string; without this list nothing of "
+                        "it is modelled.")
       .real("Density", "kg/m3", deck::Required{}, Range::nonNegative(),
             "Mass density of the mud: added lateral mass inside and outside, and buoyancy.")
       .real("Friction Coefficient", "", 0.013, Range::nonNegative(),
-            "Friction coefficient of the axial flow along the string, C_f: lateral damping and axial drag.")
+            "Friction coefficient of the axial flow along the string, C_f: lateral damping and "
+            "axial drag.")
       .real("Kinematic Viscosity", "m2/s", 1e-6, Range::nonNegative(),
-            "Kinematic viscosity of the mud: lateral damping that grows with the square root of the rotary speed.")
-      .real("Flow Rate", "m3/s", 0.0, Range::any(), "Volume pumped per second, down the string and up the annulus when positive.")
-      .boolean("Coriolis", true, "Keep the Coriolis forces of both axial flows; needs a flow rate to matter.")
-      .boolean("Centrifugal", true, "Keep the centrifugal stiffness of both axial flows; needs a flow rate to matter.")
-      .boolean("Axial Drag", true, "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
+            "Kinematic viscosity of the mud: lateral damping that grows with the square root of "
+            "the rotary speed.")
+      .real("Flow Rate", "m3/s", 0.0, Range::any(),
+            "Volume pumped per second, down the string and up the annulus when positive.")
+      .boolean("Coriolis", true,
+               "Keep the Coriolis forces of both axial flows; needs a flow rate to matter.")
+      .boolean("Centrifugal", true,
+               "Keep the centrifugal stiffness of both axial flows; needs a flow rate to matter.")
       .boolean(
-          "Rotating Annulus", false,
-          "Let the annular mud swirl at half the rotary speed: cross-coupled damping, negative and circulatory stiffness. It "
-          "changes the motion strongly; terms of the angular acceleration are left out.");
+          "Axial Drag", true,
+          "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
+      .boolean("Rotating Annulus", false,
+               "Let the annular mud swirl at half the rotary speed: cross-coupled damping, "
+               "negative and circulatory stiffness. It "
+               "changes the motion strongly; terms of the angular acceleration are left out.");
 }
 
 Mud::Mud(const MudProperties& properties) : properties_(properties) {}
@@ -76,7 +88,8 @@ SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius)
   if (!(outerRadius < boreRadius)) {
     throw ModelError("The mud needs an annulus, but a body of outer radius " + metres(outerRadius) +
                      " does not fit a bore of radius " + metres(boreRadius) +
-                     ": the added mass grows without bound as they meet. Check the bore radius and the section (the "
+                     ": the added mass grows without bound as they meet. Check the bore radius and "
+                     "the section (the "
                      "gauge radius of a stabiliser or bit is no body radius).");
   }
   const MudProperties& p = properties_;
@@ -84,15 +97,18 @@ SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius)
   const double innerArea = pi * square(innerRadius);
   const double outerArea = pi * square(outerRadius);
   if (p.flowRate != 0.0 && !(innerArea > 0.0)) {
-    throw ModelError("The mud has a flow rate, but a section of outer radius " + metres(outerRadius) +
-                     " is solid: nothing can be pumped through it. Give it an inner radius or set Mud/Flow Rate to 0.");
+    throw ModelError("The mud has a flow rate, but a section of outer radius " +
+                     metres(outerRadius) +
+                     " is solid: nothing can be pumped through it. Give it an inner radius or set "
+                     "Mud/Flow Rate to 0.");
   }
   SectionFlow f;
   // chi = (R_w^2 + R_e^2)/(R_w^2 - R_e^2) = (1 + gamma^2)/(1 - gamma^2)
   f.confinement = (1.0 + square(gamma)) / (1.0 - square(gamma));
   if (f.confinement > filmConfinement) {
-    log::warn("The annulus around a body of outer radius " + metres(outerRadius) + " in a bore of radius " + metres(boreRadius) +
-              " is a thin film; its added mass is " + formatNumber(std::round(f.confinement)) + " times that of an open fluid.");
+    log::warn("The annulus around a body of outer radius " + metres(outerRadius) +
+              " in a bore of radius " + metres(boreRadius) + " is a thin film; its added mass is " +
+              formatNumber(std::round(f.confinement)) + " times that of an open fluid.");
   }
   f.innerMass = p.density * innerArea;
   f.annulusMass = f.confinement * p.density * outerArea;
@@ -105,15 +121,18 @@ SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius)
   const double friction = p.frictionCoefficient * p.density * outerRadius;
   f.axialFlowDamping = friction * std::abs(f.annulusSpeed);
   f.axialDrag = -friction * f.annulusSpeed * std::abs(f.annulusSpeed);
-  f.rotationDamping = 2.0 * std::sqrt(2.0) * pi * p.density * outerRadius * std::sqrt(p.kinematicViscosity) *
-                      (1.0 + gamma * gamma * gamma) / square(1.0 - square(gamma));
+  f.rotationDamping = 2.0 * std::sqrt(2.0) * pi * p.density * outerRadius *
+                      std::sqrt(p.kinematicViscosity) * (1.0 + gamma * gamma * gamma) /
+                      square(1.0 - square(gamma));
   return f;
 }
 
-ElementContribution Mud::element(const beam::Section& section, double boreRadius, double length, const Vector3& gravity) const {
+ElementContribution Mud::element(const beam::Section& section, double boreRadius, double length,
+                                 const Vector3& gravity) const {
   if (!(section.outerRadius() > 0.0)) {
     throw ModelError(
-        "The mud needs the radii of a section, but an element has a general one that gives only areas. Leave out the list "
+        "The mud needs the radii of a section, but an element has a general one that gives only "
+        "areas. Leave out the list "
         "Mud or give the section its radii.");
   }
   count("mud matrices");
@@ -126,20 +145,24 @@ ElementContribution Mud::element(const beam::Section& section, double boreRadius
   addTerm(out.damping, "mud rotation damping", "sqrt|Omega|", f.rotationDamping, lateral);
   if (p.coriolis) {
     const beam::Matrix12 slope = beam::lateralSlope(length);  // int N'N_z
-    addTerm(out.damping, "mud Coriolis", "1", f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed,
-            slope - slope.transpose());
+    addTerm(out.damping, "mud Coriolis", "1",
+            f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed, slope - slope.transpose());
   }
   if (p.centrifugal) {
-    addTerm(out.stiffness, "mud centrifugal", "1", -(f.innerMass * square(f.innerSpeed) + f.annulusMass * square(f.annulusSpeed)),
+    addTerm(out.stiffness, "mud centrifugal", "1",
+            -(f.innerMass * square(f.innerSpeed) + f.annulusMass * square(f.annulusSpeed)),
             beam::lateralSlopeSlope(length));
   }
   if (p.rotatingAnnulus) {
-    // z = u + i v seen from a frame swirling at Omega/2: m_a z'' + (c - i m_a Omega) z' - (m_a Omega^2/4 + i c Omega/2) z
+    // z = u + i v seen from a frame swirling at Omega/2: m_a z'' + (c - i m_a Omega) z' - (m_a
+    // Omega^2/4 + i c Omega/2) z
     const beam::Matrix12 cross = lateral * quarterTurn();
     addTerm(out.damping, "mud swirl Coriolis", "Omega", f.annulusMass, cross);
     addTerm(out.stiffness, "mud swirl centrifugal", "Omega^2", -f.annulusMass / 4.0, lateral);
-    addTerm(out.stiffness, "mud swirl circulatory, axial flow", "Omega", f.axialFlowDamping / 2.0, cross);
-    addTerm(out.stiffness, "mud swirl circulatory, rotation", "Omega sqrt|Omega|", f.rotationDamping / 2.0, cross);
+    addTerm(out.stiffness, "mud swirl circulatory, axial flow", "Omega", f.axialFlowDamping / 2.0,
+            cross);
+    addTerm(out.stiffness, "mud swirl circulatory, rotation", "Omega sqrt|Omega|",
+            f.rotationDamping / 2.0, cross);
   }
   Vector3 distributed = f.buoyantMass * gravity;
   if (p.axialDrag) distributed.z() += f.axialDrag;

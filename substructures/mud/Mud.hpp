@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Drilling mud inside and around the string: what it adds to the matrices and loads of one beam element.
+/// Drilling mud inside and around the string: what it adds to the matrices and loads of one beam
+/// element.
 ///
-/// The inner flow U_i = Q/A_i goes down the string, the annular flow U_o = Q/A_ch comes back up. With
+/// The inner flow U_i = Q/A_i goes down the string, the annular flow U_o = Q/A_ch comes back up.
+/// With
 ///
 ///     A_i = pi R_i^2,  A_o = pi R_e^2,  A_ch = pi (R_w^2 - R_e^2),  gamma = R_e/R_w,
 ///     chi = (R_w^2 + R_e^2)/(R_w^2 - R_e^2),  m_i = rho_f A_i,  m_a = chi rho_f A_o
@@ -13,9 +15,10 @@
 ///     damping    (c_ax + c_rot sqrt|Omega|) int N'N + (m_i U_i - m_a U_o) (int N'N_z - int N_z'N)
 ///     stiffness  -(m_i U_i^2 + m_a U_o^2) int N_z'N_z
 ///
-/// and the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form: no pressure term goes with it) and the
-/// axial drag of the returning flow. Sources: Ritto, Soize and Sampaio (2009) for the axial flow, Chen (1981) and Fritz
-/// (1970) for the confined added mass and viscous damping, as cited in section 2.3 of Nguyen et al. 2020.
+/// and the load (rho_f A_i - rho_f A_o) g (buoyancy in effective-tension form: no pressure term
+/// goes with it) and the axial drag of the returning flow. Sources: Ritto, Soize and Sampaio (2009)
+/// for the axial flow, Chen (1981) and Fritz (1970) for the confined added mass and viscous
+/// damping, as cited in section 2.3 of Nguyen et al. 2020.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -52,19 +55,22 @@ struct SectionFlow {
   double innerSpeed = 0.0;        ///< U_i, down the hole [m/s]
   double annulusSpeed = 0.0;      ///< U_o, up the hole [m/s]
   double axialFlowDamping = 0.0;  ///< c_ax = C_f rho_f D_o |U_o| / 2 [N s/m2]
-  double rotationDamping = 0.0;  ///< c_rot = 2 sqrt(2) pi rho_f R_e sqrt(nu_f) (1+gamma^3)/(1-gamma^2)^2 [N s/m2 per sqrt(rad/s)]
-  double axialDrag = 0.0;        ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m]
-  double buoyantMass = 0.0;      ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
+  double rotationDamping = 0.0;   ///< c_rot = 2 sqrt(2) pi rho_f R_e sqrt(nu_f)
+                                  ///< (1+gamma^3)/(1-gamma^2)^2 [N s/m2 per sqrt(rad/s)]
+  double axialDrag = 0.0;         ///< -C_f rho_f D_o U_o |U_o| / 2, positive down the hole [N/m]
+  double buoyantMass = 0.0;       ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
 };
 
-/// A 12 x 12 element matrix times a law of the rotary speed: "1", "sqrt|Omega|", "Omega", "Omega^2" or "Omega sqrt|Omega|".
+/// A 12 x 12 element matrix times a law of the rotary speed: "1", "sqrt|Omega|", "Omega", "Omega^2"
+/// or "Omega sqrt|Omega|".
 struct MatrixTerm {
   std::string name;  ///< "mud drag", "mud Coriolis", ...: the same for every element
   std::string law;
   beam::Matrix12 matrix;  ///< element frame, on the left-hand side
 };
 
-/// What the mud adds to one element, in its element frame. Terms that are zero by the deck are not in the lists.
+/// What the mud adds to one element, in its element frame. Terms that are zero by the deck are not
+/// in the lists.
 struct ElementContribution {
   beam::Matrix12 mass = beam::Matrix12::Zero();  ///< lateral only [kg ...]
   std::vector<MatrixTerm> damping;
@@ -80,14 +86,16 @@ class Mud {
 
   const MudProperties& properties() const { return properties_; }
 
-  /// Flow numbers for body radii R_i, R_e (never a gauge radius) in a bore of radius R_w [m]. R_w may be infinite.
-  /// Throws ModelError when the body does not fit the bore, or when mud is pumped through a solid section.
+  /// Flow numbers for body radii R_i, R_e (never a gauge radius) in a bore of radius R_w [m]. R_w
+  /// may be infinite. Throws ModelError when the body does not fit the bore, or when mud is pumped
+  /// through a solid section.
   SectionFlow flow(double innerRadius, double outerRadius, double boreRadius) const;
 
-  /// Contribution of an element of length l [m]; `gravity` is the acceleration vector in the element frame [m/s2] (zero
-  /// for a deck without gravity). Counted in the census as "mud matrices". Errors as flow(), and ModelError for a section
-  /// without radii.
-  ElementContribution element(const beam::Section& section, double boreRadius, double length, const Vector3& gravity) const;
+  /// Contribution of an element of length l [m]; `gravity` is the acceleration vector in the
+  /// element frame [m/s2] (zero for a deck without gravity). Counted in the census as "mud
+  /// matrices". Errors as flow(), and ModelError for a section without radii.
+  ElementContribution element(const beam::Section& section, double boreRadius, double length,
+                              const Vector3& gravity) const;
 
  private:
   MudProperties properties_;

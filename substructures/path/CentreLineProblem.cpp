@@ -24,7 +24,9 @@ std::vector<double> CentreLineProblem::depths(const Vector& x) const {
   return out;
 }
 
-Vector3 CentreLineProblem::position(const double* translations) const { return trajectory_->at(*translations).position; }
+Vector3 CentreLineProblem::position(const double* translations) const {
+  return trajectory_->at(*translations).position;
+}
 
 Matrix CentreLineProblem::positionDerivative(const double* translations) const {
   return trajectory_->at(*translations).tangent;

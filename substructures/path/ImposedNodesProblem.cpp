@@ -21,9 +21,10 @@ Vector straightState(const PathInput& input) {
 
 }  // namespace
 
-ImposedNodesProblem::ImposedNodesProblem(const PathInput& input, std::vector<int> imposed, Imposition imposition,
-                                         double factor)
-    : PathProblem(input, 3, straightState(input), std::vector<Matrix3>(input.lengths.size() + 1, Matrix3::Identity()),
+ImposedNodesProblem::ImposedNodesProblem(const PathInput& input, std::vector<int> imposed,
+                                         Imposition imposition, double factor)
+    : PathProblem(input, 3, straightState(input),
+                  std::vector<Matrix3>(input.lengths.size() + 1, Matrix3::Identity()),
                   {0, 1, 2, 5}),
       imposed_(std::move(imposed)),
       imposition_(imposition),
@@ -32,7 +33,8 @@ ImposedNodesProblem::ImposedNodesProblem(const PathInput& input, std::vector<int
   accept(start());
   const auto nodePoses = poses(start());
   for (std::size_t i = 0; i < imposed_.size(); ++i)
-    target_.col(static_cast<int>(i)) = nodePoses[static_cast<std::size_t>(imposed_[i])].position.head<2>();
+    target_.col(static_cast<int>(i)) =
+        nodePoses[static_cast<std::size_t>(imposed_[i])].position.head<2>();
 }
 
 void ImposedNodesProblem::prescribe(const Matrix& target) { target_ = target; }
@@ -53,7 +55,9 @@ Vector3 ImposedNodesProblem::position(const double* translations) const {
   return {translations[0], translations[1], translations[2]};
 }
 
-Matrix ImposedNodesProblem::positionDerivative(const double* /*translations*/) const { return Matrix3::Identity(); }
+Matrix ImposedNodesProblem::positionDerivative(const double* /*translations*/) const {
+  return Matrix3::Identity();
+}
 
 void ImposedNodesProblem::constrain(const Vector& state, Vector& r) const {
   for (std::size_t i = 0; i < imposed_.size(); ++i)
@@ -70,7 +74,8 @@ void ImposedNodesProblem::constrain(Sparse& jacobian) const {
       const int row = unknownOf(node, c);
       for (Sparse::InnerIterator entry(jacobian, row); entry; ++entry) {
         if (imposition_ == Imposition::Elimination) entry.valueRef() = 0.0;
-        if (entry.col() == row) entry.valueRef() += imposition_ == Imposition::Elimination ? 1.0 : penalty_;
+        if (entry.col() == row)
+          entry.valueRef() += imposition_ == Imposition::Elimination ? 1.0 : penalty_;
       }
     }
 }

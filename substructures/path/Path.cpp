@@ -25,10 +25,12 @@ std::vector<double> unstretchedDepths(const PathInput& input) {
 void check(const PathInput& input) {
   if (input.trajectory == nullptr) throw ModelError("The path needs a well trajectory.");
   if (input.lengths.empty() || input.lengths.size() != input.sections.size())
-    throw ModelError("The path needs a string of at least one element, with one section for each length.");
+    throw ModelError(
+        "The path needs a string of at least one element, with one section for each length.");
   for (std::size_t e = 0; e < input.lengths.size(); ++e)
     if (!(input.lengths[e] > 0.0))
-      throw ModelError("Element " + std::to_string(e + 1) + " of the string has no positive length.");
+      throw ModelError("Element " + std::to_string(e + 1) +
+                       " of the string has no positive length.");
 }
 
 /// Depth of the foot of X on the axis: (X - C(s)) . t(s) = 0, Newton from s.
@@ -44,8 +46,8 @@ double footOnAxis(const well::Trajectory& trajectory, const Vector3& x, double s
 }
 
 /// Nodal positions, frames and distances from the axis of the state at x.
-void placeNodes(const PathInput& input, const PathOptions& options, const PathProblem& problem, const Vector& x,
-                PathState& state) {
+void placeNodes(const PathInput& input, const PathOptions& options, const PathProblem& problem,
+                const Vector& x, PathState& state) {
   const std::vector<NodePose> nodePoses = problem.poses(x);
   std::vector<double> guess = unstretchedDepths(input);
   for (std::size_t n = 0; n < nodePoses.size(); ++n) {
@@ -66,9 +68,10 @@ void placeNodes(const PathInput& input, const PathOptions& options, const PathPr
   }
 }
 
-/// Turns the converged problem into the result: reactions, element forces and, if asked for, tangents in nodal frames.
-void describe(const PathInput& input, const PathOptions& options, const PathProblem& problem, const Vector& x,
-              PathState& state) {
+/// Turns the converged problem into the result: reactions, element forces and, if asked for,
+/// tangents in nodal frames.
+void describe(const PathInput& input, const PathOptions& options, const PathProblem& problem,
+              const Vector& x, PathState& state) {
   placeNodes(input, options, problem, x, state);
   const bool withTangent = options.prestress == Prestress::FullTangent;
   const auto responses = problem.responses(x, withTangent);
@@ -86,14 +89,15 @@ void describe(const PathInput& input, const PathOptions& options, const PathProb
   for (int e = 0; e < elements; ++e) {
     const auto i = static_cast<std::size_t>(e);
     const beam::CorotationalResponse& response = responses[i];
-    state.elementFrame.push_back(
-        beam::elementTriad(state.position[i], state.position[i + 1], state.frame[i], state.frame[i + 1]));
+    state.elementFrame.push_back(beam::elementTriad(state.position[i], state.position[i + 1],
+                                                    state.frame[i], state.frame[i + 1]));
     state.chordLength.push_back(response.length);
     state.axialForce(e) = response.axialForce;
     state.torque(e) = response.torque;
     if (withTangent) {
       // global axes to nodal frames: blkdiag(Q1, Q1, Q2, Q2)
-      const beam::Matrix12 turn = beam::rotation12(Matrix3::Identity(), state.frame[i], state.frame[i + 1]);
+      const beam::Matrix12 turn =
+          beam::rotation12(Matrix3::Identity(), state.frame[i], state.frame[i + 1]);
       state.tangent.push_back(turn.transpose() * response.tangent * turn);
     }
   }
@@ -107,9 +111,10 @@ model::SolveRequest request(const PathOptions& options, const std::string& what)
   return out;
 }
 
-/// Solves one load step; a trial state so wild that an element has no frame counts as not converged.
-model::SolveOutcome attempt(const model::NonlinearSolver& solve, const PathProblem& problem, Vector& x,
-                            const model::SolveRequest& asked) {
+/// Solves one load step; a trial state so wild that an element has no frame counts as not
+/// converged.
+model::SolveOutcome attempt(const model::NonlinearSolver& solve, const PathProblem& problem,
+                            Vector& x, const model::SolveRequest& asked) {
   try {
     return solve(problem, x, asked);
   } catch (const ModelError& error) {
@@ -119,7 +124,8 @@ model::SolveOutcome attempt(const model::NonlinearSolver& solve, const PathProbl
   }
 }
 
-PathState alongCentreLine(const PathInput& input, const PathOptions& options, const model::NonlinearSolver& solve) {
+PathState alongCentreLine(const PathInput& input, const PathOptions& options,
+                          const model::NonlinearSolver& solve) {
   const std::vector<double> depths = unstretchedDepths(input);
   const CentreLineProblem problem(input, depths, well::bishopFrames(*input.trajectory, depths));
   Vector x = problem.start();
@@ -134,24 +140,29 @@ PathState alongCentreLine(const PathInput& input, const PathOptions& options, co
     iterations += outcome.iterations;
   }
   if (!outcome.converged)
-    throw ConvergenceError("The path along the centre line did not converge: residual " + std::to_string(outcome.residual) +
-                           " after " + std::to_string(outcome.iterations) + " iterations, with and without line search. " +
-                           "Use shorter elements where the well bends most, or raise /Path/Max Iterations. " + outcome.message);
+    throw ConvergenceError(
+        "The path along the centre line did not converge: residual " +
+        std::to_string(outcome.residual) + " after " + std::to_string(outcome.iterations) +
+        " iterations, with and without line search. " +
+        "Use shorter elements where the well bends most, or raise /Path/Max Iterations. " +
+        outcome.message);
   PathState state;
   state.report = {true, 1, iterations, outcome.residual, 0.0};
   describe(input, options, problem, x, state);
   return state;
 }
 
-/// 0-based imposed nodes: the given list, or equally spaced in arc length; the first node is held anyway.
+/// 0-based imposed nodes: the given list, or equally spaced in arc length; the first node is held
+/// anyway.
 std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options) {
   const std::vector<double> depths = unstretchedDepths(input);
   const int last = static_cast<int>(depths.size()) - 1;
   std::vector<int> nodes;
   for (const int node : options.nodes) {
     if (node < 1 || node > last + 1)
-      throw ModelError("Imposed node " + std::to_string(node) + " does not exist: the string has nodes 1 to " +
-                       std::to_string(last + 1) + ".");
+      throw ModelError("Imposed node " + std::to_string(node) +
+                       " does not exist: the string has nodes 1 to " + std::to_string(last + 1) +
+                       ".");
     nodes.push_back(node - 1);
   }
   if (options.nodes.empty())
@@ -170,15 +181,19 @@ std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options
   return nodes;
 }
 
-PathState byImposedNodes(const PathInput& input, const PathOptions& options, const model::NonlinearSolver& solve) {
-  ImposedNodesProblem problem(input, imposedNodes(input, options), options.imposition, options.penaltyFactor);
+PathState byImposedNodes(const PathInput& input, const PathOptions& options,
+                         const model::NonlinearSolver& solve) {
+  ImposedNodesProblem problem(input, imposedNodes(input, options), options.imposition,
+                              options.penaltyFactor);
   const std::vector<double> depths = unstretchedDepths(input);
   const int count = static_cast<int>(problem.imposedNodes().size());
   Matrix from(2, count);
   Matrix to(2, count);
   for (int i = 0; i < count; ++i) {
     from.col(i) = input.trajectory->at(0.0).position.head<2>();
-    to.col(i) = input.trajectory->at(depths[static_cast<std::size_t>(problem.imposedNodes()[static_cast<std::size_t>(i)])])
+    to.col(i) = input.trajectory
+                    ->at(depths[static_cast<std::size_t>(
+                        problem.imposedNodes()[static_cast<std::size_t>(i)])])
                     .position.head<2>();
   }
 
@@ -191,8 +206,10 @@ PathState byImposedNodes(const PathInput& input, const PathOptions& options, con
     const double next = std::min(1.0, done + step);
     problem.prescribe(from + next * (to - from));
     Vector trial = problem.start();
-    const model::SolveOutcome outcome = attempt(
-        solve, problem, trial, request(options, "the path at " + std::to_string(100.0 * next) + " % of the way into the well"));
+    const model::SolveOutcome outcome =
+        attempt(solve, problem, trial,
+                request(options, "the path at " + std::to_string(100.0 * next) +
+                                     " % of the way into the well"));
     state.report.iterations += outcome.iterations;
     if (outcome.converged) {
       ++state.report.increments;
@@ -205,9 +222,12 @@ PathState byImposedNodes(const PathInput& input, const PathOptions& options, con
     }
     step *= 0.5;
     if (step < whole / (1 << kMaxHalvings))
-      throw ConvergenceError("The path by imposed nodes did not converge at " + std::to_string(100.0 * next) +
-                             " % of the way into the well, although the load step was halved " + std::to_string(kMaxHalvings) +
-                             " times. Raise /Path/Increments, impose other nodes (/Path/Nodes), or use /Path/Mode \"Centre line\". " +
+      throw ConvergenceError("The path by imposed nodes did not converge at " +
+                             std::to_string(100.0 * next) +
+                             " % of the way into the well, although the load step was halved " +
+                             std::to_string(kMaxHalvings) +
+                             " times. Raise /Path/Increments, impose other nodes (/Path/Nodes), or "
+                             "use /Path/Mode \"Centre line\". " +
                              outcome.message);
   }
   state.report.converged = true;
@@ -217,12 +237,15 @@ PathState byImposedNodes(const PathInput& input, const PathOptions& options, con
 
 }  // namespace
 
-PathState computePath(const PathInput& input, const PathOptions& options, const model::NonlinearSolver& solve) {
+PathState computePath(const PathInput& input, const PathOptions& options,
+                      const model::NonlinearSolver& solve) {
   check(input);
-  return options.mode == Mode::CentreLine ? alongCentreLine(input, options, solve) : byImposedNodes(input, options, solve);
+  return options.mode == Mode::CentreLine ? alongCentreLine(input, options, solve)
+                                          : byImposedNodes(input, options, solve);
 }
 
-PathState computePath(const PathInput& input, const Teuchos::ParameterList& path, const model::NonlinearSolver& solve) {
+PathState computePath(const PathInput& input, const Teuchos::ParameterList& path,
+                      const model::NonlinearSolver& solve) {
   return computePath(input, optionsFrom(path), solve);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Bends the straight string into the well (Nguyen et al. 2020, section 3.1) with corotational beams.
+/// Bends the straight string into the well (Nguyen et al. 2020, section 3.1) with corotational
+/// beams.
 #pragma once
 
 #include <vector>
@@ -32,8 +33,9 @@ enum class Imposition { Elimination, Penalty };
 struct PathOptions {
   Mode mode = Mode::CentreLine;
   Prestress prestress = Prestress::FullTangent;
-  int increments = 10;     ///< of `Imposed nodes`
-  int nodeCount = 9;       ///< imposed nodes, equally spaced in arc length, both ends included, when `nodes` is empty
+  int increments = 10;  ///< of `Imposed nodes`
+  int nodeCount = 9;    ///< imposed nodes, equally spaced in arc length, both ends included, when
+                        ///< `nodes` is empty
   std::vector<int> nodes;  ///< imposed nodes, 1-based, increasing
   Imposition imposition = Imposition::Elimination;
   double penaltyFactor = 1e6;  ///< times the largest stiffness entry, equation (13)
@@ -47,9 +49,11 @@ deck::ListSpec parameters();
 /// Reads a validated `Path` list.
 PathOptions optionsFrom(const Teuchos::ParameterList& path);
 
-/// The path state. Throws ConvergenceError when a load step fails even after it was halved repeatedly, and ModelError
-/// for an empty string or imposed nodes that do not exist.
-PathState computePath(const PathInput& input, const PathOptions& options, const model::NonlinearSolver& solve);
-PathState computePath(const PathInput& input, const Teuchos::ParameterList& path, const model::NonlinearSolver& solve);
+/// The path state. Throws ConvergenceError when a load step fails even after it was halved
+/// repeatedly, and ModelError for an empty string or imposed nodes that do not exist.
+PathState computePath(const PathInput& input, const PathOptions& options,
+                      const model::NonlinearSolver& solve);
+PathState computePath(const PathInput& input, const Teuchos::ParameterList& path,
+                      const model::NonlinearSolver& solve);
 
 }  // namespace tooljoint::path

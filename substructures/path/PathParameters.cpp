@@ -8,23 +8,34 @@ namespace tooljoint::path {
 
 deck::ListSpec parameters() {
   using deck::Range;
-  deck::ListSpec spec("Path", "How the straight string is bent into the well (Nguyen et al. 2020, section 3.1).");
+  deck::ListSpec spec(
+      "Path", "How the straight string is bent into the well (Nguyen et al. 2020, section 3.1).");
   spec.choice("Mode", std::string("Centre line"), {"Centre line", "Imposed nodes"},
-              "\"Centre line\" holds every node laterally on the axis, free to slide and to turn; \"Imposed nodes\" moves X "
-              "and Y of a few nodes from the vertical to the well, and the string strays from the axis between them.");
+              "\"Centre line\" holds every node laterally on the axis, free to slide and to turn; "
+              "\"Imposed nodes\" moves X "
+              "and Y of a few nodes from the vertical to the well, and the string strays from the "
+              "axis between them.");
   spec.choice("Pre-stress", std::string("Full tangent"), {"Full tangent", "Axial and torque"},
-              "What the bent state adds to the static and dynamic stiffness: the whole corotational tangent with its moments, "
-              "or the geometric stiffness of axial force and torque alone, which violates the torque balance of a curved string.");
-  spec.integer("Increments", 10, Range::atLeast(1), "Load steps of \"Imposed nodes\"; halved where one does not converge.");
+              "What the bent state adds to the static and dynamic stiffness: the whole "
+              "corotational tangent with its moments, "
+              "or the geometric stiffness of axial force and torque alone, which violates the "
+              "torque balance of a curved string.");
+  spec.integer("Increments", 10, Range::atLeast(1),
+               "Load steps of \"Imposed nodes\"; halved where one does not converge.");
   spec.integer("Node Count", 9, Range::atLeast(2),
-               "Number of imposed nodes, equally spaced in arc length with both ends included, when no Nodes are given.");
-  spec.integerArray("Nodes", deck::Optional{}, Range::atLeast(1), "Imposed nodes by number (1 is at the surface).");
+               "Number of imposed nodes, equally spaced in arc length with both ends included, "
+               "when no Nodes are given.");
+  spec.integerArray("Nodes", deck::Optional{}, Range::atLeast(1),
+                    "Imposed nodes by number (1 is at the surface).");
   spec.choice("Imposition", std::string("Elimination"), {"Elimination", "Penalty"},
-              "How imposed displacements enter: exactly, or by a stiff spring as in equations (12) and (13).");
+              "How imposed displacements enter: exactly, or by a stiff spring as in equations (12) "
+              "and (13).");
   spec.real("Penalty Factor", "", 1e6, Range::atLeast(1.0),
             "Stiffness of that spring over the largest entry of the stiffness matrix.");
-  spec.real("Tolerance", "", 1e-9, Range::positive(), "Largest scaled residual at which a load step has converged.");
-  spec.integer("Max Iterations", 50, Range::atLeast(1), "Newton iterations allowed in one load step.");
+  spec.real("Tolerance", "", 1e-9, Range::positive(),
+            "Largest scaled residual at which a load step has converged.");
+  spec.integer("Max Iterations", 50, Range::atLeast(1),
+               "Newton iterations allowed in one load step.");
   spec.passThrough("NOX", "Handed on to NOX.");
   spec.passThrough("Belos", "Handed on to Belos.");
   return spec;
@@ -32,17 +43,20 @@ deck::ListSpec parameters() {
 
 PathOptions optionsFrom(const Teuchos::ParameterList& path) {
   PathOptions options;
-  options.mode = path.get<std::string>("Mode") == "Centre line" ? Mode::CentreLine : Mode::ImposedNodes;
-  options.prestress =
-      path.get<std::string>("Pre-stress") == "Full tangent" ? Prestress::FullTangent : Prestress::AxialAndTorque;
+  options.mode =
+      path.get<std::string>("Mode") == "Centre line" ? Mode::CentreLine : Mode::ImposedNodes;
+  options.prestress = path.get<std::string>("Pre-stress") == "Full tangent"
+                          ? Prestress::FullTangent
+                          : Prestress::AxialAndTorque;
   options.increments = path.get<int>("Increments");
   options.nodeCount = path.get<int>("Node Count");
   if (path.isParameter("Nodes")) {
     const auto& nodes = path.get<Teuchos::Array<int>>("Nodes");
     options.nodes.assign(nodes.begin(), nodes.end());
   }
-  options.imposition =
-      path.get<std::string>("Imposition") == "Elimination" ? Imposition::Elimination : Imposition::Penalty;
+  options.imposition = path.get<std::string>("Imposition") == "Elimination"
+                           ? Imposition::Elimination
+                           : Imposition::Penalty;
   options.penaltyFactor = path.get<double>("Penalty Factor");
   options.tolerance = path.get<double>("Tolerance");
   options.maxIterations = path.get<int>("Max Iterations");

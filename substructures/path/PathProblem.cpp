@@ -13,8 +13,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-PathProblem::PathProblem(const PathInput& input, int translations, Vector state, std::vector<Matrix3> reference,
-                         const std::vector<int>& held)
+PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
+                         std::vector<Matrix3> reference, const std::vector<int>& held)
     : translations_(translations), state_(std::move(state)), reference_(std::move(reference)) {
   const int perNode = dofsPerNode();
   index_.assign(at(nodes() * perNode), 0);
@@ -29,15 +29,16 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
   for (std::size_t e = 0; e < input.sections.size(); ++e) {
     const beam::Section& section = input.sections[e];
     elements_.emplace_back(section, input.lengths[e]);
-    rigidity = std::max(rigidity, section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()));
+    rigidity = std::max(rigidity,
+                        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()));
     stretch = std::max(stretch, section.axialRigidity() / input.lengths[e]);
     length += input.lengths[e];
     const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * perNode;
     lists.emplace_back(first, first + 2 * perNode);
   }
   assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
-  // Forces are measured against E I/l^2 and, since positions carry the rounding of the whole depth L, against a millionth
-  // of (E S/l) L; moments against E I/l.
+  // Forces are measured against E I/l^2 and, since positions carry the rounding of the whole depth
+  // L, against a millionth of (E S/l) L; moments against E I/l.
   const double mean = length / static_cast<double>(elements_.size());
   forceScale_ = rigidity / (mean * mean) + 1e-6 * stretch * length;
   momentScale_ = rigidity / mean;
@@ -64,7 +65,9 @@ void PathProblem::moveReference(const Vector& x) {
   for (int n = 0; n < nodes(); ++n) state_.segment<3>(n * dofsPerNode() + translations_).setZero();
 }
 
-Vector3 PathProblem::positionCurvature(const double* /*translations*/) const { return Vector3::Zero(); }
+Vector3 PathProblem::positionCurvature(const double* /*translations*/) const {
+  return Vector3::Zero();
+}
 
 NodePose PathProblem::pose(int node, const Vector& state) const {
   const double* dofs = state.data() + node * dofsPerNode();
@@ -91,23 +94,27 @@ Matrix PathProblem::trialMotion(int node, const Vector& state) const {
   // d omega = Q_ref T_s(theta) d theta
   Matrix motion = testMotion(node, state);
   const Eigen::Map<const Vector3> theta(state.data() + node * dofsPerNode() + translations_);
-  motion.bottomRightCorner<3, 3>() = (reference_[at(node)] * beam::spinFromRotationVector(theta)).eval();
+  motion.bottomRightCorner<3, 3>() =
+      (reference_[at(node)] * beam::spinFromRotationVector(theta)).eval();
   return motion;
 }
 
-std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& state, bool withTangent) const {
+std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& state,
+                                                              bool withTangent) const {
   std::vector<beam::CorotationalResponse> out;
   out.reserve(elements_.size());
   NodePose first = pose(0, state);
   for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
     const NodePose second = pose(e + 1, state);
-    out.push_back(elements_[at(e)].evaluate({first.position, second.position, first.triad, second.triad}, withTangent));
+    out.push_back(elements_[at(e)].evaluate(
+        {first.position, second.position, first.triad, second.triad}, withTangent));
     first = second;
   }
   return out;
 }
 
-std::vector<beam::CorotationalResponse> PathProblem::responses(const Vector& x, bool withTangent) const {
+std::vector<beam::CorotationalResponse> PathProblem::responses(const Vector& x,
+                                                               bool withTangent) const {
   return evaluate(expand(x), withTangent);
 }
 
@@ -152,8 +159,10 @@ void PathProblem::jacobian(const Vector& x, Sparse& jacobian) const {
     Matrix local = test.transpose() * response.tangent * trial;
     // the direction of the translation turns: X'' . f
     if (translations_ == 1) {
-      local(0, 0) += positionCurvature(state.data() + e * perNode).dot(response.force.segment<3>(0));
-      local(perNode, perNode) += positionCurvature(state.data() + (e + 1) * perNode).dot(response.force.segment<3>(6));
+      local(0, 0) +=
+          positionCurvature(state.data() + e * perNode).dot(response.force.segment<3>(0));
+      local(perNode, perNode) +=
+          positionCurvature(state.data() + (e + 1) * perNode).dot(response.force.segment<3>(6));
     }
     assembler_.add(e, local, jacobian);
   }
@@ -164,7 +173,8 @@ Vector PathProblem::residualScale() const {
   Vector scale(unknowns_);
   for (std::size_t i = 0; i < index_.size(); ++i)
     if (index_[i] >= 0)
-      scale(index_[i]) = 1.0 / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
+      scale(index_[i]) =
+          1.0 / (static_cast<int>(i) % dofsPerNode() < translations_ ? forceScale_ : momentScale_);
   constrainScale(scale);
   return scale;
 }
@@ -174,8 +184,8 @@ std::string PathProblem::unknownName(int i) const {
   static const char* const alongCurve[] = {"depth", "theta_x", "theta_y", "theta_z"};
   static const char* const inSpace[] = {"X", "Y", "Z", "theta_x", "theta_y", "theta_z"};
   const int component = dof % dofsPerNode();
-  return std::string(translations_ == 1 ? alongCurve[component] : inSpace[component]) + " of node " +
-         std::to_string(dof / dofsPerNode() + 1);
+  return std::string(translations_ == 1 ? alongCurve[component] : inSpace[component]) +
+         " of node " + std::to_string(dof / dofsPerNode() + 1);
 }
 
 }  // namespace tooljoint::path

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The bent string as a nonlinear problem: corotational elements whose nodes move along a curve or in space.
+/// The bent string as a nonlinear problem: corotational elements whose nodes move along a curve or
+/// in space.
 #pragma once
 
 #include <string>
@@ -19,9 +20,10 @@ struct NodePose {
   Matrix3 triad;  ///< material axes, z normal to the cross section
 };
 
-/// Equilibrium of the unloaded string with prescribed translations. Unknowns of a node: its translations (one along a
-/// curve, or three in space), then the rotation vector theta in the axes of its reference triad, Q = Q_ref exp(theta^).
-/// Residual rows: the internal forces that work on the translations, and the internal moments in reference axes.
+/// Equilibrium of the unloaded string with prescribed translations. Unknowns of a node: its
+/// translations (one along a curve, or three in space), then the rotation vector theta in the axes
+/// of its reference triad, Q = Q_ref exp(theta^). Residual rows: the internal forces that work on
+/// the translations, and the internal moments in reference axes.
 class PathProblem : public model::NonlinearProblem {
  public:
   int size() const override { return unknowns_; }
@@ -39,22 +41,26 @@ class PathProblem : public model::NonlinearProblem {
   Matrix nodalForces(const Vector& x) const;
 
  protected:
-  /// `translations` per node: 1 or 3. `state` holds translations and rotation vector (zero) of all nodes; dofs in `held`
-  /// (positions in `state`) keep their values.
-  PathProblem(const PathInput& input, int translations, Vector state, std::vector<Matrix3> reference,
-              const std::vector<int>& held);
+  /// `translations` per node: 1 or 3. `state` holds translations and rotation vector (zero) of all
+  /// nodes; dofs in `held` (positions in `state`) keep their values.
+  PathProblem(const PathInput& input, int translations, Vector state,
+              std::vector<Matrix3> reference, const std::vector<int>& held);
 
   int dofsPerNode() const { return translations_ + 3; }
-  int unknownOf(int node, int dof) const { return index_[static_cast<std::size_t>(node * dofsPerNode() + dof)]; }
+  int unknownOf(int node, int dof) const {
+    return index_[static_cast<std::size_t>(node * dofsPerNode() + dof)];
+  }
   /// All dofs of all nodes, the held ones too.
   Vector expand(const Vector& x) const;
-  /// Makes the state x the new reference: its triads become the reference triads, the rotation vectors zero.
+  /// Makes the state x the new reference: its triads become the reference triads, the rotation
+  /// vectors zero.
   void moveReference(const Vector& x);
 
   /// Position of a node and its derivative, 3 x translations, from the node's translations.
   virtual Vector3 position(const double* translations) const = 0;
   virtual Matrix positionDerivative(const double* translations) const = 0;
-  /// Second derivative along the only translation; zero where positions are themselves the unknowns.
+  /// Second derivative along the only translation; zero where positions are themselves the
+  /// unknowns.
   virtual Vector3 positionCurvature(const double* translations) const;
   /// Last word on the assembled equations (prescribed motions).
   virtual void constrain(const Vector& /*state*/, Vector& /*r*/) const {}
@@ -63,7 +69,8 @@ class PathProblem : public model::NonlinearProblem {
 
  private:
   NodePose pose(int node, const Vector& state) const;
-  /// Virtual motions (test) and actual motions (trial) of a node per unit of its dofs, 6 x dofsPerNode.
+  /// Virtual motions (test) and actual motions (trial) of a node per unit of its dofs, 6 x
+  /// dofsPerNode.
   Matrix testMotion(int node, const Vector& state) const;
   Matrix trialMotion(int node, const Vector& state) const;
   std::vector<beam::CorotationalResponse> evaluate(const Vector& state, bool withTangent) const;
@@ -79,11 +86,13 @@ class PathProblem : public model::NonlinearProblem {
   double momentScale_ = 1.0;
 };
 
-/// `Centre line`: every node stays on the axis of the well, free to slide along it and to turn; held are the first
-/// node's depth and its turn about the tangent. Starts from unstretched depths and the given nodal frames.
+/// `Centre line`: every node stays on the axis of the well, free to slide along it and to turn;
+/// held are the first node's depth and its turn about the tangent. Starts from unstretched depths
+/// and the given nodal frames.
 class CentreLineProblem : public PathProblem {
  public:
-  CentreLineProblem(const PathInput& input, const std::vector<double>& depths, const std::vector<Matrix3>& frames);
+  CentreLineProblem(const PathInput& input, const std::vector<double>& depths,
+                    const std::vector<Matrix3>& frames);
   /// Depth of each node along the well at x [m].
   std::vector<double> depths(const Vector& x) const;
 
@@ -96,12 +105,15 @@ class CentreLineProblem : public PathProblem {
   const well::Trajectory* trajectory_;
 };
 
-/// `Imposed nodes`: X and Y of some nodes are moved to prescribed places; held are the first node's translations and its
-/// turn about its own axis. Starts straight down from the wellhead; each load step starts from the state accepted last.
+/// `Imposed nodes`: X and Y of some nodes are moved to prescribed places; held are the first node's
+/// translations and its turn about its own axis. Starts straight down from the wellhead; each load
+/// step starts from the state accepted last.
 class ImposedNodesProblem : public PathProblem {
  public:
-  /// `imposed` are 0-based nodes without the first one. With `Penalty`, `factor` is that of equation (13).
-  ImposedNodesProblem(const PathInput& input, std::vector<int> imposed, Imposition imposition, double factor);
+  /// `imposed` are 0-based nodes without the first one. With `Penalty`, `factor` is that of
+  /// equation (13).
+  ImposedNodesProblem(const PathInput& input, std::vector<int> imposed, Imposition imposition,
+                      double factor);
 
   /// Prescribes X and Y (columns of 2 x imposed nodes) of the imposed nodes for the next solve [m].
   void prescribe(const Matrix& target);

@@ -12,27 +12,32 @@ namespace tooljoint::path {
 
 struct PathReport {
   bool converged = false;
-  int increments = 0;             ///< load steps taken
-  int iterations = 0;             ///< Newton iterations of all load steps
-  double residual = 0.0;          ///< scaled residual norm of the last step
-  double maxPositionError = 0.0;  ///< largest distance of a node from the axis, in the axis' normal plane through it [m]
+  int increments = 0;     ///< load steps taken
+  int iterations = 0;     ///< Newton iterations of all load steps
+  double residual = 0.0;  ///< scaled residual norm of the last step
+  double maxPositionError =
+      0.0;  ///< largest distance of a node from the axis, in the axis' normal plane through it [m]
 };
 
-/// State at the end of the path computation (Nguyen et al. 2020, section 3.1). Nodes and elements in order from the surface.
+/// State at the end of the path computation (Nguyen et al. 2020, section 3.1). Nodes and elements
+/// in order from the surface.
 struct PathState {
-  std::vector<double> arcLength;     ///< depth along the well of each node (of its foot on the axis) [m]
-  std::vector<Vector3> position;     ///< global [m]
-  std::vector<Matrix3> frame;        ///< nodal frames Q, columns x, y, z; z is the well tangent (`Centre line`) or the
-                                     ///< axis of the node's cross section (`Imposed nodes`)
-  std::vector<Vector3> offset;       ///< position minus foot on the axis, in the nodal frame [m]; zero in `Centre line`
-  std::vector<Matrix3> elementFrame; ///< E: z on the chord, x and y from the mean nodal frames
-  std::vector<double> initialLength; ///< l0 [m]
-  std::vector<double> chordLength;   ///< l [m]
-  Matrix reaction;                   ///< R_ipa = -Q' f_int, 6 x nodes, nodal frames [N, N m]
-  Vector axialForce;                 ///< F_apa per element [N]
-  Vector torque;                     ///< T_apa per element [N m]
-  /// Corotational tangent of each element at this state in nodal frames, moments included; empty unless asked for
-  /// (pre-stress `Full tangent`), and then it takes the place of K_a + K_g(F_apa, T_apa).
+  std::vector<double>
+      arcLength;  ///< depth along the well of each node (of its foot on the axis) [m]
+  std::vector<Vector3> position;  ///< global [m]
+  std::vector<Matrix3> frame;  ///< nodal frames Q, columns x, y, z; z is the well tangent (`Centre
+                               ///< line`) or the axis of the node's cross section (`Imposed nodes`)
+  std::vector<Vector3>
+      offset;  ///< position minus foot on the axis, in the nodal frame [m]; zero in `Centre line`
+  std::vector<Matrix3> elementFrame;  ///< E: z on the chord, x and y from the mean nodal frames
+  std::vector<double> initialLength;  ///< l0 [m]
+  std::vector<double> chordLength;    ///< l [m]
+  Matrix reaction;                    ///< R_ipa = -Q' f_int, 6 x nodes, nodal frames [N, N m]
+  Vector axialForce;                  ///< F_apa per element [N]
+  Vector torque;                      ///< T_apa per element [N m]
+  /// Corotational tangent of each element at this state in nodal frames, moments included; empty
+  /// unless asked for (pre-stress `Full tangent`), and then it takes the place of K_a + K_g(F_apa,
+  /// T_apa).
   std::vector<beam::Matrix12> tangent;
   PathReport report;
 };

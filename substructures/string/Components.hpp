@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a string can be made of: components given by segments, or by parts that are components themselves (a stand of
-/// pipes). They stand in the deck (`Drillstring/Components`) or in a component library, an XML file of its own.
+/// What a string can be made of: components given by segments, or by parts that are components
+/// themselves (a stand of pipes). They stand in the deck (`Drillstring/Components`) or in a
+/// component library, an XML file of its own.
 #pragma once
 
 #include <functional>
@@ -35,11 +36,13 @@ struct AssemblyEntry {
 /// A component: either segments or parts, and perhaps a gauge.
 struct Component {
   std::string name;
-  std::string where;  ///< where it is defined, for messages: "string.xml:12: /Drillstring/Components/pipe"
+  std::string
+      where;  ///< where it is defined, for messages: "string.xml:12: /Drillstring/Components/pipe"
   std::vector<Segment> segments;
   std::vector<AssemblyEntry> parts;
-  std::optional<double> gaugePosition;  ///< distance of the gauge from the top of the component [m]; must be a node
-  double gaugeRadius = 0.0;             ///< [m]
+  std::optional<double>
+      gaugePosition;  ///< distance of the gauge from the top of the component [m]; must be a node
+  double gaugeRadius = 0.0;  ///< [m]
 };
 
 /// Components by name.
@@ -52,12 +55,14 @@ using Where = std::function<std::string(const std::string& path)>;
 deck::ListSpec componentParameters();
 deck::ListSpec libraryParameters();
 
-/// "3*collar" -> {3, "collar"}. Throws DeckError with a sentence when it is not of the form "name" or "count*name".
+/// "3*collar" -> {3, "collar"}. Throws DeckError with a sentence when it is not of the form "name"
+/// or "count*name".
 AssemblyEntry parseEntry(const std::string& text);
 
-/// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined before ...) go to
-/// `faults`, one rendered line each; the component is then left out.
-void readComponents(const Teuchos::ParameterList& list, const beam::Material& standard, const Where& where,
-                    ComponentLibrary& library, std::vector<std::string>& faults);
+/// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
+/// before ...) go to `faults`, one rendered line each; the component is then left out.
+void readComponents(const Teuchos::ParameterList& list, const beam::Material& standard,
+                    const Where& where, ComponentLibrary& library,
+                    std::vector<std::string>& faults);
 
 }  // namespace tooljoint::string_

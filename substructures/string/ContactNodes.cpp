@@ -3,8 +3,8 @@
 
 namespace tooljoint::string_ {
 
-contact::ContactPoints contactPoints(const contact::ContactSettings& settings, const DrillString& string,
-                                     const std::vector<char>& held) {
+contact::ContactPoints contactPoints(const contact::ContactSettings& settings,
+                                     const DrillString& string, const std::vector<char>& held) {
   contact::ContactPoints points;
   for (int i = 0; i < string.nodeCount(); ++i) {
     const auto dof = static_cast<std::size_t>(6 * i);

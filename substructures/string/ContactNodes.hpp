@@ -10,9 +10,9 @@
 
 namespace tooljoint::string_ {
 
-/// A contact point for every node whose u and v are not both held (`held` has 6 flags per node), with the parameters of its
-/// depth; in order of the nodes.
-contact::ContactPoints contactPoints(const contact::ContactSettings& settings, const DrillString& string,
-                                     const std::vector<char>& held);
+/// A contact point for every node whose u and v are not both held (`held` has 6 flags per node),
+/// with the parameters of its depth; in order of the nodes.
+contact::ContactPoints contactPoints(const contact::ContactSettings& settings,
+                                     const DrillString& string, const std::vector<char>& held);
 
 }  // namespace tooljoint::string_

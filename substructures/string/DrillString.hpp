@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The meshed string: nodes with their clearance, beam elements with their section, and the components they came from.
-/// A plain value made by readDrillString (DrillstringReader.hpp) or buildDrillString (Mesh.hpp).
+/// The meshed string: nodes with their clearance, beam elements with their section, and the
+/// components they came from. A plain value made by readDrillString (DrillstringReader.hpp) or
+/// buildDrillString (Mesh.hpp).
 #pragma once
 
 #include <string>
@@ -13,11 +14,12 @@ namespace tooljoint::string_ {
 
 /// A node of the mesh. In code nodes count from 0, wherever a person sees them from 1.
 struct Node {
-  double s = 0.0;              ///< distance from the surface along the hole [m]
-  double clearance = 0.0;      ///< radial clearance j0 [m]: bore radius minus outer or gauge radius
-  double contactRadius = 0.0;  ///< R_c [m]: radius of what would touch, lever arm of the friction torque
-  bool gauge = false;          ///< a stabiliser blade or the bit stands here
-  std::string component;       ///< assembly component the node belongs to (the upper one where two meet)
+  double s = 0.0;          ///< distance from the surface along the hole [m]
+  double clearance = 0.0;  ///< radial clearance j0 [m]: bore radius minus outer or gauge radius
+  double contactRadius =
+      0.0;                ///< R_c [m]: radius of what would touch, lever arm of the friction torque
+  bool gauge = false;     ///< a stabiliser blade or the bit stands here
+  std::string component;  ///< assembly component the node belongs to (the upper one where two meet)
 };
 
 /// A beam element; element i joins nodes i and i+1.
@@ -30,17 +32,20 @@ struct Element {
 /// One occurrence of a component in the string.
 struct Instance {
   std::string component;  ///< name of the component
-  std::string path;       ///< where it stands: "pipe 3", "stand 2/pipe 1"; the number counts equal names on one level
-  int firstElement = 0;   ///< 0-based
-  int lastElement = 0;    ///< 0-based, inclusive
+  std::string path;  ///< where it stands: "pipe 3", "stand 2/pipe 1"; the number counts equal names
+                     ///< on one level
+  int firstElement = 0;  ///< 0-based
+  int lastElement = 0;   ///< 0-based, inclusive
 };
 
 /// Straight chain of beam elements from the surface (node 0) to the bit (last node).
 struct DrillString {
   std::vector<Node> nodes;  ///< elements.size() + 1
   std::vector<Element> elements;
-  std::vector<Instance> instances;  ///< entries of the assembly, in order; every element belongs to exactly one
-  std::vector<Instance> nested;     ///< the components inside them ("stand 2/pipe 1"), outer before inner
+  std::vector<Instance>
+      instances;  ///< entries of the assembly, in order; every element belongs to exactly one
+  std::vector<Instance>
+      nested;  ///< the components inside them ("stand 2/pipe 1"), outer before inner
 
   int nodeCount() const { return static_cast<int>(nodes.size()); }
   int elementCount() const { return static_cast<int>(elements.size()); }

@@ -24,8 +24,8 @@ struct StringSettings {
 /// Description of the list `Drillstring`.
 deck::ListSpec drillstringParameters();
 
-/// Settings of the deck's list `Drillstring`, component library included. Collective (the library is read on rank 0).
-/// Throws DeckError with one line "file:line: path: sentence" per fault.
+/// Settings of the deck's list `Drillstring`, component library included. Collective (the library
+/// is read on rank 0). Throws DeckError with one line "file:line: path: sentence" per fault.
 StringSettings readDrillstring(const deck::Deck& deck);
 
 /// The meshed string in its well: see buildDrillString in Mesh.hpp.

@@ -14,7 +14,8 @@ using beam::Vector12;
 
 constexpr const char* kRayleigh = "Rayleigh damping";
 
-/// What one element contributes is formed in its own frame and turned to the nodal frames by R' X R.
+/// What one element contributes is formed in its own frame and turned to the nodal frames by R' X
+/// R.
 class Builder {
  public:
   explicit Builder(const EquationInput& input) : in_(input) {
@@ -28,10 +29,13 @@ class Builder {
     for (int e = 0; e < in_.string.elementCount(); ++e) addElement(e);
     addNodalLoads();
     const auto zero = [](const ElementTerm& term) {
-      return std::all_of(term.matrices.begin(), term.matrices.end(), [](const Matrix12& m) { return m.isZero(0.0); });
+      return std::all_of(term.matrices.begin(), term.matrices.end(),
+                         [](const Matrix12& m) { return m.isZero(0.0); });
     };
-    model_.damping.erase(std::remove_if(model_.damping.begin(), model_.damping.end(), zero), model_.damping.end());
-    model_.stiffness.erase(std::remove_if(model_.stiffness.begin(), model_.stiffness.end(), zero), model_.stiffness.end());
+    model_.damping.erase(std::remove_if(model_.damping.begin(), model_.damping.end(), zero),
+                         model_.damping.end());
+    model_.stiffness.erase(std::remove_if(model_.stiffness.begin(), model_.stiffness.end(), zero),
+                           model_.stiffness.end());
     return std::move(model_);
   }
 
@@ -42,7 +46,9 @@ class Builder {
     const double length = in_.path.initialLength[i];
     const Matrix3& triad = in_.path.elementFrame[i];
     const Matrix12 turn = beam::rotation12(triad, in_.path.frame[i], in_.path.frame[i + 1]);
-    const auto nodal = [&turn](const Matrix12& matrix) -> Matrix12 { return turn.transpose() * matrix * turn; };
+    const auto nodal = [&turn](const Matrix12& matrix) -> Matrix12 {
+      return turn.transpose() * matrix * turn;
+    };
 
     const Matrix12 structuralMass = nodal(beam::mass(section, length));
     const Matrix12 stiffness = prestressedStiffness(e, turn);
@@ -50,12 +56,14 @@ class Builder {
     add(model_.stiffness, "structure", "1", e, stiffness);
     if (in_.damping.present())
       add(model_.damping, kRayleigh, "1", e,
-          in_.damping.massCoefficient * structuralMass + in_.damping.stiffnessCoefficient * stiffness);
+          in_.damping.massCoefficient * structuralMass +
+              in_.damping.stiffnessCoefficient * stiffness);
 
     // weight rho S g along global Z (down); the mud adds its buoyancy
     const Vector3 gravity = triad.transpose() * Vector3(0.0, 0.0, in_.loads.gravity);
     if (in_.loads.gravity != 0.0)
-      addLoad("weight", "1", e, turn.transpose() * beam::distributedLoad(section.massPerLength() * gravity, length));
+      addLoad("weight", "1", e,
+              turn.transpose() * beam::distributedLoad(section.massPerLength() * gravity, length));
     if (in_.rotary.present()) addRotation(e, section, length, nodal, turn);
     if (in_.mud != nullptr) addMud(e, section, length, gravity, nodal, turn);
   }
@@ -80,7 +88,8 @@ class Builder {
 
   /// Omega (C_ac' - C_ac) D', dOmega/dt C_ac' D on the left, -dOmega/dt F_thetaz on the right.
   template <class Nodal>
-  void addRotation(int e, const beam::Section& section, double length, const Nodal& nodal, const Matrix12& turn) {
+  void addRotation(int e, const beam::Section& section, double length, const Nodal& nodal,
+                   const Matrix12& turn) {
     const Matrix12 coupling = nodal(beam::gyroscopic(section, length));
     add(model_.damping, "gyroscopic", "Omega", e, coupling.transpose() - coupling);
     add(model_.stiffness, "spin-up", "dOmega/dt", e, coupling.transpose());
@@ -89,15 +98,19 @@ class Builder {
   }
 
   template <class Nodal>
-  void addMud(int e, const beam::Section& section, double length, const Vector3& gravity, const Nodal& nodal, const Matrix12& turn) {
+  void addMud(int e, const beam::Section& section, double length, const Vector3& gravity,
+              const Nodal& nodal, const Matrix12& turn) {
     const auto i = static_cast<std::size_t>(e);
-    const double bore = in_.well.boreRadius(0.5 * (in_.string.nodes[i].s + in_.string.nodes[i + 1].s));
+    const double bore =
+        in_.well.boreRadius(0.5 * (in_.string.nodes[i].s + in_.string.nodes[i + 1].s));
     const auto mud = in_.mud->element(section, bore, length, gravity);
     model_.mass.back() += nodal(mud.mass);
     for (const auto& term : mud.damping)
-      if (term.law == "1" || in_.rotary.present()) add(model_.damping, term.name, term.law, e, nodal(term.matrix));
+      if (term.law == "1" || in_.rotary.present())
+        add(model_.damping, term.name, term.law, e, nodal(term.matrix));
     for (const auto& term : mud.stiffness)
-      if (term.law == "1" || in_.rotary.present()) add(model_.stiffness, term.name, term.law, e, nodal(term.matrix));
+      if (term.law == "1" || in_.rotary.present())
+        add(model_.stiffness, term.name, term.law, e, nodal(term.matrix));
     addLoad("mud", "1", e, turn.transpose() * mud.load);
   }
 
@@ -112,8 +125,10 @@ class Builder {
     }
   }
 
-  void add(std::vector<ElementTerm>& terms, const std::string& name, const std::string& law, int e, const Matrix12& matrix) {
-    auto term = std::find_if(terms.begin(), terms.end(), [&](const ElementTerm& t) { return t.name == name; });
+  void add(std::vector<ElementTerm>& terms, const std::string& name, const std::string& law, int e,
+           const Matrix12& matrix) {
+    auto term = std::find_if(terms.begin(), terms.end(),
+                             [&](const ElementTerm& t) { return t.name == name; });
     if (term == terms.end()) {
       terms.push_back({name, model_.lawIndex(in_.rotary.scalar(law)), {}});
       terms.back().matrices.assign(in_.string.elements.size(), Matrix12::Zero());
@@ -124,9 +139,11 @@ class Builder {
 
   void addLoad(const std::string& name, const std::string& law, int e, const Vector12& vector) {
     if (!vector.any()) return;
-    auto load = std::find_if(model_.loads.begin(), model_.loads.end(), [&](const NodalLoad& l) { return l.name == name; });
+    auto load = std::find_if(model_.loads.begin(), model_.loads.end(),
+                             [&](const NodalLoad& l) { return l.name == name; });
     if (load == model_.loads.end()) {
-      model_.loads.push_back({name, model_.lawIndex(in_.rotary.scalar(law)), Vector::Zero(kNodeDofs * model_.nodes)});
+      model_.loads.push_back(
+          {name, model_.lawIndex(in_.rotary.scalar(law)), Vector::Zero(kNodeDofs * model_.nodes)});
       load = std::prev(model_.loads.end());
     }
     load->vector.segment<12>(kNodeDofs * e) += vector;
@@ -140,8 +157,8 @@ class Builder {
 
 StringModel buildEquations(const EquationInput& input) { return Builder(input).build(); }
 
-void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness, const Vector& state,
-               const loads::RayleighDamping& damping) {
+void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness,
+               const Vector& state, const loads::RayleighDamping& damping) {
   model.state = state;
   const bool any = std::any_of(staticGeometricStiffness.begin(), staticGeometricStiffness.end(),
                                [](const beam::Matrix12& m) { return !m.isZero(0.0); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// From a meshed string in a well to its equations of motion. What the scene does not have is not built.
+/// From a meshed string in a well to its equations of motion. What the scene does not have is not
+/// built.
 #pragma once
 
 #include "substructures/loads/Loads.hpp"
@@ -24,13 +25,14 @@ struct EquationInput {
   const loads::RayleighDamping& damping;
 };
 
-/// M, C and K at the path state (K_pa = K_a + K_gpa + K_fe, or the corotational tangent where the path state carries one), the
-/// loads F_s, R_ipa, F_u and -dOmega/dt F_thetaz (Nguyen et al. 2020, equations 19 and 27). No static geometric stiffness and no
-/// contact yet; the state is zero.
+/// M, C and K at the path state (K_pa = K_a + K_gpa + K_fe, or the corotational tangent where the
+/// path state carries one), the loads F_s, R_ipa, F_u and -dOmega/dt F_thetaz (Nguyen et al. 2020,
+/// equations 19 and 27). No static geometric stiffness and no contact yet; the state is zero.
 StringModel buildEquations(const EquationInput& input);
 
-/// Adds the geometric stiffness K_gpo(D_s) (and its share of the Rayleigh damping) and makes D_s the state the motion starts from.
-void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness, const Vector& state,
-               const loads::RayleighDamping& damping);
+/// Adds the geometric stiffness K_gpo(D_s) (and its share of the Rayleigh damping) and makes D_s
+/// the state the motion starts from.
+void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness,
+               const Vector& state, const loads::RayleighDamping& damping);
 
 }  // namespace tooljoint::string_

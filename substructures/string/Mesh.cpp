@@ -17,7 +17,8 @@ namespace {
 /// Two places along the string are the same within this [m].
 constexpr double samePlace = 1e-6;
 
-/// Clearance below which a body or gauge does not fit [m]; above it, and below zero, it is rounding and taken as zero.
+/// Clearance below which a body or gauge does not fit [m]; above it, and below zero, it is rounding
+/// and taken as zero.
 constexpr double tightFit = -1e-9;
 
 /// More elements than this are taken for a slip in a repeat count.
@@ -40,7 +41,8 @@ class Mesher {
     out_.nodes.emplace_back();
     std::map<std::string, int> occurrences;
     for (const AssemblyEntry& entry : assembly) placeAll(entry, "", occurrences, where_);
-    if (faults_.empty() && out_.elements.empty()) fault(where_, "The assembly is empty; it needs at least one component.");
+    if (faults_.empty() && out_.elements.empty())
+      fault(where_, "The assembly is empty; it needs at least one component.");
     if (faults_.empty()) {
       checkLength();
       setClearances();
@@ -57,18 +59,19 @@ class Mesher {
     if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
   }
 
-  /// Appends every occurrence of an entry; the first fault ends it, since the others would only repeat it.
-  bool placeAll(const AssemblyEntry& entry, const std::string& parent, std::map<std::string, int>& occurrences,
-                const std::string& where) {
+  /// Appends every occurrence of an entry; the first fault ends it, since the others would only
+  /// repeat it.
+  bool placeAll(const AssemblyEntry& entry, const std::string& parent,
+                std::map<std::string, int>& occurrences, const std::string& where) {
     for (int i = 0; i < entry.count; ++i)
       if (!place(entry.name, parent, occurrences, where)) return false;
     return true;
   }
 
-  /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array that names it.
-  /// False when there was a fault.
-  bool place(const std::string& name, const std::string& parent, std::map<std::string, int>& occurrences,
-             const std::string& where) {
+  /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array
+  /// that names it. False when there was a fault.
+  bool place(const std::string& name, const std::string& parent,
+             std::map<std::string, int>& occurrences, const std::string& where) {
     const auto found = library_.find(name);
     if (found == library_.end()) {
       fault(where, unknown(name));
@@ -76,11 +79,13 @@ class Mesher {
     }
     const Component& component = found->second;
     if (std::find(stack_.begin(), stack_.end(), name) != stack_.end()) {
-      fault(component.where, "The component contains itself (" + join(stack_, " > ") + " > " + name + ").");
+      fault(component.where,
+            "The component contains itself (" + join(stack_, " > ") + " > " + name + ").");
       return false;
     }
     if (out_.elementCount() > mostElements) {
-      fault(where_, "The string has more than " + std::to_string(mostElements) + " elements; look at the repeat counts.");
+      fault(where_, "The string has more than " + std::to_string(mostElements) +
+                        " elements; look at the repeat counts.");
       return false;
     }
     const bool top = parent.empty();
@@ -101,8 +106,8 @@ class Mesher {
     stack_.pop_back();
     instance.lastElement = out_.elementCount() - 1;
     if (component.gaugePosition)
-      gauges_.push_back({start + *component.gaugePosition, component.gaugeRadius, &component, *component.gaugePosition,
-                         instance.firstElement, out_.elementCount()});
+      gauges_.push_back({start + *component.gaugePosition, component.gaugeRadius, &component,
+                         *component.gaugePosition, instance.firstElement, out_.elementCount()});
     if (top)
       out_.instances.back() = instance;
     else
@@ -118,8 +123,9 @@ class Mesher {
     if (!meant.empty())
       sentence += " Did you mean " + inQuotes(meant) + "?";
     else
-      sentence += names.empty() ? " No components are defined: give a Library or the list Components."
-                                : " Known are " + quotedList(names) + ".";
+      sentence += names.empty()
+                      ? " No components are defined: give a Library or the list Components."
+                      : " Known are " + quotedList(names) + ".";
     return sentence;
   }
 
@@ -129,17 +135,20 @@ class Mesher {
       Node node;
       node.s = start + segment.length * i / segment.elements;
       out_.nodes.push_back(node);
-      out_.elements.push_back({segment.length / segment.elements, segment.section, static_cast<int>(out_.instances.size()) - 1});
+      out_.elements.push_back({segment.length / segment.elements, segment.section,
+                               static_cast<int>(out_.instances.size()) - 1});
     }
   }
 
   void checkLength() {
     if (out_.length() > well_.length() + samePlace)
-      fault(where_, "The string is " + formatNumber(out_.length()) + " m long, but the well ends at " +
-                        formatNumber(well_.length()) + " m. Shorten the string or lengthen the well.");
+      fault(where_, "The string is " + formatNumber(out_.length()) +
+                        " m long, but the well ends at " + formatNumber(well_.length()) +
+                        " m. Shorten the string or lengthen the well.");
   }
 
-  /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the element.
+  /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the
+  /// element.
   void setClearances() {
     for (int i = 0; i < out_.nodeCount(); ++i) {
       Node& node = out_.nodes[static_cast<std::size_t>(i)];
@@ -147,7 +156,8 @@ class Mesher {
       for (const int e : {i - 1, i}) {
         if (e < 0 || e >= out_.elementCount()) continue;
         const Element& element = out_.elements[static_cast<std::size_t>(e)];
-        if (first) node.component = out_.instances[static_cast<std::size_t>(element.instance)].component;
+        if (first)
+          node.component = out_.instances[static_cast<std::size_t>(element.instance)].component;
         const double bore = well_.boreRadius(node.s + (e < i ? -samePlace : samePlace));
         const double clearance = bore - element.section.outerRadius();
         if (clearance < tightFit) tooWide(i, element, bore);
@@ -164,9 +174,10 @@ class Mesher {
     const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
     if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
     fault(library_.at(instance.component).where,
-          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " + instance.path +
-              " does not fit into the hole of radius " + formatNumber(bore) + " m at " +
-              formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " + std::to_string(node + 1) + ").");
+          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " +
+              instance.path + " does not fit into the hole of radius " + formatNumber(bore) +
+              " m at " + formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
+              std::to_string(node + 1) + ").");
   }
 
   void setGauges() {
@@ -179,15 +190,18 @@ class Mesher {
         continue;
       }
       Node& node = out_.nodes[static_cast<std::size_t>(at)];
-      const double bore = std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
+      const double bore =
+          std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
       const double clearance = bore - gauge.radius;
       const std::string gaugeText = "The gauge radius " + formatNumber(gauge.radius) + " m ";
       if (clearance < tightFit)
-        fault(gauge.component->where, gaugeText + "does not fit into the hole of radius " + formatNumber(bore) + " m at " +
-                                          formatNumber(node.s) + " m (node " + std::to_string(at + 1) + ").");
+        fault(gauge.component->where, gaugeText + "does not fit into the hole of radius " +
+                                          formatNumber(bore) + " m at " + formatNumber(node.s) +
+                                          " m (node " + std::to_string(at + 1) + ").");
       if (clearance > node.clearance - tightFit)
-        fault(gauge.component->where, gaugeText + "is below the outer radius of the body at " + formatNumber(node.s) + " m, " +
-                                          formatNumber(node.contactRadius) + " m, so it would never touch.");
+        fault(gauge.component->where,
+              gaugeText + "is below the outer radius of the body at " + formatNumber(node.s) +
+                  " m, " + formatNumber(node.contactRadius) + " m, so it would never touch.");
       node.clearance = std::max(0.0, clearance);
       node.contactRadius = gauge.radius;
       node.gauge = true;
@@ -206,8 +220,10 @@ class Mesher {
       nearest = position;
     }
     fault(gauge.component->where,
-          "The Gauge Position " + formatNumber(gauge.position) + " m is not at a node of the component; the nearest stands at " +
-              formatNumber(std::round(nearest * 1e9) / 1e9) + " m. Move the gauge or change the number of Elements.");
+          "The Gauge Position " + formatNumber(gauge.position) +
+              " m is not at a node of the component; the nearest stands at " +
+              formatNumber(std::round(nearest * 1e9) / 1e9) +
+              " m. Move the gauge or change the number of Elements.");
   }
 
   void warnOfUnseenBores() const {
@@ -217,7 +233,8 @@ class Mesher {
         return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace;
       });
       if (!seen)
-        log::warn("No node of the string stands in the bore interval " + inQuotes(interval.name) + ", so contact does not see it; use shorter elements there.");
+        log::warn("No node of the string stands in the bore interval " + inQuotes(interval.name) +
+                  ", so contact does not see it; use shorter elements there.");
     }
   }
 
@@ -233,7 +250,8 @@ class Mesher {
 
 }  // namespace
 
-DrillString buildDrillString(const ComponentLibrary& library, const std::vector<AssemblyEntry>& assembly, const well::Well& well,
+DrillString buildDrillString(const ComponentLibrary& library,
+                             const std::vector<AssemblyEntry>& assembly, const well::Well& well,
                              const std::string& assemblyWhere) {
   return Mesher(library, well, assemblyWhere).mesh(assembly);
 }

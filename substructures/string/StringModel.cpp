@@ -27,9 +27,10 @@ struct FreeDofs {
   int of(int dof) const { return index[static_cast<std::size_t>(dof - kNodeDofs * firstNode)]; }
 };
 
-/// Sum of element matrices over the free dofs; the pattern is that of the chain, entries that are exactly zero included
-/// only where another term of the element is not zero.
-Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeDofs& dofs, int firstElement, int lastElement) {
+/// Sum of element matrices over the free dofs; the pattern is that of the chain, entries that are
+/// exactly zero included only where another term of the element is not zero.
+Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeDofs& dofs,
+                        int firstElement, int lastElement) {
   Triplets triplets;
   for (int e = firstElement; e <= lastElement; ++e) {
     const auto& matrix = matrices[static_cast<std::size_t>(e)];
@@ -47,8 +48,10 @@ Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeD
   return sum;
 }
 
-/// Contact points of the nodes for which `take` holds; coordinates u, v, theta_z, an empty row where one is held.
-void addContact(const StringModel& string, const FreeDofs& dofs, const std::function<bool(int)>& take, model::SecondOrderModel& model) {
+/// Contact points of the nodes for which `take` holds; coordinates u, v, theta_z, an empty row
+/// where one is held.
+void addContact(const StringModel& string, const FreeDofs& dofs,
+                const std::function<bool(int)>& take, model::SecondOrderModel& model) {
   constexpr int components[] = {0, 1, 5};
   std::vector<int> points;
   std::vector<int> nodes;
@@ -76,8 +79,10 @@ void addContact(const StringModel& string, const FreeDofs& dofs, const std::func
   model.points.push_back(std::move(set));
 }
 
-/// Matrices, labels, initial state and recovery of a run of elements; loads and contact of the nodes that `owns` names.
-model::SecondOrderModel assembleRun(const StringModel& string, int firstElement, int lastElement, const std::function<bool(int)>& owns,
+/// Matrices, labels, initial state and recovery of a run of elements; loads and contact of the
+/// nodes that `owns` names.
+model::SecondOrderModel assembleRun(const StringModel& string, int firstElement, int lastElement,
+                                    const std::function<bool(int)>& owns,
                                     const std::function<bool(int)>& touches) {
   const FreeDofs dofs(string, firstElement, lastElement + 1);
   model::SecondOrderModel model;
@@ -85,9 +90,11 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
   model.laws = string.laws;
   model.mass = assembleMatrices(string.mass, dofs, firstElement, lastElement);
   for (const auto& term : string.damping)
-    model.damping.push_back({term.name, assembleMatrices(term.matrices, dofs, firstElement, lastElement), term.law});
+    model.damping.push_back(
+        {term.name, assembleMatrices(term.matrices, dofs, firstElement, lastElement), term.law});
   for (const auto& term : string.stiffness)
-    model.stiffness.push_back({term.name, assembleMatrices(term.matrices, dofs, firstElement, lastElement), term.law});
+    model.stiffness.push_back(
+        {term.name, assembleMatrices(term.matrices, dofs, firstElement, lastElement), term.law});
   for (const auto& load : string.loads) {
     Vector vector = Vector::Zero(dofs.size());
     for (int i = 0; i < dofs.size(); ++i) {
@@ -105,7 +112,8 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
     model.initialDisplacement(i) = string.state(dof);
     recovery.emplace_back(dof - kNodeDofs * firstElement, i, 1.0);
   }
-  for (int node = firstElement; node <= lastElement + 1; ++node) model.recoveryNodes.push_back(node + 1);
+  for (int node = firstElement; node <= lastElement + 1; ++node)
+    model.recoveryNodes.push_back(node + 1);
   model.recovery.resize(kNodeDofs * static_cast<int>(model.recoveryNodes.size()), dofs.size());
   model.recovery.setFromTriplets(recovery.begin(), recovery.end());
   model.recoveryOffset = Vector::Zero(model.recovery.rows());
@@ -115,7 +123,9 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
 
 }  // namespace
 
-int StringModel::freeDofs() const { return static_cast<int>(std::count(held.begin(), held.end(), char{0})); }
+int StringModel::freeDofs() const {
+  return static_cast<int>(std::count(held.begin(), held.end(), char{0}));
+}
 
 int StringModel::lawIndex(const model::ScalarLaw& law) {
   for (std::size_t i = 0; i < laws.size(); ++i)
@@ -134,13 +144,17 @@ model::SecondOrderModel assemble(const StringModel& string) {
   return assembleRun(string, 0, string.elements() - 1, every, every);
 }
 
-model::Substructure assemblePart(const StringModel& string, const PartRange& range, const std::vector<int>& retained,
+model::Substructure assemblePart(const StringModel& string, const PartRange& range,
+                                 const std::vector<int>& retained,
                                  const std::vector<int>* contactAt) {
   const int firstNode = range.firstElement;
   const int lastNode = range.lastElement + 1;
-  const auto owns = [&](int node) { return node == 0 ? firstNode == 0 : node > firstNode && node <= lastNode; };
+  const auto owns = [&](int node) {
+    return node == 0 ? firstNode == 0 : node > firstNode && node <= lastNode;
+  };
   const auto touches = [&](int node) {
-    return owns(node) && (contactAt == nullptr || std::binary_search(contactAt->begin(), contactAt->end(), node));
+    return owns(node) &&
+           (contactAt == nullptr || std::binary_search(contactAt->begin(), contactAt->end(), node));
   };
   model::Substructure part;
   part.name = range.name;
@@ -151,9 +165,12 @@ model::Substructure assemblePart(const StringModel& string, const PartRange& ran
     const int dof = dofs.positions[static_cast<std::size_t>(i)];
     const int node = dof / kNodeDofs;
     part.reference(i) = string.state(dof);
-    const bool shared = (node == firstNode && firstNode > 0) || (node == lastNode && lastNode < string.nodes - 1);
-    if (shared) part.interface.push_back(i);
-    else if (std::binary_search(retained.begin(), retained.end(), dof)) part.retained.push_back(i);
+    const bool shared =
+        (node == firstNode && firstNode > 0) || (node == lastNode && lastNode < string.nodes - 1);
+    if (shared)
+      part.interface.push_back(i);
+    else if (std::binary_search(retained.begin(), retained.end(), dof))
+      part.retained.push_back(i);
   }
   return part;
 }

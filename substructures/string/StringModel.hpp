@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The equations of motion of the string, element by element and split by origin, before anything is assembled:
+/// The equations of motion of the string, element by element and split by origin, before anything
+/// is assembled:
 ///
 ///     M D'' + C(t) D' + K(t) D = F(t) + F_c(D, D')        (Nguyen et al. 2020, equations 26-27)
 ///
-/// The whole string and any run of its elements are assembled from the same value, so the parts add up to the whole.
+/// The whole string and any run of its elements are assembled from the same value, so the parts add
+/// up to the whole.
 #pragma once
 
 #include <memory>
@@ -22,9 +24,9 @@ constexpr int kNodeDofs = 6;
 
 /// Element matrices of one origin in nodal frames, times a law of time.
 struct ElementTerm {
-  std::string name;                     ///< "gyroscopic", "mud drag", ...
-  int law = 0;                          ///< index into StringModel::laws
-  std::vector<beam::Matrix12> matrices; ///< one per element
+  std::string name;                      ///< "gyroscopic", "mud drag", ...
+  int law = 0;                           ///< index into StringModel::laws
+  std::vector<beam::Matrix12> matrices;  ///< one per element
 };
 
 /// Nodal loads of one origin in nodal frames, times a law of time.
@@ -63,10 +65,12 @@ const model::ComponentNames& componentNames();
 /// The whole string in total displacements of its free dofs, node by node.
 model::SecondOrderModel assemble(const StringModel& string);
 
-/// One part: its elements, the nodes it owns (all its nodes but the first, which the part above owns) for loads and
-/// contact, the nodes it shares with its neighbours as interface, and `retained` (positions 6 node + component in the whole
-/// string) as far as they are its own. `contactAt` restricts contact to some nodes (0-based, increasing) when not null.
-model::Substructure assemblePart(const StringModel& string, const PartRange& range, const std::vector<int>& retained,
+/// One part: its elements, the nodes it owns (all its nodes but the first, which the part above
+/// owns) for loads and contact, the nodes it shares with its neighbours as interface, and
+/// `retained` (positions 6 node + component in the whole string) as far as they are its own.
+/// `contactAt` restricts contact to some nodes (0-based, increasing) when not null.
+model::Substructure assemblePart(const StringModel& string, const PartRange& range,
+                                 const std::vector<int>& retained,
                                  const std::vector<int>* contactAt);
 
 }  // namespace tooljoint::string_

@@ -14,8 +14,8 @@ const std::vector<std::string> dofNames = {"u", "v", "w", "theta_x", "theta_y", 
 const std::vector<std::string> familyNames = {"lateral", "axial", "torsional"};
 
 /// The words of a text, each looked up in `known`; returns one flag per known name.
-std::vector<bool> flags(const std::string& text, const std::vector<std::string>& known, const std::string& where,
-                        const std::string& what) {
+std::vector<bool> flags(const std::string& text, const std::vector<std::string>& known,
+                        const std::string& where, const std::string& what) {
   std::vector<bool> found(known.size(), false);
   std::string blanks = text;
   std::replace(blanks.begin(), blanks.end(), ',', ' ');
@@ -25,7 +25,8 @@ std::vector<bool> flags(const std::string& text, const std::vector<std::string>&
     if (it == known.end()) {
       const std::string meant = closest(trim(word), known);
       throw DeckError(where + ": " + inQuotes(trim(word)) + " is not a " + what + "." +
-                      (meant.empty() ? "" : " Did you mean " + inQuotes(meant) + "?") + " Known are " + quotedList(known) + ".");
+                      (meant.empty() ? "" : " Did you mean " + inQuotes(meant) + "?") +
+                      " Known are " + quotedList(known) + ".");
     }
     found[static_cast<std::size_t>(it - known.begin())] = true;
   }
@@ -68,13 +69,16 @@ std::vector<char> SupportSettings::held(int nodes) const {
 deck::ListSpec supportParameters() {
   const std::string standardTop = "u v w theta_z";
   const std::string standardBit = "u v";
-  return deck::ListSpec("Supports", "Held degrees of freedom; those of the defaults when the list is absent.")
-      .text("Top", standardTop, "Dofs held at the surface, among u v w theta_x theta_y theta_z; \"none\" or \"all\".")
+  return deck::ListSpec("Supports",
+                        "Held degrees of freedom; those of the defaults when the list is absent.")
+      .text("Top", standardTop,
+            "Dofs held at the surface, among u v w theta_x theta_y theta_z; \"none\" or \"all\".")
       .text("Bit", standardBit, "Dofs held at the last node.")
       .text("Dofs", std::string("lateral axial torsional"),
             "Families of dofs that are modelled; those of the others are held everywhere.")
       .namedLists(deck::ListSpec("Support", "A support at another node.")
-                      .integer("Node", deck::Required{}, deck::Range::atLeast(1), "Node number, 1 at the surface.")
+                      .integer("Node", deck::Required{}, deck::Range::atLeast(1),
+                               "Node number, 1 at the surface.")
                       .text("Dofs", deck::Required{}, "Dofs held there."));
 }
 
@@ -82,9 +86,11 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
   SupportSettings settings;
   settings.top = parseDofs(list.get<std::string>("Top"), list.name() + "/Top");
   settings.bit = parseDofs(list.get<std::string>("Bit"), list.name() + "/Bit");
-  const std::vector<bool> families = flags(list.get<std::string>("Dofs"), familyNames, list.name() + "/Dofs", "family of dofs");
+  const std::vector<bool> families =
+      flags(list.get<std::string>("Dofs"), familyNames, list.name() + "/Dofs", "family of dofs");
   if (std::find(families.begin(), families.end(), true) == families.end())
-    throw DeckError(list.name() + "/Dofs: no family of dofs is left to model; known are " + quotedList(familyNames) + ".");
+    throw DeckError(list.name() + "/Dofs: no family of dofs is left to model; known are " +
+                    quotedList(familyNames) + ".");
   settings.lateral = families[0];
   settings.axial = families[1];
   settings.torsional = families[2];
@@ -92,8 +98,9 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
     const std::string& name = list.name(it);
     if (!list.isSublist(name)) continue;
     const Teuchos::ParameterList& sub = list.sublist(name);
-    settings.named.push_back(
-        {name, sub.get<int>("Node"), parseDofs(sub.get<std::string>("Dofs"), sub.name() + "/Dofs"), sub.name()});
+    settings.named.push_back({name, sub.get<int>("Node"),
+                              parseDofs(sub.get<std::string>("Dofs"), sub.name() + "/Dofs"),
+                              sub.name()});
   }
   return settings;
 }

@@ -35,18 +35,20 @@ struct SupportSettings {
   bool axial = true;      ///< w is modelled
   bool torsional = true;  ///< theta_z is modelled
 
-  /// One flag per dof of the string, 6 per node: held by a support, or of a family that is not modelled.
-  /// Throws DeckError when a named support stands at a node the string does not have.
+  /// One flag per dof of the string, 6 per node: held by a support, or of a family that is not
+  /// modelled. Throws DeckError when a named support stands at a node the string does not have.
   std::vector<char> held(int nodes) const;
 };
 
 /// Description of the list `Supports`.
 deck::ListSpec supportParameters();
 
-/// Settings of a validated list `Supports`. Throws DeckError for an unknown dof or family, with a did-you-mean.
+/// Settings of a validated list `Supports`. Throws DeckError for an unknown dof or family, with a
+/// did-you-mean.
 SupportSettings readSupports(const Teuchos::ParameterList& list);
 
-/// "u v theta_z" -> flags; "" and "none" hold nothing, "all" holds everything. `where` opens the sentence of a DeckError.
+/// "u v theta_z" -> flags; "" and "none" hold nothing, "all" holds everything. `where` opens the
+/// sentence of a DeckError.
 DofFlags parseDofs(const std::string& text, const std::string& where);
 
 }  // namespace tooljoint::string_

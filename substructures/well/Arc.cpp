@@ -13,7 +13,8 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const s
   ArcShape shape;
   const bool radius = list.isParameter("Radius");
   if (radius == list.isParameter("Build Rate"))
-    throw DeckError(list.name() + ": The arc needs either Radius or Build Rate, and only one of them.");
+    throw DeckError(list.name() +
+                    ": The arc needs either Radius or Build Rate, and only one of them.");
   shape.radius = radius ? list.get<double>("Radius") : 1.0 / list.get<double>("Build Rate");
   shape.kickOffDepth = list.get<double>("Kick-off Depth");
   shape.startInclination = list.get<double>("Start Inclination");
@@ -30,16 +31,23 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const s
 const bool registered = TrajectoryRegistry::instance().add(
     "Arc",
     {"Planar arc between two inclinations with straight parts above and below it.",
-     deck::ListSpec("Arc", "Planar well: straight to the kick-off depth, a circular arc, a straight tangent section.")
-         .real("Kick-off Depth", "m", 0.0, deck::Range::nonNegative(), "Length of the straight part above the arc.")
-         .real("Radius", "m", deck::Optional{}, deck::Range::positive(), "Radius of curvature; or give the Build Rate.")
+     deck::ListSpec(
+         "Arc",
+         "Planar well: straight to the kick-off depth, a circular arc, a straight tangent section.")
+         .real("Kick-off Depth", "m", 0.0, deck::Range::nonNegative(),
+               "Length of the straight part above the arc.")
+         .real("Radius", "m", deck::Optional{}, deck::Range::positive(),
+               "Radius of curvature; or give the Build Rate.")
          .real("Build Rate", "rad/m", deck::Optional{}, deck::Range::positive(),
                "Change of inclination per length, for example \"3 deg/30m\"; or give the Radius.")
-         .real("Start Inclination", "rad", 0.0, deck::Range{0.0, pi, false, true}, "Angle from the vertical above the arc.")
+         .real("Start Inclination", "rad", 0.0, deck::Range{0.0, pi, false, true},
+               "Angle from the vertical above the arc.")
          .real("End Inclination", "rad", deck::Required{}, deck::Range{0.0, pi, false, true},
                "Angle from the vertical below the arc; below the Start Inclination the arc drops.")
-         .real("Azimuth", "rad", 0.0, deck::Range::any(), "Direction of the plane, from X (north) towards Y (east).")
-         .real("Tangent Length", "m", 0.0, deck::Range::nonNegative(), "Length of the straight part below the arc."),
+         .real("Azimuth", "rad", 0.0, deck::Range::any(),
+               "Direction of the plane, from X (north) towards Y (east).")
+         .real("Tangent Length", "m", 0.0, deck::Range::nonNegative(),
+               "Length of the straight part below the arc."),
      fromList});
 
 }  // namespace
@@ -48,7 +56,8 @@ std::unique_ptr<Trajectory> arc(const ArcShape& shape) {
   const double turn = std::abs(shape.endInclination - shape.startInclination);
   if (!(turn > 0.0))
     throw DeckError(
-        "The arc starts and ends at the same inclination, so it has no length; give two inclinations, or take the "
+        "The arc starts and ends at the same inclination, so it has no length; give two "
+        "inclinations, or take the "
         "trajectory Vertical with an Inclination.");
   auto chain = std::make_unique<ArcChain>(direction(shape.startInclination, shape.azimuth));
   chain->addStraight(shape.kickOffDepth);

@@ -8,7 +8,8 @@
 namespace tooljoint::well {
 
 Vector3 direction(double inclination, double azimuth) {
-  return {std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth), std::cos(inclination)};
+  return {std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
+          std::cos(inclination)};
 }
 
 ArcChain::ArcChain(const Vector3& firstTangent) : endTangent_(firstTangent.normalized()) {}
@@ -45,14 +46,17 @@ WellPoint ArcChain::evaluate(const Piece& piece, double x) {
   const double cosine = std::cos(angle);
   const double half = std::sin(0.5 * angle);
   return {piece.position + (sine * piece.e1 + 2.0 * half * half * piece.e2) / piece.kappa,
-          (cosine * piece.e1 + sine * piece.e2).normalized(), piece.kappa * (cosine * piece.e2 - sine * piece.e1)};
+          (cosine * piece.e1 + sine * piece.e2).normalized(),
+          piece.kappa * (cosine * piece.e2 - sine * piece.e1)};
 }
 
 WellPoint ArcChain::at(double s) const {
   if (s < 0.0) return {s * pieces_.front().e1, pieces_.front().e1, Vector3::Zero()};
-  if (s > length_) return {endPosition_ + (s - length_) * endTangent_, endTangent_, Vector3::Zero()};
+  if (s > length_)
+    return {endPosition_ + (s - length_) * endTangent_, endTangent_, Vector3::Zero()};
   // the last piece that starts at or above s
-  auto next = std::upper_bound(pieces_.begin(), pieces_.end(), s, [](double depth, const Piece& p) { return depth < p.start; });
+  auto next = std::upper_bound(pieces_.begin(), pieces_.end(), s,
+                               [](double depth, const Piece& p) { return depth < p.start; });
   const Piece& piece = *std::prev(next);
   return evaluate(piece, s - piece.start);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A centre line made of circular arcs and straight pieces; the common ground of the arc, straight and survey trajectories.
+/// A centre line made of circular arcs and straight pieces; the common ground of the arc, straight
+/// and survey trajectories.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,8 @@
 
 namespace tooljoint::well {
 
-/// Unit tangent of a hole with this inclination from the vertical and azimuth from X towards Y [rad].
+/// Unit tangent of a hole with this inclination from the vertical and azimuth from X towards Y
+/// [rad].
 Vector3 direction(double inclination, double azimuth);
 
 /// Chain of circular arcs with continuous tangent, started at the origin.
@@ -18,8 +20,8 @@ class ArcChain : public Trajectory {
   explicit ArcChain(const Vector3& firstTangent);
   /// Append a straight piece [m]; nothing when the length is zero.
   void addStraight(double length);
-  /// Append the arc of this length [m] that turns the tangent to `tangent` in the plane of both (minimum curvature).
-  /// The angle between them must be below pi.
+  /// Append the arc of this length [m] that turns the tangent to `tangent` in the plane of both
+  /// (minimum curvature). The angle between them must be below pi.
   void addArc(double length, const Vector3& tangent);
 
   double length() const override { return length_; }

@@ -14,8 +14,8 @@ Vector3 reflected(const Vector3& a, const Vector3& normal, double squaredNorm) {
   return a - (2.0 / squaredNorm * normal.dot(a)) * normal;
 }
 
-/// Carries x from one point to the next by two reflections: in the bisecting plane of the chord, then in the plane that
-/// takes the reflected tangent to the new one.
+/// Carries x from one point to the next by two reflections: in the bisecting plane of the chord,
+/// then in the plane that takes the reflected tangent to the new one.
 Vector3 doubleReflection(const WellPoint& from, const WellPoint& to, const Vector3& x) {
   const Vector3 chord = to.position - from.position;
   const double c1 = chord.squaredNorm();
@@ -26,7 +26,8 @@ Vector3 doubleReflection(const WellPoint& from, const WellPoint& to, const Vecto
   return (carried - carried.dot(to.tangent) * to.tangent).normalized();
 }
 
-/// Carries x along a stretch without curvature jumps inside, starting at `point`, which is moved to `to`.
+/// Carries x along a stretch without curvature jumps inside, starting at `point`, which is moved to
+/// `to`.
 void transport(const Trajectory& trajectory, double from, double to, WellPoint& point, Vector3& x) {
   // local error of a step is of order (kappa h)^5, so kappa h <= 2e-3 leaves nothing above rounding
   const double kappa = std::max(point.curvature.norm(), trajectory.at(to).curvature.norm());
@@ -45,7 +46,9 @@ void transport(const Trajectory& trajectory, double from, double to, WellPoint& 
 Matrix3 smallestRotation(const Vector3& from, const Vector3& to) {
   const double cosine = from.dot(to);
   if (cosine < -1.0 + 1e-12)
-    throw ModelError("The smallest rotation between opposite directions is not defined: a well cannot start straight upwards.");
+    throw ModelError(
+        "The smallest rotation between opposite directions is not defined: a well cannot start "
+        "straight upwards.");
   // R = I + [w]x + [w]x^2/(1 + cos), w = from x to
   const Vector3 w = from.cross(to);
   Matrix3 cross;
@@ -63,7 +66,8 @@ std::vector<Matrix3> bishopFrames(const Trajectory& trajectory, const std::vecto
   frames.reserve(s.size());
   for (const double target : s) {
     if (target < depth - 1e-9)
-      throw ModelError("Frames are asked for at decreasing depths along the well, or above the surface.");
+      throw ModelError(
+          "Frames are asked for at decreasing depths along the well, or above the surface.");
     while (nextBreak != breaks.end() && *nextBreak < target) {
       if (*nextBreak > depth) {
         transport(trajectory, depth, *nextBreak, point, x);

@@ -10,14 +10,16 @@
 
 namespace tooljoint::well {
 
-/// The smallest rotation that turns one unit vector into another. Throws ModelError when they are opposite.
+/// The smallest rotation that turns one unit vector into another. Throws ModelError when they are
+/// opposite.
 Matrix3 smallestRotation(const Vector3& from, const Vector3& to);
 
-/// Rotation-minimising (Bishop) frames at the depths s [m], non-decreasing: matrices with columns x, y, z, where z is the
-/// tangent. At the surface x and y are global X and Y carried by the smallest rotation from Z to the tangent; from there
-/// they are transported without spin (double reflection, Wang et al., ACM Trans. Graph. 27, 2008; fine substeps that end
-/// where the curvature jumps keep the angle right to 1e-10 rad).
-/// Throws ModelError when depths decrease or the well starts straight upwards.
+/// Rotation-minimising (Bishop) frames at the depths s [m], non-decreasing: matrices with columns
+/// x, y, z, where z is the tangent. At the surface x and y are global X and Y carried by the
+/// smallest rotation from Z to the tangent; from there they are transported without spin (double
+/// reflection, Wang et al., ACM Trans. Graph. 27, 2008; fine substeps that end where the curvature
+/// jumps keep the angle right to 1e-10 rad). Throws ModelError when depths decrease or the well
+/// starts straight upwards.
 std::vector<Matrix3> bishopFrames(const Trajectory& trajectory, const std::vector<double>& s);
 
 }  // namespace tooljoint::well

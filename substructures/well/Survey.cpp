@@ -9,7 +9,8 @@ namespace {
 
 std::unique_ptr<ArcChain> chainOf(const std::vector<Station>& stations) {
   if (stations.size() < 2) throw DeckError("A survey needs at least two stations.");
-  if (stations.front().depth != 0.0) throw DeckError("The first survey station must be at measured depth 0.");
+  if (stations.front().depth != 0.0)
+    throw DeckError("The first survey station must be at measured depth 0.");
   auto chain = std::make_unique<ArcChain>(direction(stations[0].inclination, stations[0].azimuth));
   for (std::size_t i = 1; i < stations.size(); ++i) {
     const Vector3 before = direction(stations[i - 1].inclination, stations[i - 1].azimuth);
@@ -17,18 +18,24 @@ std::unique_ptr<ArcChain> chainOf(const std::vector<Station>& stations) {
     const double length = stations[i].depth - stations[i - 1].depth;
     const std::string which = "Survey station " + std::to_string(i + 1);
     if (!(length > 0.0)) throw DeckError(which + " is not deeper than the station before.");
-    if ((now + before).norm() < 1e-6) throw DeckError(which + " turns back by 180 degrees from the station before.");
+    if ((now + before).norm() < 1e-6)
+      throw DeckError(which + " turns back by 180 degrees from the station before.");
     chain->addArc(length, now);
   }
   return chain;
 }
 
-std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const std::string& folder) {
+std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
+                                     const std::string& folder) {
   const auto& name = list.get<std::string>("File");
-  const std::string file = name.empty() || name[0] == '/' || folder.empty() ? name : folder + "/" + name;
+  const std::string file =
+      name.empty() || name[0] == '/' || folder.empty() ? name : folder + "/" + name;
   const std::string reason = whyUnreadable(file);
-  if (!reason.empty()) throw DeckError(list.name() + "/File names a file, but " + file + " cannot be read: " + reason + ".");
-  const SurveyTable survey = readSurveyTable(file, list.get<std::string>("Depth Unit"), list.get<std::string>("Angle Unit"));
+  if (!reason.empty())
+    throw DeckError(list.name() + "/File names a file, but " + file + " cannot be read: " + reason +
+                    ".");
+  const SurveyTable survey = readSurveyTable(file, list.get<std::string>("Depth Unit"),
+                                             list.get<std::string>("Angle Unit"));
   auto chain = chainOf(survey.stations);
   for (const std::string& remark : survey.remarks) chain->addRemark(remark);
   return chain;
@@ -38,14 +45,19 @@ const bool registered = TrajectoryRegistry::instance().add(
     "Survey",
     {"Survey stations joined by circular arcs (minimum curvature method).",
      deck::ListSpec("Survey", "Survey stations from a CSV file, joined by minimum curvature.")
-         .text("File", deck::Required{}, "Table of measured depth, inclination and azimuth, relative to the deck; cells separated by commas, semicolons or tabs.")
-         .choice("Depth Unit", std::string("m"), {"m", "ft", "km"}, "Unit of the measured depth where the header gives none.")
+         .text("File", deck::Required{},
+               "Table of measured depth, inclination and azimuth, relative to the deck; cells "
+               "separated by commas, semicolons or tabs.")
+         .choice("Depth Unit", std::string("m"), {"m", "ft", "km"},
+                 "Unit of the measured depth where the header gives none.")
          .choice("Angle Unit", std::string("deg"), {"deg", "rad"},
                  "Unit of inclination and azimuth where the header gives none."),
      fromList});
 
 }  // namespace
 
-std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& stations) { return chainOf(stations); }
+std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& stations) {
+  return chainOf(stations);
+}
 
 }  // namespace tooljoint::well

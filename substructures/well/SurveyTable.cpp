@@ -23,15 +23,17 @@ struct ColumnKind {
   const char* si;
   std::vector<std::string> headings;
 };
-const std::array<ColumnKind, 3> kinds = {{{"measured depth", "m", {"md", "measured depth", "depth"}},
-                                          {"inclination", "rad", {"inc", "incl", "inclination"}},
-                                          {"azimuth", "rad", {"azi", "az", "azim", "azimuth"}}}};
+const std::array<ColumnKind, 3> kinds = {
+    {{"measured depth", "m", {"md", "measured depth", "depth"}},
+     {"inclination", "rad", {"inc", "incl", "inclination"}},
+     {"azimuth", "rad", {"azi", "az", "azim", "azimuth"}}}};
 
 /// Factor to SI of a unit that measures what a column of this kind holds.
 std::optional<double> unitFactor(const ColumnKind& kind, const std::string& unit) {
   for (const std::string& spelling : {unit, lower(unit)}) {
     const auto found = deck::parseUnit(spelling);
-    if (found && !spelling.empty() && found->dimension == deck::parseUnit(kind.si)->dimension) return found->factor;
+    if (found && !spelling.empty() && found->dimension == deck::parseUnit(kind.si)->dimension)
+      return found->factor;
   }
   return std::nullopt;
 }
@@ -44,17 +46,21 @@ std::string withoutBrackets(const std::string& text) {
 }
 
 bool endsInDegreeSign(const std::string& text) {
-  return text.size() > degreeSign.size() && text.compare(text.size() - degreeSign.size(), degreeSign.size(), degreeSign) == 0;
+  return text.size() > degreeSign.size() &&
+         text.compare(text.size() - degreeSign.size(), degreeSign.size(), degreeSign) == 0;
 }
 
 /// Reads a survey row by row; faults are collected and thrown together.
 class SurveyReader {
  public:
-  SurveyReader(std::string file, const std::string& depthUnit, const std::string& angleUnit) : file_(std::move(file)) {
+  SurveyReader(std::string file, const std::string& depthUnit, const std::string& angleUnit)
+      : file_(std::move(file)) {
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const std::string& unit = k == 0 ? depthUnit : angleUnit;
       const auto factor = unitFactor(kinds[k], unit);
-      if (!factor) throw DeckError("The survey unit " + inQuotes(unit) + " of the " + kinds[k].name + " is not known; " + expected(kinds[k]) + ".");
+      if (!factor)
+        throw DeckError("The survey unit " + inQuotes(unit) + " of the " + kinds[k].name +
+                        " is not known; " + expected(kinds[k]) + ".");
       factor_[k] = *factor;
     }
   }
@@ -62,7 +68,8 @@ class SurveyReader {
   SurveyTable read() {
     const DelimitedText text = split();
     for (const DelimitedRow& row : text.rows) take(row);
-    if (table_.stations.size() < 2 && faults_.empty()) fault("a survey needs at least two stations.");
+    if (table_.stations.size() < 2 && faults_.empty())
+      fault("a survey needs at least two stations.");
     raise();
     remark(text);
     return std::move(table_);
@@ -79,14 +86,22 @@ class SurveyReader {
     }
   }
 
-  static std::string expected(const ColumnKind& kind) { return "known are " + quotedList(deck::unitsLike(kind.si)); }
+  static std::string expected(const ColumnKind& kind) {
+    return "known are " + quotedList(deck::unitsLike(kind.si));
+  }
 
-  void fault(const std::string& sentence) { faults_.push_back(file_ + ":" + std::to_string(line_) + ": " + sentence); }
+  void fault(const std::string& sentence) {
+    faults_.push_back(file_ + ":" + std::to_string(line_) + ": " + sentence);
+  }
 
   void raise() const {
     if (faults_.empty()) return;
-    std::vector<std::string> first(faults_.begin(), faults_.begin() + static_cast<std::ptrdiff_t>(std::min(mostFaults, faults_.size())));
-    if (first.size() < faults_.size()) first.push_back(file_ + ": " + std::to_string(faults_.size() - first.size()) + " more errors follow.");
+    std::vector<std::string> first(
+        faults_.begin(),
+        faults_.begin() + static_cast<std::ptrdiff_t>(std::min(mostFaults, faults_.size())));
+    if (first.size() < faults_.size())
+      first.push_back(file_ + ": " + std::to_string(faults_.size() - first.size()) +
+                      " more errors follow.");
     throw DeckError(join(first, "\n"));
   }
 
@@ -95,15 +110,18 @@ class SurveyReader {
     std::vector<std::string> cells = row.cells;
     const bool first = !started_;
     started_ = true;
-    if (first && !cells[0].empty() && !cellNumber(cells[0]) && std::isdigit(static_cast<unsigned char>(cells[0][0])) == 0 &&
+    if (first && !cells[0].empty() && !cellNumber(cells[0]) &&
+        std::isdigit(static_cast<unsigned char>(cells[0][0])) == 0 &&
         std::string("+-.").find(cells[0][0]) == std::string::npos) {
       header(cells);
       return;
     }
-    while (cells.size() > columns_ && cells.back().empty()) cells.pop_back();  // separators at the end of a row
+    while (cells.size() > columns_ && cells.back().empty())
+      cells.pop_back();  // separators at the end of a row
     if (cells.size() != columns_) {
       fault("found " + std::to_string(cells.size()) + " columns where " + std::to_string(columns_) +
-            " are expected (measured depth, inclination, azimuth; separated by commas, semicolons or tabs).");
+            " are expected (measured depth, inclination, azimuth; separated by commas, semicolons "
+            "or tabs).");
       return;
     }
     if (afterHeader_ && unitRow(cells)) return;
@@ -125,10 +143,12 @@ class SurveyReader {
         continue;
       }
       const auto k = static_cast<std::size_t>(which);
-      if (seen[k]) fault(std::string("the column ") + kinds[k].name + " stands twice in the header.");
+      if (seen[k])
+        fault(std::string("the column ") + kinds[k].name + " stands twice in the header.");
       seen[k] = true;
       position_[k] = i;
-      if (end != std::string::npos) unit(k, bare ? degreeSign : withoutBrackets(cells[i].substr(end)));
+      if (end != std::string::npos)
+        unit(k, bare ? degreeSign : withoutBrackets(cells[i].substr(end)));
     }
     for (std::size_t k = 0; k < kinds.size(); ++k)
       if (!seen[k])
@@ -142,7 +162,9 @@ class SurveyReader {
     std::replace(name.begin(), name.end(), '_', ' ');
     while (!name.empty() && name.back() == '.') name.pop_back();
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (std::find(kinds[k].headings.begin(), kinds[k].headings.end(), name) != kinds[k].headings.end()) return static_cast<int>(k);
+      if (std::find(kinds[k].headings.begin(), kinds[k].headings.end(), name) !=
+          kinds[k].headings.end())
+        return static_cast<int>(k);
     return -1;
   }
 
@@ -157,16 +179,19 @@ class SurveyReader {
     if (!any) return false;
     afterHeader_ = false;
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (const std::string name = withoutBrackets(cells[position_[k]]); !name.empty()) unit(k, name);
+      if (const std::string name = withoutBrackets(cells[position_[k]]); !name.empty())
+        unit(k, name);
     return true;
   }
 
   void unit(std::size_t k, const std::string& name) {
     const auto factor = unitFactor(kinds[k], name);
     if (!factor)
-      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name + " is not known; " + expected(kinds[k]) + ".");
+      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name + " is not known; " +
+            expected(kinds[k]) + ".");
     else if (given_[k] && *factor != factor_[k])
-      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name + " is another one than that of the header.");
+      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name +
+            " is another one than that of the header.");
     else
       factor_[k] = *factor;
     given_[k] = true;
@@ -174,17 +199,21 @@ class SurveyReader {
 
   /// The number of a cell; an angle may have a degree sign behind it where it is one in degrees.
   std::optional<double> number(std::size_t k, std::string cell) {
-    if (k > 0 && endsInDegreeSign(cell) && factor_[k] != 1.0) cell = trim(cell.substr(0, cell.size() - degreeSign.size()));
+    if (k > 0 && endsInDegreeSign(cell) && factor_[k] != 1.0)
+      cell = trim(cell.substr(0, cell.size() - degreeSign.size()));
     const auto read = cellNumber(cell);
     if (!read) {
-      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + " is not a finite number.");
+      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) +
+            " is not a finite number.");
       return std::nullopt;
     }
     int& line = read->comma ? commaLine_ : pointLine_;
     if ((read->comma || read->point) && line == 0) line = line_;
     if ((read->comma && pointLine_ > 0) || (read->point && commaLine_ > 0)) {
-      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + " has a decimal " + (read->comma ? "comma" : "point") +
-            ", but there is a decimal " + (read->comma ? "point" : "comma") + " in line " + std::to_string(read->comma ? pointLine_ : commaLine_) +
+      fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) + " has a decimal " +
+            (read->comma ? "comma" : "point") + ", but there is a decimal " +
+            (read->comma ? "point" : "comma") + " in line " +
+            std::to_string(read->comma ? pointLine_ : commaLine_) +
             ". Write one of them, and no groups of thousands.");
       return std::nullopt;
     }
@@ -200,27 +229,43 @@ class SurveyReader {
     }
     auto& stations = table_.stations;
     if (stations.empty() && value[0] != 0.0)
-      fault("the first station must be at measured depth 0 (add the line of the surface, for example \"0, 0, 0\").");
-    if (!stations.empty() && !(value[0] > stations.back().depth)) fault("the measured depth does not increase from the station before.");
-    if (value[1] < 0.0 || value[1] > pi) fault("the inclination must lie between 0 and 180 degrees.");
-    if (std::abs(value[2]) > 2.0 * pi * (1.0 + 1e-12)) fault("the azimuth must lie between -360 and 360 degrees.");
+      fault(
+          "the first station must be at measured depth 0 (add the line of the surface, for example "
+          "\"0, 0, 0\").");
+    if (!stations.empty() && !(value[0] > stations.back().depth))
+      fault("the measured depth does not increase from the station before.");
+    if (value[1] < 0.0 || value[1] > pi)
+      fault("the inclination must lie between 0 and 180 degrees.");
+    if (std::abs(value[2]) > 2.0 * pi * (1.0 + 1e-12))
+      fault("the azimuth must lie between -360 and 360 degrees.");
     const Station now{value[0], value[1], value[2]};
-    if (!stations.empty() &&
-        (direction(now.inclination, now.azimuth) + direction(stations.back().inclination, stations.back().azimuth)).norm() < 1e-6)
-      fault("the hole turns back by 180 degrees from the station before, so the arc between them is not defined.");
+    if (!stations.empty() && (direction(now.inclination, now.azimuth) +
+                              direction(stations.back().inclination, stations.back().azimuth))
+                                     .norm() < 1e-6)
+      fault(
+          "the hole turns back by 180 degrees from the station before, so the arc between them is "
+          "not defined.");
     stations.push_back(now);
   }
 
   void remark(const DelimitedText& text) {
     std::vector<std::string> how;
-    if (text.separator != ',') how.push_back(text.separator == ';' ? "cells separated by semicolons" : "cells separated by tabs");
+    if (text.separator != ',')
+      how.push_back(text.separator == ';' ? "cells separated by semicolons"
+                                          : "cells separated by tabs");
     if (commaLine_ > 0) how.emplace_back("decimal commas");
     std::vector<std::string> left;
-    if (!ignored_.empty()) left.push_back((ignored_.size() == 1 ? "column " : "columns ") + quotedList(ignored_));
-    if (text.comments > 0) left.push_back(std::to_string(text.comments) + (text.comments == 1 ? " comment line" : " comment lines"));
-    if (text.emptyRows > 0) left.push_back(std::to_string(text.emptyRows) + (text.emptyRows == 1 ? " empty row" : " empty rows"));
+    if (!ignored_.empty())
+      left.push_back((ignored_.size() == 1 ? "column " : "columns ") + quotedList(ignored_));
+    if (text.comments > 0)
+      left.push_back(std::to_string(text.comments) +
+                     (text.comments == 1 ? " comment line" : " comment lines"));
+    if (text.emptyRows > 0)
+      left.push_back(std::to_string(text.emptyRows) +
+                     (text.emptyRows == 1 ? " empty row" : " empty rows"));
     if (how.empty() && left.empty()) return;
-    table_.remarks.push_back(file_ + ": " + std::to_string(table_.stations.size()) + " stations" + (how.empty() ? "" : ", " + join(how, ", ")) +
+    table_.remarks.push_back(file_ + ": " + std::to_string(table_.stations.size()) + " stations" +
+                             (how.empty() ? "" : ", " + join(how, ", ")) +
                              (left.empty() ? "" : "; not read: " + join(left, ", ")));
   }
 
@@ -231,18 +276,21 @@ class SurveyReader {
   std::size_t columns_ = kinds.size();
   bool started_ = false, afterHeader_ = false;
   int line_ = 0;
-  int commaLine_ = 0, pointLine_ = 0;  ///< first line with a decimal comma, and with a decimal point
+  int commaLine_ = 0,
+      pointLine_ = 0;  ///< first line with a decimal comma, and with a decimal point
   std::vector<std::string> ignored_, faults_;
   SurveyTable table_;
 };
 
 }  // namespace
 
-SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit, const std::string& angleUnit) {
+SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit,
+                            const std::string& angleUnit) {
   return SurveyReader(file, depthUnit, angleUnit).read();
 }
 
-std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit, const std::string& angleUnit) {
+std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit,
+                                const std::string& angleUnit) {
   return readSurveyTable(file, depthUnit, angleUnit).stations;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The centre line of a well as a curve in arc length. Global axes: X north, Y east, Z down; the curve starts at the
-/// surface, in the origin.
+/// The centre line of a well as a curve in arc length. Global axes: X north, Y east, Z down; the
+/// curve starts at the surface, in the origin.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,8 @@ struct WellPoint {
   Vector3 curvature;  ///< d tangent / ds [1/m], normal to the tangent
 };
 
-/// Centre line of a well. Outside [0, length()] it goes on straight, so that a depth off by rounding is no special case.
+/// Centre line of a well. Outside [0, length()] it goes on straight, so that a depth off by
+/// rounding is no special case.
 class Trajectory {
  public:
   virtual ~Trajectory() = default;
@@ -32,9 +33,11 @@ class Trajectory {
   virtual double length() const = 0;
   /// The point at arc length s [m] from the surface.
   virtual WellPoint at(double s) const = 0;
-  /// Increasing depths [m] where the curvature jumps (survey stations, the kick-off point); none for a smooth curve.
+  /// Increasing depths [m] where the curvature jumps (survey stations, the kick-off point); none
+  /// for a smooth curve.
   virtual std::vector<double> breaks() const { return {}; }
-  /// What a person should know of the file it came from: what was read how, and what was not read. One sentence each.
+  /// What a person should know of the file it came from: what was read how, and what was not read.
+  /// One sentence each.
   const std::vector<std::string>& remarks() const { return remarks_; }
   void addRemark(const std::string& remark) { remarks_.push_back(remark); }
 
@@ -42,19 +45,23 @@ class Trajectory {
   std::vector<std::string> remarks_;
 };
 
-/// Trajectories by name. A variant gets its own sublist and the folder that file names are relative to.
-using TrajectoryRegistry = deck::Registry<Trajectory, const Teuchos::ParameterList&, const std::string&>;
+/// Trajectories by name. A variant gets its own sublist and the folder that file names are relative
+/// to.
+using TrajectoryRegistry =
+    deck::Registry<Trajectory, const Teuchos::ParameterList&, const std::string&>;
 
-/// Helix about a vertical axis, X = a cos p - a, Y = a sin p, Z = b p with b = sqrt((L/alpha)^2 - a^2) and p = alpha s/L
-/// (Nguyen et al. 2020, eq. 44, with the parameter scaled to arc length). Curvature a/(a^2+b^2).
-/// Throws DeckError when the length is too short for the angle (L < alpha a).
+/// Helix about a vertical axis, X = a cos p - a, Y = a sin p, Z = b p with b = sqrt((L/alpha)^2 -
+/// a^2) and p = alpha s/L (Nguyen et al. 2020, eq. 44, with the parameter scaled to arc length).
+/// Curvature a/(a^2+b^2). Throws DeckError when the length is too short for the angle (L < alpha
+/// a).
 std::unique_ptr<Trajectory> helix(double radius, double angle, double length);
 
-/// Straight line with a constant inclination from the vertical and an azimuth from X towards Y [rad].
+/// Straight line with a constant inclination from the vertical and an azimuth from X towards Y
+/// [rad].
 std::unique_ptr<Trajectory> straight(double length, double inclination = 0.0, double azimuth = 0.0);
 
-/// Planar arc: a straight part down to the kick-off depth, then a circular arc from one inclination to another, then a
-/// straight tangent section. Lengths are along the hole.
+/// Planar arc: a straight part down to the kick-off depth, then a circular arc from one inclination
+/// to another, then a straight tangent section. Lengths are along the hole.
 struct ArcShape {
   double kickOffDepth = 0.0;      ///< length of the straight part above the arc [m]
   double radius = 0.0;            ///< radius of curvature [m]
@@ -71,27 +78,31 @@ struct Station {
   double inclination;  ///< [rad]
   double azimuth;      ///< [rad]
 };
-/// Minimum curvature: between two stations a circular arc in the plane of their tangents (Sawaryn and Thorogood,
-/// SPE Drilling & Completion 20, 2005). At least two stations, the first at depth 0, depths increasing, no reversal of 180
-/// degrees; throws DeckError otherwise.
+/// Minimum curvature: between two stations a circular arc in the plane of their tangents (Sawaryn
+/// and Thorogood, SPE Drilling & Completion 20, 2005). At least two stations, the first at depth 0,
+/// depths increasing, no reversal of 180 degrees; throws DeckError otherwise.
 std::unique_ptr<Trajectory> minimumCurvature(const std::vector<Station>& stations);
 
 /// Stations of a file, and what was read how.
 struct SurveyTable {
   std::vector<Station> stations;
-  std::vector<std::string> remarks;  ///< columns, rows and comments that were not read; another separator than the comma
+  std::vector<std::string>
+      remarks;  ///< columns, rows and comments that were not read; another separator than the comma
 };
 
-/// Stations from a table (see splitDelimited): measured depth, inclination, azimuth, by default in m and degrees. A header
-/// names the columns in any order, with units in brackets or in a row of their own below it:
+/// Stations from a table (see splitDelimited): measured depth, inclination, azimuth, by default in
+/// m and degrees. A header names the columns in any order, with units in brackets or in a row of
+/// their own below it:
 ///
 ///     MD [ft], Inc [deg], Azi [deg]          MD;Inclination;Azimuth
 ///                                            m;°;°
 ///
-/// Without a header the order is as above. Any unit of length or angle of deck/Units.hpp may stand there. Decimal commas are read
-/// where cells are separated by something else, but not beside decimal points. Lines starting with # are comments. Throws
-/// DeckError with one line "file:line: sentence" per fault.
-SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit = "m", const std::string& angleUnit = "deg");
+/// Without a header the order is as above. Any unit of length or angle of deck/Units.hpp may stand
+/// there. Decimal commas are read where cells are separated by something else, but not beside
+/// decimal points. Lines starting with # are comments. Throws DeckError with one line "file:line:
+/// sentence" per fault.
+SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit = "m",
+                            const std::string& angleUnit = "deg");
 
 /// The stations of readSurveyTable alone.
 std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit = "m",

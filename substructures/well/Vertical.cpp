@@ -13,10 +13,13 @@ const bool registered = TrajectoryRegistry::instance().add(
     {"Straight well, vertical or with a constant inclination.",
      deck::ListSpec("Vertical", "Straight well, vertical unless an inclination is given.")
          .real("Length", "m", deck::Required{}, deck::Range::positive(), "Length along the hole.")
-         .real("Inclination", "rad", 0.0, deck::Range{0.0, pi, false, true}, "Angle from the vertical.")
-         .real("Azimuth", "rad", 0.0, deck::Range::any(), "Direction of the inclination, from X (north) towards Y (east)."),
+         .real("Inclination", "rad", 0.0, deck::Range{0.0, pi, false, true},
+               "Angle from the vertical.")
+         .real("Azimuth", "rad", 0.0, deck::Range::any(),
+               "Direction of the inclination, from X (north) towards Y (east)."),
      [](const Teuchos::ParameterList& list, const std::string&) {
-       return straight(list.get<double>("Length"), list.get<double>("Inclination"), list.get<double>("Azimuth"));
+       return straight(list.get<double>("Length"), list.get<double>("Inclination"),
+                       list.get<double>("Azimuth"));
      }});
 
 }  // namespace

@@ -11,19 +11,26 @@
 
 namespace tooljoint::well {
 
-Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius, std::vector<BoreInterval> intervals)
-    : trajectory_(std::move(trajectory)), boreRadius_(boreRadius), intervals_(std::move(intervals)) {
-  std::sort(intervals_.begin(), intervals_.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+Well::Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius,
+           std::vector<BoreInterval> intervals)
+    : trajectory_(std::move(trajectory)),
+      boreRadius_(boreRadius),
+      intervals_(std::move(intervals)) {
+  std::sort(intervals_.begin(), intervals_.end(),
+            [](const auto& a, const auto& b) { return a.from < b.from; });
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const BoreInterval& now = intervals_[i];
     std::ostringstream text;
     if (!(now.to > now.from))
-      text << "The bore interval \"" << now.name << "\" ends at " << now.to << " m, above its start at " << now.from << " m.";
+      text << "The bore interval \"" << now.name << "\" ends at " << now.to
+           << " m, above its start at " << now.from << " m.";
     else if (!(now.radius > 0.0))
-      text << "The bore interval \"" << now.name << "\" has the radius " << now.radius << " m; it must be above 0.";
+      text << "The bore interval \"" << now.name << "\" has the radius " << now.radius
+           << " m; it must be above 0.";
     else if (i > 0 && now.from < intervals_[i - 1].to - 1e-9)
-      text << "The bore intervals \"" << intervals_[i - 1].name << "\" and \"" << now.name << "\" overlap between " << now.from
-           << " m and " << std::min(now.to, intervals_[i - 1].to) << " m.";
+      text << "The bore intervals \"" << intervals_[i - 1].name << "\" and \"" << now.name
+           << "\" overlap between " << now.from << " m and "
+           << std::min(now.to, intervals_[i - 1].to) << " m.";
     if (!text.str().empty()) throw DeckError(text.str());
   }
 }
@@ -56,28 +63,35 @@ deck::ListSpec parameters() {
   spec.choice("Trajectory", deck::Required{}, registry.names(),
               "Shape of the centre line; its parameters stand in the sublist of that name.");
   spec.radius("Bore Radius", deck::Required{}, deck::Range::positive(),
-            "Radius of the hole outside the intervals of the list Bore.");
+              "Radius of the hole outside the intervals of the list Bore.");
   for (const auto& [name, entry] : registry.entries()) spec.list(entry.parameters);
   spec.list(
-      deck::ListSpec("Bore", "Stretches of the hole with their own radius; where two meet the smaller radius counts.")
+      deck::ListSpec(
+          "Bore",
+          "Stretches of the hole with their own radius; where two meet the smaller radius counts.")
           .namedLists(deck::ListSpec("Interval", "A stretch of the hole.")
-                          .real("From", "m", deck::Required{}, deck::Range::nonNegative(), "Measured depth of its upper end.")
-                          .real("To", "m", deck::Required{}, deck::Range::positive(), "Measured depth of its lower end.")
-                          .radius("Radius", deck::Required{}, deck::Range::positive(), "Radius of the hole.")));
+                          .real("From", "m", deck::Required{}, deck::Range::nonNegative(),
+                                "Measured depth of its upper end.")
+                          .real("To", "m", deck::Required{}, deck::Range::positive(),
+                                "Measured depth of its lower end.")
+                          .radius("Radius", deck::Required{}, deck::Range::positive(),
+                                  "Radius of the hole.")));
   return spec;
 }
 
 Well readWell(const Teuchos::ParameterList& list, const std::string& folder) {
   const auto& name = list.get<std::string>("Trajectory");
   const auto& entry = TrajectoryRegistry::instance().find(name);
-  std::shared_ptr<const Trajectory> trajectory = entry.make(deck::variantList(list, name, entry.parameters), folder);
+  std::shared_ptr<const Trajectory> trajectory =
+      entry.make(deck::variantList(list, name, entry.parameters), folder);
   std::vector<BoreInterval> intervals;
   if (list.isSublist("Bore")) {
     const Teuchos::ParameterList& bore = list.sublist("Bore");
     for (auto it = bore.begin(); it != bore.end(); ++it) {
       const std::string& key = bore.name(it);
       const Teuchos::ParameterList& interval = bore.sublist(key);
-      intervals.push_back({key, interval.get<double>("From"), interval.get<double>("To"), interval.get<double>("Radius")});
+      intervals.push_back({key, interval.get<double>("From"), interval.get<double>("To"),
+                           interval.get<double>("Radius")});
     }
   }
   try {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The hole the string stands in: a centre line and a bore radius that may vary with depth. Deck list `Well`.
+/// The hole the string stands in: a centre line and a bore radius that may vary with depth. Deck
+/// list `Well`.
 #pragma once
 
 #include <memory>
@@ -24,7 +25,8 @@ struct BoreInterval {
 class Well {
  public:
   /// Throws DeckError when intervals are empty, overlap or have no positive radius.
-  Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius, std::vector<BoreInterval> intervals = {});
+  Well(std::shared_ptr<const Trajectory> trajectory, double boreRadius,
+       std::vector<BoreInterval> intervals = {});
 
   const Trajectory& trajectory() const { return *trajectory_; }
   double length() const { return trajectory_->length(); }

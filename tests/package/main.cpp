@@ -30,14 +30,17 @@ int main() {
   const double load = model.loadAt(0.5)(1);
   const double spring = model.stiffnessAt(0.5).coeff(0, 1);
   if (std::abs(load - std::sin(0.5)) > 1e-15 || std::abs(spring + 1.0) > 1e-15)
-    throw std::runtime_error("the installed library computes something else than the one that was built");
+    throw std::runtime_error(
+        "the installed library computes something else than the one that was built");
 
   // An inconsistent model must be refused, by an exception that crosses the library's border.
   model.dofs.pop_back();
   try {
     model.validate();
   } catch (const tooljoint::ModelError& error) {
-    std::cout << "Tooljoint " << tooljoint::programVersion() << ", installed, works: " << model.size() << " dofs; refused: " << error.what() << "\n";
+    std::cout << "Tooljoint " << tooljoint::programVersion()
+              << ", installed, works: " << model.size() << " dofs; refused: " << error.what()
+              << "\n";
     return 0;
   }
   std::cerr << "a model with too few labels was accepted\n";

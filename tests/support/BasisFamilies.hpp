@@ -23,7 +23,11 @@ struct Family {
   std::string text;       ///< its value, when it is a text
   bool flag = false;      ///< its value, when `text` is empty
 
-  std::string name() const { return basis + (parameter.empty() ? "" : ", " + parameter + " " + (text.empty() ? (flag ? "true" : "false") : text)); }
+  std::string name() const {
+    return basis + (parameter.empty() ? ""
+                                      : ", " + parameter + " " +
+                                            (text.empty() ? (flag ? "true" : "false") : text));
+  }
   std::unique_ptr<reduction::Basis> make() const {
     Teuchos::ParameterList list;
     auto& own = list.sublist(basis);
@@ -35,11 +39,19 @@ struct Family {
 
 /// Free-interface families, and those that are Rayleigh-Ritz among them.
 inline std::vector<Family> freeFamilies() {
-  return {{"Guyan", "", ""},   {"Rubin", "", ""},   {"Craig-Chang", "", ""},
-          {"Herting", "", ""}, {"Herting", "Modes with Interface", "Fixed"}, {"Herting", "Inertia Relief", "", false},
-          {"MacNeal", "", ""}, {"Dual Craig-Bampton", "", ""}, {"Dual Craig-Bampton", "Residual Mass", "", true}};
+  return {{"Guyan", "", ""},
+          {"Rubin", "", ""},
+          {"Craig-Chang", "", ""},
+          {"Herting", "", ""},
+          {"Herting", "Modes with Interface", "Fixed"},
+          {"Herting", "Inertia Relief", "", false},
+          {"MacNeal", "", ""},
+          {"Dual Craig-Bampton", "", ""},
+          {"Dual Craig-Bampton", "Residual Mass", "", true}};
 }
-inline bool isRitz(const Family& family) { return family.basis != "MacNeal" && family.basis != "Dual Craig-Bampton"; }
+inline bool isRitz(const Family& family) {
+  return family.basis != "MacNeal" && family.basis != "Dual Craig-Bampton";
+}
 
 /// `modes` for every part; negative: all.
 inline reduction::ReductionOptions modeCount(const std::string& basis, int modes) {
@@ -51,13 +63,15 @@ inline reduction::ReductionOptions modeCount(const std::string& basis, int modes
   return options;
 }
 
-inline coupling::Synthesis synthesised(const std::vector<model::Substructure>& parts, const Family& family, int modes,
+inline coupling::Synthesis synthesised(const std::vector<model::Substructure>& parts,
+                                       const Family& family, int modes,
                                        const coupling::CouplingOptions& coupling = {}) {
   const auto basis = family.make();
   return coupling::synthesise(parts, *basis, modeCount(family.basis, modes), coupling);
 }
 
-/// omega^2 of the lowest modes of the coupled model, spurious negative ones (below -`bound`) left out.
+/// omega^2 of the lowest modes of the coupled model, spurious negative ones (below -`bound`) left
+/// out.
 inline Vector eigenvalues(const model::SecondOrderModel& m, double bound = 1e300) {
   const Vector all = coupling::lowestModes(m, m.size()).values;
   Eigen::Index first = 0;

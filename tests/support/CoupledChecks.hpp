@@ -3,14 +3,13 @@
 /// Comparisons of a coupled reduced model with the full one, for any basis.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <complex>
 #include <functional>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,9 @@
 namespace tooljoint::checks {
 
 /// Reduces (all modes for -1) and couples with the parameters `set` gives to the basis.
-inline coupling::Synthesis synthesise(const std::vector<model::Substructure>& parts, const std::string& basis, int modes,
-                                      const std::function<void(Teuchos::ParameterList&)>& set = {}) {
+inline coupling::Synthesis synthesise(
+    const std::vector<model::Substructure>& parts, const std::string& basis, int modes,
+    const std::function<void(Teuchos::ParameterList&)>& set = {}) {
   Teuchos::ParameterList list("Reduction");
   if (set) set(list.sublist(basis));
   reduction::ReductionOptions options;
@@ -41,23 +41,29 @@ inline Vector eigenvalues(const model::SecondOrderModel& m) {
 }
 
 /// |d lambda| <= 1e-9 lambda + 1e-15 lambda_max for every eigenvalue.
-inline void expectSameEigenvalues(const model::SecondOrderModel& full, const model::SecondOrderModel& small) {
+inline void expectSameEigenvalues(const model::SecondOrderModel& full,
+                                  const model::SecondOrderModel& small) {
   ASSERT_EQ(full.size(), small.size());
   const Vector expected = eigenvalues(full), found = eigenvalues(small);
   const double largest = expected.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < expected.size(); ++k)
-    EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k]) + 1e-15 * largest) << "eigenvalue " << k;
+    EXPECT_NEAR(found[k], expected[k], 1e-9 * std::abs(expected[k]) + 1e-15 * largest)
+        << "eigenvalue " << k;
 }
 
 /// Eigenvalues s of the first-order form at time t, by increasing |s|.
 inline Eigen::VectorXcd dampedEigenvalues(const model::SecondOrderModel& m, double t) {
-  auto values = linalg::dampedModes(Matrix(m.mass), Matrix(m.dampingAt(t)), Matrix(m.stiffnessAt(t))).values;
-  std::stable_sort(values.data(), values.data() + values.size(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+  auto values =
+      linalg::dampedModes(Matrix(m.mass), Matrix(m.dampingAt(t)), Matrix(m.stiffnessAt(t))).values;
+  std::stable_sort(values.data(), values.data() + values.size(),
+                   [](auto a, auto b) { return std::abs(a) < std::abs(b); });
   return values;
 }
 
-/// Every s of the full model has its own nearest one within 1e-8 |s| and the rounding of an unsymmetric eigenproblem, 1e-11 of the largest.
-inline void expectSameDampedEigenvalues(const model::SecondOrderModel& full, const model::SecondOrderModel& small, double t) {
+/// Every s of the full model has its own nearest one within 1e-8 |s| and the rounding of an
+/// unsymmetric eigenproblem, 1e-11 of the largest.
+inline void expectSameDampedEigenvalues(const model::SecondOrderModel& full,
+                                        const model::SecondOrderModel& small, double t) {
   ASSERT_EQ(full.size(), small.size());
   const Eigen::VectorXcd expected = dampedEigenvalues(full, t);
   Eigen::VectorXcd found = dampedEigenvalues(small, t);
@@ -70,7 +76,8 @@ inline void expectSameDampedEigenvalues(const model::SecondOrderModel& full, con
   }
 }
 
-/// Modes of a floating model with |omega^2| <= 1e-12 of what its stiffness would give the same shape without cancellation.
+/// Modes of a floating model with |omega^2| <= 1e-12 of what its stiffness would give the same
+/// shape without cancellation.
 inline int zeroEnergyModes(const model::SecondOrderModel& m) {
   const Matrix K = m.stiffnessAt(0);
   const auto pairs = linalg::symmetricModes(0.5 * (K + K.transpose()), Matrix(m.mass));
@@ -82,9 +89,12 @@ inline int zeroEnergyModes(const model::SecondOrderModel& m) {
   return found;
 }
 
-/// Constant stiffness: largest relative difference of the displacements of all nodes for unit loads on every physical dof of `small`, which `full` has too.
-inline double staticError(const model::SecondOrderModel& full, const model::SecondOrderModel& small) {
-  const Eigen::PartialPivLU<Matrix> fullFactor{Matrix(reduction::constantStiffness(full))}, smallFactor{Matrix(reduction::constantStiffness(small))};
+/// Constant stiffness: largest relative difference of the displacements of all nodes for unit loads
+/// on every physical dof of `small`, which `full` has too.
+inline double staticError(const model::SecondOrderModel& full,
+                          const model::SecondOrderModel& small) {
+  const Eigen::PartialPivLU<Matrix> fullFactor{Matrix(reduction::constantStiffness(full))},
+      smallFactor{Matrix(reduction::constantStiffness(small))};
   double worst = 0;
   for (int j = 0; j < small.size(); ++j) {
     const auto& label = small.dofs[static_cast<std::size_t>(j)];
@@ -96,10 +106,14 @@ inline double staticError(const model::SecondOrderModel& full, const model::Seco
     Vector ordered(expected.size());  // recovery rows of one model may stand in another order
     const auto width = static_cast<Eigen::Index>(full.componentNames.size());
     for (std::size_t n = 0; n < full.recoveryNodes.size(); ++n) {
-      const auto at = std::find(small.recoveryNodes.begin(), small.recoveryNodes.end(), full.recoveryNodes[n]) - small.recoveryNodes.begin();
-      ordered.segment(static_cast<Eigen::Index>(n) * width, width) = found.segment(at * width, width);
+      const auto at =
+          std::find(small.recoveryNodes.begin(), small.recoveryNodes.end(), full.recoveryNodes[n]) -
+          small.recoveryNodes.begin();
+      ordered.segment(static_cast<Eigen::Index>(n) * width, width) =
+          found.segment(at * width, width);
     }
-    worst = std::max(worst, (ordered - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
+    worst = std::max(worst,
+                     (ordered - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff());
   }
   return worst;
 }
@@ -113,7 +127,8 @@ inline std::vector<model::Substructure> floatingFrame(int elements) {
     for (int i = 1; i < elements; ++i) nodes.push_back(base + i);
     return nodes;
   };
-  std::vector<model::Substructure> parts{samples::framePart("arm", frame, {{1, 2, inner(100)}}), samples::framePart("mast", frame, {{2, 3, inner(200)}})};
+  std::vector<model::Substructure> parts{samples::framePart("arm", frame, {{1, 2, inner(100)}}),
+                                         samples::framePart("mast", frame, {{2, 3, inner(200)}})};
   samples::classify(parts[0], {2});
   samples::classify(parts[1], {2}, {3});
   return parts;

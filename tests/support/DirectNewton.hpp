@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A plain Newton iteration with a direct factorisation, so that tests of the physics do not depend on the solvers they
-/// would otherwise test along with it.
+/// A plain Newton iteration with a direct factorisation, so that tests of the physics do not depend
+/// on the solvers they would otherwise test along with it.
 #pragma once
 
 #include <Eigen/SparseLU>
@@ -12,7 +12,8 @@
 
 namespace tooljoint::testing_ {
 
-inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, Vector& x, const model::SolveRequest& request) {
+inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, Vector& x,
+                                        const model::SolveRequest& request) {
   model::SolveOutcome outcome;
   const Vector scale = problem.residualScale();
   Vector r;
@@ -36,7 +37,9 @@ inline model::SolveOutcome directNewton(const model::NonlinearProblem& problem, 
       next = x + factor * dx;
       problem.residual(next, r);
       size = scale.cwiseProduct(r).norm();
-      if (request.search == model::LineSearch::None || size < (1.0 - 1e-4 * factor) * merit || halvings == 12) break;
+      if (request.search == model::LineSearch::None || size < (1.0 - 1e-4 * factor) * merit ||
+          halvings == 12)
+        break;
     }
     x = next;
     ++outcome.iterations;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A chain of corotational elements under dead loads, for comparison with large-displacement solutions.
+/// A chain of corotational elements under dead loads, for comparison with large-displacement
+/// solutions.
 #pragma once
 
 #include <cmath>
@@ -14,12 +15,14 @@
 
 namespace tooljoint::testing_ {
 
-/// Unknowns per free node: displacement from the start, and the rotation vector since the last accepted state.
+/// Unknowns per free node: displacement from the start, and the rotation vector since the last
+/// accepted state.
 class FrameProblem : public model::NonlinearProblem {
  public:
   /// Node positions and triads at rest, the elements between them; the first node is clamped.
-  FrameProblem(std::vector<Vector3> positions, std::vector<Matrix3> triads, std::vector<beam::CorotationalElement> elements,
-               double forceScale, double momentScale)
+  FrameProblem(std::vector<Vector3> positions, std::vector<Matrix3> triads,
+               std::vector<beam::CorotationalElement> elements, double forceScale,
+               double momentScale)
       : positions_(std::move(positions)),
         triads_(std::move(triads)),
         elements_(std::move(elements)),
@@ -55,7 +58,8 @@ class FrameProblem : public model::NonlinearProblem {
     const auto [p, t] = pose(x);
     r = -load_;
     for (std::size_t e = 0; e < elements_.size(); ++e)
-      assembler_.add(static_cast<int>(e), elements_[e].evaluate({p[e], p[e + 1], t[e], t[e + 1]}, false).force, r);
+      assembler_.add(static_cast<int>(e),
+                     elements_[e].evaluate({p[e], p[e + 1], t[e], t[e + 1]}, false).force, r);
   }
 
   void jacobian(const Vector& x, Sparse& jacobian) const override {
@@ -67,7 +71,8 @@ class FrameProblem : public model::NonlinearProblem {
         const int node = static_cast<int>(e) + end;
         if (node == 0) continue;
         const Vector3 theta = x.segment<3>(6 * (node - 1) + 3);
-        k.middleCols<3>(6 * end + 3) = (k.middleCols<3>(6 * end + 3) * beam::spinFromRotationVector(theta)).eval();
+        k.middleCols<3>(6 * end + 3) =
+            (k.middleCols<3>(6 * end + 3) * beam::spinFromRotationVector(theta)).eval();
       }
       assembler_.add(static_cast<int>(e), k, jacobian);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The helical well of Nguyen et al. 2020 (section 5.1) put together in C++: string, well, mud, contact and loads, up to
-/// the input of the static equilibrium.
+/// The helical well of Nguyen et al. 2020 (section 5.1) put together in C++: string, well, mud,
+/// contact and loads, up to the input of the static equilibrium.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,9 @@ namespace tooljoint::testing_ {
 class HelicalScene {
  public:
   HelicalScene()
-      : well_(std::shared_ptr<const well::Trajectory>(well::helix(85.1, 0.5 * std::acos(-1.0), 170.2)), 0.108),
+      : well_(std::shared_ptr<const well::Trajectory>(
+                  well::helix(85.1, 0.5 * std::acos(-1.0), 170.2)),
+              0.108),
         string_(string_::buildDrillString(library(), assembly(), well_)) {}
 
   const string_::DrillString& string() const { return string_; }
@@ -42,7 +44,8 @@ class HelicalScene {
     equilibrium::StaticInput input;
     input.nodes = string_.nodeCount();
     input.held.assign(static_cast<std::size_t>(6 * input.nodes), 0);
-    for (const int dof : {0, 1, 2, 5, 6 * input.nodes - 6, 6 * input.nodes - 5}) input.held[static_cast<std::size_t>(dof)] = 1;
+    for (const int dof : {0, 1, 2, 5, 6 * input.nodes - 6, 6 * input.nodes - 5})
+      input.held[static_cast<std::size_t>(dof)] = 1;
     const mud::Mud fluid(mudProperties());
     const loads::RotarySpeed rotary;
     const loads::RayleighDamping damping;
@@ -50,7 +53,8 @@ class HelicalScene {
     loads.gravity = 9.81;
     loads.weightOnBit = 1e4;
     loads.torqueOnBit = 5e3;
-    const auto equations = string_::buildEquations({string_, well_, path, input.held, &fluid, rotary, loads, damping});
+    const auto equations =
+        string_::buildEquations({string_, well_, path, input.held, &fluid, rotary, loads, damping});
     input.load = Vector::Zero(6 * input.nodes);
     for (const auto& load : equations.loads)
       if (load.name != "path reaction") input.load += load.vector;
@@ -59,10 +63,12 @@ class HelicalScene {
       const auto& element = string_.elements[e];
       beam::Matrix12 stiffness = beam::Matrix12::Zero();
       for (const auto& term : equations.stiffness) stiffness += term.matrices[e];
-      input.elements.push_back({stiffness, beam::rotation12(path.elementFrame[e], path.frame[e], path.frame[e + 1]),
-                                element.length, element.section.axialRigidity(), element.section.torsionalRigidity()});
+      input.elements.push_back(
+          {stiffness, beam::rotation12(path.elementFrame[e], path.frame[e], path.frame[e + 1]),
+           element.length, element.section.axialRigidity(), element.section.torsionalRigidity()});
     }
-    input.chordSlopes = path.tangent.empty();  // pre-stress "Axial and torque": the source's matrices
+    input.chordSlopes =
+        path.tangent.empty();  // pre-stress "Axial and torque": the source's matrices
     input.contact = contact::makeLaw("Nguyen")->atRest(contactPoints(input.held, lambda));
     return input;
   }
@@ -74,7 +80,8 @@ class HelicalScene {
     const auto joint = beam::Section::hollow(0.081, 0.048, steel);
     const auto heavy = beam::Section::hollow(0.0795, 0.0355, steel);
     string_::ComponentLibrary out;
-    const auto add = [&out](const std::string& name, const std::vector<string_::Segment>& segments) -> string_::Component& {
+    const auto add = [&out](const std::string& name,
+                            const std::vector<string_::Segment>& segments) -> string_::Component& {
       string_::Component& component = out[name];
       component.name = component.where = name;
       component.segments = segments;
@@ -96,7 +103,8 @@ class HelicalScene {
   static std::vector<string_::AssemblyEntry> assembly() {
     std::vector<string_::AssemblyEntry> out;
     for (int i = 0; i < 5; ++i)
-      for (const auto& [count, name] : {std::pair{1, "body"}, {1, "upset"}, {2, "joint half"}, {1, "upset"}})
+      for (const auto& [count, name] :
+           {std::pair{1, "body"}, {1, "upset"}, {2, "joint half"}, {1, "upset"}})
         out.push_back({count, name});
     for (const auto& [count, name] : {std::pair{1, "body"},
                                       {1, "upset"},

@@ -28,7 +28,8 @@ inline double jacobianError(const model::NonlinearProblem& problem, const Vector
   }
   double worst = 0.0;
   for (int i = 0; i < problem.size(); ++i)
-    worst = std::max(worst, (jacobian.row(i) - difference.row(i)).cwiseAbs().maxCoeff() / difference.row(i).cwiseAbs().maxCoeff());
+    worst = std::max(worst, (jacobian.row(i) - difference.row(i)).cwiseAbs().maxCoeff() /
+                                difference.row(i).cwiseAbs().maxCoeff());
   return worst;
 }
 

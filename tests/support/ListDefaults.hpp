@@ -13,7 +13,8 @@
 
 namespace tooljoint::test {
 
-/// Defaults of the parameters of `spec` (optional sublists stay absent); required ones are for the test to set.
+/// Defaults of the parameters of `spec` (optional sublists stay absent); required ones are for the
+/// test to set.
 inline Teuchos::ParameterList defaultsOf(const deck::ListSpec& spec) {
   Teuchos::ParameterList list(spec.name());
   for (const auto& parameter : spec.parameters()) {
@@ -29,9 +30,12 @@ inline Teuchos::ParameterList defaultsOf(const deck::ListSpec& spec) {
     }
     if (const auto* real = std::get_if<double>(&value)) list.set(name, *real);
     if (const auto* text = std::get_if<std::string>(&value)) list.set(name, *text);
-    if (const auto* wholes = std::get_if<std::vector<int>>(&value)) list.set(name, Teuchos::Array<int>(*wholes));
-    if (const auto* reals = std::get_if<std::vector<double>>(&value)) list.set(name, Teuchos::Array<double>(*reals));
-    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) list.set(name, Teuchos::Array<std::string>(*texts));
+    if (const auto* wholes = std::get_if<std::vector<int>>(&value))
+      list.set(name, Teuchos::Array<int>(*wholes));
+    if (const auto* reals = std::get_if<std::vector<double>>(&value))
+      list.set(name, Teuchos::Array<double>(*reals));
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+      list.set(name, Teuchos::Array<std::string>(*texts));
   }
   return list;
 }

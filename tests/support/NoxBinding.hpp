@@ -8,7 +8,8 @@
 
 namespace tooljoint::testing_ {
 
-inline model::SolveOutcome noxNewton(const model::NonlinearProblem& problem, Vector& x, const model::SolveRequest& request) {
+inline model::SolveOutcome noxNewton(const model::NonlinearProblem& problem, Vector& x,
+                                     const model::SolveRequest& request) {
   statics::NewtonOptions options;
   options.tolerance = request.tolerance;
   options.updateTolerance = request.updateTolerance > 0.0 ? request.updateTolerance : 1.0;

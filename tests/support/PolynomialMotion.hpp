@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Motions of a straight beam that Hermite elements represent exactly, and integrals along it: closed forms for element matrices.
+/// Motions of a straight beam that Hermite elements represent exactly, and integrals along it:
+/// closed forms for element matrices.
 #pragma once
 
 #include <array>
@@ -33,17 +34,24 @@ struct PolynomialMotion {
   /// Six dofs per node.
   Vector dofs(const std::vector<double>& z) const {
     Vector d(6 * static_cast<Eigen::Index>(z.size()));
-    for (std::size_t i = 0; i < z.size(); ++i) d.segment<6>(6 * static_cast<Eigen::Index>(i)) = at(z[i]);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      d.segment<6>(6 * static_cast<Eigen::Index>(i)) = at(z[i]);
     return d;
   }
 };
 
 /// Two motions with nothing in common, for bilinear forms.
 inline PolynomialMotion firstMotion() {
-  return {{{0.3, -0.2, 0.11, 0.07}}, {{-0.1, 0.4, -0.05, 0.09}}, {{0.2, -0.6, 0.0, 0.0}}, {{0.5, 0.3, 0.0, 0.0}}};
+  return {{{0.3, -0.2, 0.11, 0.07}},
+          {{-0.1, 0.4, -0.05, 0.09}},
+          {{0.2, -0.6, 0.0, 0.0}},
+          {{0.5, 0.3, 0.0, 0.0}}};
 }
 inline PolynomialMotion secondMotion() {
-  return {{{-0.7, 0.1, 0.21, -0.04}}, {{0.6, 0.15, 0.12, 0.03}}, {{-0.3, 0.25, 0.0, 0.0}}, {{0.1, -0.8, 0.0, 0.0}}};
+  return {{{-0.7, 0.1, 0.21, -0.04}},
+          {{0.6, 0.15, 0.12, 0.03}},
+          {{-0.3, 0.25, 0.0, 0.0}},
+          {{0.1, -0.8, 0.0, 0.0}}};
 }
 
 /// int_a^b f dz, exact for polynomials up to degree 7 (Gauss with four points).
@@ -53,7 +61,8 @@ inline double integral(double a, double b, const std::function<double(double)>& 
   const std::array<double, 2> w{(18.0 + std::sqrt(30.0)) / 36.0, (18.0 - std::sqrt(30.0)) / 36.0};
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i)
-    for (const double sign : {-1.0, 1.0}) sum += w[i] * f(0.5 * (a + b) + 0.5 * (b - a) * sign * x[i]);
+    for (const double sign : {-1.0, 1.0})
+      sum += w[i] * f(0.5 * (a + b) + 0.5 * (b - a) * sign * x[i]);
   return 0.5 * (b - a) * sum;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Small parts for the tests of reduction and coupling: spring chains, a bar, plane frames, a cubic spring at points.
+/// Small parts for the tests of reduction and coupling: spring chains, a bar, plane frames, a cubic
+/// spring at points.
 #pragma once
 
 #include <Eigen/Dense>
@@ -31,7 +32,8 @@ inline void add(Triplets& entries, const Matrix& element, const std::vector<int>
   for (std::size_t i = 0; i < dofs.size(); ++i)
     for (std::size_t j = 0; j < dofs.size(); ++j)
       if (dofs[i] >= 0 && dofs[j] >= 0)
-        entries.emplace_back(dofs[i], dofs[j], element(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+        entries.emplace_back(dofs[i], dofs[j],
+                             element(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
 }
 
 inline Sparse square(int n, const Triplets& entries) {
@@ -41,7 +43,8 @@ inline Sparse square(int n, const Triplets& entries) {
 }
 
 /// Interface and retained positions of a part from node numbers.
-inline void classify(Substructure& part, const std::vector<int>& interface, const std::vector<int>& retained = {}) {
+inline void classify(Substructure& part, const std::vector<int>& interface,
+                     const std::vector<int>& retained = {}) {
   const auto named = [](const std::vector<int>& nodes, std::int64_t node) {
     return std::find(nodes.begin(), nodes.end(), static_cast<int>(node)) != nodes.end();
   };
@@ -56,7 +59,8 @@ inline void classify(Substructure& part, const std::vector<int>& interface, cons
   }
 }
 
-/// Recovery rows for all nodes of a part: the dofs themselves, zero rows for held ones. Zero initial state.
+/// Recovery rows for all nodes of a part: the dofs themselves, zero rows for held ones. Zero
+/// initial state.
 inline void complete(Substructure& part) {
   auto& m = part.model;
   const int n = m.size();
@@ -81,9 +85,10 @@ inline void complete(Substructure& part) {
   m.initialVelocity = Vector::Zero(n);
 }
 
-/// A uniform bar (or spring chain) of `elements` linear elements from node `first`: stiffness k and mass m of each element,
-/// consistent mass; nodes in `held` do not move.
-inline Substructure bar(const std::string& name, int first, int elements, double k, double m, const std::vector<int>& held = {}) {
+/// A uniform bar (or spring chain) of `elements` linear elements from node `first`: stiffness k and
+/// mass m of each element, consistent mass; nodes in `held` do not move.
+inline Substructure bar(const std::string& name, int first, int elements, double k, double m,
+                        const std::vector<int>& held = {}) {
   Substructure part;
   part.name = name;
   part.model.componentNames = {"u"};
@@ -106,7 +111,8 @@ inline Substructure bar(const std::string& name, int first, int elements, double
   return part;
 }
 
-/// A straight member of a plane frame between two nodes of the frame, cut into `elements` beam elements.
+/// A straight member of a plane frame between two nodes of the frame, cut into `elements` beam
+/// elements.
 struct Member {
   int from, to;              ///< node numbers
   std::vector<int> between;  ///< numbers of the nodes in between (elements - 1 of them)
@@ -161,16 +167,18 @@ inline Matrix planeRotation(const Eigen::Vector2d& direction) {
   return R;
 }
 
-/// The part of `frame` made of `members`. With `spinning`, each element also carries a skew damping matrix times Omega (as
-/// gyroscopics do), a skew part of the constant stiffness (as a torque does) and a skew stiffness times dOmega/dt.
-inline Substructure framePart(const std::string& name, const Frame& frame, const std::vector<Member>& members,
-                              bool spinning = false) {
+/// The part of `frame` made of `members`. With `spinning`, each element also carries a skew damping
+/// matrix times Omega (as gyroscopics do), a skew part of the constant stiffness (as a torque does)
+/// and a skew stiffness times dOmega/dt.
+inline Substructure framePart(const std::string& name, const Frame& frame,
+                              const std::vector<Member>& members, bool spinning = false) {
   Substructure part;
   part.name = name;
   part.model.componentNames = {"u", "v", "theta"};
   std::map<int, int> first;  // node -> position of its u
   const auto place = [&](int node) {
-    const bool fixed = std::find(frame.clamped.begin(), frame.clamped.end(), node) != frame.clamped.end();
+    const bool fixed =
+        std::find(frame.clamped.begin(), frame.clamped.end(), node) != frame.clamped.end();
     if (!first.count(node)) {
       first[node] = fixed ? -1 : static_cast<int>(part.model.dofs.size());
       for (int c = 0; c < 3 && !fixed; ++c) part.model.dofs.push_back(DofLabel::physical(node, c));
@@ -209,7 +217,8 @@ inline Substructure framePart(const std::string& name, const Frame& frame, const
     m.damping.push_back({"gyroscopic", square(n, gyroscopic), m.lawIndex(spin())});
     m.damping.push_back({"Rayleigh", Sparse(0.03 * m.mass + 1e-5 * m.stiffness.front().matrix), 0});
     m.stiffness.push_back({"torque", square(n, torque), 0});
-    m.stiffness.push_back({"gyroscopic rate", Sparse(0.5 * square(n, gyroscopic)), m.lawIndex(spinRate())});
+    m.stiffness.push_back(
+        {"gyroscopic rate", Sparse(0.5 * square(n, gyroscopic)), m.lawIndex(spinRate())});
   }
   complete(part);
   return part;
@@ -221,27 +230,31 @@ class CubicSpring : public model::PointLaw {
   CubicSpring(int size, double k, double c) : size_(size), k_(k), c_(c) {}
   int size() const override { return size_; }
   int width() const override { return 2; }
-  void evaluate(double, const std::vector<int>& active, const double* d, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const override {
     for (int p : active) {
       const double square = d[2 * p] * d[2 * p] + d[2 * p + 1] * d[2 * p + 1];
       for (int c = 0; c < 2; ++c) f[2 * p + c] = -k_ * square * d[2 * p + c] - c_ * v[2 * p + c];
     }
   }
-  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv) const override {
     evaluate(t, active, d, v, f);
     for (int p : active)
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) {
           const double square = d[2 * p] * d[2 * p] + d[2 * p + 1] * d[2 * p + 1];
-          dfdd[(2 * p + r) * 2 + c] = -k_ * (2 * d[2 * p + r] * d[2 * p + c] + (r == c ? square : 0.0));
+          dfdd[(2 * p + r) * 2 + c] =
+              -k_ * (2 * d[2 * p + r] * d[2 * p + c] + (r == c ? square : 0.0));
           dfdv[(2 * p + r) * 2 + c] = r == c ? -c_ : 0.0;
         }
   }
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0.0;
   }
-  Power power(double, const std::vector<int>&, const double*, const double*) const override { return {}; }
+  Power power(double, const std::vector<int>&, const double*, const double*) const override {
+    return {};
+  }
   std::vector<model::Channel> channels() const override { return {}; }
   void record(double, const double*, const double*, double*) const override {}
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& points) const override {
@@ -254,7 +267,8 @@ class CubicSpring : public model::PointLaw {
 };
 
 /// Cubic springs on the first two components of the given nodes of a part.
-inline void addCubicSprings(Substructure& part, const std::vector<int>& nodes, double k = 1e12, double c = 5.0) {
+inline void addCubicSprings(Substructure& part, const std::vector<int>& nodes, double k = 1e12,
+                            double c = 5.0) {
   model::PointSet set;
   set.name = "cubic springs";
   set.law = std::make_shared<CubicSpring>(static_cast<int>(nodes.size()), k, c);
@@ -263,7 +277,8 @@ inline void addCubicSprings(Substructure& part, const std::vector<int>& nodes, d
     set.entities.push_back(nodes[p]);
     for (int i = 0; i < part.model.size(); ++i) {
       const auto& label = part.model.dofs[static_cast<std::size_t>(i)];
-      if (label.entity == nodes[p] && label.component < 2) rows.emplace_back(static_cast<int>(2 * p) + label.component, i, 1.0);
+      if (label.entity == nodes[p] && label.component < 2)
+        rows.emplace_back(static_cast<int>(2 * p) + label.component, i, 1.0);
     }
   }
   set.rows = Sparse(static_cast<Eigen::Index>(2 * nodes.size()), part.model.size());
@@ -284,7 +299,8 @@ inline int find(const model::SecondOrderModel& m, const DofLabel& label) {
 ///     |      |
 ///     1      2          (1 and 2 clamped)
 ///
-/// part 0: column 1-4, part 1: column 2-3, part 2: beam 4-3, part 3: cantilever 3-5. Node 3 belongs to three parts.
+/// part 0: column 1-4, part 1: column 2-3, part 2: beam 4-3, part 3: cantilever 3-5. Node 3 belongs
+/// to three parts.
 inline std::vector<Substructure> loopFrame(int elements, bool spinning, bool retainSome = false) {
   Frame frame;
   frame.corners = {{1, {0, 0}}, {2, {3, 0}}, {3, {3, 2.5}}, {4, {0, 2}}, {5, {5, 2.6}}};
@@ -298,7 +314,9 @@ inline std::vector<Substructure> loopFrame(int elements, bool spinning, bool ret
                                   framePart("right column", frame, {{2, 3, inner(200)}}, spinning),
                                   framePart("beam", frame, {{4, 3, inner(300)}}, spinning),
                                   framePart("cantilever", frame, {{3, 5, inner(400)}}, spinning)};
-  const auto middle = [&](int base) { return retainSome ? std::vector<int>{base + elements / 2} : std::vector<int>{}; };
+  const auto middle = [&](int base) {
+    return retainSome ? std::vector<int>{base + elements / 2} : std::vector<int>{};
+  };
   classify(parts[0], {4}, middle(100));
   classify(parts[1], {3}, middle(200));
   classify(parts[2], {3, 4}, middle(300));

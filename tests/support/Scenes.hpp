@@ -19,14 +19,16 @@ inline app::Scene reference(const std::vector<std::string>& overrides = {}) {
 }
 
 inline model::SecondOrderModel reduced(const app::Scene& scene, const app::StaticStage& stage) {
-  return coupling::couple(reduction::reduceAll(app::cut(scene, stage), scene.list().sublist("Reduction")));
+  return coupling::couple(
+      reduction::reduceAll(app::cut(scene, stage), scene.list().sublist("Reduction")));
 }
 
 /// All sampled displacements of all nodes, one column per sample.
 class History : public transient::SampleSink {
  public:
   explicit History(const model::SecondOrderModel& model) : model_(model) {}
-  void sample(double /*t*/, const Vector& q, const Vector& /*qDot*/, const Vector& /*qDDot*/) override {
+  void sample(double /*t*/, const Vector& q, const Vector& /*qDot*/,
+              const Vector& /*qDDot*/) override {
     columns_.push_back(model_.recoveryOffset + model_.recovery * q);
   }
   const std::vector<Vector>& columns() const { return columns_; }
@@ -42,14 +44,19 @@ inline std::vector<Vector> move(const app::Scene& scene, const model::SecondOrde
   return history.columns();
 }
 
-/// eps_t of (45) in Nguyen et al. 2020, its largest value over the samples: mean over u, v, w of |c - c_ref| / |c_ref|.
-inline double largestError(const std::vector<Vector>& motion, const std::vector<Vector>& reference) {
+/// eps_t of (45) in Nguyen et al. 2020, its largest value over the samples: mean over u, v, w of |c
+/// - c_ref| / |c_ref|.
+inline double largestError(const std::vector<Vector>& motion,
+                           const std::vector<Vector>& reference) {
   double largest = 0.0;
   for (std::size_t i = 0; i < reference.size(); ++i) {
     double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
-      const auto component = [c](const Vector& d) { return Eigen::Map<const Matrix>(d.data(), 6, d.size() / 6).row(c); };
-      sum += (component(motion.at(i)) - component(reference[i])).norm() / component(reference[i]).norm();
+      const auto component = [c](const Vector& d) {
+        return Eigen::Map<const Matrix>(d.data(), 6, d.size() / 6).row(c);
+      };
+      sum += (component(motion.at(i)) - component(reference[i])).norm() /
+             component(reference[i]).norm();
     }
     largest = std::max(largest, sum / 3.0);
   }

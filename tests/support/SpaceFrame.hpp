@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Frames of Euler-Bernoulli beams in space for the tests of coupling: every member a part, in global axes or in its own, and
-/// the same frame as one part.
+/// Frames of Euler-Bernoulli beams in space for the tests of coupling: every member a part, in
+/// global axes or in its own, and the same frame as one part.
 #pragma once
 
 #include <Eigen/Dense>
@@ -16,7 +16,8 @@ namespace tooljoint::samples {
 
 inline const model::ComponentNames spaceComponents{"u", "v", "w", "theta_x", "theta_y", "theta_z"};
 
-/// Per length: stiffness against stretching, twisting, bending about y and z; mass and its polar moment.
+/// Per length: stiffness against stretching, twisting, bending about y and z; mass and its polar
+/// moment.
 struct SpaceSection {
   double EA = 4e8, GJ = 3e5, EIy = 5e5, EIz = 8e5, mu = 25, mup = 0.05;
 };
@@ -76,27 +77,32 @@ inline Matrix spaceBeamMass(const SpaceSection& s, double l) {
   return M;
 }
 
-/// The members as one part, in global axes, or (one member) in the axes of that member. Held nodes have no dofs.
-inline Substructure spacePart(const std::string& name, const std::vector<SpaceMember>& members, const std::vector<int>& held,
-                              bool ownAxes = false, const SpaceSection& section = {}) {
+/// The members as one part, in global axes, or (one member) in the axes of that member. Held nodes
+/// have no dofs.
+inline Substructure spacePart(const std::string& name, const std::vector<SpaceMember>& members,
+                              const std::vector<int>& held, bool ownAxes = false,
+                              const SpaceSection& section = {}) {
   Substructure part;
   part.name = name;
   part.model.componentNames = spaceComponents;
   std::map<int, int> first;
   Triplets stiffness, mass;
   for (const auto& member : members) {
-    const double l = (member.to - member.from).norm() / static_cast<double>(member.nodes.size() - 1);
+    const double l =
+        (member.to - member.from).norm() / static_cast<double>(member.nodes.size() - 1);
     Matrix T = Matrix::Identity(12, 12);  // local = T global
     if (!ownAxes)
       for (int b = 0; b < 4; ++b) T.block<3, 3>(3 * b, 3 * b) = memberAxes(member).transpose();
-    const Matrix K = T.transpose() * spaceBeamStiffness(section, l) * T, M = T.transpose() * spaceBeamMass(section, l) * T;
+    const Matrix K = T.transpose() * spaceBeamStiffness(section, l) * T,
+                 M = T.transpose() * spaceBeamMass(section, l) * T;
     for (std::size_t e = 0; e + 1 < member.nodes.size(); ++e) {
       std::vector<int> dofs;
       for (int node : {member.nodes[e], member.nodes[e + 1]}) {
         const bool fixed = std::find(held.begin(), held.end(), node) != held.end();
         if (first.count(node) == 0) {
           first[node] = fixed ? -1 : static_cast<int>(part.model.dofs.size());
-          for (int c = 0; c < 6 && !fixed; ++c) part.model.dofs.push_back(DofLabel::physical(node, c));
+          for (int c = 0; c < 6 && !fixed; ++c)
+            part.model.dofs.push_back(DofLabel::physical(node, c));
         }
         for (int c = 0; c < 6; ++c) dofs.push_back(first[node] < 0 ? -1 : first[node] + c);
       }
@@ -111,14 +117,15 @@ inline Substructure spacePart(const std::string& name, const std::vector<SpaceMe
   return part;
 }
 
-/// Five members in space: two columns on clamped feet (1, 2), a beam between their heads (4, 3), and two struts that meet in node 5: a loop
-/// 4-3-5. Node 4 and node 3 belong to three parts.
+/// Five members in space: two columns on clamped feet (1, 2), a beam between their heads (4, 3),
+/// and two struts that meet in node 5: a loop 4-3-5. Node 4 and node 3 belong to three parts.
 struct FiveMembers {
   std::vector<SpaceMember> members;
   std::vector<int> feet{1, 2};
 
   explicit FiveMembers(int elements = 6) {
-    const std::map<int, Vector3> corner{{1, {0, 0, 0}}, {2, {4, 0.3, 0}}, {3, {4, 0, 3}}, {4, {0, 0.2, 3.1}}, {5, {1.8, 2.4, 3.6}}};
+    const std::map<int, Vector3> corner{
+        {1, {0, 0, 0}}, {2, {4, 0.3, 0}}, {3, {4, 0, 3}}, {4, {0, 0.2, 3.1}}, {5, {1.8, 2.4, 3.6}}};
     const auto member = [&](const std::string& name, int a, int b, int base) {
       SpaceMember m{name, {a}, corner.at(a), corner.at(b)};
       for (int i = 1; i < elements; ++i) m.nodes.push_back(base + i);
@@ -137,7 +144,8 @@ struct FiveMembers {
     std::vector<Substructure> list;
     for (int p = 0; p < 5; ++p) {
       const auto& m = members[static_cast<std::size_t>(p)];
-      list.push_back(spacePart(m.name, {m}, feet, std::find(own.begin(), own.end(), p) != own.end()));
+      list.push_back(
+          spacePart(m.name, {m}, feet, std::find(own.begin(), own.end(), p) != own.end()));
       std::vector<int> ends;
       for (int node : {m.nodes.front(), m.nodes.back()})
         if (node > 2) ends.push_back(node);
@@ -147,7 +155,9 @@ struct FiveMembers {
   }
   std::vector<coupling::Frame> frames(const std::vector<int>& own) const {
     std::vector<coupling::Frame> list;
-    for (int p : own) list.push_back({members[static_cast<std::size_t>(p)].name, 0, memberAxes(members[static_cast<std::size_t>(p)])});
+    for (int p : own)
+      list.push_back({members[static_cast<std::size_t>(p)].name, 0,
+                      memberAxes(members[static_cast<std::size_t>(p)])});
     return list;
   }
   Substructure whole() const { return spacePart("whole", members, feet); }

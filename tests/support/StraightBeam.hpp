@@ -33,7 +33,8 @@ struct StraightBeam {
   std::vector<int> free(const std::vector<int>& components, const std::vector<int>& held) const {
     std::vector<int> out;
     for (int i = 0; i < 6 * (elements + 1); ++i)
-      if (std::count(components.begin(), components.end(), i % 6) > 0 && std::count(held.begin(), held.end(), i) == 0)
+      if (std::count(components.begin(), components.end(), i % 6) > 0 &&
+          std::count(held.begin(), held.end(), i) == 0)
         out.push_back(i);
     return out;
   }

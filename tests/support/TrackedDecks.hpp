@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The decks of a folder that belong to the project. A deck that git does not know is a user's own and no test's concern.
+/// The decks of a folder that belong to the project. A deck that git does not know is a user's own
+/// and no test's concern.
 #pragma once
 
 #include <algorithm>
@@ -19,25 +20,31 @@ inline std::optional<std::vector<std::string>> linesOf(const std::string& comman
   if (pipe == nullptr) return std::nullopt;
   std::string text;
   std::array<char, 4096> buffer{};
-  for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) text.append(buffer.data(), count);
+  for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    text.append(buffer.data(), count);
   if (pclose(pipe) != 0) return std::nullopt;
   std::vector<std::string> lines;
-  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
+  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos;
+       begin = end + 1)
     lines.push_back(text.substr(begin, end - begin));
   return lines;
 }
 
-/// Names of the *.xml of `folder`, sorted, without those of folders inside it: the ones git tracks, or all of them where git
-/// tracks nothing there (sources that were unpacked from an archive).
+/// Names of the *.xml of `folder`, sorted, without those of folders inside it: the ones git tracks,
+/// or all of them where git tracks nothing there (sources that were unpacked from an archive).
 inline std::vector<std::string> trackedDecks(const std::string& folder) {
-  auto names = linesOf("git -C '" + folder + "' ls-files 2>/dev/null").value_or(std::vector<std::string>());
+  auto names =
+      linesOf("git -C '" + folder + "' ls-files 2>/dev/null").value_or(std::vector<std::string>());
   if (names.empty())
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
   const auto isDeck = [&](const std::string& name) {
-    return std::filesystem::path(name).extension() == ".xml" && name.find('/') == std::string::npos &&
-           std::filesystem::exists(folder + "/" + name);
+    return std::filesystem::path(name).extension() == ".xml" &&
+           name.find('/') == std::string::npos && std::filesystem::exists(folder + "/" + name);
   };
-  names.erase(std::remove_if(names.begin(), names.end(), [&](const auto& name) { return !isDeck(name); }), names.end());
+  names.erase(
+      std::remove_if(names.begin(), names.end(), [&](const auto& name) { return !isDeck(name); }),
+      names.end());
   std::sort(names.begin(), names.end());
   return names;
 }

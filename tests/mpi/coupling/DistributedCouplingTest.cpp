@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The frequencies of a frame with a loop on any number of ranks, coupled primal, dual and with interface reductions, against those one
-/// rank gets by itself and against the frame as one piece.
+/// The frequencies of a frame with a loop on any number of ranks, coupled primal, dual and with
+/// interface reductions, against those one rank gets by itself and against the frame as one piece.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -53,7 +53,8 @@ Vector alone(const samples::FiveMembers& frame, const Way& way) {
     reduction::ModeRequest request;
     request.kind = reduction::ModeRequest::Kind::Count;
     request.count = kKept;
-    reduced.push_back(reduction::reduce(parts[p], basis->build(parts[p], request), {}, static_cast<int>(p)));
+    reduced.push_back(
+        reduction::reduce(parts[p], basis->build(parts[p], request), {}, static_cast<int>(p)));
   }
   auto coupled = coupleWithPositions(reduced, options(frame, way));
   if (way.interface) reduceInterfaces(coupled, *way.interface);
@@ -70,7 +71,8 @@ TEST(DistributedCoupling, FrequenciesDoNotDependOnTheRanks) {
   for (const Way& way : ways()) {
     chosen.interface = way.interface;
     const auto together = synthesise(frame.parts(own), *basis, chosen, options(frame, way));
-    const Vector found = lowestModes(together.coupled.model, kModes).values, expected = alone(frame, way);
+    const Vector found = lowestModes(together.coupled.model, kModes).values,
+                 expected = alone(frame, way);
     for (int i = 0; i < kModes; ++i) {
       // frequencies to 1e-10: their squares to 2e-10
       EXPECT_NEAR(found[i] / expected[i], 1.0, 2e-10) << way.name << ", mode " << i + 1;
@@ -78,7 +80,8 @@ TEST(DistributedCoupling, FrequenciesDoNotDependOnTheRanks) {
     }
     Vector root = found;
     parallel::broadcast(root, 0);
-    EXPECT_EQ(parallel::maximum((root - found).cwiseAbs().maxCoeff()), 0.0) << "every rank holds the same numbers";
+    EXPECT_EQ(parallel::maximum((root - found).cwiseAbs().maxCoeff()), 0.0)
+        << "every rank holds the same numbers";
     if (!way.interface) {
       EXPECT_NEAR(found[0] / exact[0], 1.0, 1e-4) << way.name;
     }

@@ -19,7 +19,8 @@ namespace {
 using namespace tooljoint;
 
 Vector frequencies(const model::SecondOrderModel& model, int count) {
-  return linalg::lowestModes(coupling::undampedStiffness(model), reduction::symmetricPart(model.mass), count)
+  return linalg::lowestModes(coupling::undampedStiffness(model),
+                             reduction::symmetricPart(model.mass), count)
       .values.cwiseAbs()
       .cwiseSqrt();
 }
@@ -28,18 +29,21 @@ Vector frequencies(const model::SecondOrderModel& model, int count) {
 double spread(const Vector& mine) {
   Vector root = mine;
   parallel::broadcast(root, 0);
-  return parallel::maximum(root.size() == mine.size() ? (root - mine).cwiseAbs().maxCoeff() : 1e300);
+  return parallel::maximum(root.size() == mine.size() ? (root - mine).cwiseAbs().maxCoeff()
+                                                      : 1e300);
 }
 
 /// The parts reduced by this rank alone, with the numbers of modes of `like`, and coupled.
-model::SecondOrderModel alone(const std::vector<model::Substructure>& parts, const coupling::Synthesis& like) {
+model::SecondOrderModel alone(const std::vector<model::Substructure>& parts,
+                              const coupling::Synthesis& like) {
   const auto basis = reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList());
   std::vector<reduction::ReducedSubstructure> reduced;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     reduction::ModeRequest request;
     request.kind = reduction::ModeRequest::Kind::Count;
     request.count = like.parts[p].modes;
-    reduced.push_back(reduction::reduce(parts[p], basis->build(parts[p], request), {}, static_cast<int>(p)));
+    reduced.push_back(
+        reduction::reduce(parts[p], basis->build(parts[p], request), {}, static_cast<int>(p)));
   }
   return coupling::couple(reduced);
 }
@@ -50,13 +54,15 @@ void expectSame(const std::vector<model::Substructure>& parts, double tolerance)
   options.modes.frequencyTolerance = tolerance;
   estimate::EstimateOptions estimates;
   estimates.window.count = 12;
-  const auto outcome =
-      estimate::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options, estimates);
+  const auto outcome = estimate::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options, estimates);
   const Vector together = frequencies(outcome.synthesis.coupled.model, 12);
   const Vector single = frequencies(alone(parts, outcome.synthesis), 12);
-  for (Eigen::Index i = 0; i < together.size(); ++i) EXPECT_NEAR(together[i], single[i], 1e-10 * single[i]) << i;
+  for (Eigen::Index i = 0; i < together.size(); ++i)
+    EXPECT_NEAR(together[i], single[i], 1e-10 * single[i]) << i;
   Vector numbers(static_cast<Eigen::Index>(parts.size() + outcome.frequencies.size()));
-  for (std::size_t p = 0; p < parts.size(); ++p) numbers[static_cast<Eigen::Index>(p)] = outcome.synthesis.parts[p].modes;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    numbers[static_cast<Eigen::Index>(p)] = outcome.synthesis.parts[p].modes;
   for (std::size_t j = 0; j < outcome.frequencies.size(); ++j)
     numbers[static_cast<Eigen::Index>(parts.size() + j)] = outcome.frequencies[j].error;
   EXPECT_EQ(spread(numbers), 0.0) << "every rank chooses and estimates the same";
@@ -68,19 +74,23 @@ TEST(DistributedEstimate, AFrameHasTheSameFrequenciesOnAnyNumberOfRanks) {
 }
 
 TEST(DistributedEstimate, TheReferenceSceneHasTheSameFrequenciesOnAnyNumberOfRanks) {
-  const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", {});
+  const auto scene =
+      app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", {});
   expectSame(app::cut(scene, app::settle(scene)), 1e-4);
 }
 
 TEST(DistributedEstimate, CriteriaOfTheInterfaceChooseTheSameOnEveryRank) {
-  for (const auto kind : {reduction::ModeRule::Kind::InterfaceMass, reduction::ModeRule::Kind::InterfaceMoment}) {
+  for (const auto kind :
+       {reduction::ModeRule::Kind::InterfaceMass, reduction::ModeRule::Kind::InterfaceMoment}) {
     reduction::ReductionOptions options;
     options.modes.kind = kind;
     options.modes.fraction = 0.95;
     const auto parts = samples::loopFrame(12, true, true);
-    const auto reduced = reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+    const auto reduced = reduction::reduceAll(
+        parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
     Vector numbers(static_cast<Eigen::Index>(parts.size()));
-    for (std::size_t p = 0; p < parts.size(); ++p) numbers[static_cast<Eigen::Index>(p)] = reduced[p].basis->eigenvalues.sum();
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      numbers[static_cast<Eigen::Index>(p)] = reduced[p].basis->eigenvalues.sum();
     EXPECT_EQ(spread(numbers), 0.0);
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The canary: every solver of the toolkit on every rank of a job of several. KLU2 of Trilinos 13.2 returns wrong solutions
-/// without a word for matrices on communicators of two and more ranks, and for its own transposed solve; these tests fail
-/// when a solver of ours comes to lie on such a communicator, and hang when one of them waits for another rank.
+/// The canary: every solver of the toolkit on every rank of a job of several. KLU2 of Trilinos 13.2
+/// returns wrong solutions without a word for matrices on communicators of two and more ranks, and
+/// for its own transposed solve; these tests fail when a solver of ours comes to lie on such a
+/// communicator, and hang when one of them waits for another rank.
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The same reduced parts and the same coupled model on any number of ranks, and one sentence for an error on one of them.
+/// The same reduced parts and the same coupled model on any number of ranks, and one sentence for
+/// an error on one of them.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -36,14 +37,15 @@ std::vector<model::Substructure> frame() {
 
 /// What one rank gets without any other.
 std::vector<ReducedSubstructure> alone(const std::vector<model::Substructure>& parts,
-                                       const std::vector<ReducedSubstructure>& like, const Basis& basis,
-                                       const ReductionOptions& chosen) {
+                                       const std::vector<ReducedSubstructure>& like,
+                                       const Basis& basis, const ReductionOptions& chosen) {
   std::vector<ReducedSubstructure> reduced;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     ModeRequest request;
     request.kind = ModeRequest::Kind::Count;
     request.count = like[p].modes;
-    reduced.push_back(reduce(parts[p], basis.build(parts[p], request), chosen, static_cast<int>(p)));
+    reduced.push_back(
+        reduce(parts[p], basis.build(parts[p], request), chosen, static_cast<int>(p)));
   }
   return reduced;
 }
@@ -58,14 +60,17 @@ double difference(const Sparse& a, const Sparse& b) {
 double spread(const Vector& mine) {
   Vector root = mine;
   parallel::broadcast(root, 0);
-  const double local = root.size() == mine.size() ? (root.size() > 0 ? (root - mine).cwiseAbs().maxCoeff() : 0.0) : 1e300;
+  const double local = root.size() == mine.size()
+                           ? (root.size() > 0 ? (root - mine).cwiseAbs().maxCoeff() : 0.0)
+                           : 1e300;
   return parallel::maximum(local);
 }
 
 TEST(DistributedReduction, IsTheReductionOfOneRank) {
   const auto parts = frame();
   const auto basis = makeBasis("Craig-Bampton", Teuchos::ParameterList());
-  for (const auto kind : {ModeRule::Kind::PerPart, ModeRule::Kind::Total, ModeRule::Kind::CutOff, ModeRule::Kind::All}) {
+  for (const auto kind : {ModeRule::Kind::PerPart, ModeRule::Kind::Total, ModeRule::Kind::CutOff,
+                          ModeRule::Kind::All}) {
     const auto chosen = options(kind);
     const auto together = reduceAll(parts, *basis, chosen);
     const auto single = alone(parts, together, *basis, chosen);
@@ -100,7 +105,8 @@ TEST(DistributedReduction, AnErrorOnOneRankIsTheErrorOfAll) {
   } catch (const ModelError& error) {
     sentence = error.what();
   }
-  EXPECT_NE(sentence.find("Part \"cantilever\": its interior is a mechanism"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("Part \"cantilever\": its interior is a mechanism"), std::string::npos)
+      << sentence;
   std::string root = sentence;
   parallel::broadcast(root, 0);
   EXPECT_EQ(sentence, root);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static equilibrium where walls are stiff, contact laws sharp or both: a kilometre of string hanging over inclined collars
-/// and one lying in an inclined well. It settles, and what it settles in is what softer walls tend to; where it cannot, the error
-/// says why.
+/// The static equilibrium where walls are stiff, contact laws sharp or both: a kilometre of string
+/// hanging over inclined collars and one lying in an inclined well. It settles, and what it settles
+/// in is what softer walls tend to; where it cannot, the error says why.
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
@@ -12,14 +12,17 @@ namespace {
 
 using namespace tooljoint;
 
-equilibrium::StaticState settled(const std::string& deck, const std::vector<std::string>& overrides) {
-  return app::settle(app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml", overrides)).state;
+equilibrium::StaticState settled(const std::string& deck,
+                                 const std::vector<std::string>& overrides) {
+  return app::settle(
+             app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml", overrides))
+      .state;
 }
 
 constexpr double tolerance = 1e-9;
 
-/// Nodes with more than a thousandth of all contact force, which is what a wall of 1e8 N/m leaves open: nodes that graze the wall
-/// touch or not by micrometres.
+/// Nodes with more than a thousandth of all contact force, which is what a wall of 1e8 N/m leaves
+/// open: nodes that graze the wall touch or not by micrometres.
 int carrying(const equilibrium::StaticState& state) {
   return static_cast<int>((state.normalForce.array() > 1e-3 * state.totalNormalForce).count());
 }
@@ -31,9 +34,11 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
     EXPECT_LE(stiff.report.residual, tolerance) << stiffness;
     EXPECT_EQ(carrying(stiff), carrying(soft)) << stiffness;
     // a wall of 1e8 N/m yields 0.03 mm, a thousandth of the clearance: about as much of the forces
-    EXPECT_NEAR(stiff.totalNormalForce, soft.totalNormalForce, 1e-2 * soft.totalNormalForce) << stiffness;
+    EXPECT_NEAR(stiff.totalNormalForce, soft.totalNormalForce, 1e-2 * soft.totalNormalForce)
+        << stiffness;
     // F_n = k_c (G - 1/(pi^2 lambda)) well inside the wall
-    const double k = std::stod(stiffness), force = k * (stiff.gap(stiff.maxNormalForceNode - 1) - 1.0 / (M_PI * M_PI * 7e11));
+    const double k = std::stod(stiffness),
+                 force = k * (stiff.gap(stiff.maxNormalForceNode - 1) - 1.0 / (M_PI * M_PI * 7e11));
     EXPECT_NEAR(stiff.maxNormalForce, force, 1e-6 * force) << stiffness;
   }
 }
@@ -42,22 +47,26 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
 TEST(StiffWalls, TakeAboutAsManyIterationsAsSoftOnes) {
   for (const char* deck : {"vertical_1000m", "inclined_1000m", "helical_170m"})
     for (const char* stiffness : {"1e7", "1e10"})
-      EXPECT_LT(settled(deck, {std::string("Contact/Stiffness=") + stiffness}).report.iterations, 200)
+      EXPECT_LT(settled(deck, {std::string("Contact/Stiffness=") + stiffness}).report.iterations,
+                200)
           << deck << ' ' << stiffness;
 }
 
-/// The law of the paper pulls every open point to the wall with k/(pi^2 lambda), here 101 N: it lies there as far as it can.
+/// The law of the paper pulls every open point to the wall with k/(pi^2 lambda), here 101 N: it
+/// lies there as far as it can.
 TEST(StiffWalls, AStringThatTheLawPullsToTheWallComesToRest) {
-  const auto state = settled("inclined_1000m", {"Contact/Stiffness=1e9", "Contact/Stiffness Regularisation=1e6"});
+  const auto state =
+      settled("inclined_1000m", {"Contact/Stiffness=1e9", "Contact/Stiffness Regularisation=1e6"});
   EXPECT_LE(state.report.residual, tolerance);
   EXPECT_GT(state.contactNodes, 180);  // what rests on the wall without being pulled
   EXPECT_GE(state.normalForce.minCoeff(), -1e9 / (M_PI * M_PI * 1e6));
 }
 
-/// Friction turns what the law pulls to the wall, against the sense in which it turns what lies there: with little of it a
-/// hanging string still rests, with more it has to whirl.
+/// Friction turns what the law pulls to the wall, against the sense in which it turns what lies
+/// there: with little of it a hanging string still rests, with more it has to whirl.
 TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
-  const std::vector<std::string> pulled{"Contact/Stiffness Regularisation=1e6", "Contact/Friction/Dynamic=0.1"};
+  const std::vector<std::string> pulled{"Contact/Stiffness Regularisation=1e6",
+                                        "Contact/Friction/Dynamic=0.1"};
   auto little = pulled, much = pulled;
   little.push_back("Contact/Friction/Static=0.1");
   EXPECT_LE(settled("vertical_1000m", little).report.residual, tolerance);
@@ -66,7 +75,9 @@ TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
     settled("vertical_1000m", much);
     FAIL() << "it rests";
   } catch (const ConvergenceError& error) {
-    EXPECT_NE(std::string(error.what()).find("pulls every open point to the wall with up to 1.01 N"), std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("pulls every open point to the wall with up to 1.01 N"),
+        std::string::npos)
         << error.what();
   }
 }

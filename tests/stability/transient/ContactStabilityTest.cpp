@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Generalized-alpha where Newton has a hard time: sharp contact, sharp friction, stiff walls, no clearance, everything at once.
-/// A step is never kept unconverged in silence; what ends as a result is right.
+/// Generalized-alpha where Newton has a hard time: sharp contact, sharp friction, stiff walls, no
+/// clearance, everything at once. A step is never kept unconverged in silence; what ends as a
+/// result is right.
 #include <gtest/gtest.h>
 
 #include "../../unit/transient/Models.hpp"
@@ -25,8 +26,9 @@ struct Bores {
   std::function<double(double)> speed = [](double) { return 12.57; };
 };
 
-/// A chain of rotors (u, v, theta_z) under gravity, each in a bore with friction. The first four natural frequencies are 3 to 20
-/// Hz laterally, the stiffness between neighbours resembles that of pipe elements.
+/// A chain of rotors (u, v, theta_z) under gravity, each in a bore with friction. The first four
+/// natural frequencies are 3 to 20 Hz laterally, the stiffness between neighbours resembles that of
+/// pipe elements.
 model::SecondOrderModel rotors(const Bores& data) {
   const int n = 3 * data.nodes;
   Matrix M = Matrix::Zero(n, n), K = M, C = M;
@@ -52,8 +54,8 @@ model::SecondOrderModel rotors(const Bores& data) {
   model.loads.push_back({"weight", weight, 0});
   contact::ContactPoints points;
   for (int i = 0; i < data.nodes; ++i)
-    points.add({i + 1, data.clearance, 0.1, data.stiffness, data.damping, data.lambda, data.lambda, data.muStatic, data.muDynamic,
-                data.vr});
+    points.add({i + 1, data.clearance, 0.1, data.stiffness, data.damping, data.lambda, data.lambda,
+                data.muStatic, data.muDynamic, data.vr});
   model::PointSet set;
   set.name = "contact";
   set.law = contact::makeLaw(data.law)->inMotion(points, data.speed);
@@ -96,7 +98,8 @@ TEST(ContactStability, sharpRegularisationsGiveOneMotion) {
   data.lambda = 7e11;
   run(data, samples[1], 2e-4, 0.1);
   for (std::size_t s = 0; s < samples[0].q.size(); ++s)
-    EXPECT_LT((samples[0].q[s] - samples[1].q[s]).cwiseAbs().maxCoeff(), 5e-4);  // 5 % of the clearance, after ten impacts
+    EXPECT_LT((samples[0].q[s] - samples[1].q[s]).cwiseAbs().maxCoeff(),
+              5e-4);  // 5 % of the clearance, after ten impacts
 }
 
 TEST(ContactStability, sharpFrictionAtOneRpm) {
@@ -120,11 +123,12 @@ TEST(ContactStability, spinReversal) {
   expectInside(samples, 0.02);
 }
 
-/// Starts that differ by some per cent: impacts come in another order, and what is asserted of all of them is no accident of one.
+/// Starts that differ by some per cent: impacts come in another order, and what is asserted of all
+/// of them is no accident of one.
 constexpr double lifts[] = {1.0, 0.97, 1.03, 0.9};
 
-/// Contact frequencies of 2 to 22 rad per step, met as impacts: no energy is made, with strong numerical damping or with the
-/// default.
+/// Contact frequencies of 2 to 22 rad per step, met as impacts: no energy is made, with strong
+/// numerical damping or with the default.
 TEST(ContactStability, stiffWalls) {
   for (double stiffness : {1e8, 1e9, 1e10}) {
     Bores data;
@@ -139,7 +143,8 @@ TEST(ContactStability, stiffWalls) {
   }
 }
 
-/// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall and the start.
+/// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall
+/// and the start.
 TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
   for (double stiffness : {1e8, 1e9, 1e10})
     for (double lift : lifts) {
@@ -155,8 +160,9 @@ TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
     }
 }
 
-/// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and too many for an impact: each
-/// rebound adds energy, and the run ends with what to change. Shorter steps are a result.
+/// A mass on a spring that meets a wall whose contact takes 2 rad per step, too few for a force and
+/// too many for an impact: each rebound adds energy, and the run ends with what to change. Shorter
+/// steps are a result.
 TEST(ContactStability, energyThatIsMadeIsRefused) {
   for (double start : {0.005, 0.0051, 0.006}) {
     auto model = oscillator(5.0, 0.0, 5e3, start, 0.3);
@@ -166,10 +172,15 @@ TEST(ContactStability, energyThatIsMadeIsRefused) {
       integrate(model, options("Generalized-alpha", 14.0, 14e-3, 0.14), samples);
       ADD_FAILURE() << "energy out of nothing was taken for a result: " << start;
     } catch (const ConvergenceError& error) {
-      EXPECT_NE(std::string(error.what()).find("out of nothing"), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("smaller Transient/Step"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("out of nothing"), std::string::npos)
+          << error.what();
+      EXPECT_NE(std::string(error.what()).find("smaller Transient/Step"), std::string::npos)
+          << error.what();
     }
-    EXPECT_NEAR(integrate(model, options("Generalized-alpha", 14.0, 1e-3, 0.14), samples).energy.residual(), 0.0, 0.02) << start;
+    EXPECT_NEAR(
+        integrate(model, options("Generalized-alpha", 14.0, 1e-3, 0.14), samples).energy.residual(),
+        0.0, 0.02)
+        << start;
   }
 }
 
@@ -188,13 +199,16 @@ TEST(ContactStability, allContactsGainedAndLostAtOnce) {
   Bores data;
   data.lift = 0.0;  // all on the axis: all reach the wall within the same few steps
   auto model = rotors(data);
-  const int law = model.lawIndex({"toss", [](double t) { return t > 0.15 && t < 0.2 ? 1.0 : 0.0; }});
-  model.loads.push_back({"toss", -40.0 * model.loads[0].vector, law});  // throws all of them off together
+  const int law =
+      model.lawIndex({"toss", [](double t) { return t > 0.15 && t < 0.2 ? 1.0 : 0.0; }});
+  model.loads.push_back(
+      {"toss", -40.0 * model.loads[0].vector, law});  // throws all of them off together
   Keep samples;
   const auto report = integrate(model, options("Generalized-alpha", 0.5, 1e-3, 0.005), samples);
   EXPECT_EQ(report.counters.unconvergedSteps, 0);
   double lowest = 0, highest = 0;
-  for (const auto& q : samples.q) lowest = std::max(lowest, q[30]), highest = std::min(highest, q[30]);
+  for (const auto& q : samples.q)
+    lowest = std::max(lowest, q[30]), highest = std::min(highest, q[30]);
   EXPECT_GT(lowest, 0.01);    // it was on the floor
   EXPECT_LT(highest, -0.01);  // and at the top
 }
@@ -209,10 +223,12 @@ TEST(ContactStability, everyLaw) {
   }
 }
 
-/// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step is wrong, and no run is taken
-/// for a result; one that is asked to go on solves all its steps.
+/// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step
+/// is wrong, and no run is taken for a result; one that is asked to go on solves all its steps.
 TEST(ContactStability, stepTenTimesTooLarge) {
-  constexpr double step = 1e-2, end = 0.8;  // long enough for the local error to be measured however the steps fall
+  constexpr double
+      step = 1e-2,
+      end = 0.8;  // long enough for the local error to be measured however the steps fall
   for (double vr : {0.1, 1e-4})
     for (double lift : lifts) {
       Bores data;
@@ -225,7 +241,9 @@ TEST(ContactStability, stepTenTimesTooLarge) {
         integrate(rotors(data), o, samples);
         ADD_FAILURE() << "steps of 10 ms were taken for a result: " << vr << " " << lift;
       } catch (const ConvergenceError& error) {
-        EXPECT_NE(std::string(error.what()).find("Choose a smaller Transient/Step"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("Choose a smaller Transient/Step"),
+                  std::string::npos)
+            << error.what();
       }
       if (lift != lifts[0]) continue;
       o.own.set("Accept Coarse Steps", true);
@@ -237,8 +255,8 @@ TEST(ContactStability, stepTenTimesTooLarge) {
     }
 }
 
-/// One rotor, friction so sharp that the plain Newton iteration runs in a circle: the full step from one side of the friction
-/// curve lands on the other, where the curve is flat again.
+/// One rotor, friction so sharp that the plain Newton iteration runs in a circle: the full step
+/// from one side of the friction curve lands on the other, where the curve is flat again.
 TEST(ContactStability, plainNewtonFailsWhereTheLineSearchDoesNot) {
   const double inertia = 0.1, torque = 50, vr = 1e-4, h = 1e-3, omega = 0.1;
   const auto friction = [&](double v) { return torque * std::tanh(v / vr); };

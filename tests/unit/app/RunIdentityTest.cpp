@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What a checkpoint is matched with: every input that changes the numbers is in the identity of a run, nothing else is.
+/// What a checkpoint is matched with: every input that changes the numbers is in the identity of a
+/// run, nothing else is.
 #include "app/RunIdentity.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@ using namespace tooljoint;
 const std::string source = TOOLJOINT_SOURCE_DIR;
 
 std::string ofString(const std::vector<std::string>& overrides) {
-  return app::runIdentity(deck::Deck::read(source + "/tests/effects/scene.xml", app::sceneSpec(), overrides));
+  return app::runIdentity(
+      deck::Deck::read(source + "/tests/effects/scene.xml", app::sceneSpec(), overrides));
 }
 
 TEST(RunIdentity, hasEveryInput) {
@@ -54,9 +56,10 @@ TEST(RunIdentity, hasEveryInput) {
                              "!Mud",
                              "!Reduction"})
     EXPECT_NE(ofString({change}), same) << change;
-  for (const char* change : {"Transient/Progress=true", "Transient/Checkpoint Interval=0.01", "Output/Folder=elsewhere",
-                             "Output/CSV=false", "Output/Compression=9"})
-    EXPECT_EQ(ofString({change}), same) << change << ": " << app::identityDifferences(same, ofString({change}));
+  for (const char* change : {"Transient/Progress=true", "Transient/Checkpoint Interval=0.01",
+                             "Output/Folder=elsewhere", "Output/CSV=false", "Output/Compression=9"})
+    EXPECT_EQ(ofString({change}), same)
+        << change << ": " << app::identityDifferences(same, ofString({change}));
 }
 
 /// Where checkpoints come matters to SUNDIALS, which begins anew there.
@@ -69,26 +72,33 @@ TEST(RunIdentity, hasTheCheckpointIntervalWhereItMatters) {
 TEST(RunIdentity, namesWhatDiffers) {
   const auto same = ofString({});
   EXPECT_EQ(app::identityDifferences(same, same), "");
-  EXPECT_EQ(app::identityDifferences(same, ofString({"Contact/Stiffness=1.5e7"})), "Contact/Stiffness was 1e+07 and is 1.5e+07");
+  EXPECT_EQ(app::identityDifferences(same, ofString({"Contact/Stiffness=1.5e7"})),
+            "Contact/Stiffness was 1e+07 and is 1.5e+07");
   const auto fewer = app::identityDifferences(same, ofString({"!Damping"}));
   EXPECT_EQ(fewer,
-            "Damping was list and is not given; Damping/Mass Coefficient was 0.1 and is not given; Damping/Stiffness Coefficient "
+            "Damping was list and is not given; Damping/Mass Coefficient was 0.1 and is not given; "
+            "Damping/Stiffness Coefficient "
             "was 0 and is not given");
 }
 
-/// Files count by their content: of a part, of what stands in its folder, and of whatever a pattern matches.
+/// Files count by their content: of a part, of what stands in its folder, and of whatever a pattern
+/// matches.
 TEST(RunIdentity, hasTheContentOfFiles) {
   const test::Scratch scratch;
   namespace fs = std::filesystem;
   fs::copy(source + "/xml/frame", scratch / "frame", fs::copy_options::recursive);
   fs::copy(source + "/xml/frame.xml", scratch / "frame.xml");
   const auto now = [&](const std::vector<std::string>& overrides) {
-    return app::runIdentity(deck::Deck::read(scratch / "frame.xml", app::partsSceneSpec(), overrides));
+    return app::runIdentity(
+        deck::Deck::read(scratch / "frame.xml", app::partsSceneSpec(), overrides));
   };
-  const auto change = [&](const std::string& name) { io::writeText(scratch / name, io::readText(scratch / name) + "\n"); };
+  const auto change = [&](const std::string& name) {
+    io::writeText(scratch / name, io::readText(scratch / name) + "\n");
+  };
   auto before = now({});
   change("frame/arm/K.mtx");
-  EXPECT_EQ(app::identityDifferences(before, now({})), "the content of the file of Parts/Imported/arm/File/K.mtx has changed");
+  EXPECT_EQ(app::identityDifferences(before, now({})),
+            "the content of the file of Parts/Imported/arm/File/K.mtx has changed");
   before = now({});
   change("frame/arm/part.json");
   EXPECT_NE(now({}), before);
@@ -99,7 +109,8 @@ TEST(RunIdentity, hasTheContentOfFiles) {
 
   io::writeText(scratch / "vectors of arm.mtx", "1");
   io::writeText(scratch / "other.mtx", "1");
-  const std::vector<std::string> user{"Reduction/Basis=User Vectors", "Reduction/User Vectors/File=vectors of %.mtx"};
+  const std::vector<std::string> user{"Reduction/Basis=User Vectors",
+                                      "Reduction/User Vectors/File=vectors of %.mtx"};
   before = now(user);
   change("other.mtx");
   EXPECT_EQ(now(user), before);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The corotational element against finite differences, rigid motions and its own linear element.
-#include <gtest/gtest.h>
+#include "substructures/beam/Corotational.hpp"
 
 #include <Eigen/Geometry>
-
+#include <gtest/gtest.h>
 #include <random>
 
-#include "substructures/beam/Corotational.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::beam {
@@ -23,7 +22,8 @@ Vector3 randomVector(std::mt19937& generator, double size) {
 Section lopsided() { return Section::general(2.0, 1.3, 0.9, 1.7, Material{1.0, 10.0, 0.3}); }
 
 CorotationalElement bentAtRest() {
-  return CorotationalElement(lopsided(), 1.2, rotationExponential({0.1, 0.2, 0.3}), rotationExponential({0.2, 0.2, 0.3}),
+  return CorotationalElement(lopsided(), 1.2, rotationExponential({0.1, 0.2, 0.3}),
+                             rotationExponential({0.2, 0.2, 0.3}),
                              rotationExponential({0.1, 0.1, 0.5}));
 }
 
@@ -32,7 +32,9 @@ ElementPose deformed(std::mt19937& generator, double amplitude) {
   pose.position1 = randomVector(generator, 1.0);
   pose.triad1 = rotationExponential(randomVector(generator, 1.5));
   pose.triad2 = pose.triad1 * rotationExponential(randomVector(generator, amplitude));
-  pose.position2 = pose.position1 + 1.4 * (pose.triad1 * (Vector3::UnitZ() + randomVector(generator, 0.5 * amplitude)));
+  pose.position2 =
+      pose.position1 +
+      1.4 * (pose.triad1 * (Vector3::UnitZ() + randomVector(generator, 0.5 * amplitude)));
   return pose;
 }
 
@@ -52,7 +54,10 @@ TEST(Rotation, ExponentialAndLogarithmAreInverse) {
     const Matrix3 r = rotationExponential(theta);
     EXPECT_LT((r * r.transpose() - Matrix3::Identity()).norm(), 1e-14);
     EXPECT_LT((rotationLogarithm(r) - theta).norm(), 1e-14 + 1e-14 * size) << size;
-    EXPECT_LT((spinFromRotationVector(theta) * rotationVectorFromSpin(theta) - Matrix3::Identity()).norm(), 1e-13) << size;
+    EXPECT_LT((spinFromRotationVector(theta) * rotationVectorFromSpin(theta) - Matrix3::Identity())
+                  .norm(),
+              1e-13)
+        << size;
   }
 }
 
@@ -66,10 +71,12 @@ TEST(Rotation, SpinMapAndItsDerivativeAgreeWithDifferences) {
     Matrix3 derivative;
     for (int j = 0; j < 3; ++j) {
       const Vector3 step = h * Vector3::Unit(j);
-      const Matrix3 turn = rotationExponential(theta + step) * rotationExponential(theta - step).transpose();
+      const Matrix3 turn =
+          rotationExponential(theta + step) * rotationExponential(theta - step).transpose();
       spin.col(j) = rotationLogarithm(turn) / (2.0 * h);
       derivative.col(j) = (rotationVectorFromSpin(theta + step).transpose() * v -
-                           rotationVectorFromSpin(theta - step).transpose() * v) / (2.0 * h);
+                           rotationVectorFromSpin(theta - step).transpose() * v) /
+                          (2.0 * h);
     }
     EXPECT_LT((spin - spinFromRotationVector(theta)).norm(), 1e-9) << size;
     EXPECT_LT((derivative - inverseSpinTransposeDerivative(theta, v)).norm(), 1e-9) << size;
@@ -86,9 +93,11 @@ TEST(Corotational, TangentIsExact) {
     Matrix12 difference;
     const double h = 1e-6;
     for (int j = 0; j < 12; ++j)
-      difference.col(j) =
-          (element.evaluate(moved(pose, j, h), false).force - element.evaluate(moved(pose, j, -h), false).force) / (2.0 * h);
-    EXPECT_LT((tangent - difference).cwiseAbs().maxCoeff(), 2e-9 * difference.cwiseAbs().maxCoeff()) << amplitude;
+      difference.col(j) = (element.evaluate(moved(pose, j, h), false).force -
+                           element.evaluate(moved(pose, j, -h), false).force) /
+                          (2.0 * h);
+    EXPECT_LT((tangent - difference).cwiseAbs().maxCoeff(), 2e-9 * difference.cwiseAbs().maxCoeff())
+        << amplitude;
   }
 }
 
@@ -113,34 +122,38 @@ TEST(Corotational, ForcesTurnWithTheElementAndBalance) {
   const Vector12 force = element.evaluate(pose, false).force;
   const Matrix3 turn = rotationExponential({2.0, -1.0, 0.7});
   const Vector3 shift(3.0, -4.0, 5.0);
-  const ElementPose turned{turn * pose.position1 + shift, turn * pose.position2 + shift, turn * pose.triad1,
-                           turn * pose.triad2};
+  const ElementPose turned{turn * pose.position1 + shift, turn * pose.position2 + shift,
+                           turn * pose.triad1, turn * pose.triad2};
   const Vector12 after = element.evaluate(turned, false).force;
   for (int b = 0; b < 4; ++b)
-    EXPECT_LT((after.segment<3>(3 * b) - turn * force.segment<3>(3 * b)).norm(), 1e-12 * force.norm());
+    EXPECT_LT((after.segment<3>(3 * b) - turn * force.segment<3>(3 * b)).norm(),
+              1e-12 * force.norm());
   const Vector3 force2 = force.segment<3>(6);
   EXPECT_LT((force.segment<3>(0) + force2).norm(), 1e-13 * force.norm());
-  const Vector3 moment = force.segment<3>(3) + force.segment<3>(9) + (pose.position2 - pose.position1).cross(force2);
+  const Vector3 moment =
+      force.segment<3>(3) + force.segment<3>(9) + (pose.position2 - pose.position1).cross(force2);
   EXPECT_LT(moment.norm(), 1e-13 * force.norm());
 }
 
 TEST(Corotational, TangentAtRestIsTheLinearElement) {
   const Section steel = Section::hollow(0.08, 0.04, Material{});
   const CorotationalElement element(steel, 1.1);
-  const ElementPose pose{Vector3::Zero(), {0.0, 0.0, 1.1}, Matrix3::Identity(), Matrix3::Identity()};
+  const ElementPose pose{
+      Vector3::Zero(), {0.0, 0.0, 1.1}, Matrix3::Identity(), Matrix3::Identity()};
   const Matrix12 linear = stiffness(steel, 1.1);
   EXPECT_LT((element.evaluate(pose, true).tangent - linear).norm(), 1e-12 * linear.norm());
 }
 
 TEST(Corotational, TangentCarriesTheAxialForceAndTheTorque) {
-  // A stretched and twisted straight element: the parts of the tangent that depend on N and T are those of the
-  // geometric stiffness at leading order, compared on a rotation of the chord (the Hermite matrix adds bending of
-  // the element, which the corotational one leaves to the mesh).
+  // A stretched and twisted straight element: the parts of the tangent that depend on N and T are
+  // those of the geometric stiffness at leading order, compared on a rotation of the chord (the
+  // Hermite matrix adds bending of the element, which the corotational one leaves to the mesh).
   const Section steel = Section::hollow(0.08, 0.04, Material{});
   const double l = 1.0;
   const CorotationalElement element(steel, l);
   const double strain = 1e-4;
-  const ElementPose pose{Vector3::Zero(), {0.0, 0.0, l * (1.0 + strain)}, Matrix3::Identity(), Matrix3::Identity()};
+  const ElementPose pose{
+      Vector3::Zero(), {0.0, 0.0, l * (1.0 + strain)}, Matrix3::Identity(), Matrix3::Identity()};
   const CorotationalResponse response = element.evaluate(pose, true);
   Vector12 rotation = Vector12::Zero();  // rigid rotation about y: u2 = l theta_y
   rotation(4) = rotation(10) = 1.0;
@@ -153,7 +166,8 @@ TEST(Corotational, TangentCarriesTheAxialForceAndTheTorque) {
 
 TEST(Corotational, CoincidentNodesAreRefused) {
   const CorotationalElement element(lopsided(), 1.0);
-  const ElementPose pose{Vector3::Zero(), Vector3::Zero(), Matrix3::Identity(), Matrix3::Identity()};
+  const ElementPose pose{Vector3::Zero(), Vector3::Zero(), Matrix3::Identity(),
+                         Matrix3::Identity()};
   EXPECT_THROW(element.evaluate(pose, false), ModelError);
 }
 

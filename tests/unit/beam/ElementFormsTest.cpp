@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every element matrix as the bilinear form it discretises, on motions the element represents exactly. The forms are those of
-/// Nguyen et al. 2020, section 2.1, equations (4) and (5), with u' = theta_y, v' = -theta_x.
+/// Every element matrix as the bilinear form it discretises, on motions the element represents
+/// exactly. The forms are those of Nguyen et al. 2020, section 2.1, equations (4) and (5), with u'
+/// = theta_y, v' = -theta_x.
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -22,7 +23,9 @@ constexpr double kDensity = 7.0, kYoung = 11.0, kPoisson = 0.25;
 constexpr double kShear = kYoung / 2.5;
 
 /// Axis-dependent second moments, no shear deformation.
-Section unequal() { return Section::general(1.3, 2.0, 5.0, 3.0, Material{kDensity, kYoung, kPoisson}); }
+Section unequal() {
+  return Section::general(1.3, 2.0, 5.0, 3.0, Material{kDensity, kYoung, kPoisson});
+}
 
 /// virtual' X real for the first and the second motion.
 double form(const Matrix12& x) {
@@ -37,7 +40,9 @@ double expected(const Integrand& f) {
   return integral(0.0, kLength, [&](double z) { return f(a, b, z); });
 }
 
-void expectForm(const Matrix12& x, double value) { EXPECT_NEAR(form(x), value, 1e-12 * (std::abs(value) + 1.0)); }
+void expectForm(const Matrix12& x, double value) {
+  EXPECT_NEAR(form(x), value, 1e-12 * (std::abs(value) + 1.0));
+}
 
 TEST(ElementForms, StiffnessIsTheStrainEnergy) {
   const Section s = unequal();
@@ -49,8 +54,9 @@ TEST(ElementForms, StiffnessIsTheStrainEnergy) {
              }));
 }
 
-/// A cantilever of one Timoshenko element under a tip force P: P l^3/(3 E I) + P l/(beta G S), its slope P l^2/(2 E I), and the
-/// reactions P and P l at the clamped end, whichever of the two ends that is.
+/// A cantilever of one Timoshenko element under a tip force P: P l^3/(3 E I) + P l/(beta G S), its
+/// slope P l^2/(2 E I), and the reactions P and P l at the clamped end, whichever of the two ends
+/// that is.
 TEST(ElementForms, ShearDeformsACantileverByItsOwnShare) {
   const Section s = Section::hollow(0.08, 0.03, Material{7900.0, 2.0e11, 0.3});
   const double l = 0.4, force = 1e3;
@@ -82,8 +88,10 @@ TEST(ElementForms, MassIsTheKineticEnergy) {
   const Section s = unequal();
   expectForm(mass(s, kLength), expected([&](const auto& a, const auto& b, double z) {
                return kDensity *
-                      (s.area() * (a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z) + a.w.value(z) * b.w.value(z)) +
-                       s.inertiaY() * a.u.slope(z) * b.u.slope(z) + s.inertiaX() * a.v.slope(z) * b.v.slope(z) +
+                      (s.area() * (a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z) +
+                                   a.w.value(z) * b.w.value(z)) +
+                       s.inertiaY() * a.u.slope(z) * b.u.slope(z) +
+                       s.inertiaX() * a.v.slope(z) * b.v.slope(z) +
                        s.polar() * a.twist.value(z) * b.twist.value(z));
              }));
 }
@@ -99,7 +107,8 @@ TEST(ElementForms, GyroscopicCouplingIsThatOfTheSpinningDiscs) {
 /// rho I_p int theta_z dz for a theta_z linear along the element.
 TEST(ElementForms, SpinLoadIsThePolarInertiaAlongTheElement) {
   const Section s = unequal();
-  const double sum = integral(0.0, kLength, [&](double z) { return kDensity * s.polar() * firstMotion().twist.value(z); });
+  const double sum = integral(
+      0.0, kLength, [&](double z) { return kDensity * s.polar() * firstMotion().twist.value(z); });
   EXPECT_NEAR(firstMotion().dofs({0.0, kLength}).dot(spinLoad(s, kLength)), sum, 1e-12);
 }
 
@@ -123,20 +132,24 @@ TEST(ElementForms, IntegralsOfTheShapeFunctions) {
   expectForm(lateralSlopeSlope(kLength), expected([](const auto& a, const auto& b, double z) {
                return a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z);
              }));
-  expectForm(axialMass(kLength), expected([](const auto& a, const auto& b, double z) { return a.w.value(z) * b.w.value(z); }));
+  expectForm(axialMass(kLength), expected([](const auto& a, const auto& b, double z) {
+               return a.w.value(z) * b.w.value(z);
+             }));
 }
 
 /// A constant distributed force does the work int q . d dz on every motion of the element.
 TEST(ElementForms, DistributedLoadDoesTheWorkOfTheForce) {
   const Vector3 q(3.0, -4.0, 5.0);
   const PolynomialMotion a = firstMotion();
-  const double work =
-      integral(0.0, kLength, [&](double z) { return q.x() * a.u.value(z) + q.y() * a.v.value(z) + q.z() * a.w.value(z); });
+  const double work = integral(0.0, kLength, [&](double z) {
+    return q.x() * a.u.value(z) + q.y() * a.v.value(z) + q.z() * a.w.value(z);
+  });
   EXPECT_NEAR(a.dofs({0.0, kLength}).dot(distributedLoad(q, kLength)), work, 1e-12);
 }
 
-/// A shaft whose sections all carry the moment T e_z: its component across the tangent (u', v', 1) bends it, E I u'' = -T v',
-/// E I v'' = T u'. The helix u = cos(k z), v = sin(k z), k = T/(E I), needs no force between its ends; its mirror image does.
+/// A shaft whose sections all carry the moment T e_z: its component across the tangent (u', v', 1)
+/// bends it, E I u'' = -T v', E I v'' = T u'. The helix u = cos(k z), v = sin(k z), k = T/(E I),
+/// needs no force between its ends; its mirror image does.
 TEST(ElementForms, TorqueBendsAStraightShaftIntoAHelixOfItsOwnHand) {
   const double rigidity = 3.0, torque = 2.0, k = torque / rigidity;
   const int elements = 40;
@@ -149,10 +162,12 @@ TEST(ElementForms, TorqueBendsAStraightShaftIntoAHelixOfItsOwnHand) {
     Vector d = Vector::Zero(6 * (elements + 1));
     for (int n = 0; n <= elements; ++n) {
       const double z = n * l;
-      d.segment<6>(6 * n) << std::cos(k * z), hand * std::sin(k * z), 0.0, -hand * k * std::cos(k * z), -k * std::sin(k * z), 0.0;
+      d.segment<6>(6 * n) << std::cos(k * z), hand * std::sin(k * z), 0.0,
+          -hand * k * std::cos(k * z), -k * std::sin(k * z), 0.0;
     }
     const Vector force = whole * d;
-    return force.segment(6, 6 * (elements - 1)).norm() / (stiffness(s, l) * d.segment<12>(0)).norm();
+    return force.segment(6, 6 * (elements - 1)).norm() /
+           (stiffness(s, l) * d.segment<12>(0)).norm();
   };
   EXPECT_LT(residual(1.0), 1e-4);
   EXPECT_GT(residual(-1.0), 1e-2);

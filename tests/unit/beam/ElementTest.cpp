@@ -30,7 +30,8 @@ TEST(Section, HollowCircle) {
   EXPECT_NEAR(s.area(), pi * (0.0635 * 0.0635 - 0.054 * 0.054), 1e-18);
   EXPECT_DOUBLE_EQ(s.polar(), 2.0 * s.inertiaX());
   EXPECT_DOUBLE_EQ(s.torsion(), s.polar());
-  EXPECT_NEAR(s.shearFactor(1.8), 12 * 2.03e11 * s.inertiaX() / (2.03e11 / 2.6 * s.area() * 0.9 * 1.8 * 1.8), 1e-15);
+  EXPECT_NEAR(s.shearFactor(1.8),
+              12 * 2.03e11 * s.inertiaX() / (2.03e11 / 2.6 * s.area() * 0.9 * 1.8 * 1.8), 1e-15);
   EXPECT_EQ(s.withoutShear().shearFactor(1.8), 0.0);
   EXPECT_THROW(Section::hollow(0.05, 0.06, Material{}), ModelError);
   EXPECT_THROW(Section::general(1.0, 1.0, 0.0, 1.0, Material{}), ModelError);
@@ -145,14 +146,16 @@ TEST(Element, RotationMovesARigidTranslationIntoTheElementFrame) {
   EXPECT_LT((local.segment<3>(6) - e.transpose() * move).norm(), 1e-14);
 }
 
-/// On a curved element the spin of a node about its own tangent, theta = t, turns no tangent: it has no slope. Everything else is
-/// as in the element frame. Without it the spin tilts the ends of the chord by -+kappa l/2, and K_g of a tension F resists it.
+/// On a curved element the spin of a node about its own tangent, theta = t, turns no tangent: it
+/// has no slope. Everything else is as in the element frame. Without it the spin tilts the ends of
+/// the chord by -+kappa l/2, and K_g of a tension F resists it.
 TEST(Element, SlopesDoNotKnowTheSpin) {
   const double l = 9.0, kappa = 1.745e-3;
   const auto tilted = [&](double angle) {
     return rotationExponential(Vector3(0.0, angle, 0.0));
   };  // about y, in the plane of the arc
-  const Matrix12 r = rotation12(Matrix3::Identity(), tilted(-0.5 * kappa * l), tilted(0.5 * kappa * l));
+  const Matrix12 r =
+      rotation12(Matrix3::Identity(), tilted(-0.5 * kappa * l), tilted(0.5 * kappa * l));
   const Matrix12 slopes = slopeRotation(r);
   Vector12 spin = Vector12::Zero();
   spin(5) = spin(11) = 1.0;
@@ -168,8 +171,8 @@ TEST(Element, SlopesDoNotKnowTheSpin) {
     EXPECT_EQ(same.norm(), 0.0);
   }
   // F kappa^2 l^2/12 per length, twice the energy of the parabola with slopes -+kappa l/2
-  EXPECT_NEAR(spin.dot(r.transpose() * geometricAxial(l) * r * spin), kappa * kappa * l * l / 12.0 * l,
-              1e-3 * kappa * kappa * l * l * l);
+  EXPECT_NEAR(spin.dot(r.transpose() * geometricAxial(l) * r * spin),
+              kappa * kappa * l * l / 12.0 * l, 1e-3 * kappa * kappa * l * l * l);
 }
 
 TEST(Element, TriadHasItsZOnTheChord) {

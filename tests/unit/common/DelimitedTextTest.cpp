@@ -51,7 +51,8 @@ TEST(CellNumber, TakesAPointOrAComma) {
   EXPECT_EQ(cellNumber("+1.25e2")->value, 125.0);
   EXPECT_TRUE(cellNumber("-1.25")->point);
   EXPECT_FALSE(cellNumber("12")->comma || cellNumber("12")->point);
-  for (const char* bad : {"", "1.234,5", "1,2,3", "12abc", "nan", "inf", "1 2", "+-1", "0x10", ","}) EXPECT_FALSE(cellNumber(bad)) << bad;
+  for (const char* bad : {"", "1.234,5", "1,2,3", "12abc", "nan", "inf", "1 2", "+-1", "0x10", ","})
+    EXPECT_FALSE(cellNumber(bad)) << bad;
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 
 class InputFiles : public ::testing::Test {
  protected:
-  InputFiles() : folder_("input_files_" + std::to_string(getpid())) { fs::create_directory(folder_); }
+  InputFiles() : folder_("input_files_" + std::to_string(getpid())) {
+    fs::create_directory(folder_);
+  }
   ~InputFiles() override { fs::remove_all(folder_); }
 
   std::string write(const std::string& name, const std::string& text) const {
@@ -67,10 +69,12 @@ TEST_F(InputFiles, ALineWithoutEndIsRefusedWhileItIsRead) {
   std::string line;
   EXPECT_THROW(file.line(line, 1024), FileError);
   EXPECT_LE(line.size(), 1024U);
-  EXPECT_EQ(refusal(path), path + " is larger than 1000 bytes, the most that is read of such a file.");
+  EXPECT_EQ(refusal(path),
+            path + " is larger than 1000 bytes, the most that is read of such a file.");
 }
 
-// Without the check the open of a FIFO waits for ever, and /dev/zero is read until the memory is full.
+// Without the check the open of a FIFO waits for ever, and /dev/zero is read until the memory is
+// full.
 TEST_F(InputFiles, OnlyRegularFilesAreOpened) {
   const std::string pipe = folder_ + "/pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -78,7 +82,8 @@ TEST_F(InputFiles, OnlyRegularFilesAreOpened) {
   EXPECT_EQ(refusal("/dev/zero"), "/dev/zero cannot be read: it is no regular file, but a device.");
   EXPECT_EQ(refusal("/dev/tty"), "/dev/tty cannot be read: it is no regular file, but a device.");
   EXPECT_EQ(refusal(folder_), folder_ + " cannot be read: it is a folder.");
-  EXPECT_EQ(refusal(folder_ + "/none"), folder_ + "/none cannot be read: No such file or directory.");
+  EXPECT_EQ(refusal(folder_ + "/none"),
+            folder_ + "/none cannot be read: No such file or directory.");
   EXPECT_EQ(whyUnreadable(write("good", "x")), "");
 }
 

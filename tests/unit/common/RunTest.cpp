@@ -16,7 +16,9 @@ using namespace tooljoint;
 
 namespace {
 
-std::size_t linesOf(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+std::size_t linesOf(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
 
 }  // namespace
 
@@ -27,8 +29,11 @@ TEST(Log, WarningsAreCollectedOnceEach) {
   log::warn("the bit turns backwards");
   log::warn("the string is short");
   const std::string printed = ::testing::internal::GetCapturedStderr();
-  EXPECT_EQ(log::warnings(), (std::vector<std::string>{"the bit turns backwards", "the string is short"}));
-  EXPECT_EQ(printed, parallel::rank() == 0 ? "warning: the bit turns backwards\nwarning: the string is short\n" : "");
+  EXPECT_EQ(log::warnings(),
+            (std::vector<std::string>{"the bit turns backwards", "the string is short"}));
+  EXPECT_EQ(printed, parallel::rank() == 0
+                         ? "warning: the bit turns backwards\nwarning: the string is short\n"
+                         : "");
   log::clearWarnings();
   EXPECT_TRUE(log::warnings().empty());
 }
@@ -105,7 +110,8 @@ TEST(Census, CountsByName) {
   long& evaluations = counter("contact evaluations");
   ++evaluations;
   EXPECT_EQ(counted("mud matrices"), 5);
-  EXPECT_EQ(census(), (std::map<std::string, long>{{"contact evaluations", 1}, {"mud matrices", 5}}));
+  EXPECT_EQ(census(),
+            (std::map<std::string, long>{{"contact evaluations", 1}, {"mud matrices", 5}}));
   resetCensus();
   EXPECT_TRUE(census().empty());
   ++evaluations;
@@ -120,7 +126,8 @@ TEST(Version, NamesEverythingARunStandsOn) {
   EXPECT_EQ(mpiVersion().find('\n'), std::string::npos);
   EXPECT_NE(gitHash(), "");
   const std::string text = versionText();
-  for (const std::string& version : {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version()}) {
+  for (const std::string& version :
+       {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version()}) {
     EXPECT_NE(text.find(version), std::string::npos);
   }
 }

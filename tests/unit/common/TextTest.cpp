@@ -23,18 +23,19 @@ struct Guess {
 class Closest : public ::testing::TestWithParam<Guess> {};
 
 TEST_P(Closest, FindsWhatAPersonMeant) {
-  const std::vector<std::string> names = {"Stiffness",     "Damping", "End Time", "Sampling Interval",
-                                          "Young Modulus", "WOB",     "Step"};
+  const std::vector<std::string> names = {
+      "Stiffness", "Damping", "End Time", "Sampling Interval", "Young Modulus", "WOB", "Step"};
   EXPECT_EQ(closest(GetParam().typed, names), GetParam().meant);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, Closest,
-                         ::testing::Values(Guess{"Stiffnes", "Stiffness"}, Guess{"stiffness", "Stiffness"},
-                                           Guess{"Sitffness", "Stiffness"}, Guess{"EndTime", "End Time"},
-                                           Guess{"end_time", "End Time"}, Guess{"END-TIME", "End Time"}, Guess{"Stepp", "Step"},
-                                           Guess{"wob", "WOB"}, Guess{"Young", "Young Modulus"},
-                                           Guess{"Young Modulus E", "Young Modulus"}, Guess{"Dampng", "Damping"},
-                                           Guess{"Viscosity", ""}, Guess{"", ""}, Guess{"Zz", ""}));
+INSTANTIATE_TEST_SUITE_P(
+    Table, Closest,
+    ::testing::Values(Guess{"Stiffnes", "Stiffness"}, Guess{"stiffness", "Stiffness"},
+                      Guess{"Sitffness", "Stiffness"}, Guess{"EndTime", "End Time"},
+                      Guess{"end_time", "End Time"}, Guess{"END-TIME", "End Time"},
+                      Guess{"Stepp", "Step"}, Guess{"wob", "WOB"}, Guess{"Young", "Young Modulus"},
+                      Guess{"Young Modulus E", "Young Modulus"}, Guess{"Dampng", "Damping"},
+                      Guess{"Viscosity", ""}, Guess{"", ""}, Guess{"Zz", ""}));
 
 TEST(Closest, OfEquallyCloseNamesTheFirstWins) { EXPECT_EQ(closest("ab", {"ac", "ad"}), "ac"); }
 

@@ -32,10 +32,11 @@ TEST_P(Energy, PowersBalance) {
         before[i] -= h * state.v[i];
         after[i] += h * state.v[i];
       }
-      const double storing =
-          (contact->power(0.0, {0, 1}, after.data(), state.v.data()).stored - contact->power(0.0, {0, 1}, before.data(), state.v.data()).stored) /
-          (2.0 * h);
-      const double scale = std::abs(storing) + power.damping + std::abs(power.friction) + std::abs(power.drive) + 1.0;
+      const double storing = (contact->power(0.0, {0, 1}, after.data(), state.v.data()).stored -
+                              contact->power(0.0, {0, 1}, before.data(), state.v.data()).stored) /
+                             (2.0 * h);
+      const double scale = std::abs(storing) + power.damping + std::abs(power.friction) +
+                           std::abs(power.drive) + 1.0;
       EXPECT_NEAR(storing + power.damping + power.friction - power.drive, -work, 1e-6 * scale)
           << GetParam() << " " << G << " " << angle;
       if (std::string(GetParam()) != "Nguyen") {
@@ -47,7 +48,8 @@ TEST_P(Energy, PowersBalance) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"), testName);
+INSTANTIATE_TEST_SUITE_P(Laws, Energy, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
+                         testName);
 
 // The closed form against quadrature of F_n dG, from the wall inwards and outwards.
 TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
@@ -68,10 +70,12 @@ TEST_P(Energy, StoredEnergyIsTheIntegralOfTheElasticForce) {
         const double uv[2] = {p.clearance + x * x * x, 0.0};
         double N = 0.0;
         rest->normalForce({}, uv, &N);
-        sum += (i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * N * 3.0 * x * x * edge / n / 3.0;
+        sum +=
+            (i == 0 || i == n ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0)) * N * 3.0 * x * x * edge / n / 3.0;
       }
       const std::vector<double> d = {p.clearance + G, 0.0, 0.0};
-      EXPECT_NEAR(contact->power(0.0, {0}, d.data(), v.data()).stored, sum, 1e-6 * std::abs(sum) + 1e-15)
+      EXPECT_NEAR(contact->power(0.0, {0}, d.data(), v.data()).stored, sum,
+                  1e-6 * std::abs(sum) + 1e-15)
           << GetParam() << " " << lambda << " " << G;
     }
   }

@@ -38,7 +38,8 @@ TEST(NguyenLaw, IsThePrintedOne) {
 
 // k_c/(pi^2 lambda) at any gap: 1.4e-6 N, 1 N, 338 N
 TEST(NguyenLaw, PullsOpenNodesWithItsTail) {
-  for (const auto& [lambda, pull] : {std::pair{7e11, 1.447e-6}, std::pair{1e6, 1.0132}, std::pair{3e3, 337.7}})
+  for (const auto& [lambda, pull] :
+       {std::pair{7e11, 1.447e-6}, std::pair{1e6, 1.0132}, std::pair{3e3, 337.7}})
     for (const double gap : {5e-3, 2e-2})
       EXPECT_NEAR(-normal("Nguyen", steelOnRock(lambda), -gap, 0.0), pull, 2e-3 * pull) << lambda;
 }
@@ -81,7 +82,8 @@ TEST(ClampedLaw, BecomesTheLinearSpringAndDamper) {
 
 TEST(HuntCrossleyLaw, IsAPowerLawWithDampingByPenetration) {
   const ContactPoint p = steelOnRock();
-  EXPECT_NEAR(normal("Hunt-Crossley", p, 4e-4, 0.1), 1e7 * std::pow(4e-4, 1.5) * (1.0 + 2.0 * 0.1), 1e-6);
+  EXPECT_NEAR(normal("Hunt-Crossley", p, 4e-4, 0.1), 1e7 * std::pow(4e-4, 1.5) * (1.0 + 2.0 * 0.1),
+              1e-6);
   EXPECT_EQ(normal("Hunt-Crossley", p, -1e-9, 1.0), 0.0);
 }
 
@@ -94,9 +96,11 @@ TEST(Friction, ForcesAndTorqueOpposeTheSliding) {
   const double xi = std::sqrt(0.5), q = 1.0 + (1.0 - xi) / (2.0 * 0.1 * 0.1) * slip;
   const double mu = slip / 0.2 * ((1.0 - xi) / q + (1.0 + xi) / (q * q));
   EXPECT_NEAR(f[0], -1000.0, 1e-4);
-  EXPECT_NEAR(f[1], -mu * 1000.0, 1e-4);  // at u > 0 the wall drags a string that turns x into y along -y
+  EXPECT_NEAR(f[1], -mu * 1000.0,
+              1e-4);  // at u > 0 the wall drags a string that turns x into y along -y
   EXPECT_NEAR(f[2], -mu * 1000.0 * p.contactRadius, 1e-5);
-  const auto back = force(*law("Nguyen")->inMotion(batch({p}), [](double) { return -4.0 * pi; }), 0.0, d, v);
+  const auto back =
+      force(*law("Nguyen")->inMotion(batch({p}), [](double) { return -4.0 * pi; }), 0.0, d, v);
   EXPECT_NEAR(back[1], -f[1], 1e-9);
   EXPECT_NEAR(back[2], -f[2], 1e-9);
 }
@@ -120,8 +124,9 @@ TEST(Friction, OmittedAtPointsWithoutItAndCounted) {
   const std::vector<double> d = {r, 0.0, 0.0, r, 0.0, 0.0}, v(6, 0.0);
 
   resetCensus();
-  const auto none =
-      law("Clamped")->inMotion(batch({slippery, slippery}), [](double) -> double { throw std::logic_error("speed asked for"); });
+  const auto none = law("Clamped")->inMotion(batch({slippery, slippery}), [](double) -> double {
+    throw std::logic_error("speed asked for");
+  });
   EXPECT_EQ(force(*none, 0.0, d, v)[2], 0.0);
   EXPECT_EQ(answer(*none, 0.0, d, v).f[2], 0.0);
   EXPECT_EQ(counted("contact evaluations"), 4);
@@ -219,7 +224,8 @@ TEST(Axis, ForcesAndTangentsAreFiniteAndContinuousWithoutClearance) {
       for (const auto* list : {&at.f, &at.dfdd, &at.dfdv})
         for (const double value : *list) EXPECT_TRUE(std::isfinite(value)) << name << " " << x;
     }
-    // no jump across the axis: steps of e/100 change the force by at most 2 % of the damping force at hand
+    // no jump across the axis: steps of e/100 change the force by at most 2 % of the damping force
+    // at hand
     double before = force(*contact, 0.0, {-2e-9, 0.0, 0.0}, v)[0];
     for (double x = -2e-9; x < 2e-9; x += 1e-11) {
       const double now = force(*contact, 0.0, {x, 0.0, 0.0}, v)[0];
@@ -253,8 +259,8 @@ TEST(StaticContact, IsTheMotionsLimitForFastSlidingWithTheStaticCoefficient) {
   rest->evaluate({}, uv, f);
   rest->normalForce({}, uv, &N);
   EXPECT_NEAR(N, 3000.0, 1e-3);
-  const auto fast =
-      force(*law("Nguyen")->inMotion(batch({p}), [](double) { return 1e9; }), 0.0, {uv[0], uv[1], 0.0}, {0.0, 0.0, 0.0});
+  const auto fast = force(*law("Nguyen")->inMotion(batch({p}), [](double) { return 1e9; }), 0.0,
+                          {uv[0], uv[1], 0.0}, {0.0, 0.0, 0.0});
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f[i], fast[i], 1e-4) << i;
   EXPECT_NEAR(f[2], -0.2 * N * p.contactRadius, 1e-9);
 }
@@ -313,6 +319,8 @@ TEST(Registry, UnknownLawNamesTheKnownOnes) {
     makeLaw("Hertz");
     FAIL() << "no error";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"Clamped\", \"Hunt-Crossley\", \"Nguyen\""), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("\"Clamped\", \"Hunt-Crossley\", \"Nguyen\""),
+              std::string::npos)
+        << error.what();
   }
 }

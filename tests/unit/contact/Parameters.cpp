@@ -12,9 +12,10 @@ namespace {
 ContactSettings fromDeck(const std::string& inside) {
   deck::ListSpec scene("scene", "A scene.");
   scene.list(parameters());
-  const deck::Deck deck = deck::Deck::parse(
-      "<ParameterList name=\"scene\"><ParameterList name=\"Contact\">" + inside + "</ParameterList></ParameterList>", "deck.xml",
-      scene);
+  const deck::Deck deck =
+      deck::Deck::parse("<ParameterList name=\"scene\"><ParameterList name=\"Contact\">" + inside +
+                            "</ParameterList></ParameterList>",
+                        "deck.xml", scene);
   return readContact(deck.list().sublist("Contact"));
 }
 
@@ -57,7 +58,8 @@ TEST(ContactParameters, EveryParameterArrives) {
   const ContactSettings settings =
       fromDeck(text("Law", "Nguyen") + text("Stiffness", "10 kN/mm") + real("Damping", "1e4") +
                real("Stiffness Regularisation", "7e11") + real("Damping Regularisation", "6e11") +
-               list("Friction", real("Static", "0.2") + real("Dynamic", "0.1") + text("Regularisation Velocity", "5 cm/s")));
+               list("Friction", real("Static", "0.2") + real("Dynamic", "0.1") +
+                                    text("Regularisation Velocity", "5 cm/s")));
   EXPECT_EQ(settings.lawName, "Nguyen");
   EXPECT_TRUE(settings.friction);
   const ContactPoint& p = settings.values;
@@ -72,11 +74,13 @@ TEST(ContactParameters, EveryParameterArrives) {
 
 TEST(ContactParameters, IntervalsOverrideWhatTheyGive) {
   const ContactSettings settings = fromDeck(
-      real("Stiffness", "1e7") + real("Damping", "100") + list("Friction", real("Static", "0.3") + real("Dynamic", "0.2")) +
-      list("Intervals", list("open hole", real("From", "50") + real("To", "100") + real("Stiffness", "1e6") +
-                                              list("Friction", real("Static", "0.5"))) +
-                            list("casing", real("From", "0") + real("To", "50") +
-                                               list("Friction", real("Static", "0") + real("Dynamic", "0")))));
+      real("Stiffness", "1e7") + real("Damping", "100") +
+      list("Friction", real("Static", "0.3") + real("Dynamic", "0.2")) +
+      list("Intervals",
+           list("open hole", real("From", "50") + real("To", "100") + real("Stiffness", "1e6") +
+                                 list("Friction", real("Static", "0.5"))) +
+               list("casing", real("From", "0") + real("To", "50") +
+                                  list("Friction", real("Static", "0") + real("Dynamic", "0")))));
   EXPECT_EQ(settings.pointAt(20.0, 1, 0.0, 0.0).muStatic, 0.0);
   EXPECT_EQ(settings.pointAt(20.0, 1, 0.0, 0.0).stiffness, 1e7);
   EXPECT_EQ(settings.pointAt(50.0, 1, 0.0, 0.0).stiffness, 1e6);
@@ -89,14 +93,16 @@ TEST(ContactParameters, IntervalsOverrideWhatTheyGive) {
 TEST(ContactParameters, FaultsNameTheirPlace) {
   const std::string k = real("Stiffness", "1e7");
   EXPECT_NE(errorOf(k + list("Friction", real("Static", "0.1") + real("Dynamic", "0.2")))
-                .find("/scene/Contact/Friction: the dynamic friction coefficient 0.2 is above the static one, 0.1"),
+                .find("/scene/Contact/Friction: the dynamic friction coefficient 0.2 is above the "
+                      "static one, 0.1"),
             std::string::npos);
-  EXPECT_NE(errorOf(k + list("Friction", real("Static", "0.1"))).find("Dynamic"), std::string::npos);
-  EXPECT_NE(
-      errorOf(k + list("Intervals", list("a", real("From", "5") + real("To", "5")))).find("/scene/Contact/Intervals/a: To = 5 m"),
-      std::string::npos);
-  EXPECT_NE(errorOf(k + list("Intervals",
-                             list("a", real("From", "5") + real("To", "9")) + list("b", real("From", "8") + real("To", "12"))))
+  EXPECT_NE(errorOf(k + list("Friction", real("Static", "0.1"))).find("Dynamic"),
+            std::string::npos);
+  EXPECT_NE(errorOf(k + list("Intervals", list("a", real("From", "5") + real("To", "5"))))
+                .find("/scene/Contact/Intervals/a: To = 5 m"),
+            std::string::npos);
+  EXPECT_NE(errorOf(k + list("Intervals", list("a", real("From", "5") + real("To", "9")) +
+                                              list("b", real("From", "8") + real("To", "12"))))
                 .find("overlap"),
             std::string::npos);
   EXPECT_NE(errorOf(k + text("Law", "Hunt-Crossley") + real("Damping", "5"))
@@ -107,8 +113,9 @@ TEST(ContactParameters, FaultsNameTheirPlace) {
 }
 
 TEST(ContactParameters, HuntCrossleyTakesItsOwnList) {
-  const ContactSettings settings = fromDeck(real("Stiffness", "1e6") + text("Law", "Hunt-Crossley") +
-                                            list("Hunt-Crossley", real("Exponent", "2") + real("Dissipation", "3")));
+  const ContactSettings settings =
+      fromDeck(real("Stiffness", "1e6") + text("Law", "Hunt-Crossley") +
+               list("Hunt-Crossley", real("Exponent", "2") + real("Dissipation", "3")));
   ContactPoints points;
   points.add(settings.pointAt(0.0, 1, 0.01, 0.08));
   const auto contact = settings.law->inMotion(points, [](double) { return 0.0; });

@@ -15,7 +15,8 @@ namespace {
 class Records : public ::testing::TestWithParam<const char*> {};
 
 /// Values of the channels of a law, by name.
-std::map<std::string, std::vector<double>> recorded(const tooljoint::model::PointLaw& law, double t, const State& state) {
+std::map<std::string, std::vector<double>> recorded(const tooljoint::model::PointLaw& law, double t,
+                                                    const State& state) {
   const auto channels = law.channels();
   const auto size = static_cast<std::size_t>(law.size());
   std::vector<double> values(channels.size() * size);
@@ -29,11 +30,13 @@ std::map<std::string, std::vector<double>> recorded(const tooljoint::model::Poin
 
 }  // namespace
 
-// F = -F_n n + F_t t with n = (u, v)/r, t = (-v, u)/r: the components of the force of evaluate() along -n and t, and its torque.
+// F = -F_n n + F_t t with n = (u, v)/r, t = (-v, u)/r: the components of the force of evaluate()
+// along -n and t, and its torque.
 TEST_P(Records, AreTheForcesThatAct) {
   const ContactPoint p = steelOnRock(), q = steelOnRock(5e4);
   for (const double speed : {9.0, -9.0}) {
-    const auto contact = law(GetParam())->inMotion(batch({p, q}), [speed](double t) { return speed + t; });
+    const auto contact =
+        law(GetParam())->inMotion(batch({p, q}), [speed](double t) { return speed + t; });
     State state(p.clearance + 8e-4, 0.7);
     const State other(q.clearance + 3e-4, 2.6);
     state.d.insert(state.d.end(), other.d.begin(), other.d.end());
@@ -43,7 +46,8 @@ TEST_P(Records, AreTheForcesThatAct) {
     ASSERT_EQ(record.size(), 4u);
     for (std::size_t i = 0; i < 2; ++i) {
       const double u = state.d[3 * i], v = state.d[3 * i + 1], r = std::hypot(u, v);
-      const double normal = -(f[3 * i] * u + f[3 * i + 1] * v) / r, tangential = (-f[3 * i] * v + f[3 * i + 1] * u) / r;
+      const double normal = -(f[3 * i] * u + f[3 * i + 1] * v) / r,
+                   tangential = (-f[3 * i] * v + f[3 * i + 1] * u) / r;
       EXPECT_GT(normal, 10.0);
       EXPECT_GT(std::abs(tangential), 1.0);
       EXPECT_LT(tangential * speed, 0.0) << "friction opposes the rotation";
@@ -58,16 +62,22 @@ TEST_P(Records, AreTheForcesThatAct) {
 TEST_P(Records, HaveTheUnitsOfTheirKind) {
   const std::map<std::string, std::string> units{
       {"normal_force", "N"}, {"gap", "m"}, {"tangential_force", "N"}, {"friction_torque", "N m"}};
-  const auto contact = law(GetParam())->inMotion(batch({steelOnRock()}), [](double) { return 1.0; });
-  for (const auto& channel : contact->channels()) EXPECT_EQ(channel.unit, units.at(channel.name)) << channel.name;
+  const auto contact =
+      law(GetParam())->inMotion(batch({steelOnRock()}), [](double) { return 1.0; });
+  for (const auto& channel : contact->channels())
+    EXPECT_EQ(channel.unit, units.at(channel.name)) << channel.name;
   ContactPoint smooth = steelOnRock();
   smooth.muStatic = smooth.muDynamic = 0.0;
-  EXPECT_EQ(law(GetParam())->inMotion(batch({smooth}), [](double) { return 1.0; })->channels().size(), 2u);
+  EXPECT_EQ(
+      law(GetParam())->inMotion(batch({smooth}), [](double) { return 1.0; })->channels().size(),
+      2u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Records, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"), testName);
+INSTANTIATE_TEST_SUITE_P(Laws, Records, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
+                         testName);
 
-// The static law for the sense of rotation `direction`: normal force, friction against the rotation, and its torque.
+// The static law for the sense of rotation `direction`: normal force, friction against the
+// rotation, and its torque.
 TEST_P(Records, StaticForcesOpposeTheRotation) {
   const ContactPoint p = steelOnRock();
   const auto rest = law(GetParam())->atRest(batch({p}));

@@ -52,9 +52,12 @@ struct Answer {
   std::vector<double> f, dfdd, dfdv;
 };
 
-inline Answer answer(const model::PointLaw& law, double t, const std::vector<double>& d, const std::vector<double>& v) {
-  Answer a{std::vector<double>(d.size()), std::vector<double>(3 * d.size()), std::vector<double>(3 * d.size())};
-  law.evaluateWithTangent(t, all(law), d.data(), v.data(), a.f.data(), a.dfdd.data(), a.dfdv.data());
+inline Answer answer(const model::PointLaw& law, double t, const std::vector<double>& d,
+                     const std::vector<double>& v) {
+  Answer a{std::vector<double>(d.size()), std::vector<double>(3 * d.size()),
+           std::vector<double>(3 * d.size())};
+  law.evaluateWithTangent(t, all(law), d.data(), v.data(), a.f.data(), a.dfdd.data(),
+                          a.dfdv.data());
   return a;
 }
 
@@ -68,7 +71,8 @@ inline std::vector<double> force(const model::PointLaw& law, double t, const std
 /// A state at the radius `r`, seen from `angle`, with a general velocity.
 struct State {
   std::vector<double> d, v;
-  State(double r, double angle) : d{r * std::cos(angle), r * std::sin(angle), 0.3}, v{0.07, -0.11, 0.9} {}
+  State(double r, double angle)
+      : d{r * std::cos(angle), r * std::sin(angle), 0.3}, v{0.07, -0.11, 0.9} {}
 };
 
 }  // namespace tooljoint::contact::testing

@@ -20,11 +20,14 @@ namespace {
 
 double speed(double t) { return 12.0 + t; }
 
-/// Largest difference between a tangent and central differences of the force, over the largest entry of its row.
-void expectTangents(const tooljoint::model::PointLaw& contact, const State& state, const std::string& what) {
+/// Largest difference between a tangent and central differences of the force, over the largest
+/// entry of its row.
+void expectTangents(const tooljoint::model::PointLaw& contact, const State& state,
+                    const std::string& what) {
   const Answer exact = answer(contact, 0.5, state.d, state.v);
   const auto alone = force(contact, 0.5, state.d, state.v);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(exact.f[i], alone[i], 1e-13 * std::abs(alone[i])) << what;
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(exact.f[i], alone[i], 1e-13 * std::abs(alone[i])) << what;
   for (int column = 0; column < 3; ++column) {
     for (const bool velocity : {false, true}) {
       const double h = velocity ? 1e-5 : 1e-8;
@@ -36,10 +39,14 @@ void expectTangents(const tooljoint::model::PointLaw& contact, const State& stat
       const auto& tangent = velocity ? exact.dfdv : exact.dfdd;
       for (int row = 0; row < 3; ++row) {
         double scale = 0.0;
-        for (int c = 0; c < 3; ++c) scale = std::max(scale, std::abs(tangent[static_cast<std::size_t>(3 * row + c)]));
-        const double difference = (fp[static_cast<std::size_t>(row)] - fm[static_cast<std::size_t>(row)]) / (2.0 * h);
-        EXPECT_NEAR(tangent[static_cast<std::size_t>(3 * row + column)], difference, 2e-7 * scale + 1e-5)
-            << what << " row " << row << " column " << column << (velocity ? " velocity" : " position");
+        for (int c = 0; c < 3; ++c)
+          scale = std::max(scale, std::abs(tangent[static_cast<std::size_t>(3 * row + c)]));
+        const double difference =
+            (fp[static_cast<std::size_t>(row)] - fm[static_cast<std::size_t>(row)]) / (2.0 * h);
+        EXPECT_NEAR(tangent[static_cast<std::size_t>(3 * row + column)], difference,
+                    2e-7 * scale + 1e-5)
+            << what << " row " << row << " column " << column
+            << (velocity ? " velocity" : " position");
       }
     }
   }
@@ -58,13 +65,13 @@ TEST_P(Tangents, AgreeWithDifferencesInsideOnAndBeyondTheWall) {
     for (const double penetration : {-0.02, -1e-3, -2e-5, 2e-5, 3e-4, 5e-3})
       for (const double angle : {0.0, 1.1, 2.5, -2.0})
         expectTangents(*contact, State(point.clearance + penetration, angle),
-                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " + std::to_string(penetration) + " at " +
-                           std::to_string(angle));
+                       std::string(GetParam()) + " mu " + std::to_string(mu) + " G " +
+                           std::to_string(penetration) + " at " + std::to_string(angle));
   }
 }
 
-// The tangent of a sliding contact is not symmetric, and its symmetric part is indefinite; without friction it is symmetric and
-// never negative, and the normal stiffness is the same.
+// The tangent of a sliding contact is not symmetric, and its symmetric part is indefinite; without
+// friction it is symmetric and never negative, and the normal stiffness is the same.
 TEST_P(Tangents, WithoutFrictionAreSymmetricAndNotNegative) {
   const auto contact = law(GetParam())->inMotion(batch({steelOnRock(), steelOnRock()}), speed);
   const auto smooth = tooljoint::model::withoutFriction(contact);
@@ -75,15 +82,18 @@ TEST_P(Tangents, WithoutFrictionAreSymmetricAndNotNegative) {
     State state(steelOnRock().clearance + 3e-4, angle), two = state;
     two.d.insert(two.d.end(), state.d.begin(), state.d.end());
     two.v.assign(6, 0.0);
-    const Answer rough = answer(*contact, 0.5, two.d, two.v), plain = answer(*smooth, 0.5, two.d, two.v);
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> k(plain.dfdd.data() + 9), r(rough.dfdd.data() + 9);
+    const Answer rough = answer(*contact, 0.5, two.d, two.v),
+                 plain = answer(*smooth, 0.5, two.d, two.v);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> k(plain.dfdd.data() + 9),
+        r(rough.dfdd.data() + 9);
     const Eigen::Matrix3d K = -k, R = -0.5 * (r + r.transpose());
     EXPECT_LT((K - K.transpose()).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
     const auto least = [](const Eigen::Matrix3d& A) {
       return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(A).eigenvalues().minCoeff();
     };
     EXPECT_GT(least(K), -1e-9 * K.cwiseAbs().maxCoeff());
-    EXPECT_LT(least(R), -1e-5 * R.cwiseAbs().maxCoeff()) << "with friction: -(mu R_c)^2 / 4 of the normal stiffness at least";
+    EXPECT_LT(least(R), -1e-5 * R.cwiseAbs().maxCoeff())
+        << "with friction: -(mu R_c)^2 / 4 of the normal stiffness at least";
     const Eigen::Vector3d n(std::cos(angle), std::sin(angle), 0.0);
     EXPECT_NEAR(n.dot(K * n), n.dot(R * n), 1e-9 * K.cwiseAbs().maxCoeff()) << "normal stiffness";
     EXPECT_EQ(plain.f[5], 0.0) << "no torque";
@@ -119,10 +129,12 @@ TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
       contact->evaluate(options, plus, fp);
       contact->evaluate(options, minus, fm);
       for (int row = 0; row < 3; ++row)
-        EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h), 2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0))
+        EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h),
+                    2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0))
             << penetration << row << column;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"), testName);
+INSTANTIATE_TEST_SUITE_P(Laws, Tangents, ::testing::Values("Nguyen", "Clamped", "Hunt-Crossley"),
+                         testName);

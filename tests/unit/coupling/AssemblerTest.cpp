@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The generic assembler: labels, laws, loads, points, recovery, states, and the sentences for parts that do not fit.
+/// The generic assembler: labels, laws, loads, points, recovery, states, and the sentences for
+/// parts that do not fit.
 #include "coupling/Assembler.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -29,19 +30,22 @@ std::string refusal(const std::vector<Substructure>& parts) {
 
 /// A bar of 6 elements in two parts of 3.
 std::vector<Substructure> twoBars() {
-  std::vector<Substructure> parts{samples::bar("top", 1, 3, 3.0, 2.0), samples::bar("bottom", 4, 3, 3.0, 2.0)};
+  std::vector<Substructure> parts{samples::bar("top", 1, 3, 3.0, 2.0),
+                                  samples::bar("bottom", 4, 3, 3.0, 2.0)};
   samples::classify(parts[0], {4});
   samples::classify(parts[1], {4});
   return parts;
 }
 
-std::vector<reduction::ReducedSubstructure> reduced(const std::vector<Substructure>& parts, int modes,
-                                                    reduction::InitialState state = reduction::InitialState::KeepStatic) {
+std::vector<reduction::ReducedSubstructure> reduced(
+    const std::vector<Substructure>& parts, int modes,
+    reduction::InitialState state = reduction::InitialState::KeepStatic) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
   options.initialState = state;
-  return reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return reduction::reduceAll(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
 TEST(Assembler, PutsAChainTogetherAgain) {
@@ -69,19 +73,28 @@ TEST(Assembler, CouplesALoopAndABranch) {
   samples::Frame frame;
   frame.corners = {{1, {0, 0}}, {2, {3, 0}}, {3, {3, 2.5}}, {4, {0, 2}}, {5, {5, 2.6}}};
   frame.clamped = {1, 2};
-  const auto whole = samples::framePart(
-      "whole", frame, {{1, 4, {101, 102, 103}}, {2, 3, {201, 202, 203}}, {4, 3, {301, 302, 303}}, {3, 5, {401, 402, 403}}}, true);
+  const auto whole = samples::framePart("whole", frame,
+                                        {{1, 4, {101, 102, 103}},
+                                         {2, 3, {201, 202, 203}},
+                                         {4, 3, {301, 302, 303}},
+                                         {3, 5, {401, 402, 403}}},
+                                        true);
   ASSERT_EQ(coupling.model.size(), whole.model.size());
   std::vector<int> order;
   for (const auto& label : coupling.model.dofs) order.push_back(samples::find(whole.model, label));
   const auto permuted = [&](const Sparse& A) { return Matrix(reduction::block(A, order, order)); };
   EXPECT_LT((Matrix(coupling.model.mass) - permuted(whole.model.mass)).norm(), 1e-13);
-  EXPECT_LT((Matrix(coupling.model.stiffnessAt(0.7)) - permuted(whole.model.stiffnessAt(0.7))).norm(), 1e-6);
-  EXPECT_LT((Matrix(coupling.model.dampingAt(0.7)) - permuted(whole.model.dampingAt(0.7))).norm(), 1e-9);
+  EXPECT_LT(
+      (Matrix(coupling.model.stiffnessAt(0.7)) - permuted(whole.model.stiffnessAt(0.7))).norm(),
+      1e-6);
+  EXPECT_LT((Matrix(coupling.model.dampingAt(0.7)) - permuted(whole.model.dampingAt(0.7))).norm(),
+            1e-9);
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (int i = 0; i < parts[p].model.size(); ++i)
-      EXPECT_TRUE(coupling.model.dofs[static_cast<std::size_t>(coupling.positions[p][static_cast<std::size_t>(i)])] ==
-                  parts[p].model.dofs[static_cast<std::size_t>(i)]);
+      EXPECT_TRUE(
+          coupling.model
+              .dofs[static_cast<std::size_t>(coupling.positions[p][static_cast<std::size_t>(i)])] ==
+          parts[p].model.dofs[static_cast<std::size_t>(i)]);
 }
 
 TEST(Assembler, PartsMayShareTwoInterfacesAndAnyDofOrder) {
@@ -90,12 +103,16 @@ TEST(Assembler, PartsMayShareTwoInterfacesAndAnyDofOrder) {
   samples::classify(first, {1, 5});
   auto second = samples::bar("second", 1, 4, 5.0, 1.0);
   for (int i = 0; i < 5; ++i)
-    second.model.dofs[static_cast<std::size_t>(i)] = DofLabel::physical(i == 0 ? 5 : i == 4 ? 1 : 20 + i, 0);
+    second.model.dofs[static_cast<std::size_t>(i)] = DofLabel::physical(i == 0   ? 5
+                                                                        : i == 4 ? 1
+                                                                                 : 20 + i,
+                                                                        0);
   second.model.recoveryNodes = {5, 21, 22, 23, 1};
   samples::classify(second, {1, 5});
   const auto coupled = couple({first, second});
   EXPECT_EQ(coupled.size(), 8);
-  EXPECT_LT((Matrix(coupled.stiffnessAt(0)) * Vector::Ones(8)).norm(), 1e-14) << "the ring turns freely";
+  EXPECT_LT((Matrix(coupled.stiffnessAt(0)) * Vector::Ones(8)).norm(), 1e-14)
+      << "the ring turns freely";
   EXPECT_NEAR(coupled.mass.sum(), 12.0, 1e-13);
   EXPECT_LE(halfBandwidth(coupled), 2) << "a ring folded flat";
 }
@@ -168,11 +185,13 @@ TEST(Assembler, KeepsThePointSetsOfEveryPart) {
 TEST(Assembler, RecoversEveryNodeOnce) {
   auto parts = samples::loopFrame(4, false);
   const auto coupled = couple(reduced(parts, 3));
-  EXPECT_EQ(coupled.recoveryNodes.size(), 3u + 12u) << "nodes 3, 4, 5 and three inside each member; clamped ones have no dofs";
+  EXPECT_EQ(coupled.recoveryNodes.size(), 3u + 12u)
+      << "nodes 3, 4, 5 and three inside each member; clamped ones have no dofs";
   EXPECT_TRUE(std::is_sorted(coupled.recoveryNodes.begin(), coupled.recoveryNodes.end()));
   EXPECT_EQ(coupled.recovery.rows(), 45);
-  const int row = 3 * static_cast<int>(std::find(coupled.recoveryNodes.begin(), coupled.recoveryNodes.end(), 3) -
-                                       coupled.recoveryNodes.begin());
+  const int row = 3 * static_cast<int>(
+                          std::find(coupled.recoveryNodes.begin(), coupled.recoveryNodes.end(), 3) -
+                          coupled.recoveryNodes.begin());
   EXPECT_EQ(coupled.recovery.coeff(row, samples::find(coupled, DofLabel::physical(3, 0))), 1.0);
 }
 
@@ -183,7 +202,8 @@ TEST(Assembler, SharedStatesMustAgree) {
   EXPECT_EQ(couple(parts).initialDisplacement, (Vector(7) << 0, 1, 2, 3, 2, 1, 0).finished());
   parts[1].model.initialDisplacement[0] = 3.5;
   EXPECT_EQ(refusal(parts),
-            "The initial displacement of u of node 4 is 3 in part \"top\" and 3.5 in part \"bottom\". Parts that meet must start "
+            "The initial displacement of u of node 4 is 3 in part \"top\" and 3.5 in part "
+            "\"bottom\". Parts that meet must start "
             "from one state.");
   parts[1].model.initialDisplacement[0] = 3;
   parts[1].model.initialVelocity[0] = 1;
@@ -202,7 +222,8 @@ TEST(Assembler, ReferencesMustAgree) {
     FAIL();
   } catch (const ModelError& error) {
     EXPECT_STREQ(error.what(),
-                 "The reference state of u of node 4 is 0.25 in part \"top\" and 0 in part \"bottom\". Parts that meet must be "
+                 "The reference state of u of node 4 is 0.25 in part \"top\" and 0 in part "
+                 "\"bottom\". Parts that meet must be "
                  "reduced about one state.");
   }
 }
@@ -213,7 +234,8 @@ TEST(AssemblerErrors, LabelThatJoinsNothing) {
   auto parts = twoBars();
   samples::classify(parts[0], {1, 4});
   EXPECT_EQ(refusal(parts),
-            "The interface dof u of node 1 of part \"top\" joins nothing: no other part has it. Check the labels, or take it out "
+            "The interface dof u of node 1 of part \"top\" joins nothing: no other part has it. "
+            "Check the labels, or take it out "
             "of the interface.");
 }
 
@@ -221,55 +243,69 @@ TEST(AssemblerErrors, InnerDofOfAnotherPart) {
   auto parts = twoBars();
   samples::classify(parts[1], {});
   EXPECT_EQ(refusal(parts),
-            "u of node 4 is an interface dof of part \"top\" but an inner dof of part \"bottom\". Declare it an interface dof of "
+            "u of node 4 is an interface dof of part \"top\" but an inner dof of part \"bottom\". "
+            "Declare it an interface dof of "
             "both parts.");
   samples::classify(parts[0], {});
   EXPECT_EQ(refusal(parts),
-            "Parts \"top\" and \"bottom\" both have u of node 4, but as an inner dof, which nothing can be joined to. Declare it "
+            "Parts \"top\" and \"bottom\" both have u of node 4, but as an inner dof, which "
+            "nothing can be joined to. Declare it "
             "an interface dof of both parts.");
 }
 
 TEST(AssemblerErrors, LabelTwiceInAPart) {
   auto parts = twoBars();
   parts[0].model.dofs[1] = parts[0].model.dofs[0];
-  EXPECT_EQ(refusal(parts), "Part \"top\" has u of node 1 twice; every dof of a part needs a label of its own.");
+  EXPECT_EQ(refusal(parts),
+            "Part \"top\" has u of node 1 twice; every dof of a part needs a label of its own.");
 }
 
 TEST(AssemblerErrors, OtherComponents) {
   auto parts = twoBars();
   parts[1].model.componentNames = {"w"};
   EXPECT_EQ(refusal(parts),
-            "Parts \"top\" and \"bottom\" do not speak of the same dofs: the components of a node are \"u\" in the first and "
+            "Parts \"top\" and \"bottom\" do not speak of the same dofs: the components of a node "
+            "are \"u\" in the first and "
             "\"w\" in the second.");
 }
 
 TEST(AssemblerErrors, RecoveryThatDisagrees) {
   auto parts = twoBars();
   parts[1].model.recovery.coeffRef(0, 0) = 2.0;
-  EXPECT_NE(refusal(parts).find("The motion of u of node 4 is recovered differently by part \"top\" and part \"bottom\"."),
+  EXPECT_NE(refusal(parts).find("The motion of u of node 4 is recovered differently by part "
+                                "\"top\" and part \"bottom\"."),
             std::string::npos)
       << refusal(parts);
   parts = twoBars();
   parts[1].model.recoveryNodes.own().pop_back();
-  EXPECT_EQ(refusal(parts), "Part \"bottom\": its recovery rows do not match its 3 output nodes with 1 components each.");
+  EXPECT_EQ(
+      refusal(parts),
+      "Part \"bottom\": its recovery rows do not match its 3 output nodes with 1 components each.");
 }
 
-/// Two clamped bars whose ends are joined with a misfit, u_4 - u_5 = g: each end gives way by g/2, and the bars pull at one
-/// another with N = (k/3) g/2, in both assemblies.
+/// Two clamped bars whose ends are joined with a misfit, u_4 - u_5 = g: each end gives way by g/2,
+/// and the bars pull at one another with N = (k/3) g/2, in both assemblies.
 TEST(Assembler, JoinsEndsThatDoNotFit) {
-  std::vector<Substructure> parts{samples::bar("top", 1, 3, 30.0, 2.0, {1}), samples::bar("bottom", 5, 3, 30.0, 2.0, {8})};
+  std::vector<Substructure> parts{samples::bar("top", 1, 3, 30.0, 2.0, {1}),
+                                  samples::bar("bottom", 5, 3, 30.0, 2.0, {8})};
   samples::classify(parts[0], {4});
   samples::classify(parts[1], {5});
   const double misfit = 0.02, force = 10.0 * misfit / 2.0;
-  parts[0].model.initialDisplacement[samples::find(parts[0].model, DofLabel::physical(4, 0))] = misfit;
+  parts[0].model.initialDisplacement[samples::find(parts[0].model, DofLabel::physical(4, 0))] =
+      misfit;
   for (const Assembly assembly : {Assembly::Primal, Assembly::Dual}) {
     CouplingOptions options;
     options.assembly = assembly;
-    options.connections.constraints.push_back({"misfit", {{{"top", 4, "u"}, 1.0}, {{"bottom", 5, "u"}, -1.0}}, misfit, false});
+    options.connections.constraints.push_back(
+        {"misfit", {{{"top", 4, "u"}, 1.0}, {{"bottom", 5, "u"}, -1.0}}, misfit, false});
     const auto coupled = coupleWithPositions(parts, options);
-    const Vector z = Matrix(coupled.model.stiffnessAt(0.0)).partialPivLu().solve(coupled.model.loadAt(0.0));
-    const Vector top = coupled.maps[0] * z + coupled.offsets[0], bottom = coupled.maps[1] * z + coupled.offsets[1];
-    const auto end = [](const Substructure& part, const Vector& d, int node) { return d[samples::find(part.model, DofLabel::physical(node, 0))]; };
+    const Vector z =
+        Matrix(coupled.model.stiffnessAt(0.0)).partialPivLu().solve(coupled.model.loadAt(0.0));
+    const Vector top = coupled.maps[0] * z + coupled.offsets[0],
+                 bottom = coupled.maps[1] * z + coupled.offsets[1];
+    const auto end = [](const Substructure& part, const Vector& d, int node) {
+      return d[samples::find(part.model, DofLabel::physical(node, 0))];
+    };
     EXPECT_NEAR(end(parts[0], top, 4), misfit / 2.0, 1e-12);
     EXPECT_NEAR(end(parts[1], bottom, 5), -misfit / 2.0, 1e-12);
     if (assembly == Assembly::Primal) continue;

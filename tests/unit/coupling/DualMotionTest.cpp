@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Motion with multipliers: the same as without, forces between parts, consistent starts, and who refuses it.
+/// Motion with multipliers: the same as without, forces between parts, consistent starts, and who
+/// refuses it.
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -55,15 +56,19 @@ transient::TransientOptions steps(const std::string& integrator = "Generalized-a
 
 const std::vector<int> own{1, 3};
 
-/// The frame under a force at node 5 that sets in at once, with some damping; the middles of beam and left strut are retained.
+/// The frame under a force at node 5 that sets in at once, with some damping; the middles of beam
+/// and left strut are retained.
 std::vector<reduction::ReducedSubstructure> loadedFrame(int modes) {
   const samples::FiveMembers frame{6};
   auto parts = frame.parts(own);
   for (int p = 0; p < 5; ++p) {
     auto& part = parts[static_cast<std::size_t>(p)];
-    part.model.damping.push_back({"Rayleigh", Sparse(2.0 * part.model.mass + 1e-5 * part.model.stiffness.front().matrix), 0});
+    part.model.damping.push_back(
+        {"Rayleigh", Sparse(2.0 * part.model.mass + 1e-5 * part.model.stiffness.front().matrix),
+         0});
     std::vector<int> ends;
-    for (int node : {frame.members[static_cast<std::size_t>(p)].nodes.front(), frame.members[static_cast<std::size_t>(p)].nodes.back()})
+    for (int node : {frame.members[static_cast<std::size_t>(p)].nodes.front(),
+                     frame.members[static_cast<std::size_t>(p)].nodes.back()})
       if (node > 2) ends.push_back(node);
     samples::classify(part, ends, {303, 403});
   }
@@ -74,7 +79,8 @@ std::vector<reduction::ReducedSubstructure> loadedFrame(int modes) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  return reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return reduction::reduceAll(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
 CouplingOptions options(Assembly assembly, bool stop) {
@@ -90,7 +96,8 @@ CouplingOptions options(Assembly assembly, bool stop) {
     Connector connector;
     connector.name = "stop";
     connector.law = stops({parameters});
-    connector.rows = {separation({"beam", 303}, {"left strut", 403}, {0.1, 0.9, 0.3}, samples::spaceComponents)};
+    connector.rows = {
+        separation({"beam", 303}, {"left strut", 403}, {0.1, 0.9, 0.3}, samples::spaceComponents)};
     chosen.connections.connectors.push_back(connector);
   }
   return chosen;
@@ -106,11 +113,15 @@ TEST(DualMotion, IsThePrimalMotion) {
     const auto second = transient::integrate(dual.model, steps(), b);
     if (stop) {
       double least = 1;
-      for (const auto& q : a.coordinates) least = std::min(least, (primal.model.points[0].offset + primal.model.points[0].rows * q)[0]);
+      for (const auto& q : a.coordinates)
+        least =
+            std::min(least, (primal.model.points[0].offset + primal.model.points[0].rows * q)[0]);
       EXPECT_LT(least, -2e-4) << "the stop is met";
     }
-    std::printf("stop %d: displacement %.2e, velocity %.2e; %ld and %ld iterations, wall %.3f and %.3f s\n", stop, difference(b.displacement, a.displacement),
-                difference(b.velocity, a.velocity), first.counters.newtonIterations, second.counters.newtonIterations, first.wall, second.wall);
+    std::printf(
+        "stop %d: displacement %.2e, velocity %.2e; %ld and %ld iterations, wall %.3f and %.3f s\n",
+        stop, difference(b.displacement, a.displacement), difference(b.velocity, a.velocity),
+        first.counters.newtonIterations, second.counters.newtonIterations, first.wall, second.wall);
     EXPECT_LT(difference(b.displacement, a.displacement), stop ? 1e-5 : 1e-8);
     EXPECT_LT(difference(b.velocity, a.velocity), stop ? 1e-4 : 1e-7);
     EXPECT_LT(std::abs(second.energy.residual()), 1e-2);

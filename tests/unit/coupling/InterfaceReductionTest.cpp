@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Characteristic constraint modes: against the statically condensed frame computed densely, static answers, dofs that stay, and the
-/// sentences for what cannot be reduced.
+/// Characteristic constraint modes: against the statically condensed frame computed densely, static
+/// answers, dofs that stay, and the sentences for what cannot be reduced.
 #include "coupling/InterfaceReduction.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
-#include <gtest/gtest.h>
 #include <functional>
+#include <gtest/gtest.h>
 #include <map>
 
 #include "common/Error.hpp"
@@ -27,41 +27,52 @@ using reduction::InterfaceOptions;
 
 enum class Level { System, Local };
 
-std::shared_ptr<const reduction::InterfaceBasis> interfaceModes(Level level, int modes, bool loads = true, bool keepPointLaws = true, double cutOffHz = 0) {
+std::shared_ptr<const reduction::InterfaceBasis> interfaceModes(Level level, int modes,
+                                                                bool loads = true,
+                                                                bool keepPointLaws = true,
+                                                                double cutOffHz = 0) {
   InterfaceOptions options;
   options.modes = modes;
   options.cutOffHz = cutOffHz;
   options.loadVectors = loads;
-  return level == Level::System ? reduction::systemInterfaceModes(options, keepPointLaws) : reduction::localInterfaceModes(options, keepPointLaws);
+  return level == Level::System ? reduction::systemInterfaceModes(options, keepPointLaws)
+                                : reduction::localInterfaceModes(options, keepPointLaws);
 }
 
-Synthesis synthesis(const std::vector<model::Substructure>& parts, int modes, std::shared_ptr<const reduction::InterfaceBasis> interface,
+Synthesis synthesis(const std::vector<model::Substructure>& parts, int modes,
+                    std::shared_ptr<const reduction::InterfaceBasis> interface,
                     const CouplingOptions& coupling = {}) {
   reduction::ReductionOptions options;
-  options.modes.kind = modes < 0 ? reduction::ModeRule::Kind::All : reduction::ModeRule::Kind::PerPart;
+  options.modes.kind =
+      modes < 0 ? reduction::ModeRule::Kind::All : reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
   options.interface = std::move(interface);
-  return synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options, coupling);
+  return synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()),
+                    options, coupling);
 }
 
 /// The weight of every part along z.
 std::vector<model::Substructure> loaded(std::vector<model::Substructure> parts) {
   for (auto& part : parts) {
     Vector down = Vector::Zero(part.model.size());
-    for (int i = 0; i < part.model.size(); ++i) down[i] = part.model.dofs[static_cast<std::size_t>(i)].component == 2 ? -1.0 : 0.0;
+    for (int i = 0; i < part.model.size(); ++i)
+      down[i] = part.model.dofs[static_cast<std::size_t>(i)].component == 2 ? -1.0 : 0.0;
     part.model.loads.push_back({"weight", part.model.mass * down * 9.81, 0});
   }
   return parts;
 }
 
-Vector staticAnswer(const model::SecondOrderModel& m) { return linalg::DirectSolver(m.stiffnessAt(0)).solve(m.loadAt(0)); }
+Vector staticAnswer(const model::SecondOrderModel& m) {
+  return linalg::DirectSolver(m.stiffnessAt(0)).solve(m.loadAt(0));
+}
 
 /// Displacement of all nodes, rows in the order of the nodes.
 Vector recovered(const model::SecondOrderModel& m, const Vector& z) {
   const auto components = static_cast<Eigen::Index>(m.componentNames.size());
   std::map<std::int64_t, Vector> nodes;
   const Vector all = m.recovery * z + m.recoveryOffset;
-  for (std::size_t i = 0; i < m.recoveryNodes.size(); ++i) nodes[m.recoveryNodes[i]] = all.segment(static_cast<Eigen::Index>(i) * components, components);
+  for (std::size_t i = 0; i < m.recoveryNodes.size(); ++i)
+    nodes[m.recoveryNodes[i]] = all.segment(static_cast<Eigen::Index>(i) * components, components);
   Vector out(all.size());
   Eigen::Index row = 0;
   for (const auto& [node, value] : nodes) {
@@ -87,21 +98,31 @@ class InterfaceReduction : public testing::TestWithParam<Level> {
 
 TEST_P(InterfaceReduction, WithAllModesNothingChanges) {
   const auto plain = synthesis(frame.parts(), 5, nullptr).coupled;
-  const auto reduced = synthesis(frame.parts(), 5, interfaceModes(GetParam(), GetParam() == Level::System ? 18 : 6)).coupled;
+  const auto reduced =
+      synthesis(frame.parts(), 5, interfaceModes(GetParam(), GetParam() == Level::System ? 18 : 6))
+          .coupled;
   EXPECT_EQ(plain.interface.size(), 18u);
   EXPECT_EQ(plain.interfaceModes, -1);
   EXPECT_EQ(reduced.interfaceModes, 18);
   EXPECT_EQ(reduced.interface.size(), 18u);
   ASSERT_EQ(reduced.model.size(), plain.model.size());
-  const Vector a = lowestModes(plain.model, plain.model.size()).values, b = lowestModes(reduced.model, reduced.model.size()).values;
-  for (Eigen::Index i = 0; i < a.size(); ++i) EXPECT_LE(std::abs(b[i] - a[i]), 1e-9 * a[i] + 1e-15 * a[a.size() - 1]) << "mode " << i + 1;
+  const Vector a = lowestModes(plain.model, plain.model.size()).values,
+               b = lowestModes(reduced.model, reduced.model.size()).values;
+  for (Eigen::Index i = 0; i < a.size(); ++i)
+    EXPECT_LE(std::abs(b[i] - a[i]), 1e-9 * a[i] + 1e-15 * a[a.size() - 1]) << "mode " << i + 1;
 }
 
 TEST_P(InterfaceReduction, FrequenciesComeFromAboveAndFallWithEveryMode) {
   const Vector exact = lowestModes(frame.whole().model, 6).values;
   Vector before = Vector::Constant(6, 1e300);
   for (int modes : {2, 3, 4, 6}) {
-    const Vector found = lowestModes(synthesis(frame.parts(), 8, interfaceModes(GetParam(), GetParam() == Level::System ? 3 * modes : modes)).coupled.model, 6).values;
+    const Vector found =
+        lowestModes(
+            synthesis(frame.parts(), 8,
+                      interfaceModes(GetParam(), GetParam() == Level::System ? 3 * modes : modes))
+                .coupled.model,
+            6)
+            .values;
     for (int i = 0; i < 6; ++i) {
       EXPECT_GE(found[i], exact[i] * (1 - 1e-9)) << modes << " modes";
       EXPECT_LE(found[i], before[i] * (1 + 1e-9)) << modes << " modes";
@@ -115,13 +136,18 @@ TEST_P(InterfaceReduction, StaticAnswersToLoadsAreExactWithoutAnyMode) {
   const auto parts = loaded(frame.parts());
   const auto whole = loaded({frame.whole()}).front();
   const auto coupled = synthesis(parts, 0, interfaceModes(GetParam(), 0)).coupled;
-  EXPECT_EQ(coupled.interfaceModes, GetParam() == Level::System ? 1 : 3) << "one load, of one name, on three interfaces";
+  EXPECT_EQ(coupled.interfaceModes, GetParam() == Level::System ? 1 : 3)
+      << "one load, of one name, on three interfaces";
   const Vector exact = recovered(whole.model, staticAnswer(whole.model));
   const Vector found = recovered(coupled.model, staticAnswer(coupled.model));
   // Craig-Bampton without modes is exact at joined nodes: 3, 4 and 5, the first that move.
   for (int node : {0, 1, 2})
-    EXPECT_LE((found.segment(6 * node, 6) - exact.segment(6 * node, 6)).norm(), 1e-9 * exact.segment(6 * node, 6).norm()) << "node " << node + 3;
-  const auto without = synthesis(parts, 0, interfaceModes(GetParam(), GetParam() == Level::System ? 6 : 2, false)).coupled;
+    EXPECT_LE((found.segment(6 * node, 6) - exact.segment(6 * node, 6)).norm(),
+              1e-9 * exact.segment(6 * node, 6).norm())
+        << "node " << node + 3;
+  const auto without =
+      synthesis(parts, 0, interfaceModes(GetParam(), GetParam() == Level::System ? 6 : 2, false))
+          .coupled;
   const Vector rough = recovered(without.model, staticAnswer(without.model));
   EXPECT_GT((rough.head(18) - exact.head(18)).norm(), 1e-4 * exact.head(18).norm());
 }
@@ -130,9 +156,12 @@ TEST_P(InterfaceReduction, ACutOffFrequencyKeepsTheModesBelowIt) {
   const auto guyan = synthesis(frame.parts(), 0, nullptr).coupled;
   const Vector all = lowestModes(guyan.model, 18).values;
   const double hz = std::sqrt(0.5 * (all[6] + all[7])) / 6.283185307179586;
-  const auto kept = synthesis(frame.parts(), 0, interfaceModes(GetParam(), -1, true, true, hz)).coupled.interfaceModes;
-  if (GetParam() == Level::System) EXPECT_EQ(kept, 7);
-  else EXPECT_LT(kept, 7) << "an interface whose neighbours are held is stiffer";
+  const auto kept = synthesis(frame.parts(), 0, interfaceModes(GetParam(), -1, true, true, hz))
+                        .coupled.interfaceModes;
+  if (GetParam() == Level::System)
+    EXPECT_EQ(kept, 7);
+  else
+    EXPECT_LT(kept, 7) << "an interface whose neighbours are held is stiffer";
 }
 
 TEST_P(InterfaceReduction, DofsWithPointLawsStay) {
@@ -154,11 +183,13 @@ TEST_P(InterfaceReduction, APointLawOnAnInnerDofKeepsNoJoinedOne) {
   samples::addCubicSprings(parts[3], {403});
   const auto coupled = synthesis(parts, 3, interfaceModes(GetParam(), 2)).coupled;
   EXPECT_EQ(coupled.interfaceModes, GetParam() == Level::System ? 2 : 6);
-  for (int node : {3, 4, 5}) EXPECT_LT(samples::find(coupled.model, DofLabel::physical(node, 0)), 0) << node;
+  for (int node : {3, 4, 5})
+    EXPECT_LT(samples::find(coupled.model, DofLabel::physical(node, 0)), 0) << node;
 }
 
 TEST_P(InterfaceReduction, ForcesOnDofsThatStayAreAnsweredExactly) {
-  // A force on kept dofs deflects reduced ones through the attached shapes; without any mode of the interfaces.
+  // A force on kept dofs deflects reduced ones through the attached shapes; without any mode of the
+  // interfaces.
   auto parts = frame.parts();
   samples::addCubicSprings(parts[3], {5});
   const auto coupled = synthesis(parts, 0, interfaceModes(Level::System, 0)).coupled;
@@ -185,8 +216,11 @@ TEST_P(InterfaceReduction, MapsAndRecoveryAgree) {
     const auto part = frame.parts()[p];
     for (std::size_t i = 0; i < part.model.dofs.size(); ++i) {
       const auto& label = part.model.dofs[i];
-      const auto at = std::find(coupled.model.recoveryNodes.begin(), coupled.model.recoveryNodes.end(), label.entity) - coupled.model.recoveryNodes.begin();
-      EXPECT_NEAR(all[6 * at + label.component], D[static_cast<Eigen::Index>(i)], 1e-12 * all.norm());
+      const auto at = std::find(coupled.model.recoveryNodes.begin(),
+                                coupled.model.recoveryNodes.end(), label.entity) -
+                      coupled.model.recoveryNodes.begin();
+      EXPECT_NEAR(all[6 * at + label.component], D[static_cast<Eigen::Index>(i)],
+                  1e-12 * all.norm());
     }
   }
 }
@@ -198,34 +232,41 @@ TEST_P(InterfaceReduction, AMotionInTheSpanOfTheModesStartsWhereItWas) {
   coupled.model.initialVelocity = 3.0 * shape;
   const Vector before = recovered(coupled.model, coupled.model.initialVelocity);
   reduceInterfaces(coupled, *interfaceModes(GetParam(), GetParam() == Level::System ? 1 : 6));
-  EXPECT_LE((recovered(coupled.model, coupled.model.initialVelocity) - before).norm(), 1e-9 * before.norm());
+  EXPECT_LE((recovered(coupled.model, coupled.model.initialVelocity) - before).norm(),
+            1e-9 * before.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Levels, InterfaceReduction, testing::Values(Level::System, Level::Local),
-                         [](const auto& tested) { return tested.param == Level::System ? "System" : "Local"; });
+                         [](const auto& tested) {
+                           return tested.param == Level::System ? "System" : "Local";
+                         });
 
 TEST(SystemInterfaceModes, AreTheModesOfTheStaticallyCondensedWhole) {
   const samples::FiveMembers frame{6};
   const auto whole = frame.whole().model;
   // Dense: T = [1; -K_ii^-1 K_ib], with b all dofs of nodes 3, 4, 5.
   std::vector<int> b, i;
-  for (int k = 0; k < whole.size(); ++k) (whole.dofs[static_cast<std::size_t>(k)].entity <= 5 ? b : i).push_back(k);
+  for (int k = 0; k < whole.size(); ++k)
+    (whole.dofs[static_cast<std::size_t>(k)].entity <= 5 ? b : i).push_back(k);
   const Matrix K = whole.stiffnessAt(0), M = whole.mass;
   Matrix T = Matrix::Zero(whole.size(), 18);
   T(b, Eigen::all) = Matrix::Identity(18, 18);
   T(i, Eigen::all) = -Matrix(K(i, i)).ldlt().solve(Matrix(K(i, b)));
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> condensed(T.transpose() * K * T, T.transpose() * M * T);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> condensed(T.transpose() * K * T,
+                                                                   T.transpose() * M * T);
   const auto coupled = synthesis(frame.parts(), 0, interfaceModes(Level::System, 7)).coupled;
   ASSERT_EQ(coupled.model.size(), 7);
   const Vector found = lowestModes(coupled.model, 7).values;
-  for (int k = 0; k < 7; ++k) EXPECT_NEAR(found[k] / condensed.eigenvalues()[k], 1.0, 1e-9) << "mode " << k + 1;
+  for (int k = 0; k < 7; ++k)
+    EXPECT_NEAR(found[k] / condensed.eigenvalues()[k], 1.0, 1e-9) << "mode " << k + 1;
 }
 
 TEST(LocalInterfaceModes, KeepAChainNarrow) {
   // Ten bars in a row, three dofs joined of which none is a neighbour of a neighbour.
   std::vector<model::Substructure> parts;
   for (int p = 0; p < 10; ++p) {
-    parts.push_back(samples::bar("bar " + std::to_string(p), 1 + 4 * p, 4, 3.0, 2.0, p == 0 ? std::vector<int>{1} : std::vector<int>{}));
+    parts.push_back(samples::bar("bar " + std::to_string(p), 1 + 4 * p, 4, 3.0, 2.0,
+                                 p == 0 ? std::vector<int>{1} : std::vector<int>{}));
     std::vector<int> ends;
     if (p > 0) ends.push_back(1 + 4 * p);
     if (p < 9) ends.push_back(5 + 4 * p);
@@ -242,7 +283,8 @@ TEST(LocalInterfaceModes, KeepAChainNarrow) {
 TEST(SystemInterfaceModes, OfAFloatingFrameHoldItsSixRigidMotions) {
   samples::FiveMembers frame{4};
   frame.feet.clear();
-  const auto parts = frame.parts();  // clamped feet are released; they are inner nodes of the columns now
+  const auto parts =
+      frame.parts();  // clamped feet are released; they are inner nodes of the columns now
   const auto coupled = synthesis(parts, 3, interfaceModes(Level::System, 8)).coupled;
   const Vector found = lowestModes(coupled.model, 8).values;
   for (int k = 0; k < 6; ++k) EXPECT_LT(std::abs(found[k]), 1e-7 * found[7]) << "mode " << k + 1;
@@ -253,7 +295,8 @@ TEST(InterfaceReductionErrors, DualAssemblyHasNoJoinedDofs) {
   const samples::FiveMembers frame{4};
   CouplingOptions dual;
   dual.assembly = Assembly::Dual;
-  const auto sentence = refusal([&] { synthesis(frame.parts(), 2, interfaceModes(Level::System, 3), dual); });
+  const auto sentence =
+      refusal([&] { synthesis(frame.parts(), 2, interfaceModes(Level::System, 3), dual); });
   EXPECT_NE(sentence.find("Set the assembly to Primal"), std::string::npos) << sentence;
 }
 
@@ -274,8 +317,12 @@ TEST(InterfaceReductionDeck, ReadsOneCriterion) {
     return refusal([&] { reduction::readOptions(list, 2); });
   };
   EXPECT_EQ(sentence([](auto& own) { own.set("Modes", 4); }), "accepted");
-  EXPECT_NE(sentence([](auto&) {}).find("Reduction/System does not say how many modes"), std::string::npos);
-  EXPECT_NE(sentence([](auto& own) { own.set("Modes", 4).set("Cut-off Frequency", 10.0); }).find("gives both"), std::string::npos);
+  EXPECT_NE(sentence([](auto&) {}).find("Reduction/System does not say how many modes"),
+            std::string::npos);
+  EXPECT_NE(sentence([](auto& own) {
+              own.set("Modes", 4).set("Cut-off Frequency", 10.0);
+            }).find("gives both"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -14,10 +14,12 @@ using Edges = std::vector<std::pair<int, int>>;
 
 int width(const std::vector<int>& order, const Edges& edges) {
   std::vector<int> place(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    place[static_cast<std::size_t>(order[k])] = static_cast<int>(k);
   int widest = 0;
   for (const auto& [a, b] : edges)
-    widest = std::max(widest, std::abs(place[static_cast<std::size_t>(a)] - place[static_cast<std::size_t>(b)]));
+    widest = std::max(
+        widest, std::abs(place[static_cast<std::size_t>(a)] - place[static_cast<std::size_t>(b)]));
   return widest;
 }
 
@@ -39,7 +41,8 @@ TEST(CuthillMcKee, ScrambledGridIsNarrow) {
   auto order = cuthillMcKee(n, edges);
   EXPECT_LE(width(order, edges), columns + 1);
   std::sort(order.begin(), order.end());
-  for (int i = 0; i < n; ++i) EXPECT_EQ(order[static_cast<std::size_t>(i)], i) << "every group once";
+  for (int i = 0; i < n; ++i)
+    EXPECT_EQ(order[static_cast<std::size_t>(i)], i) << "every group once";
 }
 
 TEST(CuthillMcKee, SeparateGroupsFollowEachOther) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Springs, stops and frictions at points: force against closed form, tangents against differences, powers against the work of
-/// the force, records against evaluate().
+/// Springs, stops and frictions at points: force against closed form, tangents against differences,
+/// powers against the work of the force, records against evaluate().
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
@@ -41,7 +41,8 @@ FrictionParameters friction() {
   return s;
 }
 
-std::vector<double> forces(const model::PointLaw& law, const std::vector<double>& d, const std::vector<double>& v) {
+std::vector<double> forces(const model::PointLaw& law, const std::vector<double>& d,
+                           const std::vector<double>& v) {
   std::vector<int> active(static_cast<std::size_t>(law.size()));
   std::iota(active.begin(), active.end(), 0);
   std::vector<double> f(d.size());
@@ -50,11 +51,13 @@ std::vector<double> forces(const model::PointLaw& law, const std::vector<double>
 }
 
 /// Tangents of a batch of one point against central differences of its forces.
-void expectTangents(const model::PointLaw& law, const std::vector<double>& d, const std::vector<double>& v) {
+void expectTangents(const model::PointLaw& law, const std::vector<double>& d,
+                    const std::vector<double>& v) {
   const std::size_t w = d.size();
   std::vector<double> f(w), K(w * w), C(w * w);
   law.evaluateWithTangent(0.0, {0}, d.data(), v.data(), f.data(), K.data(), C.data());
-  for (std::size_t i = 0; i < w; ++i) EXPECT_NEAR(f[i], forces(law, d, v)[i], 1e-12 * std::abs(f[i]));
+  for (std::size_t i = 0; i < w; ++i)
+    EXPECT_NEAR(f[i], forces(law, d, v)[i], 1e-12 * std::abs(f[i]));
   const double h = 1e-7;
   for (std::size_t column = 0; column < w; ++column)
     for (const bool position : {true, false}) {
@@ -63,14 +66,17 @@ void expectTangents(const model::PointLaw& law, const std::vector<double>& d, co
       (position ? dAfter : vAfter)[column] += h;
       const auto before = forces(law, dBefore, vBefore), after = forces(law, dAfter, vAfter);
       for (std::size_t row = 0; row < w; ++row) {
-        const double difference = (after[row] - before[row]) / (2.0 * h), exact = (position ? K : C)[row * w + column];
-        EXPECT_NEAR(exact, difference, 1e-5 * std::abs(difference) + 1e-3) << row << " " << column << " " << position;
+        const double difference = (after[row] - before[row]) / (2.0 * h),
+                     exact = (position ? K : C)[row * w + column];
+        EXPECT_NEAR(exact, difference, 1e-5 * std::abs(difference) + 1e-3)
+            << row << " " << column << " " << position;
       }
     }
 }
 
 /// d(stored)/dt + damping + friction = -f . v.
-void expectPowerBalance(const model::PointLaw& law, const std::vector<double>& d, const std::vector<double>& v) {
+void expectPowerBalance(const model::PointLaw& law, const std::vector<double>& d,
+                        const std::vector<double>& v) {
   const auto f = forces(law, d, v);
   const auto power = law.power(0.0, {0}, d.data(), v.data());
   auto before = d, after = d;
@@ -81,14 +87,16 @@ void expectPowerBalance(const model::PointLaw& law, const std::vector<double>& d
     after[i] += h * v[i];
     work += f[i] * v[i];
   }
-  const double storing =
-      (law.power(0.0, {0}, after.data(), v.data()).stored - law.power(0.0, {0}, before.data(), v.data()).stored) / (2.0 * h);
+  const double storing = (law.power(0.0, {0}, after.data(), v.data()).stored -
+                          law.power(0.0, {0}, before.data(), v.data()).stored) /
+                         (2.0 * h);
   EXPECT_NEAR(storing + power.damping + power.friction, -work, 1e-6 * (std::abs(work) + 1.0));
   EXPECT_GE(power.damping, 0.0);
   EXPECT_GE(power.friction, 0.0);
 }
 
-std::vector<double> records(const model::PointLaw& law, const std::vector<double>& d, const std::vector<double>& v) {
+std::vector<double> records(const model::PointLaw& law, const std::vector<double>& d,
+                            const std::vector<double>& v) {
   std::vector<double> out(law.channels().size() * static_cast<std::size_t>(law.size()));
   law.record(0.0, d.data(), v.data(), out.data());
   return out;
@@ -97,10 +105,12 @@ std::vector<double> records(const model::PointLaw& law, const std::vector<double
 TEST(Springs, PullBackLinearlyCubicallyAndAgainstTheVelocity) {
   const auto law = springs({spring()});
   const double d = 0.07, v = -1.3;
-  EXPECT_NEAR(forces(*law, {d}, {v})[0], -kStiffness * d - kCubic * d * d * d - kDamping * v, 1e-10);
+  EXPECT_NEAR(forces(*law, {d}, {v})[0], -kStiffness * d - kCubic * d * d * d - kDamping * v,
+              1e-10);
   expectTangents(*law, {d}, {v});
   expectPowerBalance(*law, {d}, {v});
-  EXPECT_NEAR(law->power(0.0, {0}, &d, &v).stored, 0.5 * kStiffness * d * d + 0.25 * kCubic * d * d * d * d, 1e-10);
+  EXPECT_NEAR(law->power(0.0, {0}, &d, &v).stored,
+              0.5 * kStiffness * d * d + 0.25 * kCubic * d * d * d * d, 1e-10);
   EXPECT_NEAR(law->power(0.0, {0}, &d, &v).damping, kDamping * v * v, 1e-10);
 }
 
@@ -114,7 +124,8 @@ TEST(Springs, RecordTheForceOfEachPoint) {
   EXPECT_EQ(law->channels()[0].unit, "N");
 }
 
-/// f = k p (1 + chi p') with the penetration p = -(d + gap), smooth within the smoothing length, never pulling.
+/// f = k p (1 + chi p') with the penetration p = -(d + gap), smooth within the smoothing length,
+/// never pulling.
 TEST(Stops, PushInThePenetrationOnly) {
   const auto law = stops({stop(0.0)});
   EXPECT_EQ(forces(*law, {-0.0089}, {0.0})[0], 0.0);

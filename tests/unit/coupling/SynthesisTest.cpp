@@ -17,18 +17,24 @@ using namespace tooljoint;
 using namespace tooljoint::coupling;
 using reduction::BasisResult;
 
-/// Craig-Bampton that throws away one mode of every part per round until `least` are left (or never stops).
+/// Craig-Bampton that throws away one mode of every part per round until `least` are left (or never
+/// stops).
 class Shrinking : public reduction::Basis {
  public:
-  explicit Shrinking(int least) : least_(least), base_(reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList())) {}
-  BasisResult build(const model::Substructure& part, const reduction::ModeRequest& request) const override {
+  explicit Shrinking(int least)
+      : least_(least), base_(reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList())) {}
+  BasisResult build(const model::Substructure& part,
+                    const reduction::ModeRequest& request) const override {
     return base_->build(part, request);
   }
-  bool improve(const model::SecondOrderModel& coupled, const std::vector<std::vector<int>>& positions,
-               const std::vector<model::Substructure>& parts, std::vector<BasisResult>& bases) const override {
+  bool improve(const model::SecondOrderModel& coupled,
+               const std::vector<std::vector<int>>& positions,
+               const std::vector<model::Substructure>& parts,
+               std::vector<BasisResult>& bases) const override {
     EXPECT_EQ(positions.size(), parts.size());
     int columns = 0;
-    for (const auto& position : positions) columns = std::max(columns, *std::max_element(position.begin(), position.end()) + 1);
+    for (const auto& position : positions)
+      columns = std::max(columns, *std::max_element(position.begin(), position.end()) + 1);
     EXPECT_EQ(columns, coupled.size());
     bool changed = least_ < 0;
     for (auto& basis : bases)
@@ -72,7 +78,8 @@ TEST(Synthesis, CouplesAgainAfterEveryImprovement) {
 }
 
 TEST(Synthesis, ImprovementWithoutEndIsAnError) {
-  EXPECT_THROW(synthesise(samples::loopFrame(6, true), Shrinking(-1), sixModes()), ConvergenceError);
+  EXPECT_THROW(synthesise(samples::loopFrame(6, true), Shrinking(-1), sixModes()),
+               ConvergenceError);
 }
 
 }  // namespace

@@ -18,12 +18,16 @@ ListSpec tubes() {
       .radius("Inner Radius", Optional{}, Range::nonNegative(), "Inner radius.")
       .text("Component", Optional{}, "Direction of the load.")
       .real("Value", "N or N m", Optional{}, Range::any(), "Load.")
-      .unitBy("Component", [](const std::string& component) { return component == "theta" ? "N m" : component == "u" ? "N" : ""; });
+      .unitBy("Component", [](const std::string& component) {
+        return component == "theta" ? "N m" : component == "u" ? "N" : "";
+      });
   return ListSpec("scene", "Tubes.").namedLists(tube);
 }
 
 Deck parsed(const std::string& tube, const std::vector<std::string>& overrides = {}) {
-  return Deck::parse("<ParameterList name=\"s\">\n<ParameterList name=\"a\">\n" + tube + "\n</ParameterList>\n</ParameterList>\n", "deck.xml", tubes(), overrides);
+  return Deck::parse("<ParameterList name=\"s\">\n<ParameterList name=\"a\">\n" + tube +
+                         "\n</ParameterList>\n</ParameterList>\n",
+                     "deck.xml", tubes(), overrides);
 }
 
 std::string fault(const std::string& tube, const std::vector<std::string>& overrides = {}) {
@@ -33,31 +37,43 @@ std::string fault(const std::string& tube, const std::vector<std::string>& overr
 }  // namespace
 
 TEST(Radius, IsHalfOfTheDiameter) {
-  const Deck deck = parsed(parameter("Outer Diameter", "string", "5 in") + "\n" + parameter("Inner Diameter", "double", "0.1"));
+  const Deck deck = parsed(parameter("Outer Diameter", "string", "5 in") + "\n" +
+                           parameter("Inner Diameter", "double", "0.1"));
   const auto& list = deck.list().sublist("a");
   EXPECT_DOUBLE_EQ(list.get<double>("Outer Radius"), 0.0635);
   EXPECT_DOUBLE_EQ(list.get<double>("Inner Radius"), 0.05);
   EXPECT_FALSE(list.isParameter("Outer Diameter"));
   EXPECT_TRUE(deck.gives("a/Outer Radius"));
-  EXPECT_EQ(deck.where("a/Inner Radius"), "deck.xml:4: /s/a/Inner Radius");  // the line of the diameter
-  EXPECT_DOUBLE_EQ(parsed(parameter("Outer Radius", "double", "0.1"), {"a/Inner Diameter=3 cm"}).list().sublist("a").get<double>("Inner Radius"), 0.015);
+  EXPECT_EQ(deck.where("a/Inner Radius"),
+            "deck.xml:4: /s/a/Inner Radius");  // the line of the diameter
+  EXPECT_DOUBLE_EQ(parsed(parameter("Outer Radius", "double", "0.1"), {"a/Inner Diameter=3 cm"})
+                       .list()
+                       .sublist("a")
+                       .get<double>("Inner Radius"),
+                   0.015);
 }
 
 TEST(Radius, AndDiameterExcludeEachOther) {
-  EXPECT_EQ(fault(parameter("Outer Radius", "double", "0.1") + "\n" + parameter("Outer Diameter", "double", "0.2")),
+  EXPECT_EQ(fault(parameter("Outer Radius", "double", "0.1") + "\n" +
+                  parameter("Outer Diameter", "double", "0.2")),
             "deck.xml:4: /s/a/Outer Diameter and Outer Radius are both given: give one of them.");
   EXPECT_EQ(fault(parameter("Outer Radius", "double", "0.1"), {"a/Outer Diameter=0.3"}),
-            "--set a/Outer Diameter=0.3: /s/a/Outer Diameter and Outer Radius are both given: give one of them.");
+            "--set a/Outer Diameter=0.3: /s/a/Outer Diameter and Outer Radius are both given: give "
+            "one of them.");
 }
 
 TEST(Radius, NeitherIsAFaultWhereOneIsNeeded) {
   EXPECT_EQ(fault(""),
-            "deck.xml:2: /s/a/Outer Radius is required but missing: write <Parameter name=\"Outer Radius\" type=\"double\" value=\"...\"/>, "
+            "deck.xml:2: /s/a/Outer Radius is required but missing: write <Parameter name=\"Outer "
+            "Radius\" type=\"double\" value=\"...\"/>, "
             "or give Outer Diameter. \"Outer Radius\": outer radius, m, > 0.");
 }
 
 TEST(Radius, OfADiameterOutOfRangeNamesTheDiameter) {
-  EXPECT_EQ(fault(parameter("Outer Diameter", "double", "-1")).find("deck.xml:3: /s/a/Outer Diameter: value=\"-1\" is out of range: it must be > 0."), 0U);
+  EXPECT_EQ(
+      fault(parameter("Outer Diameter", "double", "-1"))
+          .find("deck.xml:3: /s/a/Outer Diameter: value=\"-1\" is out of range: it must be > 0."),
+      0U);
 }
 
 TEST(Radius, StandsInTheTemplateAndTheDiameterBesideIt) {
@@ -71,21 +87,42 @@ TEST(Radius, StandsInTheTemplateAndTheDiameterBesideIt) {
 TEST(UnitBy, TakesTheUnitOfTheOtherParameter) {
   const std::string radius = parameter("Outer Radius", "double", "1");
   const auto value = [&](const std::string& component, const std::string& text) {
-    return parsed(radius + parameter("Component", "string", component) + parameter("Value", "string", text)).list().sublist("a").get<double>("Value");
+    return parsed(radius + parameter("Component", "string", component) +
+                  parameter("Value", "string", text))
+        .list()
+        .sublist("a")
+        .get<double>("Value");
   };
   EXPECT_EQ(value("u", "2 kN"), 2000.0);
   EXPECT_EQ(value("theta", "2 kN m"), 2000.0);
   EXPECT_DOUBLE_EQ(value("theta", "1 ft-lbf"), 1.3558179483314004);
-  EXPECT_EQ(parsed(radius + parameter("Component", "string", "x") + parameter("Value", "double", "3")).list().sublist("a").get<double>("Value"), 3.0);
-  EXPECT_EQ(parsed(radius + parameter("Component", "string", "u"), {"a/Value=1 klbf"}).list().sublist("a").get<double>("Value"), 4448.2216152605);
+  EXPECT_EQ(
+      parsed(radius + parameter("Component", "string", "x") + parameter("Value", "double", "3"))
+          .list()
+          .sublist("a")
+          .get<double>("Value"),
+      3.0);
+  EXPECT_EQ(parsed(radius + parameter("Component", "string", "u"), {"a/Value=1 klbf"})
+                .list()
+                .sublist("a")
+                .get<double>("Value"),
+            4448.2216152605);
 }
 
 TEST(UnitBy, RefusesTheUnitOfAnotherKind) {
   const std::string radius = parameter("Outer Radius", "double", "1") + "\n";
   const auto refusal = [&](const std::string& component, const std::string& text) {
-    return fault(radius + parameter("Component", "string", component) + "\n" + parameter("Value", "string", text));
+    return fault(radius + parameter("Component", "string", component) + "\n" +
+                 parameter("Value", "string", text));
   };
-  EXPECT_EQ(refusal("u", "2 kN m").find("deck.xml:5: /s/a/Value: value=\"2 kN m\" has the unit \"kN m\", which does not measure what is asked for here (N)"), 0U);
-  EXPECT_EQ(refusal("theta", "2 kN").find("deck.xml:5: /s/a/Value: value=\"2 kN\" has the unit \"kN\", which does not measure what is asked for here (N m)"), 0U);
-  EXPECT_EQ(refusal("x", "2 kN"), "deck.xml:5: /s/a/Value: value=\"2 kN\" stands where a plain number is expected.");
+  EXPECT_EQ(refusal("u", "2 kN m")
+                .find("deck.xml:5: /s/a/Value: value=\"2 kN m\" has the unit \"kN m\", which does "
+                      "not measure what is asked for here (N)"),
+            0U);
+  EXPECT_EQ(refusal("theta", "2 kN")
+                .find("deck.xml:5: /s/a/Value: value=\"2 kN\" has the unit \"kN\", which does not "
+                      "measure what is asked for here (N m)"),
+            0U);
+  EXPECT_EQ(refusal("x", "2 kN"),
+            "deck.xml:5: /s/a/Value: value=\"2 kN\" stands where a plain number is expected.");
 }

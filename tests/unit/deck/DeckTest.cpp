@@ -23,7 +23,9 @@ class DeckFiles : public ::testing::Test {
  protected:
   void SetUp() override {
     if (parallel::rank() == 0) {
-      folder_ = (std::filesystem::temp_directory_path() / ("tooljoint_deck_" + std::to_string(getpid()))).string();
+      folder_ =
+          (std::filesystem::temp_directory_path() / ("tooljoint_deck_" + std::to_string(getpid())))
+              .string();
       std::filesystem::create_directories(folder_);
     }
     parallel::broadcast(folder_, 0);
@@ -60,7 +62,8 @@ TEST_F(DeckFiles, OverridesDoNotChangeTheTextOrItsHash) {
 }
 
 TEST_F(DeckFiles, FaultsAreTheSameOnEveryRank) {
-  const std::string file = write("bad.xml", deckWith(parameter("Stiffnes", "double", "1"), endTime));
+  const std::string file =
+      write("bad.xml", deckWith(parameter("Stiffnes", "double", "1"), endTime));
   const std::string fault = messageOf([&] { Deck::read(file, smallScene()); });
   EXPECT_EQ(fault.find(file + ":2: /well/Contact/Stiffness is required"), 0U) << fault;
   std::string first = fault;
@@ -97,18 +100,22 @@ TEST_F(DeckFiles, AnEmptyFileIsABadDeck) {
 
 TEST_F(DeckFiles, ABinaryFileIsABadDeck) {
   const std::string file = write("binary.xml", std::string("\x89HDF\r\n\x1a\n\0\0\0", 11));
-  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }), file + ": is a binary file, not an XML text in UTF-8.");
+  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
+            file + ": is a binary file, not an XML text in UTF-8.");
 }
 
 TEST_F(DeckFiles, AHugeFileIsRefusedUnread) {
   const std::string file = write("huge.xml", "<");
-  if (parallel::rank() == 0) std::filesystem::resize_file(file, 5000UL * 1024UL * 1024UL);  // sparse
-  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }), file + ": is larger than 64 MB, which cannot be a deck.");
+  if (parallel::rank() == 0)
+    std::filesystem::resize_file(file, 5000UL * 1024UL * 1024UL);  // sparse
+  EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
+            file + ": is larger than 64 MB, which cannot be a deck.");
 }
 
 TEST_F(DeckFiles, WindowsLineEndsCountAsLines) {
   std::string text = deckWith(parameter("Stiffness", "double", "x"), endTime);
-  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+    text.insert(at, "\r");
   const std::string file = write("windows.xml", text);
   EXPECT_EQ(messageOf([&] { Deck::read(file, smallScene()); }),
             file + ":3: /well/Contact/Stiffness: type=\"double\" value=\"x\" is not a number.");
@@ -122,11 +129,15 @@ TEST_F(DeckFiles, AByteOrderMarkIsFine) {
 TEST_F(DeckFiles, LibrariesAreReadWithTheirOwnDescription) {
   const ListSpec library =
       ListSpec("library", "L.")
-          .namedLists(ListSpec("component", "C.").real("Length", "m", Required{}, Range::positive(), "The length."));
-  const Deck deck =
-      Deck::read(write("scene.xml", deckWith(stiffness, endTime + parameter("Note", "string", "library.xml"))), smallScene());
-  const std::string file = write("library.xml", "<ParameterList name=\"lib\">\n<ParameterList name=\"pipe\">" +
-                                                    parameter("Length", "string", "30 ft") + "</ParameterList></ParameterList>");
+          .namedLists(ListSpec("component", "C.")
+                          .real("Length", "m", Required{}, Range::positive(), "The length."));
+  const Deck deck = Deck::read(
+      write("scene.xml", deckWith(stiffness, endTime + parameter("Note", "string", "library.xml"))),
+      smallScene());
+  const std::string file =
+      write("library.xml", "<ParameterList name=\"lib\">\n<ParameterList name=\"pipe\">" +
+                               parameter("Length", "string", "30 ft") +
+                               "</ParameterList></ParameterList>");
   const Deck pipes = deck.readNamed("Transient/Note", "library.xml", library);
   EXPECT_DOUBLE_EQ(pipes.list().sublist("pipe").get<double>("Length"), 9.144);
   EXPECT_EQ(pipes.where("pipe/Length"), file + ":2: /lib/pipe/Length");
@@ -134,17 +145,20 @@ TEST_F(DeckFiles, LibrariesAreReadWithTheirOwnDescription) {
 }
 
 TEST_F(DeckFiles, AMissingLibraryIsAFaultOfTheDeck) {
-  const std::string scene = write("scene.xml", deckWith(stiffness, endTime + "\n" + parameter("Note", "string", "no.xml")));
+  const std::string scene = write(
+      "scene.xml", deckWith(stiffness, endTime + "\n" + parameter("Note", "string", "no.xml")));
   const Deck deck = Deck::read(scene, smallScene());
-  EXPECT_EQ(messageOf([&] { deck.readNamed("Transient/Note", "no.xml", ListSpec("library", "L.")); }),
-            scene + ":7: /well/Transient/Note names a file, but " + folder_ +
-                "/no.xml cannot be read: No such file or directory.");
+  EXPECT_EQ(
+      messageOf([&] { deck.readNamed("Transient/Note", "no.xml", ListSpec("library", "L.")); }),
+      scene + ":7: /well/Transient/Note names a file, but " + folder_ +
+          "/no.xml cannot be read: No such file or directory.");
 }
 
 TEST_F(DeckFiles, FaultsOfALibraryPointIntoTheLibrary) {
   const Deck deck = Deck::read(write("scene.xml", good), smallScene());
-  const std::string file =
-      write("library.xml", "<ParameterList name=\"lib\">\n<Parameter name=\"x\" type=\"int\" value=\"1\"/></ParameterList>");
+  const std::string file = write("library.xml",
+                                 "<ParameterList name=\"lib\">\n<Parameter name=\"x\" type=\"int\" "
+                                 "value=\"1\"/></ParameterList>");
   EXPECT_EQ(messageOf([&] { deck.readNamed("Title", "library.xml", ListSpec("library", "L.")); }),
             file + ":2: /lib/x is not a parameter. This list holds nothing of its own.");
 }
@@ -166,10 +180,13 @@ TEST(DeckPlaces, EveryPathHasALine) {
   EXPECT_EQ(deck.where("/Contact/Stiffness"), "deck.xml:3: /well/Contact/Stiffness");
   EXPECT_EQ(deck.where("/well/Contact/Stiffness"), "deck.xml:3: /well/Contact/Stiffness");
   EXPECT_EQ(deck.where("well/Contact/Stiffness"), "deck.xml:3: /well/Contact/Stiffness");
-  EXPECT_EQ(deck.where(deck.list().sublist("Contact").name() + "/Stiffness"), "deck.xml:3: /well/Contact/Stiffness");
+  EXPECT_EQ(deck.where(deck.list().sublist("Contact").name() + "/Stiffness"),
+            "deck.xml:3: /well/Contact/Stiffness");
   EXPECT_EQ(deck.where("Contact"), "deck.xml:2: /well/Contact");
-  EXPECT_EQ(deck.where("Contact/Friction"), "deck.xml:2: /well/Contact/Friction") << "a default has the line of its list";
-  EXPECT_EQ(deck.where("Mud/Density"), "deck.xml:1: /well/Mud/Density") << "an absent list has the line of the scene";
+  EXPECT_EQ(deck.where("Contact/Friction"), "deck.xml:2: /well/Contact/Friction")
+      << "a default has the line of its list";
+  EXPECT_EQ(deck.where("Mud/Density"), "deck.xml:1: /well/Mud/Density")
+      << "an absent list has the line of the scene";
   EXPECT_EQ(deck.where(""), "deck.xml:1: /well");
   EXPECT_EQ(deck.where("/well"), "deck.xml:1: /well");
 }
@@ -185,16 +202,20 @@ TEST(DeckPlaces, WhatIsGivenAndWhatIsADefault) {
 
 TEST(DeckPlaces, ErrorsContinueThePathOrFollowIt) {
   const Deck deck = parseSmall(good);
-  EXPECT_EQ(deck.error("Contact/Stiffness", "is too small."), "deck.xml:3: /well/Contact/Stiffness is too small.");
+  EXPECT_EQ(deck.error("Contact/Stiffness", "is too small."),
+            "deck.xml:3: /well/Contact/Stiffness is too small.");
   EXPECT_EQ(deck.error("Contact/Stiffness", "The bit is above the well."),
             "deck.xml:3: /well/Contact/Stiffness: The bit is above the well.");
 }
 
 TEST(DeckPlaces, AMessageThatBeginsWithAPathGetsItsLine) {
   const Deck deck = parseSmall(good);
-  EXPECT_EQ(deck.located("/well/Contact/Stiffness is too small."), "deck.xml:3: /well/Contact/Stiffness is too small.");
-  EXPECT_EQ(deck.located("/well/Transient/End Time: too short."), "deck.xml:6: /well/Transient/End Time: too short.");
-  EXPECT_EQ(deck.located("/well/Contact/Friction is odd."), "deck.xml:2: /well/Contact/Friction is odd.");
+  EXPECT_EQ(deck.located("/well/Contact/Stiffness is too small."),
+            "deck.xml:3: /well/Contact/Stiffness is too small.");
+  EXPECT_EQ(deck.located("/well/Transient/End Time: too short."),
+            "deck.xml:6: /well/Transient/End Time: too short.");
+  EXPECT_EQ(deck.located("/well/Contact/Friction is odd."),
+            "deck.xml:2: /well/Contact/Friction is odd.");
   EXPECT_EQ(deck.located("/well is odd."), "deck.xml:1: /well is odd.");
   EXPECT_EQ(deck.located("/wellhead/x is odd."), "/wellhead/x is odd.");
   EXPECT_EQ(deck.located("The pivot is zero."), "The pivot is zero.");
@@ -219,13 +240,15 @@ TEST(Problems, ComeTogetherSortedByLine) {
 
 TEST(Problems, OfALibraryFollowThoseOfTheDeck) {
   const Deck deck = parseSmall(good);
-  const Deck library = Deck::parse("<ParameterList name=\"lib\"><ParameterList name=\"pipe\"/></ParameterList>", "a.xml",
-                                   ListSpec("l", "L.").namedLists(ListSpec("c", "C.")));
+  const Deck library =
+      Deck::parse("<ParameterList name=\"lib\"><ParameterList name=\"pipe\"/></ParameterList>",
+                  "a.xml", ListSpec("l", "L.").namedLists(ListSpec("c", "C.")));
   Problems problems(deck);
   problems.add(library, "pipe", "is thicker than the well.");
   problems.add("Transient/End Time", "is too short.");
   EXPECT_EQ(messageOf([&] { problems.raise(); }),
-            "deck.xml:6: /well/Transient/End Time is too short.\na.xml:1: /lib/pipe is thicker than the well.");
+            "deck.xml:6: /well/Transient/End Time is too short.\na.xml:1: /lib/pipe is thicker "
+            "than the well.");
 }
 
 TEST(Defaults, OfAListWithoutADeck) {
@@ -239,5 +262,6 @@ TEST(Defaults, OfAListWithoutADeck) {
   EXPECT_FALSE(values.isParameter("End"));
   EXPECT_EQ(values.sublist("Sub").get<int>("N"), 2);
   EXPECT_FALSE(values.isSublist("Not"));
-  EXPECT_EQ(messageOf([] { defaults(smallScene()); }), "\"Transient/End Time\" is required but missing.");
+  EXPECT_EQ(messageOf([] { defaults(smallScene()); }),
+            "\"Transient/End Time\" is required but missing.");
 }

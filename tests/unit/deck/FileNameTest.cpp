@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "deck/FileName.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
 #include "deck/Deck.hpp"
-#include "deck/FileName.hpp"
 
 namespace {
 
@@ -11,9 +12,12 @@ using namespace tooljoint;
 
 std::string fileOf(const std::string& deck, const std::string& name) {
   deck::ListSpec spec("scene", "A scene.");
-  spec.list(deck::ListSpec("Reduction", "Parts.").list(deck::ListSpec("User Vectors", "Vectors.").text("File", deck::Required{}, "A file.")));
+  spec.list(deck::ListSpec("Reduction", "Parts.")
+                .list(deck::ListSpec("User Vectors", "Vectors.")
+                          .text("File", deck::Required{}, "A file.")));
   const std::string text =
-      "<ParameterList name=\"scene\">\n<ParameterList name=\"Reduction\">\n<ParameterList name=\"User Vectors\">\n<Parameter name=\"File\" type=\"string\" value=\"" +
+      "<ParameterList name=\"scene\">\n<ParameterList name=\"Reduction\">\n<ParameterList "
+      "name=\"User Vectors\">\n<Parameter name=\"File\" type=\"string\" value=\"" +
       name + "\"/>\n</ParameterList>\n</ParameterList>\n</ParameterList>\n";
   const auto read = deck::Deck::parse(text, deck, spec);
   const Teuchos::ParameterList copy(read.list().sublist("Reduction").sublist("User Vectors"));
@@ -22,7 +26,8 @@ std::string fileOf(const std::string& deck, const std::string& name) {
 
 TEST(FileName, IsRelativeToTheDeck) {
   EXPECT_EQ(fileOf("scenes/one.xml", "vectors.mtx"), "scenes/vectors.mtx");
-  EXPECT_EQ(fileOf("/home/scenes/one.xml", "data/vectors of %.mtx"), "/home/scenes/data/vectors of %.mtx");
+  EXPECT_EQ(fileOf("/home/scenes/one.xml", "data/vectors of %.mtx"),
+            "/home/scenes/data/vectors of %.mtx");
   EXPECT_EQ(fileOf("one.xml", "vectors.mtx"), "vectors.mtx");
   EXPECT_EQ(fileOf("scenes/one.xml", "/data/vectors.mtx"), "/data/vectors.mtx");
 }

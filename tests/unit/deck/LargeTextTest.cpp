@@ -11,7 +11,8 @@ using namespace tooljoint::deck::test;
 
 namespace {
 
-/// What `count` of these in a row take to be refused [s]; the time of the process, so that a loaded machine does not matter.
+/// What `count` of these in a row take to be refused [s]; the time of the process, so that a loaded
+/// machine does not matter.
 template <class Item>
 double secondsFor(int count, const Item& item) {
   std::string contact;
@@ -28,7 +29,8 @@ TEST(LargeText, AnElementOfManyAttributesIsRefusedBeforeItIsParsed) {
   for (int i = 0; i < 100000; ++i) attributes += " a" + std::to_string(i) + "=\"1\"";
   const std::clock_t start = std::clock();
   EXPECT_EQ(faultOf(deckWith("<!-- < a=\"1\" -->\n<Parameter" + attributes + "/>", endTime)),
-            "deck.xml:4: an element has more than 100 attributes; a parameter has three: name, type and value.");
+            "deck.xml:4: an element has more than 100 attributes; a parameter has three: name, "
+            "type and value.");
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);
 }
 
@@ -40,10 +42,14 @@ TEST(LargeText, SignsThatAreNoAttributesDoNotCount) {
 
 // Ten times as many parameters may take twenty times as long, not a hundred times.
 TEST(LargeText, ReadingIsNearLinearInTheNumberOfParameters) {
-  const auto distinct = [](int i) { return parameter("p" + std::to_string(i), "double", "1") + "\n"; };
+  const auto distinct = [](int i) {
+    return parameter("p" + std::to_string(i), "double", "1") + "\n";
+  };
   const auto twice = [](int) { return parameter("Friction", "double", "0.1") + "\n"; };
   for (const bool same : {false, true}) {
-    const auto seconds = [&](int count) { return same ? secondsFor(count, twice) : secondsFor(count, distinct); };
+    const auto seconds = [&](int count) {
+      return same ? secondsFor(count, twice) : secondsFor(count, distinct);
+    };
     const double few = seconds(5000), many = seconds(50000);
     EXPECT_LT(many, 20.0 * few + 0.5) << few;
     EXPECT_LT(many, 10.0);
@@ -53,9 +59,12 @@ TEST(LargeText, ReadingIsNearLinearInTheNumberOfParameters) {
 TEST(LargeText, MessagesQuoteLittleOfALongValue) {
   const std::string huge(1000000, 'x');
   for (const std::string& contact :
-       {parameter("Stiffness", "double", huge), parameter("Stiffness", "string", huge), parameter("Stiffness", "string", "5 " + huge),
-        parameter("Stiffness", "string", "5 m" + std::string(1000000, '9')), parameter("Stiffness", huge, "1"), parameter("Law", "string", huge),
-        parameter(huge, "double", "1"), parameter("Smooth", "Array(double)", "{" + huge + "}"), parameter("Stiffness", "Array(string)", "{" + huge + "}"),
+       {parameter("Stiffness", "double", huge), parameter("Stiffness", "string", huge),
+        parameter("Stiffness", "string", "5 " + huge),
+        parameter("Stiffness", "string", "5 m" + std::string(1000000, '9')),
+        parameter("Stiffness", huge, "1"), parameter("Law", "string", huge),
+        parameter(huge, "double", "1"), parameter("Smooth", "Array(double)", "{" + huge + "}"),
+        parameter("Stiffness", "Array(string)", "{" + huge + "}"),
         "<Parameter name=\"Stiffness\" type=\"double\" value=\"1\" " + huge + "=\"1\"/>", huge}) {
     const std::string message = faultOf(deckWith(contact, endTime));
     EXPECT_NE(message, "") << contact.substr(0, 60);
@@ -63,5 +72,8 @@ TEST(LargeText, MessagesQuoteLittleOfALongValue) {
   }
   EXPECT_LT(faultOf(deckWith(stiffness, endTime), {"Contact/Stiffness=" + huge}).size(), 1000U);
   EXPECT_LT(faultOf(deckWith(stiffness, endTime), {"Contact/" + huge + "=1"}).size(), 1500U);
-  EXPECT_LT(faultOf(deckWith(stiffness, endTime + parameter("Fields", "Array(string)", "{" + huge + "}"))).size(), 1000U);
+  EXPECT_LT(
+      faultOf(deckWith(stiffness, endTime + parameter("Fields", "Array(string)", "{" + huge + "}")))
+          .size(),
+      1000U);
 }

@@ -10,7 +10,8 @@ using namespace tooljoint::deck::test;
 
 namespace {
 
-/// The first line a person sees when `contact` stands in line 3 of a deck that is otherwise in order.
+/// The first line a person sees when `contact` stands in line 3 of a deck that is otherwise in
+/// order.
 std::string faultIn(const std::string& contact) { return faultOf(deckWith(contact, endTime)); }
 
 const std::string p = "deck.xml:3: /well/Contact";
@@ -23,7 +24,9 @@ struct Lexical {
 };
 class LexicalFault : public ::testing::TestWithParam<Lexical> {};
 
-TEST_P(LexicalFault, IsReportedWithLineAndPath) { EXPECT_EQ(faultIn(GetParam().contact), GetParam().message); }
+TEST_P(LexicalFault, IsReportedWithLineAndPath) {
+  EXPECT_EQ(faultIn(GetParam().contact), GetParam().message);
+}
 
 INSTANTIATE_TEST_SUITE_P(
     Table, LexicalFault,
@@ -34,28 +37,39 @@ INSTANTIATE_TEST_SUITE_P(
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2" Value="3"/>)x",
             p + R"x(/Friction has the attribute Value="3", which is not known; known are "name", "type", "value". Did you mean "value"?)x"},
-        Lexical{R"x(<Parameter name="Friction" type="double" value="0.2" docString="mu"/>)x",
-                p + R"x(/Friction has the attribute docString="mu", which is not known; known are "name", "type", "value".)x"},
-        Lexical{R"x(<ParameterList name="Intervals" type="double"/>)x",
-                p + R"x(/Intervals has the attribute type="double", which is not known; known are "name".)x"},
-        Lexical{R"x(<Parameter name="Friction" type="double" value="0.2" xml:lang="en"/>)x",
-                p + R"x(/Friction has the attribute xml:lang="en", which is not known; known are "name", "type", "value".)x"},
+        Lexical{
+            R"x(<Parameter name="Friction" type="double" value="0.2" docString="mu"/>)x",
+            p + R"x(/Friction has the attribute docString="mu", which is not known; known are "name", "type", "value".)x"},
+        Lexical{
+            R"x(<ParameterList name="Intervals" type="double"/>)x",
+            p + R"x(/Intervals has the attribute type="double", which is not known; known are "name".)x"},
+        Lexical{
+            R"x(<Parameter name="Friction" type="double" value="0.2" xml:lang="en"/>)x",
+            p + R"x(/Friction has the attribute xml:lang="en", which is not known; known are "name", "type", "value".)x"},
         Lexical{R"x(<ParameterList name="Intervals" xmlns="http://x"/>)x",
                 p + "/Intervals declares an XML namespace; a deck has none."},
-        Lexical{R"x(<Parameter type="double" value="0.2"/>)x", p + R"x(: a <Parameter> has no name: write name="...".)x"},
-        Lexical{R"x(<Parameter name="" type="double" value="0.2"/>)x", p + ": a <Parameter> has an empty name."},
-        Lexical{R"x(<ParameterList/>)x", p + R"x(: a <ParameterList> has no name: write name="...".)x"},
+        Lexical{R"x(<Parameter type="double" value="0.2"/>)x",
+                p + R"x(: a <Parameter> has no name: write name="...".)x"},
+        Lexical{R"x(<Parameter name="" type="double" value="0.2"/>)x",
+                p + ": a <Parameter> has an empty name."},
+        Lexical{R"x(<ParameterList/>)x",
+                p + R"x(: a <ParameterList> has no name: write name="...".)x"},
         Lexical{R"x(<Parameter name=" Friction" type="double" value="0.2"/>)x",
                 p + R"x(/ Friction has blanks around its name: write name="Friction".)x"},
         Lexical{R"x(<Parameter name="a/b" type="double" value="0.2"/>)x",
                 p + R"x(/a/b has a "/" in its name, which separates lists in a path.)x"},
-        Lexical{R"x(<Parameter name="Friction" value="0.2"/>)x",
-                p + R"x(/Friction has no type: write <Parameter name="..." type="..." value="..."/>.)x"},
-        Lexical{R"x(<Parameter name="Friction" type="double"/>)x",
-                p + R"x(/Friction has no value: write <Parameter name="..." type="..." value="..."/>.)x"},
+        Lexical{
+            R"x(<Parameter name="Friction" value="0.2"/>)x",
+            p + R"x(/Friction has no type: write <Parameter name="..." type="..." value="..."/>.)x"},
+        Lexical{
+            R"x(<Parameter name="Friction" type="double"/>)x",
+            p + R"x(/Friction has no value: write <Parameter name="..." type="..." value="..."/>.)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double">0.2</Parameter>)x",
-            p + "/Friction has no value: write <Parameter name=\"...\" type=\"...\" value=\"...\"/>.\n" + p +
+            p +
+                "/Friction has no value: write <Parameter name=\"...\" type=\"...\" "
+                "value=\"...\"/>.\n" +
+                p +
                 R"x(/Friction has content; a parameter is one empty element: <Parameter name="..." type="..." value="..."/>.)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2"><Parameter name="x" type="int" value="1"/></Parameter>)x",
@@ -66,8 +80,9 @@ INSTANTIATE_TEST_SUITE_P(
                 R"x("Array(int)", "Array(string)". Did you mean type="double"?)x"},
         Lexical{R"x(<Parameter name="Friction" type="double" value=""/>)x",
                 p + R"x(/Friction: type="double" value="" is empty; a number is expected.)x"},
-        Lexical{R"x(<Parameter name="Friction" type="double" value="12abc"/>)x",
-                p + R"x(/Friction: type="double" value="12abc" is not a number: "abc" is left over.)x"},
+        Lexical{
+            R"x(<Parameter name="Friction" type="double" value="12abc"/>)x",
+            p + R"x(/Friction: type="double" value="12abc" is not a number: "abc" is left over.)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="120 rpm"/>)x",
             p + R"x(/Friction: type="double" value="120 rpm" is not a number. A quantity with a unit is written type="string" value="120 rpm".)x"},
@@ -75,23 +90,29 @@ INSTANTIATE_TEST_SUITE_P(
                 p + R"x(/Friction: type="int" value="3.7" is not a whole number.)x"},
         Lexical{R"x(<Parameter name="Friction" type="bool" value="TRUE"/>)x",
                 p + R"x(/Friction: type="bool" value="TRUE" is not a bool: write "true".)x"},
-        Lexical{R"x(<Parameter name="Friction" type="Array(double)" value="{1, x}"/>)x",
-                p + R"x(/Friction: type="Array(double)" value="{1, x}" has the entry "x" (number 2), which is not a number.)x"},
-        Lexical{R"x(<Paramter name="Friction" type="double" value="0.2"/>)x",
-                p + " holds a <Paramter>; known are <Parameter .../> and <ParameterList ...>. Did you mean <Parameter>?"},
         Lexical{
-            R"x(<parameterlist name="Intervals"/>)x",
-            p + " holds a <parameterlist>; known are <Parameter .../> and <ParameterList ...>. Did you mean <ParameterList>?"},
-        Lexical{"<Validators/>", p + " holds a <Validators>; known are <Parameter .../> and <ParameterList ...>."},
+            R"x(<Parameter name="Friction" type="Array(double)" value="{1, x}"/>)x",
+            p + R"x(/Friction: type="Array(double)" value="{1, x}" has the entry "x" (number 2), which is not a number.)x"},
+        Lexical{R"x(<Paramter name="Friction" type="double" value="0.2"/>)x",
+                p + " holds a <Paramter>; known are <Parameter .../> and <ParameterList ...>. Did "
+                    "you mean <Parameter>?"},
+        Lexical{R"x(<parameterlist name="Intervals"/>)x",
+                p + " holds a <parameterlist>; known are <Parameter .../> and <ParameterList ...>. "
+                    "Did you mean <ParameterList>?"},
+        Lexical{"<Validators/>",
+                p + " holds a <Validators>; known are <Parameter .../> and <ParameterList ...>."},
         Lexical{R"x(<xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="other.xml"/>)x",
                 p + " holds a <xi:include>; known are <Parameter .../> and <ParameterList ...>."},
         Lexical{"0.2",
-                "deck.xml:3: /well/Contact holds the stray text \"0.2\"; a list holds <Parameter/> and <ParameterList> only."},
+                "deck.xml:3: /well/Contact holds the stray text \"0.2\"; a list holds <Parameter/> "
+                "and <ParameterList> only."},
         Lexical{"<![CDATA[0.2]]>",
-                "deck.xml:3: /well/Contact holds the stray text \"0.2\"; a list holds <Parameter/> and <ParameterList> only."}));
+                "deck.xml:3: /well/Contact holds the stray text \"0.2\"; a list holds <Parameter/> "
+                "and <ParameterList> only."}));
 
 TEST(Lexical, AParameterGivenTwiceNamesBothLines) {
-  EXPECT_EQ(faultIn(parameter("Friction", "double", "0.2") + "\n" + parameter("Friction", "double", "0.3")),
+  EXPECT_EQ(faultIn(parameter("Friction", "double", "0.2") + "\n" +
+                    parameter("Friction", "double", "0.3")),
             "deck.xml:4: /well/Contact/Friction is given twice; the first one is in line 3.");
 }
 
@@ -101,19 +122,22 @@ TEST(Lexical, AListGivenTwiceNamesBothLines) {
 }
 
 TEST(Lexical, AParameterAndAListCannotShareAName) {
-  EXPECT_EQ(faultIn(parameter("Friction", "double", "0.2") + "\n<ParameterList name=\"Friction\"/>"),
-            "deck.xml:4: /well/Contact/Friction is given twice; the first one is in line 3.");
+  EXPECT_EQ(
+      faultIn(parameter("Friction", "double", "0.2") + "\n<ParameterList name=\"Friction\"/>"),
+      "deck.xml:4: /well/Contact/Friction is given twice; the first one is in line 3.");
 }
 
 TEST(Lexical, AllFaultsComeTogetherSortedByLine) {
-  const std::string fault = faultOf(deckWith(parameter("Stiffness", "double", "1,5") + "\n" + parameter("Friction", "float", "1"),
-                                             parameter("End Time", "double", "20 s") + "\n<Parameter/>"));
-  const std::vector<std::string> starts = {"deck.xml:3: /well/Contact/Stiffness: ",
-                                           "deck.xml:4: /well/Contact/Friction has the type",
-                                           "deck.xml:7: /well/Transient/End Time: ",
-                                           "deck.xml:8: /well/Transient: a <Parameter> has no name",
-                                           "deck.xml:8: /well/Transient: a <Parameter> has no type",
-                                           "deck.xml:8: /well/Transient: a <Parameter> has no value"};
+  const std::string fault = faultOf(
+      deckWith(parameter("Stiffness", "double", "1,5") + "\n" + parameter("Friction", "float", "1"),
+               parameter("End Time", "double", "20 s") + "\n<Parameter/>"));
+  const std::vector<std::string> starts = {
+      "deck.xml:3: /well/Contact/Stiffness: ",
+      "deck.xml:4: /well/Contact/Friction has the type",
+      "deck.xml:7: /well/Transient/End Time: ",
+      "deck.xml:8: /well/Transient: a <Parameter> has no name",
+      "deck.xml:8: /well/Transient: a <Parameter> has no type",
+      "deck.xml:8: /well/Transient: a <Parameter> has no value"};
   std::size_t at = 0;
   for (const std::string& start : starts) {
     EXPECT_EQ(fault.compare(at, start.size(), start), 0) << fault.substr(at);
@@ -123,21 +147,26 @@ TEST(Lexical, AllFaultsComeTogetherSortedByLine) {
 }
 
 TEST(Lexical, NamesAreNotJudgedBeforeTheTextIsInOrder) {
-  const std::string fault = faultIn(parameter("Friction", "double", "abc") + "\n" + parameter("Nonsense", "double", "1"));
-  EXPECT_EQ(fault, "deck.xml:3: /well/Contact/Friction: type=\"double\" value=\"abc\" is not a number.");
+  const std::string fault =
+      faultIn(parameter("Friction", "double", "abc") + "\n" + parameter("Nonsense", "double", "1"));
+  EXPECT_EQ(fault,
+            "deck.xml:3: /well/Contact/Friction: type=\"double\" value=\"abc\" is not a number.");
 }
 
 TEST(Lexical, PassThroughListsAreCheckedToo) {
   const std::string list = "<ParameterList name=\"NOX\"><ParameterList name=\"Line Search\">" +
-                           parameter("Tolerance", "double", "1e-x") + "</ParameterList></ParameterList>";
+                           parameter("Tolerance", "double", "1e-x") +
+                           "</ParameterList></ParameterList>";
   EXPECT_EQ(faultOf(deckWith(stiffness, endTime + list)),
-            "deck.xml:6: /well/Transient/NOX/Line Search/Tolerance: type=\"double\" value=\"1e-x\" is not a number: \"e-x\" is "
+            "deck.xml:6: /well/Transient/NOX/Line Search/Tolerance: type=\"double\" value=\"1e-x\" "
+            "is not a number: \"e-x\" is "
             "left over.");
 }
 
 TEST(Lexical, CommentsBlanksAndProcessingInstructionsMeanNothing) {
   EXPECT_EQ(faultOf("<?xml version=\"1.0\"?>\n<!-- a -->\n" +
-                    deckWith("<!-- b --><?editor x?>\n" + stiffness, "\t" + endTime + " ") + "<!-- c -->"),
+                    deckWith("<!-- b --><?editor x?>\n" + stiffness, "\t" + endTime + " ") +
+                    "<!-- c -->"),
             "");
 }
 
@@ -173,26 +202,38 @@ INSTANTIATE_TEST_SUITE_P(
         Whole{"key: value", "deck.xml:1: not well-formed XML: Start tag expected, '<' not found."},
         Whole{"<?xml version=\"1.0\"?>", "deck.xml:1: not well-formed XML: "},
         Whole{"<!-- only a comment -->", "deck.xml:1: not well-formed XML: "},
-        Whole{"<Deck name=\"x\"/>", "deck.xml:1: the outermost element is <Deck>; a deck is one <ParameterList name=\"...\">."},
-        Whole{"<Parameter name=\"x\" type=\"int\" value=\"1\"/>", "deck.xml:1: the outermost element is <Parameter>;"},
-        Whole{"<ParameterList/>", "deck.xml:1: the outermost <ParameterList> has no name: write name=\"...\"."},
-        Whole{"<ParameterList name=\"x\">\n<Parameter name=\"a\"\n", "deck.xml:3: not well-formed XML: "},
+        Whole{"<Deck name=\"x\"/>",
+              "deck.xml:1: the outermost element is <Deck>; a deck is one <ParameterList "
+              "name=\"...\">."},
+        Whole{"<Parameter name=\"x\" type=\"int\" value=\"1\"/>",
+              "deck.xml:1: the outermost element is <Parameter>;"},
+        Whole{"<ParameterList/>",
+              "deck.xml:1: the outermost <ParameterList> has no name: write name=\"...\"."},
+        Whole{"<ParameterList name=\"x\">\n<Parameter name=\"a\"\n",
+              "deck.xml:3: not well-formed XML: "},
         Whole{"<ParameterList name=\"x\">\n</ParameterLst>",
-              "deck.xml:2: not well-formed XML: Opening and ending tag mismatch: ParameterList line 1 and ParameterLst."},
-        Whole{"<ParameterList name=\"x\" name=\"y\"/>", "deck.xml:1: not well-formed XML: Attribute name redefined."},
-        Whole{"<ParameterList name=x/>", "deck.xml:1: not well-formed XML: AttValue: \" or ' expected."},
+              "deck.xml:2: not well-formed XML: Opening and ending tag mismatch: ParameterList "
+              "line 1 and ParameterLst."},
+        Whole{"<ParameterList name=\"x\" name=\"y\"/>",
+              "deck.xml:1: not well-formed XML: Attribute name redefined."},
+        Whole{"<ParameterList name=x/>",
+              "deck.xml:1: not well-formed XML: AttValue: \" or ' expected."},
         Whole{"<ParameterList name=\"x\"/><ParameterList name=\"y\"/>",
               "deck.xml:1: not well-formed XML: Extra content at the end of the document."},
-        Whole{"<ParameterList name=\"&unknown;\"/>", "deck.xml:1: not well-formed XML: Entity 'unknown' not defined."},
+        Whole{"<ParameterList name=\"&unknown;\"/>",
+              "deck.xml:1: not well-formed XML: Entity 'unknown' not defined."},
         Whole{"<ParameterList name=\"x\"><a:b/></ParameterList>",
               "deck.xml:1: not well-formed XML: Namespace prefix a on b is not defined."},
         Whole{"<ParameterList name=\"a < b\"/>",
               "deck.xml:1: not well-formed XML: Unescaped '<' not allowed in attributes values."},
         Whole{"<ParameterList name=\"\xe9\"/>",
               "deck.xml:1: not well-formed XML: Input is not proper UTF-8, indicate encoding !"},
-        Whole{"<!DOCTYPE ParameterList SYSTEM \"http://example.invalid/deck.dtd\">\n<ParameterList name=\"x\"/>",
-              "deck.xml:1: a deck has no document type definition and no entities: remove <!DOCTYPE ...>."},
-        Whole{"<?xml version=\"1.0\"?>\n<!DOCTYPE x [<!ENTITY file SYSTEM \"file:///etc/passwd\">]>\n<ParameterList "
+        Whole{"<!DOCTYPE ParameterList SYSTEM \"http://example.invalid/deck.dtd\">\n<ParameterList "
+              "name=\"x\"/>",
+              "deck.xml:1: a deck has no document type definition and no entities: remove "
+              "<!DOCTYPE ...>."},
+        Whole{"<?xml version=\"1.0\"?>\n<!DOCTYPE x [<!ENTITY file SYSTEM "
+              "\"file:///etc/passwd\">]>\n<ParameterList "
               "name=\"&file;\"/>",
               "deck.xml:2: a deck has no document type definition and no entities"}));
 
@@ -205,7 +246,9 @@ TEST(WholeFile, ABillionLaughsAreNotHeard) {
     text += "\">\n";
   }
   text += "]>\n<ParameterList name=\"&a29;\"/>\n";
-  EXPECT_EQ(faultOf(text), "deck.xml:2: a deck has no document type definition and no entities: remove <!DOCTYPE ...>.");
+  EXPECT_EQ(
+      faultOf(text),
+      "deck.xml:2: a deck has no document type definition and no entities: remove <!DOCTYPE ...>.");
 }
 
 TEST(WholeFile, DeepNestingIsRefusedNotFollowed) {
@@ -224,7 +267,8 @@ TEST(WholeFile, ManyParametersAreReadInLinearTime) {
 }
 
 TEST(WholeFile, LineNumbersGoBeyondSixteenBits) {
-  const std::string text = "<ParameterList name=\"x\">" + std::string(70000, '\n') + parameter("A", "double", "x") +
+  const std::string text = "<ParameterList name=\"x\">" + std::string(70000, '\n') +
+                           parameter("A", "double", "x") +
                            "\n<ParameterList name=\"b\"/>\n</ParameterList>";
   EXPECT_EQ(messageOf([&] { Deck::parse(text, "deck.xml", ListSpec("s", "S.")); }),
             "deck.xml:70001: /x/A: type=\"double\" value=\"x\" is not a number.");
@@ -232,7 +276,8 @@ TEST(WholeFile, LineNumbersGoBeyondSixteenBits) {
 
 TEST(WholeFile, ATagOfSeveralLinesIsReportedWhereItBegins) {
   const std::string text =
-      "<ParameterList\n  name=\"x\"\n>\n<Parameter\n  name=\"A\"\n  type=\"double\"\n  value=\"x\"\n/>\n</ParameterList>";
+      "<ParameterList\n  name=\"x\"\n>\n<Parameter\n  name=\"A\"\n  type=\"double\"\n  "
+      "value=\"x\"\n/>\n</ParameterList>";
   EXPECT_EQ(messageOf([&] { Deck::parse(text, "deck.xml", ListSpec("s", "S.")); }),
             "deck.xml:4: /x/A: type=\"double\" value=\"x\" is not a number.");
 }
@@ -243,7 +288,8 @@ TEST(WholeFile, TooLargeATextIsRefused) {
 }
 
 TEST(WholeFile, PlainCharacterReferencesAreFine) {
-  const Deck deck = parseSmall("<ParameterList name=\"x\">" + parameter("Title", "string", "a &lt; b &amp; &#x63;") +
-                               "<ParameterList name=\"Transient\">" + endTime + "</ParameterList></ParameterList>");
+  const Deck deck = parseSmall(
+      "<ParameterList name=\"x\">" + parameter("Title", "string", "a &lt; b &amp; &#x63;") +
+      "<ParameterList name=\"Transient\">" + endTime + "</ParameterList></ParameterList>");
   EXPECT_EQ(deck.list().get<std::string>("Title"), "a < b & c");
 }

@@ -27,7 +27,8 @@ TEST(ListSpec, WholeNumbersStandForRealDefaults) {
                             .real("Length", "m", 2, Range::any(), "L.")
                             .realArray("Lengths", "m", std::vector<int>{1, 2}, Range::any(), "L.");
   EXPECT_EQ(std::get<double>(list.findParameter("Length")->value), 2.0);
-  EXPECT_EQ(std::get<std::vector<double>>(list.findParameter("Lengths")->value), (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(std::get<std::vector<double>>(list.findParameter("Lengths")->value),
+            (std::vector<double>{1.0, 2.0}));
   EXPECT_TRUE(list.inconsistencies().empty());
 }
 
@@ -37,7 +38,8 @@ TEST(ListSpec, ATextDefaultIsNoBool) {
 }
 
 TEST(ListSpec, APatternAnswersForNamesThatAreNotDeclared) {
-  const ListSpec list = ListSpec("a", "A.").list(ListSpec("Declared", "D.")).namedLists(ListSpec("pattern", "P."));
+  const ListSpec list =
+      ListSpec("a", "A.").list(ListSpec("Declared", "D.")).namedLists(ListSpec("pattern", "P."));
   EXPECT_EQ(list.findList("Declared")->name(), "Declared");
   EXPECT_EQ(list.findList("anything")->name(), "pattern");
   EXPECT_EQ(list.pattern()->doc(), "P.");
@@ -60,7 +62,8 @@ TEST(ListSpec, MergeAddsWhatIsNotThere) {
 
 TEST(ListSpec, MergeRefusesAnotherKindUnderTheSameName) {
   ListSpec common = ListSpec("Common", "C.").real("Step", "s", 1.0, Range::any(), "S.");
-  EXPECT_THROW(common.merge(ListSpec("Other", "O.").integer("Step", 1, Range::any(), "S.")), std::logic_error);
+  EXPECT_THROW(common.merge(ListSpec("Other", "O.").integer("Step", 1, Range::any(), "S.")),
+               std::logic_error);
 }
 
 TEST(ListSpec, NamedKeepsAllButTheName) {
@@ -72,34 +75,44 @@ TEST(ListSpec, NamedKeepsAllButTheName) {
 struct Contradiction {
   std::string fault;
   ListSpec list;
-  friend std::ostream& operator<<(std::ostream& out, const Contradiction& t) { return out << t.fault; }
+  friend std::ostream& operator<<(std::ostream& out, const Contradiction& t) {
+    return out << t.fault;
+  }
 };
 class Inconsistency : public ::testing::TestWithParam<Contradiction> {};
 
 TEST_P(Inconsistency, IsFoundAndRefused) {
   EXPECT_EQ(GetParam().list.inconsistencies(), std::vector<std::string>{GetParam().fault});
-  EXPECT_THROW(Deck::parse("<ParameterList name=\"x\"/>", "x.xml", GetParam().list), std::logic_error);
+  EXPECT_THROW(Deck::parse("<ParameterList name=\"x\"/>", "x.xml", GetParam().list),
+               std::logic_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Table, Inconsistency,
     ::testing::Values(
-        Contradiction{"/a/N is declared twice",
-                      ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").integer("N", 2, Range::any(), "N.")},
-        Contradiction{"/a/N is declared twice",
-                      ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").list(ListSpec("N", "N."))},
-        Contradiction{"/a/N has a default outside its range", ListSpec("a", "A.").integer("N", 0, Range::atLeast(1), "N.")},
+        Contradiction{"/a/N is declared twice", ListSpec("a", "A.")
+                                                    .integer("N", 1, Range::any(), "N.")
+                                                    .integer("N", 2, Range::any(), "N.")},
+        Contradiction{
+            "/a/N is declared twice",
+            ListSpec("a", "A.").integer("N", 1, Range::any(), "N.").list(ListSpec("N", "N."))},
+        Contradiction{"/a/N has a default outside its range",
+                      ListSpec("a", "A.").integer("N", 0, Range::atLeast(1), "N.")},
         Contradiction{"/a/x has a default outside its range",
-                      ListSpec("a", "A.").realArray("x", "m", std::vector<double>{1.0, -1.0}, Range::positive(), "X.")},
+                      ListSpec("a", "A.").realArray("x", "m", std::vector<double>{1.0, -1.0},
+                                                    Range::positive(), "X.")},
         Contradiction{"/a/N has a default of another type than its own",
                       ListSpec("a", "A.").integer("N", 1.5, Range::any(), "N.")},
         Contradiction{"/a/L has a default that is not one of its choices",
                       ListSpec("a", "A.").choice("L", "z", {"x", "y"}, "L.")},
         Contradiction{"/a/L has no choices", ListSpec("a", "A.").choice("L", Required{}, {}, "L.")},
-        Contradiction{"/a/L has no sentence that documents it", ListSpec("a", "A.").text("L", "x", "")},
-        Contradiction{"/a/ L has an empty name, or blanks around it", ListSpec("a", "A.").text(" L", "x", "L.")},
+        Contradiction{"/a/L has no sentence that documents it",
+                      ListSpec("a", "A.").text("L", "x", "")},
+        Contradiction{"/a/ L has an empty name, or blanks around it",
+                      ListSpec("a", "A.").text(" L", "x", "L.")},
         Contradiction{"/a/<p>/N has a default outside its range",
-                      ListSpec("a", "A.").namedLists(ListSpec("p", "P.").integer("N", 0, Range::positive(), "N."))}));
+                      ListSpec("a", "A.").namedLists(
+                          ListSpec("p", "P.").integer("N", 0, Range::positive(), "N."))}));
 
 TEST(Describe, RangesInWords) {
   EXPECT_EQ(describe(Range::any()), "");
@@ -121,7 +134,8 @@ TEST(Describe, BoundsAreInOrOutAsDeclared) {
 
 TEST(Describe, IntroducesAParameterInASentence) {
   const ListSpec scene = test::smallScene();
-  EXPECT_EQ(introduce(*scene.findList("Contact")->findParameter("Stiffness")), "It is the nominal contact stiffness, N/m, > 0.");
+  EXPECT_EQ(introduce(*scene.findList("Contact")->findParameter("Stiffness")),
+            "It is the nominal contact stiffness, N/m, > 0.");
   const ListSpec other = ListSpec("a", "A.")
                              .integer("Modes", 1, Range::atLeast(0), "Number of modes kept.")
                              .real("W", "N", 1.0, Range::any(), "WOB at the bit.");
@@ -130,30 +144,39 @@ TEST(Describe, IntroducesAParameterInASentence) {
 }
 
 TEST(Describe, NamesOfPeopleKeepTheirCapitals) {
-  const ListSpec list = ListSpec("a", "A.").real("E", "Pa", 1.0, Range::positive(), "Young's modulus.");
+  const ListSpec list =
+      ListSpec("a", "A.").real("E", "Pa", 1.0, Range::positive(), "Young's modulus.");
   EXPECT_EQ(introduce(list.parameters()[0]), "\"E\": Young's modulus, Pa, > 0.");
 }
 
 TEST(Describe, UnitAndRangeStandBehindTheFirstSentence) {
-  const ListSpec list = ListSpec("a", "A.").real("Step", "s", 1.0, Range::positive(),
-                                                 "The fixed step. By default 0.001 s for RK4. Not for others.");
-  EXPECT_EQ(introduce(list.parameters()[0]), "It is the fixed step, s, > 0. By default 0.001 s for RK4. Not for others.");
+  const ListSpec list =
+      ListSpec("a", "A.").real("Step", "s", 1.0, Range::positive(),
+                               "The fixed step. By default 0.001 s for RK4. Not for others.");
+  EXPECT_EQ(introduce(list.parameters()[0]),
+            "It is the fixed step, s, > 0. By default 0.001 s for RK4. Not for others.");
 }
 
 TEST(Describe, ExamplesLieInRangeAndAmongTheChoices) {
-  const std::vector<Range> ranges = {Range::any(),
-                                     Range::positive(),
-                                     Range::nonNegative(),
-                                     Range::atLeast(5),
-                                     Range::between(-3, -2),
-                                     Range{2, 3, true, true},
-                                     Range{0, 0.5, true, false},
-                                     Range{-std::numeric_limits<double>::infinity(), -4, false, true},
-                                     Range{7.5, std::numeric_limits<double>::infinity(), true, false}};
+  const std::vector<Range> ranges = {
+      Range::any(),
+      Range::positive(),
+      Range::nonNegative(),
+      Range::atLeast(5),
+      Range::between(-3, -2),
+      Range{2, 3, true, true},
+      Range{0, 0.5, true, false},
+      Range{-std::numeric_limits<double>::infinity(), -4, false, true},
+      Range{7.5, std::numeric_limits<double>::infinity(), true, false}};
   for (const Range& range : ranges) {
     const ListSpec list = ListSpec("a", "A.").real("x", "m", Required{}, range, "X.");
     EXPECT_TRUE(contains(range, std::stod(exampleValue(list.parameters()[0])))) << describe(range);
   }
-  EXPECT_EQ(exampleValue(ListSpec("a", "A.").choice("L", Required{}, {"x", "y"}, "L.").parameters()[0]), "x");
-  EXPECT_EQ(exampleValue(ListSpec("a", "A.").integerArray("n", Required{}, Range::atLeast(3), "N.").parameters()[0]), "{3}");
+  EXPECT_EQ(
+      exampleValue(ListSpec("a", "A.").choice("L", Required{}, {"x", "y"}, "L.").parameters()[0]),
+      "x");
+  EXPECT_EQ(exampleValue(ListSpec("a", "A.")
+                             .integerArray("n", Required{}, Range::atLeast(3), "N.")
+                             .parameters()[0]),
+            "{3}");
 }

@@ -18,7 +18,9 @@ namespace {
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+  for (std::size_t at = text.find(part); at != std::string::npos;
+       at = text.find(part, at + part.size()))
+    ++n;
   return n;
 }
 
@@ -34,19 +36,22 @@ struct Cubic : Spring {
 using Springs = Registry<Spring, const Teuchos::ParameterList&>;
 
 const bool plainRegistered = Springs::instance().add(
-    "Plain",
-    {"Force proportional to the stretch.", ListSpec(), [](const Teuchos::ParameterList&) { return std::make_unique<Plain>(); }});
+    "Plain", {"Force proportional to the stretch.", ListSpec(),
+              [](const Teuchos::ParameterList&) { return std::make_unique<Plain>(); }});
 const bool cubicRegistered = Springs::instance().add(
     "Cubic", {"Force with a cubic part.",
-              ListSpec("Cubic", "").real("Coefficient", "N/m", 2.0, Range::positive(), "The cubic coefficient."),
+              ListSpec("Cubic", "")
+                  .real("Coefficient", "N/m", 2.0, Range::positive(), "The cubic coefficient."),
               [](const Teuchos::ParameterList& list) {
                 return std::make_unique<Cubic>(
-                    variantList(list, "Cubic", Springs::instance().find("Cubic").parameters).get<double>("Coefficient"));
+                    variantList(list, "Cubic", Springs::instance().find("Cubic").parameters)
+                        .get<double>("Coefficient"));
               }});
 
 ListSpec springList() {
   ListSpec list("Springs", "The springs.");
-  declareVariants<Spring, const Teuchos::ParameterList&>(list, "Law", "Plain", "The law of the springs.");
+  declareVariants<Spring, const Teuchos::ParameterList&>(list, "Law", "Plain",
+                                                         "The law of the springs.");
   return list;
 }
 
@@ -61,12 +66,16 @@ TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
         "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n",
         "| `Stiffness` | double | N/m | &gt; 0 | required | The nominal contact stiffness. |\n",
         "| `Friction` | double |  | in [0, 1] | `0.2` | The friction coefficient. |\n",
-        "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n", "#### scene/Contact/Intervals\n",
+        "| `Law` | string |  | Linear, Hertz, Winkler | `Linear` | The contact law. |\n",
+        "#### scene/Contact/Intervals\n",
         "Holds lists with names of your own, each described under &lt;interval&gt;.\n",
-        "##### scene/Contact/Intervals/&lt;interval&gt;\n", "| `Depths` | Array(double) | m | &gt;= 0 | required |",
-        "| `Friction` | double |  | in [0, 1] | none |", "### scene/Transient\n\nThe time integration. Required.\n",
-        "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |", "| `Note` | string |  |  | \"\" | A remark. |\n",
-        "#### scene/Transient/NOX\n", "Handed on to Trilinos as it is.", "### scene/Mud\n"}) {
+        "##### scene/Contact/Intervals/&lt;interval&gt;\n",
+        "| `Depths` | Array(double) | m | &gt;= 0 | required |",
+        "| `Friction` | double |  | in [0, 1] | none |",
+        "### scene/Transient\n\nThe time integration. Required.\n",
+        "| `Fields` | Array(string) |  | u, v, w | `{u, v}` |",
+        "| `Note` | string |  |  | \"\" | A remark. |\n", "#### scene/Transient/NOX\n",
+        "Handed on to Trilinos as it is.", "### scene/Mud\n"}) {
     const std::size_t found = text.find(part, at);
     ASSERT_NE(found, std::string::npos) << part << "\nnot in\n" << text.substr(at);
     at = found;
@@ -75,7 +84,9 @@ TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
   EXPECT_NE(text[text.size() - 2], '\n');
 }
 
-TEST(Manual, IsTheSameEachTime) { EXPECT_EQ(manualMarkdown(smallScene()), manualMarkdown(smallScene())); }
+TEST(Manual, IsTheSameEachTime) {
+  EXPECT_EQ(manualMarkdown(smallScene()), manualMarkdown(smallScene()));
+}
 
 TEST(Manual, ATopicIsAListWithAllBelow) {
   for (const char* topic : {"Contact", "contact", "scene/Contact", "/Contact", "/scene/Contact"}) {
@@ -83,7 +94,9 @@ TEST(Manual, ATopicIsAListWithAllBelow) {
     EXPECT_EQ(occurrences(text, "\n#") + 1, 3U) << topic;
     EXPECT_EQ(text.find("### scene/Contact\n"), 0U) << topic;
   }
-  EXPECT_EQ(manualMarkdown(smallScene(), "interval").find("##### scene/Contact/Intervals/&lt;interval&gt;\n"), 0U);
+  EXPECT_EQ(manualMarkdown(smallScene(), "interval")
+                .find("##### scene/Contact/Intervals/&lt;interval&gt;\n"),
+            0U);
 }
 
 TEST(Manual, ATopicMayBeAParameter) {
@@ -95,7 +108,8 @@ TEST(Manual, ATopicMayBeAParameter) {
 
 TEST(Manual, AnUnknownTopicIsWrongUsage) {
   const std::string fault = messageOf([] { manualMarkdown(smallScene(), "Contct"); });
-  EXPECT_EQ(fault.find("UsageError: The manual has no topic \"Contct\". Did you mean \"Contact\"? Topics are the lists "
+  EXPECT_EQ(fault.find("UsageError: The manual has no topic \"Contct\". Did you mean \"Contact\"? "
+                       "Topics are the lists "
                        "\"scene\", \"Contact\","),
             0U)
       << fault;
@@ -103,8 +117,9 @@ TEST(Manual, AnUnknownTopicIsWrongUsage) {
 }
 
 TEST(Manual, SeveralRootsFollowEachOther) {
-  const std::vector<ListSpec> roots = {smallScene(),
-                                       ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
+  const std::vector<ListSpec> roots = {
+      smallScene(),
+      ListSpec("library", "Components.").namedLists(ListSpec("component", "One component."))};
   EXPECT_NE(manualMarkdown(roots).find("\n## library\n"), std::string::npos);
   EXPECT_EQ(manualMarkdown(roots, "component").find("### library/&lt;component&gt;"), 0U);
 }
@@ -135,15 +150,18 @@ TEST(Manual, JsonHoldsWhatTheDescriptionHolds) {
 
 TEST(Manual, TopicsAreThePathsOfAllLists) {
   EXPECT_EQ(topics(smallScene()),
-            (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals", "scene/Contact/Intervals/<interval>",
-                                      "scene/Transient", "scene/Transient/NOX", "scene/Mud"}));
+            (std::vector<std::string>{"scene", "scene/Contact", "scene/Contact/Intervals",
+                                      "scene/Contact/Intervals/<interval>", "scene/Transient",
+                                      "scene/Transient/NOX", "scene/Mud"}));
 }
 
 TEST(Manual, UnitsAreListedByQuantity) {
   const std::string text = unitsMarkdown();
   EXPECT_EQ(text.find("## Units\n\n"), 0U);
-  EXPECT_NE(text.find("| length | `in` | `inch`, `inches` | 0.0254 m |\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("| rotary speed | `rpm` |  | 0.10471975511965977 rad/s |\n"), std::string::npos);
+  EXPECT_NE(text.find("| length | `in` | `inch`, `inches` | 0.0254 m |\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| rotary speed | `rpm` |  | 0.10471975511965977 rad/s |\n"),
+            std::string::npos);
   EXPECT_NE(text.find("9.80665 m/s2"), std::string::npos);
 }
 
@@ -175,7 +193,12 @@ TEST(Template, ReadsAsItIs) {
 TEST(Template, ReadsWithEveryCommentedLineTakenIn) {
   const std::string text = uncommented(templateXml(smallScene(), "my_well"));
   const Deck deck = Deck::parse(text, "template.xml", smallScene());
-  EXPECT_EQ(deck.list().sublist("Contact").sublist("Intervals").sublist("my interval").get<double>("Friction"), 1.0);
+  EXPECT_EQ(deck.list()
+                .sublist("Contact")
+                .sublist("Intervals")
+                .sublist("my interval")
+                .get<double>("Friction"),
+            1.0);
   EXPECT_TRUE(deck.gives("Transient/Angle"));
   EXPECT_TRUE(deck.gives("Mud/Density"));
   EXPECT_TRUE(deck.list().sublist("Transient").isSublist("NOX"));
@@ -183,15 +206,26 @@ TEST(Template, ReadsWithEveryCommentedLineTakenIn) {
 
 TEST(Template, HasTheSentenceOfEachParameter) {
   const std::string text = templateXml(smallScene(), "my_well");
-  EXPECT_NE(text.find("<!-- the nominal contact stiffness, N/m, > 0; required -->\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("    <!-- <Parameter name=\"Step\" type=\"double\" value=\"0.001\"/> -->\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("    <Parameter name=\"End Time\" type=\"double\" value=\"1\"/>\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("  <!-- Contact (optional): The contact with the borehole wall. -->\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("<!-- the nominal contact stiffness, N/m, > 0; required -->\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("    <!-- <Parameter name=\"Step\" type=\"double\" value=\"0.001\"/> -->\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("    <Parameter name=\"End Time\" type=\"double\" value=\"1\"/>\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("  <!-- Contact (optional): The contact with the borehole wall. -->\n"),
+            std::string::npos)
+      << text;
 }
 
-/// A chosen variant that needs values has its list in the template; others, and a chosen one that needs none, are commented out.
+/// A chosen variant that needs values has its list in the template; others, and a chosen one that
+/// needs none, are commented out.
 TEST(Template, HoldsTheListOfAChosenVariantThatNeedsValues) {
-  const auto needs = [](const std::string& name) { return ListSpec(name, "N.").real("x", "m", Required{}, Range::any(), "X."); };
+  const auto needs = [](const std::string& name) {
+    return ListSpec(name, "N.").real("x", "m", Required{}, Range::any(), "X.");
+  };
   const ListSpec scene = ListSpec("s", "S.")
                              .choice("Required Law", Required{}, {"A", "B"}, "L.")
                              .choice("Default Law", "C", {"C", "D", "E"}, "L.")
@@ -209,27 +243,33 @@ TEST(Template, HoldsTheListOfAChosenVariantThatNeedsValues) {
 
 /// What examples name stands with their values, in lists of names of one's own too.
 TEST(Template, TakesExamples) {
-  const ListSpec piece = ListSpec("Piece", "P.").real("Length", "m", Optional{}, Range::positive(), "L.").real("Width", "m", Optional{}, Range::positive(), "W.");
-  const ListSpec scene = ListSpec("s", "S.")
-                             .choice("Shape", Required{}, {"A", "B"}, "S.")
-                             .list(ListSpec("A", "A.").real("x", "m", Required{}, Range::any(), "X."))
-                             .list(ListSpec("B", "B.").real("x", "m", Required{}, Range::any(), "X."))
-                             .list(ListSpec("Pieces", "P.").namedLists(piece))
-                             .list(ListSpec("Loads", "L.").real("Gravity", "m/s2", 0.0, Range::any(), "G."));
-  const std::string text = templateXml(scene, "t", {{"Shape", "B"}, {"B/x", "2"}, {"Pieces/bar/Length", "3"}});
+  const ListSpec piece = ListSpec("Piece", "P.")
+                             .real("Length", "m", Optional{}, Range::positive(), "L.")
+                             .real("Width", "m", Optional{}, Range::positive(), "W.");
+  const ListSpec scene =
+      ListSpec("s", "S.")
+          .choice("Shape", Required{}, {"A", "B"}, "S.")
+          .list(ListSpec("A", "A.").real("x", "m", Required{}, Range::any(), "X."))
+          .list(ListSpec("B", "B.").real("x", "m", Required{}, Range::any(), "X."))
+          .list(ListSpec("Pieces", "P.").namedLists(piece))
+          .list(ListSpec("Loads", "L.").real("Gravity", "m/s2", 0.0, Range::any(), "G."));
+  const std::string text =
+      templateXml(scene, "t", {{"Shape", "B"}, {"B/x", "2"}, {"Pieces/bar/Length", "3"}});
   const auto list = Deck::parse(text, "t.xml", scene).list();
   EXPECT_EQ(list.get<std::string>("Shape"), "B");
   EXPECT_FALSE(list.isSublist("A"));
   EXPECT_EQ(list.sublist("B").get<double>("x"), 2.0);
   EXPECT_EQ(list.sublist("Pieces").sublist("bar").get<double>("Length"), 3.0);
   EXPECT_FALSE(list.sublist("Pieces").sublist("bar").isParameter("Width"));
-  EXPECT_NE(text.find("<!-- <Parameter name=\"Width\" type=\"double\" value=\"1\"/> -->"), std::string::npos) << text;
+  EXPECT_NE(text.find("<!-- <Parameter name=\"Width\" type=\"double\" value=\"1\"/> -->"),
+            std::string::npos)
+      << text;
   EXPECT_FALSE(list.isSublist("Loads"));
 }
 
 TEST(Template, EscapesWhatXmlWouldMisread) {
-  const ListSpec odd =
-      ListSpec("odd", "Odd -- indeed <!-- and -").text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
+  const ListSpec odd = ListSpec("odd", "Odd -- indeed <!-- and -")
+                           .text("A & B", "a<b>\"c\"--d-", "A sentence with -- and ---- and -");
   const std::string text = templateXml(odd, "odd & \"old\"");
   EXPECT_EQ(Deck::parse(text, "t.xml", odd).name(), "odd & \"old\"");
   const Deck deck = Deck::parse(uncommented(text), "t.xml", odd);
@@ -243,7 +283,8 @@ TEST(Variants, AreAChoiceAndAListEach) {
   EXPECT_TRUE(list.inconsistencies().empty());
   EXPECT_EQ(list.findParameter("Law")->choices, (std::vector<std::string>{"Cubic", "Plain"}));
   EXPECT_EQ(list.findParameter("Law")->doc,
-            "The law of the springs. Cubic: Force with a cubic part. Plain: Force proportional to the stretch.");
+            "The law of the springs. Cubic: Force with a cubic part. Plain: Force proportional to "
+            "the stretch.");
   ASSERT_EQ(list.lists().size(), 1U);
   EXPECT_EQ(list.lists()[0].name(), "Cubic");
   EXPECT_EQ(list.lists()[0].doc(), "Force with a cubic part.");
@@ -252,24 +293,28 @@ TEST(Variants, AreAChoiceAndAListEach) {
 
 TEST(Variants, AreMadeWithTheirParametersOrTheirDefaults) {
   const auto made = [](const std::string& text) {
-    const Deck deck = Deck::parse("<ParameterList name=\"x\">" + text + "</ParameterList>", "x.xml", springList());
+    const Deck deck = Deck::parse("<ParameterList name=\"x\">" + text + "</ParameterList>", "x.xml",
+                                  springList());
     return Springs::instance().make(deck.list().get<std::string>("Law"), deck.list());
   };
   const std::string cubic = parameter("Law", "string", "Cubic");
   EXPECT_NE(dynamic_cast<Plain*>(made("").get()), nullptr);
   EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic)).coefficient, 2.0);
-  EXPECT_EQ(dynamic_cast<Cubic&>(*made(cubic + "<ParameterList name=\"Cubic\">" + parameter("Coefficient", "string", "5 kN/m") +
-                                       "</ParameterList>"))
-                .coefficient,
-            5000.0);
+  EXPECT_EQ(
+      dynamic_cast<Cubic&>(*made(cubic + "<ParameterList name=\"Cubic\">" +
+                                 parameter("Coefficient", "string", "5 kN/m") + "</ParameterList>"))
+          .coefficient,
+      5000.0);
 }
 
 TEST(Variants, AnUnknownOneNamesTheKnown) {
   EXPECT_EQ(messageOf([] {
-              Deck::parse("<ParameterList name=\"x\">" + parameter("Law", "string", "Cubical") + "</ParameterList>", "x.xml",
-                          springList());
+              Deck::parse("<ParameterList name=\"x\">" + parameter("Law", "string", "Cubical") +
+                              "</ParameterList>",
+                          "x.xml", springList());
             }),
-            "x.xml:1: /x/Law: value=\"Cubical\" is not one of \"Cubic\", \"Plain\". Did you mean \"Cubic\"?");
+            "x.xml:1: /x/Law: value=\"Cubical\" is not one of \"Cubic\", \"Plain\". Did you mean "
+            "\"Cubic\"?");
   EXPECT_EQ(messageOf([] { Springs::instance().find("Cubical"); }),
             "\"Cubical\" is not known here; known are \"Cubic\", \"Plain\".");
 }

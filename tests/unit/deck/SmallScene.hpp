@@ -19,9 +19,13 @@ inline ListSpec smallScene() {
       .choice("Law", "Linear", {"Linear", "Hertz", "Winkler"}, "The contact law.")
       .boolean("Smooth", true, "Whether the law is rounded at the start of contact.");
   ListSpec interval("interval", "One depth interval.");
-  interval.realArray("Depths", "m", Required{}, Range::nonNegative(), "The measured depths where it begins and ends.")
-      .real("Friction", "", Optional{}, Range::between(0.0, 1.0), "The friction coefficient there.");
-  contact.list(ListSpec("Intervals", "The depth intervals with laws of their own.").namedLists(interval));
+  interval
+      .realArray("Depths", "m", Required{}, Range::nonNegative(),
+                 "The measured depths where it begins and ends.")
+      .real("Friction", "", Optional{}, Range::between(0.0, 1.0),
+            "The friction coefficient there.");
+  contact.list(
+      ListSpec("Intervals", "The depth intervals with laws of their own.").namedLists(interval));
 
   ListSpec transient("Transient", "The time integration.");
   transient.real("End Time", "s", Required{}, Range::positive(), "The end of the simulated time.")
@@ -30,7 +34,8 @@ inline ListSpec smallScene() {
       .real("Angle", "rad", Optional{}, Range::any(), "The angle at the start.")
       .integer("Samples", 100, Range::atLeast(1), "The number of samples.")
       .integerArray("Nodes", Optional{}, Range::atLeast(1), "The recorded nodes, from 1.")
-      .textArray("Fields", std::vector<std::string>{"u", "v"}, {"u", "v", "w"}, "The recorded fields.")
+      .textArray("Fields", std::vector<std::string>{"u", "v"}, {"u", "v", "w"},
+                 "The recorded fields.")
       .realArray("Forces", "N", Optional{}, Range::any(), "The constant forces.")
       .realArray("Weights", "", std::vector<double>{1.0}, Range::nonNegative(), "The weights.")
       .text("Note", "", "A remark.")
@@ -40,17 +45,21 @@ inline ListSpec smallScene() {
   scene.text("Title", "none", "The title.")
       .list(contact)
       .requiredList(transient)
-      .list(ListSpec("Mud", "The drilling mud.").real("Density", "kg/m3", 1000.0, Range::positive(), "The density."));
+      .list(ListSpec("Mud", "The drilling mud.")
+                .real("Density", "kg/m3", 1000.0, Range::positive(), "The density."));
   return scene;
 }
 
-/// A deck with `contact` inside its contact list (line 3) and `transient` inside the list of the time integration.
+/// A deck with `contact` inside its contact list (line 3) and `transient` inside the list of the
+/// time integration.
 inline std::string deckWith(const std::string& contact, const std::string& transient) {
   return "<ParameterList name=\"well\">\n<ParameterList name=\"Contact\">\n" + contact +
-         "\n</ParameterList>\n<ParameterList name=\"Transient\">\n" + transient + "\n</ParameterList>\n</ParameterList>\n";
+         "\n</ParameterList>\n<ParameterList name=\"Transient\">\n" + transient +
+         "\n</ParameterList>\n</ParameterList>\n";
 }
 
-inline std::string parameter(const std::string& name, const std::string& type, const std::string& value) {
+inline std::string parameter(const std::string& name, const std::string& type,
+                             const std::string& value) {
   return "<Parameter name=\"" + name + "\" type=\"" + type + "\" value=\"" + value + "\"/>";
 }
 
@@ -61,7 +70,8 @@ inline Deck parseSmall(const std::string& text, const std::vector<std::string>& 
   return Deck::parse(text, "deck.xml", smallScene(), overrides);
 }
 
-/// The sentence of the error `work` throws, with "FileError: " or "UsageError: " in front of those kinds; "" when it throws none.
+/// The sentence of the error `work` throws, with "FileError: " or "UsageError: " in front of those
+/// kinds; "" when it throws none.
 inline std::string messageOf(const std::function<void()>& work) {
   try {
     work();
@@ -75,7 +85,8 @@ inline std::string messageOf(const std::function<void()>& work) {
   return "";
 }
 
-inline std::string faultOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
+inline std::string faultOf(const std::string& text,
+                           const std::vector<std::string>& overrides = {}) {
   return messageOf([&] { parseSmall(text, overrides); });
 }
 

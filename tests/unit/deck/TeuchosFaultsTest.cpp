@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults that Teuchos 13.2 takes without a word (or words nobody can use): each must be refused here.
+// Faults that Teuchos 13.2 takes without a word (or words nobody can use): each must be refused
+// here.
 #include <Teuchos_XMLParameterListCoreHelpers.hpp>
 #include <gtest/gtest.h>
 
@@ -39,21 +40,26 @@ TEST_P(SilentlyTaken, ByTeuchosIsRefusedHere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, SilentlyTaken,
-    ::testing::Values(
-        Silent{parameter("Step", "double", "12abc"), "\"abc\" is left over"},
-        Silent{parameter("Step", "double", "1,5"), "write a decimal point"}, Silent{parameter("Step", "double", ""), "is empty"},
-        Silent{parameter("Step", "double", "abc"), "is not a number"},
-        Silent{parameter("Step", "double", "nan"), "is not a finite number"},
-        Silent{parameter("Step", "double", "inf"), "is not a finite number"},
-        Silent{parameter("Samples", "int", "abc"), "is not a whole number"},
-        Silent{parameter("Samples", "int", "3.7"), "is not a whole number"}, Silent{parameter("Samples", "int", ""), "is empty"},
-        Silent{parameter("Weights", "Array(double)", "{1, 12abc}"), "the entry \"12abc\" (number 2)"},
-        Silent{"<Parameter name=\"Step\" type=\"double\" value=\"0.1\" units=\"s\"/>", "has the attribute units=\"s\""},
-        Silent{parameter("Step", "double", "0.1") + parameter("Step", "double", "0.2"), "is given twice"},
-        Silent{parameter("Samples", "double", "2.5"), "must be type=\"int\""},
-        Silent{parameter("Samples", "string", "5"), "write type=\"int\" value=\"5\""},
-        Silent{parameter("Smooth", "bool", "yes"), "is not a bool: write \"true\""},
-        Silent{parameter("Smooth", "bool", "1"), "is not a bool: write \"true\""}));
+    ::testing::Values(Silent{parameter("Step", "double", "12abc"), "\"abc\" is left over"},
+                      Silent{parameter("Step", "double", "1,5"), "write a decimal point"},
+                      Silent{parameter("Step", "double", ""), "is empty"},
+                      Silent{parameter("Step", "double", "abc"), "is not a number"},
+                      Silent{parameter("Step", "double", "nan"), "is not a finite number"},
+                      Silent{parameter("Step", "double", "inf"), "is not a finite number"},
+                      Silent{parameter("Samples", "int", "abc"), "is not a whole number"},
+                      Silent{parameter("Samples", "int", "3.7"), "is not a whole number"},
+                      Silent{parameter("Samples", "int", ""), "is empty"},
+                      Silent{parameter("Weights", "Array(double)", "{1, 12abc}"),
+                             "the entry \"12abc\" (number 2)"},
+                      Silent{"<Parameter name=\"Step\" type=\"double\" value=\"0.1\" units=\"s\"/>",
+                             "has the attribute units=\"s\""},
+                      Silent{
+                          parameter("Step", "double", "0.1") + parameter("Step", "double", "0.2"),
+                          "is given twice"},
+                      Silent{parameter("Samples", "double", "2.5"), "must be type=\"int\""},
+                      Silent{parameter("Samples", "string", "5"), "write type=\"int\" value=\"5\""},
+                      Silent{parameter("Smooth", "bool", "yes"), "is not a bool: write \"true\""},
+                      Silent{parameter("Smooth", "bool", "1"), "is not a bool: write \"true\""}));
 
 struct Poor {
   std::string item, message;
@@ -61,25 +67,29 @@ struct Poor {
 };
 class PoorlyTold : public ::testing::TestWithParam<Poor> {};
 
-/// Faults Teuchos does find (some only with validators), told here with line, path and what to write.
+/// Faults Teuchos does find (some only with validators), told here with line, path and what to
+/// write.
 TEST_P(PoorlyTold, ByTeuchosHasLineAndPathHere) {
   const std::string fault = faultOf(transientWith(GetParam().item));
   EXPECT_EQ(fault.find("deck.xml:6: /well/Transient"), 0U) << fault;
   EXPECT_NE(fault.find(GetParam().message), std::string::npos) << fault;
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, PoorlyTold,
-                         ::testing::Values(Poor{parameter("Stepp", "double", "0.1"), "Did you mean \"Step\"?"},
-                                           Poor{"<ParameterList name=\"Nox\"/>", "Did you mean \"NOX\"?"},
-                                           Poor{parameter("Step", "double", "5"), "it must be in (0, 1]"},
-                                           Poor{parameter("Step", "int", "1"), "write type=\"double\" value=\"1\""},
-                                           Poor{parameter("Step", "string", "0.1"), "has no unit"},
-                                           Poor{parameter("Fields", "Array(string)", "{U}"), "Did you mean \"u\"?"},
-                                           Poor{parameter("Smooth", "bool", "TRUEE"), "write \"true\" or \"false\""},
-                                           Poor{"<ParameterList name=\"NOX\"/><ParameterList name=\"NOX\"/>",
-                                                "is given twice; the first one is in line 6"},
-                                           Poor{"<Params name=\"NOX\"/>", "holds a <Params>"},
-                                           Poor{"<Parameter name=\"Step\" type=\"double\"/>", "has no value"}));
+INSTANTIATE_TEST_SUITE_P(
+    Table, PoorlyTold,
+    ::testing::Values(Poor{parameter("Stepp", "double", "0.1"), "Did you mean \"Step\"?"},
+                      Poor{"<ParameterList name=\"Nox\"/>", "Did you mean \"NOX\"?"},
+                      Poor{parameter("Step", "double", "5"), "it must be in (0, 1]"},
+                      Poor{parameter("Step", "int", "1"), "write type=\"double\" value=\"1\""},
+                      Poor{parameter("Step", "string", "0.1"), "has no unit"},
+                      Poor{parameter("Fields", "Array(string)", "{U}"), "Did you mean \"u\"?"},
+                      Poor{parameter("Smooth", "bool", "TRUEE"), "write \"true\" or \"false\""},
+                      Poor{"<ParameterList name=\"NOX\"/><ParameterList name=\"NOX\"/>",
+                           "is given twice; the first one is in line 6"},
+                      Poor{"<Params name=\"NOX\"/>", "holds a <Params>"},
+                      Poor{"<Parameter name=\"Step\" type=\"double\"/>", "has no value"}));
 
 /// The root list's name is lost by Teuchos ("ANONYMOUS"); here it begins every path.
-TEST(TeuchosFaults, TheSceneKeepsItsName) { EXPECT_EQ(parseSmall(transientWith("")).list().name(), "/well"); }
+TEST(TeuchosFaults, TheSceneKeepsItsName) {
+  EXPECT_EQ(parseSmall(transientWith("")).list().name(), "/well");
+}

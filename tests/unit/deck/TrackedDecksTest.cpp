@@ -20,9 +20,13 @@ TEST(TrackedDecks, AreThoseGitKnowsAndWithoutGitAll) {
   std::filesystem::create_directories(folder + "/components");
   for (const char* name : {"theirs.xml", "own.xml", "notes.txt", "components/pipe.xml", "gone.xml"})
     std::ofstream(folder + "/" + name) << "<ParameterList/>";
-  EXPECT_EQ(testing_::trackedDecks(folder), (Names{"gone.xml", "own.xml", "theirs.xml"})) << "git tracks nothing here";
+  EXPECT_EQ(testing_::trackedDecks(folder), (Names{"gone.xml", "own.xml", "theirs.xml"}))
+      << "git tracks nothing here";
   const std::string git = "git -C '" + folder + "' ";
-  ASSERT_EQ(std::system((git + "init -q . && " + git + "add theirs.xml notes.txt components/pipe.xml gone.xml").c_str()), 0);
+  ASSERT_EQ(std::system((git + "init -q . && " + git +
+                         "add theirs.xml notes.txt components/pipe.xml gone.xml")
+                            .c_str()),
+            0);
   std::filesystem::remove(folder + "/gone.xml");
   EXPECT_EQ(testing_::trackedDecks(folder), (Names{"theirs.xml"}));
 }

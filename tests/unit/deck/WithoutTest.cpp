@@ -12,7 +12,8 @@ using namespace tooljoint;
 
 deck::ListSpec scene() {
   deck::ListSpec mud("Mud", "Mud.");
-  mud.real("Density", "kg/m3", 1000.0, deck::Range::positive(), "Density.").list(deck::ListSpec("Flow", "Flow."));
+  mud.real("Density", "kg/m3", 1000.0, deck::Range::positive(), "Density.")
+      .list(deck::ListSpec("Flow", "Flow."));
   return deck::ListSpec("Scene", "A scene.").list(mud).list(deck::ListSpec("Loads", "Loads."));
 }
 
@@ -21,7 +22,9 @@ const char* const text = R"(<ParameterList name="well">
   <ParameterList name="Loads"/>
 </ParameterList>)";
 
-deck::Deck without(const std::string& path) { return deck::Deck::parse(text, "deck.xml", scene(), {"!" + path}); }
+deck::Deck without(const std::string& path) {
+  return deck::Deck::parse(text, "deck.xml", scene(), {"!" + path});
+}
 
 TEST(Without, TakesAListOutAndLeavesTheOthers) {
   const auto deck = without("Mud");
@@ -36,13 +39,15 @@ TEST(Without, TakesANestedListOut) {
 }
 
 TEST(Without, AListThatIsNotThereIsNoFault) {
-  const auto deck = deck::Deck::parse("<ParameterList name=\"well\"/>", "deck.xml", scene(), {"!Mud", "!Loads"});
+  const auto deck =
+      deck::Deck::parse("<ParameterList name=\"well\"/>", "deck.xml", scene(), {"!Mud", "!Loads"});
   EXPECT_FALSE(deck.list().isSublist("Mud"));
 }
 
 TEST(Without, APathThroughAnAbsentListTouchesNothingElse) {
-  const auto deck = deck::Deck::parse("<ParameterList name=\"well\"><ParameterList name=\"Loads\"/></ParameterList>", "deck.xml", scene(),
-                                      {"!Mud/Loads"});
+  const auto deck = deck::Deck::parse(
+      "<ParameterList name=\"well\"><ParameterList name=\"Loads\"/></ParameterList>", "deck.xml",
+      scene(), {"!Mud/Loads"});
   EXPECT_TRUE(deck.list().isSublist("Loads"));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static residual (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa (Nguyen et al. 2020, equation 19) of a straight string, term
-/// by term, and what a state is described by.
+/// The static residual (K_pa + K_gpo(D)) D - F_s - F_cs(D) - R_ipa (Nguyen et al. 2020, equation
+/// 19) of a straight string, term by term, and what a state is described by.
 #include "substructures/equilibrium/StaticProblem.hpp"
 
 #include <cmath>
@@ -33,7 +33,8 @@ contact::ContactPoint wall(int node) {
   return p;
 }
 
-/// Three elements in one line, nodal axes those of the elements; nodes 2 and 3 can touch, node 1 is held.
+/// Three elements in one line, nodal axes those of the elements; nodes 2 and 3 can touch, node 1 is
+/// held.
 struct Case {
   StaticInput input;
   Vector displacement = Vector::Zero(6 * nodes);
@@ -67,7 +68,9 @@ struct Case {
 
 double stretch(const Case& scene, int element, int component) {
   const double l = lengths[static_cast<std::size_t>(element)];
-  return (scene.displacement(6 * (element + 1) + component) - scene.displacement(6 * element + component)) / l;
+  return (scene.displacement(6 * (element + 1) + component) -
+          scene.displacement(6 * element + component)) /
+         l;
 }
 
 TEST(StaticProblem, AxialForceAndTorqueFollowTheStretchAndTheTwist) {
@@ -75,7 +78,8 @@ TEST(StaticProblem, AxialForceAndTorqueFollowTheStretchAndTheTwist) {
   const StaticProblem problem(scene.input);
   for (int e = 0; e < 3; ++e) {
     const auto s = section(static_cast<std::size_t>(e));
-    EXPECT_NEAR(problem.axialForce(e, scene.displacement), s.axialRigidity() * stretch(scene, e, 2), 1e-9 * s.axialRigidity());
+    EXPECT_NEAR(problem.axialForce(e, scene.displacement), s.axialRigidity() * stretch(scene, e, 2),
+                1e-9 * s.axialRigidity());
     EXPECT_NEAR(problem.torque(e, scene.displacement), s.torsionalRigidity() * stretch(scene, e, 5),
                 1e-9 * s.torsionalRigidity());
   }
@@ -87,9 +91,11 @@ TEST(StaticProblem, GeometricStiffnessIsThatOfForceAndTorque) {
   for (int e = 0; e < 3; ++e) {
     const auto s = section(static_cast<std::size_t>(e));
     const double l = lengths[static_cast<std::size_t>(e)];
-    const beam::Matrix12 expected = s.axialRigidity() * stretch(scene, e, 2) * beam::geometricAxial(l) +
-                                    s.torsionalRigidity() * stretch(scene, e, 5) * beam::geometricTorque(l);
-    EXPECT_LT((problem.geometricStiffness(e, scene.displacement) - expected).norm(), 1e-12 * expected.norm());
+    const beam::Matrix12 expected =
+        s.axialRigidity() * stretch(scene, e, 2) * beam::geometricAxial(l) +
+        s.torsionalRigidity() * stretch(scene, e, 5) * beam::geometricTorque(l);
+    EXPECT_LT((problem.geometricStiffness(e, scene.displacement) - expected).norm(),
+              1e-12 * expected.norm());
     EXPECT_GT(expected.norm(), 1.0);
   }
 }
@@ -159,7 +165,8 @@ TEST(StaticProblem, ResidualsAreScaledByTheLargestLoad) {
   EXPECT_EQ(problem.largestLoad(), 800.0);
 }
 
-/// Recorded forces are those that act: the friction force along t = (-v, u)/r and its torque, both against the rotation.
+/// Recorded forces are those that act: the friction force along t = (-v, u)/r and its torque, both
+/// against the rotation.
 TEST(StaticState, RecordsTheForcesThatAct) {
   Case scene;
   for (const double direction : {1.0, -1.0}) {
@@ -198,13 +205,15 @@ TEST(StaticState, SumsUpItsElements) {
     EXPECT_EQ(state.axialForce(e), problem.axialForce(e, scene.displacement));
     EXPECT_EQ(state.torque(e), problem.torque(e, scene.displacement));
     compressed += problem.axialForce(e, scene.displacement) < 0.0 ? 1 : 0;
-    EXPECT_EQ(state.geometricStiffness[static_cast<std::size_t>(e)], problem.geometricStiffness(e, scene.displacement));
+    EXPECT_EQ(state.geometricStiffness[static_cast<std::size_t>(e)],
+              problem.geometricStiffness(e, scene.displacement));
   }
   EXPECT_EQ(state.compressedElements, compressed);
   EXPECT_EQ(state.topAxialForce, state.axialForce(0));
   EXPECT_EQ(state.lastElementAxialForce, state.axialForce(2));
   EXPECT_EQ(state.lastElementTorque, state.torque(2));
-  EXPECT_NEAR(state.appliedTorque, scene.input.load(11) + scene.input.load(17) + scene.input.load(23), 1e-12);
+  EXPECT_NEAR(state.appliedTorque,
+              scene.input.load(11) + scene.input.load(17) + scene.input.load(23), 1e-12);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modes chosen by a tolerance: met, no more than needed, the same as what was asked; estimates of motions on a frame.
+/// Modes chosen by a tolerance: met, no more than needed, the same as what was asked; estimates of
+/// motions on a frame.
+#include "estimate/AdaptiveReduction.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <cstdio>
@@ -9,7 +12,6 @@
 #include "common/Census.hpp"
 #include "common/Error.hpp"
 #include "coupling/Assembler.hpp"
-#include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "transient/Transient.hpp"
@@ -18,7 +20,9 @@ namespace {
 
 using namespace tooljoint;
 
-std::unique_ptr<reduction::Basis> craigBampton() { return reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()); }
+std::unique_ptr<reduction::Basis> craigBampton() {
+  return reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList());
+}
 
 reduction::ReductionOptions tolerance(double frequency, double motion = 0) {
   reduction::ReductionOptions options;
@@ -40,8 +44,10 @@ TEST(FrequencyTolerance, IsMetAndTighterOnesTakeMoreModes) {
   const auto full = coupling::couple(parts);
   int before = 0;
   for (double wanted : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-    const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(wanted), lowest(10));
-    for (const auto& mode : estimate::compareModes(full, parts, outcome.synthesis, 10)) EXPECT_LE(std::abs(mode.error), wanted);
+    const auto outcome =
+        estimate::synthesise(parts, *craigBampton(), tolerance(wanted), lowest(10));
+    for (const auto& mode : estimate::compareModes(full, parts, outcome.synthesis, 10))
+      EXPECT_LE(std::abs(mode.error), wanted);
     EXPECT_GE(outcome.rounds.back().modes, before);
     EXPECT_LE(1.5 * outcome.rounds.back().frequencyError, wanted);
     before = outcome.rounds.back().modes;
@@ -52,7 +58,8 @@ TEST(FrequencyTolerance, IsMetAndTighterOnesTakeMoreModes) {
 
 TEST(FrequencyTolerance, PartsThatDoNotMatterGetNoModes) {
   // A stiff short bar between two soft ones.
-  std::vector<model::Substructure> parts{samples::bar("soft", 1, 20, 100.0, 1.0, {1}), samples::bar("stiff", 21, 20, 1e6, 0.01),
+  std::vector<model::Substructure> parts{samples::bar("soft", 1, 20, 100.0, 1.0, {1}),
+                                         samples::bar("stiff", 21, 20, 1e6, 0.01),
                                          samples::bar("also soft", 41, 20, 90.0, 1.0)};
   samples::classify(parts[0], {21});
   samples::classify(parts[1], {21, 41});
@@ -66,7 +73,8 @@ TEST(FrequencyTolerance, PartsThatDoNotMatterGetNoModes) {
 TEST(FrequencyTolerance, OnlyWhatChangesIsReducedAgain) {
   std::vector<model::Substructure> parts;
   for (int p = 0; p < 6; ++p) {
-    parts.push_back(samples::bar("bar " + std::to_string(p + 1), 1 + 12 * p, 12, 100.0, 1.0, p == 0 ? std::vector<int>{1} : std::vector<int>{}));
+    parts.push_back(samples::bar("bar " + std::to_string(p + 1), 1 + 12 * p, 12, 100.0, 1.0,
+                                 p == 0 ? std::vector<int>{1} : std::vector<int>{}));
     std::vector<int> ends;
     if (p > 0) ends.push_back(1 + 12 * p);
     if (p < 5) ends.push_back(13 + 12 * p);
@@ -81,12 +89,15 @@ TEST(FrequencyTolerance, OnlyWhatChangesIsReducedAgain) {
 }
 
 TEST(MotionTolerance, NeedsAMotion) {
-  EXPECT_THROW(estimate::synthesise(samples::loopFrame(6, false), *craigBampton(), tolerance(0, 1e-2), {}), DeckError);
+  EXPECT_THROW(
+      estimate::synthesise(samples::loopFrame(6, false), *craigBampton(), tolerance(0, 1e-2), {}),
+      DeckError);
 }
 
 /// Samples of a motion of recovered dofs.
 struct Motion : transient::SampleSink {
-  explicit Motion(const model::SecondOrderModel& m, estimate::MotionEstimator* watching = nullptr) : model(m), estimator(watching) {}
+  explicit Motion(const model::SecondOrderModel& m, estimate::MotionEstimator* watching = nullptr)
+      : model(m), estimator(watching) {}
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
     columns.push_back(model.recoveryOffset + model.recovery * q);
     if (estimator != nullptr) estimator->sample(t, q, qDot, qDDot);
@@ -126,8 +137,8 @@ double difference(const std::vector<Vector>& a, const std::vector<Vector>& b) {
   return std::sqrt(error / size);
 }
 
-// A part that lacks a mode which the motion excites is the exception: its answer is not static, the estimate is too large and says
-// so by being above 5 %.
+// A part that lacks a mode which the motion excites is the exception: its answer is not static, the
+// estimate is too large and says so by being above 5 %.
 TEST(MotionEstimate, IsWithinAFactorOfThreeOnAFrameWithSprings) {
   int counted = 0;
   for (bool spinning : {false, true}) {
@@ -140,13 +151,14 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOnAFrameWithSprings) {
       options.modes.kind = reduction::ModeRule::Kind::PerPart;
       options.modes.counts = {modes};
       const auto synthesis = coupling::synthesise(parts, *craigBampton(), options);
-      estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
+      estimate::MotionEstimator estimator(
+          parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
       Motion motion(synthesis.coupled.model, &estimator);
       transient::integrate(synthesis.coupled.model, steps(), motion);
       const double truth = difference(motion.columns, reference.columns);
       const double estimated = estimator.result().error;
-      std::printf("%s frame, %d modes: error %.2e, estimated %.2e (%.2f times)\n", spinning ? "spinning" : "still", modes, truth, estimated,
-                  estimated / truth);
+      std::printf("%s frame, %d modes: error %.2e, estimated %.2e (%.2f times)\n",
+                  spinning ? "spinning" : "still", modes, truth, estimated, estimated / truth);
       EXPECT_GT(estimated, truth / 3.0);
       if (estimated > 0.05) continue;
       EXPECT_LT(estimated, truth * 3.0);
@@ -159,7 +171,8 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOnAFrameWithSprings) {
 TEST(MotionEstimate, IsNothingWithAllModes) {
   const auto parts = hitFrame(true);
   const auto synthesis = coupling::synthesise(parts, *craigBampton(), {});
-  estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
+  estimate::MotionEstimator estimator(parts, synthesis,
+                                      Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
   transient::integrate(synthesis.coupled.model, steps(), estimator);
   EXPECT_EQ(estimator.result().error, 0.0);
 }
@@ -172,7 +185,8 @@ TEST(WatchMotion, GivesUpWhatIsTooFarOff) {
   const auto synthesis = coupling::synthesise(parts, *craigBampton(), options);
   const auto& model = synthesis.coupled.model;
   const auto watched = [&](const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(model.recoveryOffset.size()));
+    estimate::MotionEstimator estimator(parts, synthesis,
+                                        Vector::Zero(model.recoveryOffset.size()));
     return estimate::watchMotion(estimator, model, steps(), limit);
   };
   const auto whole = watched({});
@@ -186,7 +200,8 @@ TEST(WatchMotion, GivesUpWhatIsTooFarOff) {
     const auto stopped = watched({part * whole.error, whole.motion});
     EXPECT_LT(stopped.reached, before) << "the tighter the limit, the earlier";
     EXPECT_GT(stopped.samples, 9);
-    EXPECT_GE(stopped.error * std::sqrt(stopped.reached), 0.999 * part * whole.error) << "above the limit already";
+    EXPECT_GE(stopped.error * std::sqrt(stopped.reached), 0.999 * part * whole.error)
+        << "above the limit already";
     EXPECT_LT(stopped.error, 10 * whole.error);
     before = stopped.reached;
   }
@@ -198,15 +213,18 @@ TEST(MotionTolerance, IsMetAndPartsThatNeedNearlyAllTheirModesStayWhole) {
   Motion reference(full);
   transient::integrate(full, steps(), reference);
   int trials = 0, stopped = 0;
-  const estimate::MotionProbe probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
+  const estimate::MotionProbe probe = [&](const coupling::Synthesis& synthesis,
+                                          const estimate::MotionLimit& limit) {
+    estimate::MotionEstimator estimator(
+        parts, synthesis, Vector::Zero(synthesis.coupled.model.recoveryOffset.size()));
     const auto estimate = estimate::watchMotion(estimator, synthesis.coupled.model, steps(), limit);
     ++trials;
     if (estimate.reached < 1) ++stopped;
     return estimate;
   };
   for (double wanted : {3e-2, 1e-3, 1e-7}) {
-    const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(0, wanted), {}, probe);
+    const auto outcome =
+        estimate::synthesise(parts, *craigBampton(), tolerance(0, wanted), {}, probe);
     Motion motion(outcome.synthesis.coupled.model);
     transient::integrate(outcome.synthesis.coupled.model, steps(), motion);
     std::printf("%s", estimate::roundTable(outcome.rounds).c_str());
@@ -229,12 +247,14 @@ TEST(MotionTolerance, IsMetAndPartsThatNeedNearlyAllTheirModesStayWhole) {
 TEST(MotionTolerance, IsNotMetByWhatIsNoNumber) {
   const auto parts = samples::loopFrame(6, false);
   int trials = 0;
-  const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(0, 1e-2), {}, [&](const coupling::Synthesis&, const estimate::MotionLimit&) {
-    estimate::MotionEstimate none;
-    none.error = ++trials < 3 ? std::nan("") : 1e-9;
-    none.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
-    return none;
-  });
+  const auto outcome =
+      estimate::synthesise(parts, *craigBampton(), tolerance(0, 1e-2), {},
+                           [&](const coupling::Synthesis&, const estimate::MotionLimit&) {
+                             estimate::MotionEstimate none;
+                             none.error = ++trials < 3 ? std::nan("") : 1e-9;
+                             none.byPart = Vector::Zero(static_cast<Eigen::Index>(parts.size()));
+                             return none;
+                           });
   EXPECT_EQ(trials, 3);
   EXPECT_GT(outcome.rounds.back().modes, outcome.rounds.front().modes);
 }

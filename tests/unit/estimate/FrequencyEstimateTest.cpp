@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Estimated errors of coupled frequencies against true ones: chains of bars, a frame with a loop, rigid bodies.
+/// Estimated errors of coupled frequencies against true ones: chains of bars, a frame with a loop,
+/// rigid bodies.
 #include "estimate/FrequencyEstimate.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -22,13 +23,15 @@ coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int m
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  return coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
 /// Three bars in a row, clamped at the left.
 std::vector<model::Substructure> bars() {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 20, 100.0, 0.2, {1}),
-                                         samples::bar("middle", 21, 20, 140.0, 0.25), samples::bar("right", 41, 20, 90.0, 0.2)};
+                                         samples::bar("middle", 21, 20, 140.0, 0.25),
+                                         samples::bar("right", 41, 20, 90.0, 0.2)};
   samples::classify(parts[0], {21});
   samples::classify(parts[1], {21, 41});
   samples::classify(parts[2], {41});
@@ -37,11 +40,14 @@ std::vector<model::Substructure> bars() {
 
 Vector frequencies(const model::SecondOrderModel& model, int count) {
   const Sparse K = coupling::undampedStiffness(model);
-  return linalg::lowestModes(K, reduction::symmetricPart(model.mass), count).values.cwiseMax(0.0).cwiseSqrt();
+  return linalg::lowestModes(K, reduction::symmetricPart(model.mass), count)
+      .values.cwiseMax(0.0)
+      .cwiseSqrt();
 }
 
 /// Estimate over true error, for every mode whose true error is above rounding; prints the table.
-std::vector<double> effectivities(const std::vector<model::Substructure>& parts, int modes, int count) {
+std::vector<double> effectivities(const std::vector<model::Substructure>& parts, int modes,
+                                  int count) {
   const auto synthesis = reduced(parts, modes);
   count = std::min(count, synthesis.coupled.model.size());
   const Vector full = frequencies(coupling::couple(parts), count);
@@ -51,8 +57,8 @@ std::vector<double> effectivities(const std::vector<model::Substructure>& parts,
   for (int j = 0; j < count; ++j) {
     const double truth = coupled[j] / full[j] - 1.0;
     const auto& e = estimates[static_cast<std::size_t>(j)];
-    std::printf("modes %2d, frequency %2d: true %.2e, estimated %.2e%s\n", modes, j + 1, truth, e.error,
-                e.definite ? "" : " (a mode is missing below)");
+    std::printf("modes %2d, frequency %2d: true %.2e, estimated %.2e%s\n", modes, j + 1, truth,
+                e.error, e.definite ? "" : " (a mode is missing below)");
     if (truth > 1e-11 && e.definite) ratios.push_back(e.error / truth);
   }
   return ratios;
@@ -61,7 +67,8 @@ std::vector<double> effectivities(const std::vector<model::Substructure>& parts,
 TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
   int counted = 0;
   for (int modes : {1, 2, 4, 8})
-    for (const auto& parts : {bars(), samples::loopFrame(12, false), samples::loopFrame(12, false, true)})
+    for (const auto& parts :
+         {bars(), samples::loopFrame(12, false), samples::loopFrame(12, false, true)})
       for (double ratio : effectivities(parts, modes, 8)) {
         EXPECT_GT(ratio, 1.0 / 3.0);
         EXPECT_LT(ratio, 3.0);
@@ -70,22 +77,27 @@ TEST(FrequencyEstimate, IsWithinAFactorOfThreeForBarsAndFrames) {
   EXPECT_GT(counted, 60);
 }
 
-/// Parts of one or two interior dofs without modes: the two Krylov vectors of a part are all that its basis lacks, and the one
-/// coupled mode with them is the whole model, so that the estimate is the true error.
+/// Parts of one or two interior dofs without modes: the two Krylov vectors of a part are all that
+/// its basis lacks, and the one coupled mode with them is the whole model, so that the estimate is
+/// the true error.
 TEST(FrequencyEstimate, IsExactWhereTheKrylovVectorsAreAllThatIsLeftOut) {
   for (const int interior : {1, 2}) {
-    std::vector<model::Substructure> parts{samples::bar("left", 1, interior + 1, 100.0, 0.2, {1}),
-                                           samples::bar("right", interior + 2, interior + 1, 140.0, 0.5, {2 * interior + 3})};
+    std::vector<model::Substructure> parts{
+        samples::bar("left", 1, interior + 1, 100.0, 0.2, {1}),
+        samples::bar("right", interior + 2, interior + 1, 140.0, 0.5, {2 * interior + 3})};
     for (auto& part : parts) samples::classify(part, {interior + 2});
     const auto synthesis = reduced(parts, 0);
     ASSERT_EQ(synthesis.coupled.model.size(), 1);
-    const double truth = frequencies(synthesis.coupled.model, 1)[0] / frequencies(coupling::couple(parts), 1)[0] - 1.0;
+    const double truth =
+        frequencies(synthesis.coupled.model, 1)[0] / frequencies(coupling::couple(parts), 1)[0] -
+        1.0;
     EXPECT_GT(truth, 1e-3);
     const auto estimate = estimate::estimateFrequencies(parts, synthesis, {1, 0}).front();
     EXPECT_NEAR(estimate.error, truth, 1e-9 * truth);
     EXPECT_NEAR(estimate.byPart.sum(), truth, 1e-9 * truth);
     EXPECT_GT(estimate.byPart.minCoeff(), 0.05 * truth);
-    EXPECT_NEAR(2.0 * std::acos(-1.0) * estimate.frequency(), frequencies(synthesis.coupled.model, 1)[0], 1e-9 * estimate.frequency());
+    EXPECT_NEAR(2.0 * std::acos(-1.0) * estimate.frequency(),
+                frequencies(synthesis.coupled.model, 1)[0], 1e-9 * estimate.frequency());
   }
 }
 
@@ -101,7 +113,8 @@ TEST(FrequencyEstimate, FindsThePartThatLacksModes) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {8, 0, 8};
-  const auto synthesis = coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  const auto synthesis = coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
   const auto estimates = estimate::estimateFrequencies(parts, synthesis, {3, 0});
   ASSERT_EQ(estimates.size(), 3u);
   for (const auto& e : estimates) {
@@ -112,7 +125,8 @@ TEST(FrequencyEstimate, FindsThePartThatLacksModes) {
 }
 
 TEST(FrequencyEstimate, LeavesRigidBodiesAlone) {
-  std::vector<model::Substructure> parts{samples::bar("left", 1, 10, 100.0, 0.2), samples::bar("right", 11, 10, 140.0, 0.25)};
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 10, 100.0, 0.2),
+                                         samples::bar("right", 11, 10, 140.0, 0.25)};
   samples::classify(parts[0], {11});
   samples::classify(parts[1], {11});
   const auto estimates = estimate::estimateFrequencies(parts, reduced(parts, 2), {3, 0});

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Full and coupled modes matched by shape; errors of damped modes estimated and true.
+#include "estimate/ModeComparison.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
 #include "coupling/Assembler.hpp"
 #include "coupling/PointLaws.hpp"
-#include "estimate/ModeComparison.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -18,7 +19,8 @@ coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int m
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  return coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
 TEST(ModeComparison, WithAllModesShapesAreTheSame) {
@@ -32,7 +34,8 @@ TEST(ModeComparison, WithAllModesShapesAreTheSame) {
     }
     for (const auto& mode : estimate::compareDampedModes(full, parts, synthesis, 6, 0.5)) {
       EXPECT_NEAR(mode.mac, 1.0, 1e-6);
-      EXPECT_LT(mode.error, 1e-6);  // QR of the linearised problem: rounding of (omega_max / omega)^2
+      EXPECT_LT(mode.error,
+                1e-6);  // QR of the linearised problem: rounding of (omega_max / omega)^2
       EXPECT_LT(mode.estimate, 1e-6);
     }
   }
@@ -42,8 +45,10 @@ TEST(ModeComparison, EstimatesOfDampedModesAreWithinAFactorOfThree) {
   int counted = 0;
   for (int modes : {2, 4, 6}) {
     const auto parts = samples::loopFrame(10, true, modes == 4);
-    const auto compared = estimate::compareDampedModes(coupling::couple(parts), parts, reduced(parts, modes), 6, 0.5);
-    std::printf("%d modes of each part\n%s", modes, estimate::comparisonTable(compared, true).c_str());
+    const auto compared =
+        estimate::compareDampedModes(coupling::couple(parts), parts, reduced(parts, modes), 6, 0.5);
+    std::printf("%d modes of each part\n%s", modes,
+                estimate::comparisonTable(compared, true).c_str());
     for (const auto& mode : compared) {
       if (mode.error < 1e-9 || mode.mac < 0.9) continue;
       EXPECT_GT(mode.estimate, mode.error / 3.0);
@@ -63,40 +68,47 @@ TEST(ModeComparison, ModalAssuranceIsOneForTheSameShapeAndZeroForOthers) {
   EXPECT_NEAR((mac - Matrix::Identity(2, 2)).norm(), 0.0, 1e-14);
 }
 
-/// MAC = |a' M b|^2 / (a' M a  b' M b): shapes at right angles are alike where the mass says so, and the other way round.
+/// MAC = |a' M b|^2 / (a' M a  b' M b): shapes at right angles are alike where the mass says so,
+/// and the other way round.
 TEST(ModeComparison, ModalAssuranceWeighsWithTheMass) {
   Sparse M(2, 2);
   M.insert(0, 0) = 1.0;
   M.insert(1, 1) = 4.0;
   const Eigen::MatrixXcd a = (Matrix(2, 1) << 1.0, 1.0).finished().cast<std::complex<double>>();
-  const Eigen::MatrixXcd b = (Matrix(2, 2) << 1.0, 4.0, -1.0, -1.0).finished().cast<std::complex<double>>();
+  const Eigen::MatrixXcd b =
+      (Matrix(2, 2) << 1.0, 4.0, -1.0, -1.0).finished().cast<std::complex<double>>();
   const Matrix mac = estimate::modalAssurance(M, a, b);
   EXPECT_NEAR(mac(0, 0), 9.0 / 25.0, 1e-15);  // (1 - 4)^2 / (5 * 5)
   EXPECT_NEAR(mac(0, 1), 0.0, 1e-15);         // 4 - 4
 }
 
-/// Lightly damped bars of one interior dof without modes, a heavy mass where they meet: the truncated work is exact, so that the
-/// estimate misses only what is of second order in the error.
+/// Lightly damped bars of one interior dof without modes, a heavy mass where they meet: the
+/// truncated work is exact, so that the estimate misses only what is of second order in the error.
 TEST(ModeComparison, EstimateOfADampedModeIsTheErrorToFirstOrder) {
-  std::vector<model::Substructure> parts{samples::bar("left", 1, 2, 100.0, 0.2, {1}), samples::bar("right", 3, 2, 140.0, 0.1, {5})};
+  std::vector<model::Substructure> parts{samples::bar("left", 1, 2, 100.0, 0.2, {1}),
+                                         samples::bar("right", 3, 2, 140.0, 0.1, {5})};
   for (auto& part : parts) {
     samples::classify(part, {3});
-    part.model.damping.push_back({"damping", Sparse(1e-3 * part.model.stiffness.front().matrix), 0});
+    part.model.damping.push_back(
+        {"damping", Sparse(1e-3 * part.model.stiffness.front().matrix), 0});
     const int joint = part.interface.front();
     part.model.mass.coeffRef(joint, joint) += 0.5;
   }
-  const auto modes = estimate::compareDampedModes(coupling::couple(parts), parts, reduced(parts, 0), 1, 0.0);
+  const auto modes =
+      estimate::compareDampedModes(coupling::couple(parts), parts, reduced(parts, 0), 1, 0.0);
   ASSERT_EQ(modes.size(), 1u);
   EXPECT_GT(modes[0].error, 1e-3);
   EXPECT_LT(modes[0].error, 0.03);
   EXPECT_NEAR(modes[0].estimate, modes[0].error, 10.0 * modes[0].error * modes[0].error);
 }
 
-/// K + k at the point, C + c there, with the laws of the time asked for: a bar with a spring and dashpot under its end.
+/// K + k at the point, C + c there, with the laws of the time asked for: a bar with a spring and
+/// dashpot under its end.
 TEST(ModeComparison, LinearisesPointLawsWithTheirDamping) {
   auto part = samples::bar("bar", 1, 1, 100.0, 0.6, {1});
   auto& m = part.model;
-  m.damping.push_back({"growing", Sparse(m.stiffness.front().matrix), m.lawIndex({"t", [](double t) { return t; }})});
+  m.damping.push_back({"growing", Sparse(m.stiffness.front().matrix),
+                       m.lawIndex({"t", [](double t) { return t; }})});
   coupling::SpringParameters spring;
   spring.stiffness = 30.0;
   spring.damping = 4.0;

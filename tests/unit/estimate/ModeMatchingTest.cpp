@@ -20,7 +20,8 @@ Sparse identity(int n) {
 
 Eigen::VectorXcd frequencies(const std::vector<double>& omega) {
   Eigen::VectorXcd s(static_cast<Eigen::Index>(omega.size()));
-  for (std::size_t i = 0; i < omega.size(); ++i) s[static_cast<Eigen::Index>(i)] = std::complex<double>(0, omega[i]);
+  for (std::size_t i = 0; i < omega.size(); ++i)
+    s[static_cast<Eigen::Index>(i)] = std::complex<double>(0, omega[i]);
   return s;
 }
 
@@ -46,12 +47,14 @@ TEST(ModeMatching, ARepeatedModeIsASubspace) {
   }
 }
 
-// Values that are no repeated ones are compared one by one, and a candidate that resembles two of them is taken once.
+// Values that are no repeated ones are compared one by one, and a candidate that resembles two of
+// them is taken once.
 TEST(ModeMatching, NoCandidateIsTakenTwice) {
   const Eigen::MatrixXcd own = Matrix::Identity(3, 3).cast<std::complex<double>>();
   Matrix others(3, 3);  // the first resembles modes 1 and 2, the second nothing better than mode 2
   others << 0.8, 0.5, 0.0, 0.6, 0.1, 0.0, 0.0, 0.8, 1.0;
-  const auto matches = matchModes(identity(3), frequencies({1, 2, 3}), own, others.cast<std::complex<double>>());
+  const auto matches =
+      matchModes(identity(3), frequencies({1, 2, 3}), own, others.cast<std::complex<double>>());
   EXPECT_EQ(matches[0].partner, 0);
   EXPECT_EQ(matches[1].partner, 1);
   EXPECT_EQ(matches[2].partner, 2);
@@ -67,7 +70,8 @@ TEST(ModeMatching, TheLeastCosineOfThePrincipalAnglesCounts) {
   others(1, 1) = std::cos(a);
   others(2, 1) = std::sin(a);
   const auto matches =
-      matchModes(identity(4), frequencies({5, 5}), own.cast<std::complex<double>>(), others.cast<std::complex<double>>());
+      matchModes(identity(4), frequencies({5, 5}), own.cast<std::complex<double>>(),
+                 others.cast<std::complex<double>>());
   for (const auto& match : matches) EXPECT_NEAR(match.mac, std::cos(a) * std::cos(a), 1e-12);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The estimated error of a motion against the true one, where what the basis leaves out follows statically.
+/// The estimated error of a motion against the true one, where what the basis leaves out follows
+/// statically.
 #include "estimate/MotionEstimate.hpp"
 
 #include <Teuchos_ParameterList.hpp>
@@ -40,19 +41,21 @@ transient::TransientOptions steps() {
   return options;
 }
 
-/// Two clamped bars with light damping, shaken inside the left one far below the modes that a basis with one mode of each leaves
-/// out.
+/// Two clamped bars with light damping, shaken inside the left one far below the modes that a basis
+/// with one mode of each leaves out.
 std::vector<model::Substructure> shakenBars() {
   std::vector<model::Substructure> parts{samples::bar("left", 1, 6, 600.0, 0.05, {1}),
                                          samples::bar("right", 7, 6, 900.0, 0.05, {13})};
   for (auto& part : parts) {
     samples::classify(part, {7});
-    part.model.damping.push_back({"damping", Sparse(2e-3 * part.model.stiffness.front().matrix), 0});
+    part.model.damping.push_back(
+        {"damping", Sparse(2e-3 * part.model.stiffness.front().matrix), 0});
   }
   auto& left = parts[0].model;
   Vector push = Vector::Zero(left.size());
   push[samples::find(left, model::DofLabel::physical(4, 0))] = 1.0;
-  left.loads.push_back({"push", push, left.lawIndex({"shake", [](double t) { return std::sin(8.0 * t); }})});
+  left.loads.push_back(
+      {"push", push, left.lawIndex({"shake", [](double t) { return std::sin(8.0 * t); }})});
   return parts;
 }
 
@@ -64,9 +67,11 @@ Errors errors(const std::vector<model::Substructure>& parts, int modes) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  const auto synthesis = coupling::synthesise(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  const auto synthesis = coupling::synthesise(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
   const auto& coupled = synthesis.coupled.model;
-  estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(coupled.recoveryOffset.size()), {{0}, 0.5});
+  estimate::MotionEstimator estimator(parts, synthesis, Vector::Zero(coupled.recoveryOffset.size()),
+                                      {{0}, 0.5});
   Motion reduced(coupled, &estimator);
   transient::integrate(coupled, steps(), reduced);
   const auto full = coupling::couple(parts);

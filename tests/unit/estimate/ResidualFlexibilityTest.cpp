@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The residual flexibility of a part is that of the modes its basis leaves out, sum phi phi'/omega^2 (Rubin 1975).
+/// The residual flexibility of a part is that of the modes its basis leaves out, sum phi
+/// phi'/omega^2 (Rubin 1975).
 #include "estimate/ResidualFlexibility.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -22,22 +23,27 @@ TEST(ResidualFlexibility, IsThatOfTheModesLeftOut) {
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {2};
   const auto reduced =
-      reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options).front();
+      reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()),
+                           options)
+          .front();
   const Sparse K = part.model.stiffness.front().matrix;
   const estimate::ResidualFlexibility flexibility(part, *reduced.basis, K);
   const auto& inner = flexibility.interior();
   ASSERT_EQ(inner.size(), 5u);
   EXPECT_EQ(flexibility.truncated(), 3);
 
-  const Matrix stiffness = reduction::block(K, inner, inner), mass = reduction::block(part.model.mass, inner, inner);
+  const Matrix stiffness = reduction::block(K, inner, inner),
+               mass = reduction::block(part.model.mass, inner, inner);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(stiffness, mass);  // phi' M phi = 1
   Matrix expected = Matrix::Zero(5, 5);
   for (int k = 2; k < 5; ++k)
-    expected += modes.eigenvectors().col(k) * modes.eigenvectors().col(k).transpose() / modes.eigenvalues()[k];
+    expected += modes.eigenvectors().col(k) * modes.eigenvectors().col(k).transpose() /
+                modes.eigenvalues()[k];
   EXPECT_LT((flexibility.apply(Matrix::Identity(5, 5)) - expected).norm(), 1e-12 * expected.norm());
 }
 
-/// w = -F r on the interior, r = M D'' + C D' + K D - f(t) with every term of its own size and the laws of its time.
+/// w = -F r on the interior, r = M D'' + C D' + K D - f(t) with every term of its own size and the
+/// laws of its time.
 TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
   auto part = samples::bar("bar", 1, 6, 600.0, 0.3);
   samples::classify(part, {1, 7});
@@ -50,11 +56,14 @@ TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
   options.modes.kind = reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {2};
   const auto reduced =
-      reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options).front();
+      reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()),
+                           options)
+          .front();
   Sparse map(4, 4);
   map.setIdentity();
   const estimate::PartResidual residual(part, reduced, map, {});
-  const Vector d = Vector::LinSpaced(7, 0.1, 0.5).cwiseAbs2(), v = Vector::LinSpaced(7, 3.0, -2.0).cwiseAbs2(),
+  const Vector d = Vector::LinSpaced(7, 0.1, 0.5).cwiseAbs2(),
+               v = Vector::LinSpaced(7, 3.0, -2.0).cwiseAbs2(),
                a = Vector::LinSpaced(7, -40.0, 90.0).cwiseAbs2();
   const double t = 1.5;
   const Vector r = m.mass * a + t * 0.02 * (K * v) + K * d - t * m.loads.front().vector;
@@ -64,7 +73,8 @@ TEST(PartResidual, IsWhatTheEquationsOfThePartLack) {
   for (int i = 0; i < 5; ++i) interior[i] = r[inner[static_cast<std::size_t>(i)]];
   const Vector expected = -flexibility.apply(interior);
   const Vector w = residual.truncated(t, {d, v, a});
-  for (int i = 0; i < 5; ++i) EXPECT_NEAR(w[inner[static_cast<std::size_t>(i)]], expected[i], 1e-12 * expected.norm()) << i;
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(w[inner[static_cast<std::size_t>(i)]], expected[i], 1e-12 * expected.norm()) << i;
   for (const int kept : part.interface) EXPECT_EQ(w[kept], 0.0);
   EXPECT_GT(expected.norm(), 1e-4);
 }

@@ -17,7 +17,9 @@ TEST(TiedCoordinates, EstimatesStayNearTheTrueErrors) {
   const auto parts = samples::loopFrame(10, false);
   const Vector full = checks::eigenvalues(coupling::couple(parts));
   for (const std::string choice : {"Tied", "Free"}) {
-    const auto synthesis = checks::synthesise(parts, "Enhanced Craig-Bampton", 2, [&](Teuchos::ParameterList& list) { list.set("Residual Coordinates", choice); });
+    const auto synthesis = checks::synthesise(
+        parts, "Enhanced Craig-Bampton", 2,
+        [&](Teuchos::ParameterList& list) { list.set("Residual Coordinates", choice); });
     const Vector coupled = checks::eigenvalues(synthesis.coupled.model);
     estimate::FrequencyWindow window;
     window.count = 6;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// results.h5, summary.json and the output folder: round trips, units on every dataset, refusals, nothing half-written under its name.
-#include <gtest/gtest.h>
-
+/// results.h5, summary.json and the output folder: round trips, units on every dataset, refusals,
+/// nothing half-written under its name.
 #include <cmath>
 #include <filesystem>
+#include <gtest/gtest.h>
 #include <limits>
 #include <map>
 #include <string>
@@ -31,7 +31,8 @@ class Io : public ::testing::Test {
   std::string at(const std::string& name) const { return scratch_ / name; }
 
   const test::Scratch scratch_;
-  const io::Provenance provenance_{"deck.xml", "<ParameterList name=\"x\"/>", "abc", {"Loads/Gravity=1"}};
+  const io::Provenance provenance_{
+      "deck.xml", "<ParameterList name=\"x\"/>", "abc", {"Loads/Gravity=1"}};
 };
 
 TEST_F(Io, DatasetsComeBackWithUnitsAndNames) {
@@ -65,7 +66,8 @@ TEST_F(Io, WhatWasFlushedIsReadableAlthoughTheFileWasNeverFinished) {
     file.series("/transient/time", {}, "s", "Time").append(0.5);
     file.flush();
   }
-  EXPECT_EQ(io::ResultsReader(at("results.h5.part")).numbers("/transient/time"), std::vector<double>{0.5});
+  EXPECT_EQ(io::ResultsReader(at("results.h5.part")).numbers("/transient/time"),
+            std::vector<double>{0.5});
 }
 
 TEST_F(Io, NumbersThatAreNotFiniteAndMissingUnitsAreRefused) {
@@ -114,7 +116,11 @@ TEST_F(Io, ResultsLargerThanTheDiskAreRefusedBeforeTheyAreComputed) {
       folder.requireSpace(bytes);
       ADD_FAILURE() << bytes;
     } catch (const FileError& error) {
-      EXPECT_NE(std::string(error.what()).find("MB, but the results need about " + std::string(bytes > 1e20 ? "9.5" : "953674316407 MB")), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what())
+                    .find("MB, but the results need about " +
+                          std::string(bytes > 1e20 ? "9.5" : "953674316407 MB")),
+                std::string::npos)
+          << error.what();
     }
   }
 }
@@ -127,13 +133,17 @@ void put(const std::string& path, const std::string& text) {
 
 TEST_F(Io, TheCheckpointOfAnotherRunIsSetAsideWithAllThatBelongsToIt) {
   for (int i = 0; i < 2; ++i) {
-    for (const char* name : {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"}) put(at(std::string("run/") + name), std::to_string(i));
-    put(at("run/summary.json"), R"({"status": "interrupted", "files": ["motion.csv", "results.h5", "summary.json", "../other.txt"]})");
+    for (const char* name :
+         {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"})
+      put(at(std::string("run/") + name), std::to_string(i));
+    put(at("run/summary.json"),
+        R"({"status": "interrupted", "files": ["motion.csv", "results.h5", "summary.json", "../other.txt"]})");
     put(at("other.txt"), "not of the run");
     put(at("run/notes.txt"), "the user's own");
     const io::OutputFolder folder(at("run"));
     const std::string aside = at(i == 0 ? "run/interrupted" : "run/interrupted_2");
-    for (const char* name : {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"}) {
+    for (const char* name :
+         {"checkpoint.bin", "checkpoint.h5", "results.h5", "results.h5.part", "motion.csv"}) {
       EXPECT_FALSE(fs::exists(at(std::string("run/") + name))) << name;
       EXPECT_EQ(io::readText(aside + "/" + name), std::to_string(i)) << name;
     }
@@ -195,9 +205,13 @@ TEST_F(Io, PicturesContinueWithTheirTimes) {
   const std::vector<double> motion(6, 0.1);
   io::XdmfFrame frame;
   frame.displacement = frame.velocity = motion.data();
-  const auto pictures = [&](const std::string& name, const std::vector<double>& times, const std::vector<double>* before, std::vector<double>& memory) {
+  const auto pictures = [&](const std::string& name, const std::vector<double>& times,
+                            const std::vector<double>* before, std::vector<double>& memory) {
     io::ResultsFile file(at(name), provenance_);
-    if (before != nullptr) file.continueFrom(at("first.h5"), {{"/xdmf/time", 2}, {"/xdmf/displacement", 2}, {"/xdmf/speed", 2}, {"/xdmf/spin", 2}});
+    if (before != nullptr)
+      file.continueFrom(
+          at("first.h5"),
+          {{"/xdmf/time", 2}, {"/xdmf/displacement", 2}, {"/xdmf/speed", 2}, {"/xdmf/spin", 2}});
     io::XdmfRecorder recorder(file, scene, 0.1);
     if (before != nullptr) {
       const double* at = before->data();
@@ -216,10 +230,12 @@ TEST_F(Io, PicturesContinueWithTheirTimes) {
   pictures("first.h5", {0.0, 0.05, 0.1, 0.15}, nullptr, memory);
   const auto later = pictures("second.h5", {0.19, 0.2, 0.25}, &memory, ignored);
   EXPECT_EQ(later, pictures("whole.h5", {0.0, 0.05, 0.1, 0.15, 0.19, 0.2, 0.25}, nullptr, ignored));
-  EXPECT_EQ(io::ResultsReader(at("second.h5")).numbers("/xdmf/time"), (std::vector<double>{0.0, 0.1, 0.2}));
+  EXPECT_EQ(io::ResultsReader(at("second.h5")).numbers("/xdmf/time"),
+            (std::vector<double>{0.0, 0.1, 0.2}));
   // none due after the restart: those of before are there all the same
   pictures("third.h5", {0.15}, &memory, ignored);
-  EXPECT_EQ(io::ResultsReader(at("third.h5")).numbers("/xdmf/time"), (std::vector<double>{0.0, 0.1}));
+  EXPECT_EQ(io::ResultsReader(at("third.h5")).numbers("/xdmf/time"),
+            (std::vector<double>{0.0, 0.1}));
 }
 
 TEST_F(Io, TheSummaryKnowsItsKeys) {

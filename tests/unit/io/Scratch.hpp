@@ -3,20 +3,21 @@
 /// A folder for one test that disappears with it.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 
 namespace tooljoint::test {
 
 class Scratch {
  public:
   Scratch() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "tooljoint_test_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder for a test can be made");
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "tooljoint_test_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw std::runtime_error("no folder for a test can be made");
     folder_ = pattern;
   }
   ~Scratch() {

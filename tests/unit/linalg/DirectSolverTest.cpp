@@ -95,7 +95,8 @@ TEST(DirectSolver, RefactorsWithTheSameAndWithAnotherPattern) {
   const Sparse first = transport(60);
   DirectSolver solver(first);
   const Vector b = Vector::Ones(60);
-  for (const Sparse& A : {Sparse(3.0 * first), springChain(60, 5.0, 1.0).K, Sparse(transport(90)), first}) {
+  for (const Sparse& A :
+       {Sparse(3.0 * first), springChain(60, 5.0, 1.0).K, Sparse(transport(90)), first}) {
     solver.refactor(A);
     ASSERT_EQ(solver.size(), A.rows());
     const Vector rhs = Vector::Ones(A.rows());
@@ -124,16 +125,19 @@ TEST(DirectSolver, NamesTheDofOfASingularMatrix) {
   for (int i = 0; i < 5; ++i)
     for (Sparse::InnerIterator it(held, i); it; ++it) both.emplace_back(i, it.col(), it.value());
   for (int i = 0; i < 4; ++i)
-    for (Sparse::InnerIterator it(floating, i); it; ++it) both.emplace_back(5 + i, 5 + it.col(), it.value());
+    for (Sparse::InnerIterator it(floating, i); it; ++it)
+      both.emplace_back(5 + i, 5 + it.col(), it.value());
   const std::string text = message([&] { DirectSolver(testing::assembled(9, both), spoken); });
   EXPECT_NE(text.find("singular"), std::string::npos) << text;
   EXPECT_NE(text.find("<5>"), std::string::npos) << text;
-  EXPECT_NE(message([&] { DirectSolver(testing::assembled(9, both)); }).find("dof 6"), std::string::npos);
+  EXPECT_NE(message([&] { DirectSolver(testing::assembled(9, both)); }).find("dof 6"),
+            std::string::npos);
 }
 
 TEST(DirectSolver, FindsMatricesThatAreSingularUpToRounding) {
   for (const int elements : {3, 20, 60, 200}) {
-    // Turning about one end moves the other end most; a free beam has no pivot that is exactly zero.
+    // Turning about one end moves the other end most; a free beam has no pivot that is exactly
+    // zero.
     const auto free = beam(elements, 170.3, 2.9e6, 1, true);
     const std::string text = message([&] { DirectSolver(free.K, spoken); });
     EXPECT_NE(text.find("singular"), std::string::npos) << elements << ": " << text;
@@ -142,14 +146,17 @@ TEST(DirectSolver, FindsMatricesThatAreSingularUpToRounding) {
 
 TEST(DirectSolver, NamesTheDofWithoutAnyStiffness) {
   Triplets entries{{0, 0, 1.0}, {1, 1, 2.0}, {2, 2, 0.0}, {3, 3, 1.0}};
-  EXPECT_NE(message([&] { DirectSolver(testing::assembled(4, entries), spoken); }).find("<2>"), std::string::npos);
+  EXPECT_NE(message([&] { DirectSolver(testing::assembled(4, entries), spoken); }).find("<2>"),
+            std::string::npos);
   // an empty column (its row is not): the motion of dof 1 does nothing
   Triplets column{{0, 0, 1.0}, {1, 0, 2.0}, {2, 2, 1.0}};
-  EXPECT_NE(message([&] { DirectSolver(testing::assembled(3, column), spoken); }).find("<1>"), std::string::npos);
+  EXPECT_NE(message([&] { DirectSolver(testing::assembled(3, column), spoken); }).find("<1>"),
+            std::string::npos);
 }
 
 TEST(DirectSolver, NamesEntriesThatAreNotFinite) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Sparse A = springChain(6, 1.0, 1.0).K;
     A.coeffRef(3, 4) = bad;
     const std::string text = message([&] { DirectSolver(A, spoken); });

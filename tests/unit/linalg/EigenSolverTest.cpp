@@ -18,7 +18,9 @@ using testing::springChain;
 
 constexpr double k = 1e7, m = 2.0;
 
-double heldChain(int n, int j) { return 4.0 * k / m * std::pow(std::sin((j + 1) * M_PI / (2.0 * (n + 1))), 2); }
+double heldChain(int n, int j) {
+  return 4.0 * k / m * std::pow(std::sin((j + 1) * M_PI / (2.0 * (n + 1))), 2);
+}
 double freeChain(int n, int j) { return 4.0 * k / m * std::pow(std::sin(j * M_PI / (2.0 * n)), 2); }
 
 bool isDense(const EigenPairs& modes) { return modes.method.find("dense") != std::string::npos; }
@@ -59,7 +61,8 @@ TEST(EigenSolver, SpringChain) {
       const EigenPairs modes = lowestModes(chain.K, chain.M, count);
       expectModes(chain, modes, count);
       EXPECT_EQ(isDense(modes), n < 200 || 3 * count > n) << modes.method;
-      for (int j = 0; j < count; ++j) EXPECT_NEAR(modes.values[j] / heldChain(n, j), 1.0, 1e-9) << n << " " << count << " " << j;
+      for (int j = 0; j < count; ++j)
+        EXPECT_NEAR(modes.values[j] / heldChain(n, j), 1.0, 1e-9) << n << " " << count << " " << j;
     }
 }
 
@@ -78,13 +81,15 @@ TEST(EigenSolver, KrylovAndDenseAgree) {
   EigenOptions krylov, dense;
   krylov.denseBelow = 1;
   dense.denseBelow = 100000;
-  const EigenPairs a = lowestModes(two.K, two.M, 60, krylov), b = lowestModes(two.K, two.M, 60, dense);
+  const EigenPairs a = lowestModes(two.K, two.M, 60, krylov),
+                   b = lowestModes(two.K, two.M, 60, dense);
   EXPECT_FALSE(isDense(a));
   EXPECT_TRUE(isDense(b));
   expectModes(two, a, 60);
   expectModes(two, b, 60);
   // Dense eigenvalues are as good as rounding in the largest one allows.
-  const double rounding = 1e-15 * eigenvaluesBelow(two.K, two.M, 1.0) + 1e-13 * 12.0 * 3e6 / std::pow(170.3 / 75, 4) * 100.0;
+  const double rounding = 1e-15 * eigenvaluesBelow(two.K, two.M, 1.0) +
+                          1e-13 * 12.0 * 3e6 / std::pow(170.3 / 75, 4) * 100.0;
   for (int j = 0; j < 60; ++j) EXPECT_NEAR(a.values[j], b.values[j], 1e-9 * a.values[j] + rounding);
   // Pairs span the same planes: the singular values of Phi_a' M Phi_b over all 60 modes are one.
   const Matrix overlap = a.vectors.transpose() * (two.M * b.vectors);
@@ -99,7 +104,8 @@ TEST(EigenSolver, SimplySupportedBeamInTwoPlanes) {
   // consistent mass and cubic elements: lambda is above by (q l)^4/720, and each comes twice
   for (int j = 0; j < 12; ++j) {
     const double q = (j / 2 + 1) * M_PI / L, l = L / 150;
-    EXPECT_NEAR(modes.values[j] / (EI * std::pow(q, 4)), 1.0 + std::pow(q * l, 4) / 720.0, 1e-6) << j;
+    EXPECT_NEAR(modes.values[j] / (EI * std::pow(q, 4)), 1.0 + std::pow(q * l, 4) / 720.0, 1e-6)
+        << j;
   }
 }
 
@@ -143,13 +149,15 @@ TEST(EigenSolver, RigidBodyModesOfFreeBodies) {
     const Pencil free = beam(elements, L, EI, 2, true);
     const EigenPairs modes = lowestModes(free.K, free.M, 8);
     expectModes(free, modes, 8);
-    const double first = EI * std::pow(4.730040744862704 / L, 4), second = EI * std::pow(7.853204624095838 / L, 4);
+    const double first = EI * std::pow(4.730040744862704 / L, 4),
+                 second = EI * std::pow(7.853204624095838 / L, 4);
     for (int j = 0; j < 4; ++j) EXPECT_NEAR(modes.values[j] / first, 0.0, 1e-5) << j;
     for (int j = 4; j < 6; ++j) EXPECT_NEAR(modes.values[j] / first, 1.0, 1e-4) << j;
     for (int j = 6; j < 8; ++j) EXPECT_NEAR(modes.values[j] / second, 1.0, 2e-4) << j;
     EigenOptions keep;
     keep.keepPairs = true;
-    EXPECT_EQ(lowestModes(free.K, free.M, 1, keep).count(), 4) << "all four rigid-body modes have the value zero";
+    EXPECT_EQ(lowestModes(free.K, free.M, 1, keep).count(), 4)
+        << "all four rigid-body modes have the value zero";
   }
   const Pencil chain = springChain(500, k, m, true);
   const EigenPairs modes = lowestModes(chain.K, chain.M, 30);
@@ -188,20 +196,24 @@ TEST(EigenSolver, AllModesBelowACutOff) {
       EXPECT_EQ(eigenvaluesBelow(chain.K, chain.M, cut), below);
       const EigenPairs modes = lowestModesBelow(chain.K, chain.M, std::sqrt(cut));
       expectModes(chain, modes, below);
-      for (int j = 0; j < modes.count(); ++j) EXPECT_NEAR(modes.values[j] / heldChain(n, j), 1.0, 1e-9);
+      for (int j = 0; j < modes.count(); ++j)
+        EXPECT_NEAR(modes.values[j] / heldChain(n, j), 1.0, 1e-9);
     }
   }
   // negative ones count as below any cut-off
   const Pencil buckled = beam(60, 100.0, 3e6, 1, false, -5e4);
-  EXPECT_EQ(lowestModesBelow(buckled.K, buckled.M, 0.0).count(), eigenvaluesBelow(buckled.K, buckled.M, 0.0));
+  EXPECT_EQ(lowestModesBelow(buckled.K, buckled.M, 0.0).count(),
+            eigenvaluesBelow(buckled.K, buckled.M, 0.0));
   EXPECT_GT(lowestModesBelow(buckled.K, buckled.M, 0.0).count(), 3);
   EXPECT_THROW(lowestModesBelow(buckled.K, buckled.M, -1.0), ModelError);
 }
 
 TEST(EigenSolver, CountsAreRightInEveryGapOfTheSpectrum) {
-  // The middle of the spectrum of a chain of equal masses makes every diagonal entry of K - lambda M vanish.
-  for (const Pencil& pencil : {springChain(80, k, m), springChain(81, k, m), beam(40, 170.3, 3e6), beam(30, 60.0, 3e6, 2, true),
-                               beam(40, 100.0, 3e6, 1, false, -5e4)}) {
+  // The middle of the spectrum of a chain of equal masses makes every diagonal entry of K - lambda
+  // M vanish.
+  for (const Pencil& pencil :
+       {springChain(80, k, m), springChain(81, k, m), beam(40, 170.3, 3e6),
+        beam(30, 60.0, 3e6, 2, true), beam(40, 100.0, 3e6, 1, false, -5e4)}) {
     const EigenPairs all = symmetricModes(Matrix(pencil.K), Matrix(pencil.M));
     const double rounding = 1e-12 * all.values.cwiseAbs().maxCoeff();
     for (int j = 1; j < all.count(); ++j) {
@@ -232,7 +244,8 @@ TEST(EigenSolver, AUserShiftBelowTheSpectrumGivesTheSameModes) {
   expectModes(chain, modes, 10);
   for (int j = 0; j < 10; ++j) EXPECT_NEAR(modes.values[j] / heldChain(400, j), 1.0, 1e-9);
   options.shift = 0.5 * (heldChain(400, 2) + heldChain(400, 3));
-  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 10, options); }).find("above 3 eigenvalue"), std::string::npos);
+  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 10, options); }).find("above 3 eigenvalue"),
+            std::string::npos);
 }
 
 TEST(EigenSolver, ASolveThatClaimsConvergenceButIsNotIsAnError) {
@@ -266,10 +279,11 @@ TEST(EigenSolver, NamesTheDofWithoutMass) {
   for (const int n : {20, 300}) {
     Pencil chain = springChain(n, k, m);
     chain.M.coeffRef(7, 7) = 0.0;
-    EXPECT_NE(message([&] {
-                lowestModes(chain.K, chain.M, 5, {1e-8, 1e-8, false, 1e-6, 200, {}, spoken, nullptr});
-              }).find("<7>"),
-              std::string::npos);
+    EXPECT_NE(
+        message([&] {
+          lowestModes(chain.K, chain.M, 5, {1e-8, 1e-8, false, 1e-6, 200, {}, spoken, nullptr});
+        }).find("<7>"),
+        std::string::npos);
     chain.M.coeffRef(7, 7) = -1.0;
     EXPECT_THROW(lowestModes(chain.K, chain.M, 5), ModelError);
   }
@@ -294,7 +308,8 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
   EXPECT_NE(text.find("<4>"), std::string::npos) << text;
   EXPECT_NE(text.find("<5>"), std::string::npos) << text;
   chain.K.coeffRef(2, 2) = std::nan("");
-  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 3, options); }).find("<2>"), std::string::npos);
+  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 3, options); }).find("<2>"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Grouped rows against the sparse product: shared columns, scattered rows, single entries, empty rows, nothing at all.
+/// Grouped rows against the sparse product: shared columns, scattered rows, single entries, empty
+/// rows, nothing at all.
 #include "linalg/GroupedRows.hpp"
 
 #include <gtest/gtest.h>
@@ -14,10 +15,10 @@ TEST(GroupedRows, multiplyAsTheSparseMatrix) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Triplets entries;
   for (int row = 0; row < 60; ++row) {
-    if (row % 7 == 6) continue;                                     // nothing
-    if (row % 7 == 5) entries.emplace_back(row, row, 1.0);          // a dof that is kept
+    if (row % 7 == 6) continue;                             // nothing
+    if (row % 7 == 5) entries.emplace_back(row, row, 1.0);  // a dof that is kept
     if (row % 7 > 4) continue;
-    const int part = row / 20, family = row % 2;                    // two families of three parts, rows interleaved
+    const int part = row / 20, family = row % 2;  // two families of three parts, rows interleaved
     for (int j = family; j < 12; j += 2) entries.emplace_back(row, 20 * part + j, uniform(random));
   }
   Sparse A(60, 60);

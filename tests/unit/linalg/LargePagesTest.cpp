@@ -5,12 +5,11 @@
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
-#include <unistd.h>
-
 #include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace tooljoint::linalg {
@@ -31,7 +30,8 @@ bool asksForLargePages(const void* address) {
   return false;
 }
 
-/// Less than two large pages is not worth it: the allocator stays as it is, and a long array gets a mapping of its own.
+/// Less than two large pages is not worth it: the allocator stays as it is, and a long array gets a
+/// mapping of its own.
 TEST(LargePages, LeaveTheAllocatorAloneForALittle) {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "another allocator";
@@ -47,7 +47,8 @@ TEST(LargePages, LeaveTheAllocatorAloneForALittle) {
 }
 
 TEST(LargePages, AreAskedForByWhatTheHeapGrowsBy) {
-  if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled")) GTEST_SKIP() << "a kernel without large pages";
+  if (!std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"))
+    GTEST_SKIP() << "a kernel without large pages";
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "another allocator";
 #endif
@@ -63,7 +64,8 @@ TEST(LargePages, AreAskedForByWhatTheHeapGrowsBy) {
 TEST(LargePages, AlignLongArrays) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{5} << 20}) {
     std::vector<char, LargePages<char>> array(bytes, 1);
-    const std::size_t unit = bytes > LargePages<char>::page ? LargePages<char>::page : LargePages<char>::line;
+    const std::size_t unit =
+        bytes > LargePages<char>::page ? LargePages<char>::page : LargePages<char>::line;
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array.data()) % unit, 0u);
   }
 }

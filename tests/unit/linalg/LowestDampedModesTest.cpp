@@ -22,8 +22,8 @@ struct Shaft {
   Sparse M, C, K;
 };
 
-/// `n` masses with two lateral coordinates each in a chain of springs between walls (or free), gyroscopic coupling g and damping
-/// c.
+/// `n` masses with two lateral coordinates each in a chain of springs between walls (or free),
+/// gyroscopic coupling g and damping c.
 Shaft shaft(int n, double g, double c, bool free) {
   Triplets m, d, k;
   for (int i = 0; i < n; ++i)
@@ -89,15 +89,16 @@ TEST(LowestDampedModes, RefusesWhatIsNoPencil) {
 
 Sparse sparse(const Matrix& A) { return A.sparseView(0.0, 0.0); }
 
-/// Grid of nx x ny equal masses on equal springs, every one moving across it: omega^2 = k/m (4 - 2 cos a - 2 cos b), most values
-/// twice.
+/// Grid of nx x ny equal masses on equal springs, every one moving across it: omega^2 = k/m (4 - 2
+/// cos a - 2 cos b), most values twice.
 Shaft membrane(int nx, int ny, bool free) {
   const int n = nx * ny;
   Triplets k;
   const auto number = [&](int i, int j) { return i + nx * j; };
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i)
-      for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+      for (const auto& [di, dj] :
+           {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
         const bool inside = i + di >= 0 && i + di < nx && j + dj >= 0 && j + dj < ny;
         if (inside || !free) k.emplace_back(number(i, j), number(i, j), 400.0);
         if (inside) k.emplace_back(number(i, j), number(i + di, j + dj), -400.0);
@@ -111,13 +112,15 @@ Shaft membrane(int nx, int ny, bool free) {
   return s;
 }
 
-/// Values with Im s >= 0 of s^2 + (alpha + beta omega^2) s + omega^2 = 0 for every omega^2 of the membrane, by |s|.
+/// Values with Im s >= 0 of s^2 + (alpha + beta omega^2) s + omega^2 = 0 for every omega^2 of the
+/// membrane, by |s|.
 std::vector<std::complex<double>> proportionallyDamped(int nx, int ny, double alpha, double beta) {
   const double pi = std::acos(-1.0);
   std::vector<std::complex<double>> values;
   for (int i = 1; i <= nx; ++i)
     for (int j = 1; j <= ny; ++j) {
-      const double omega2 = 400.0 * (4 - 2 * std::cos(i * pi / (nx + 1)) - 2 * std::cos(j * pi / (ny + 1))),
+      const double omega2 = 400.0 *
+                            (4 - 2 * std::cos(i * pi / (nx + 1)) - 2 * std::cos(j * pi / (ny + 1))),
                    c = alpha + beta * omega2;
       const std::complex<double> root = std::sqrt(std::complex<double>(c * c / 4 - omega2));
       for (const auto& s : {-c / 2 + root, -c / 2 - root})
@@ -127,27 +130,31 @@ std::vector<std::complex<double>> proportionallyDamped(int nx, int ny, double al
   return values;
 }
 
-void expectAmong(const QuadraticModes& modes, std::vector<std::complex<double>> exact, double tolerance,
-                 const std::string& what) {
+void expectAmong(const QuadraticModes& modes, std::vector<std::complex<double>> exact,
+                 double tolerance, const std::string& what) {
   for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
     const auto nearest = std::min_element(exact.begin(), exact.end(), [&](auto a, auto b) {
       return std::abs(a - modes.values[j]) < std::abs(b - modes.values[j]);
     });
     ASSERT_NE(nearest, exact.end());
-    EXPECT_LT(std::abs(*nearest - modes.values[j]), tolerance * std::abs(modes.values[j])) << what << ", mode " << j + 1;
+    EXPECT_LT(std::abs(*nearest - modes.values[j]), tolerance * std::abs(modes.values[j]))
+        << what << ", mode " << j + 1;
     exact.erase(nearest);
   }
 }
 
-// Repeated values, with every kind of damping; a value that is asked for twice has to be there twice.
+// Repeated values, with every kind of damping; a value that is asked for twice has to be there
+// twice.
 TEST(LowestDampedModes, FindEveryCopyOfARepeatedValue) {
   struct Case {
     const char* name;
     double alpha, beta, tolerance;
   };
   const double first = std::sqrt(400.0 * (4 - 4 * std::cos(std::acos(-1.0) / 13)));  // of 12 x 12
-  for (const Case& c : {Case{"undamped", 0, 0, 1e-10}, Case{"light", 1e-6, 1e-9, 1e-10}, Case{"proportional", 0.4, 1e-3, 1e-10},
-                        Case{"overdamped", 5 * first, 0, 1e-10}, Case{"critical", 2 * first, 0, 1e-6}}) {
+  for (const Case& c :
+       {Case{"undamped", 0, 0, 1e-10}, Case{"light", 1e-6, 1e-9, 1e-10},
+        Case{"proportional", 0.4, 1e-3, 1e-10}, Case{"overdamped", 5 * first, 0, 1e-10},
+        Case{"critical", 2 * first, 0, 1e-6}}) {
     Shaft s = membrane(12, 12, false);
     s.C = c.alpha * s.M + c.beta * s.K;
     const auto exact = proportionallyDamped(12, 12, c.alpha, c.beta);
@@ -158,7 +165,8 @@ TEST(LowestDampedModes, FindEveryCopyOfARepeatedValue) {
   }
 }
 
-// More copies than a block of the Krylov space has columns: 20 uncoupled oscillators of each frequency.
+// More copies than a block of the Krylov space has columns: 20 uncoupled oscillators of each
+// frequency.
 TEST(LowestDampedModes, FindMoreCopiesThanABlockHas) {
   const int copies = 20, kinds = 8, n = copies * kinds;
   Triplets k, c;
@@ -173,20 +181,23 @@ TEST(LowestDampedModes, FindMoreCopiesThanABlockHas) {
   s.C.setFromTriplets(c.begin(), c.end());
   const auto modes = lowestDampedModes(s.M, s.C, s.K, 24);
   ASSERT_EQ(modes.values.size(), 24);
-  for (Eigen::Index j = 0; j < 24; ++j) EXPECT_NEAR(std::abs(modes.values[j]), j < copies ? 1.0 : 2.0, 1e-9) << j;
+  for (Eigen::Index j = 0; j < 24; ++j)
+    EXPECT_NEAR(std::abs(modes.values[j]), j < copies ? 1.0 : 2.0, 1e-9) << j;
 }
 
-// A free body moves at zero twice in a Jordan chain: every motion is listed once, as zero, with gyroscopics and without.
+// A free body moves at zero twice in a Jordan chain: every motion is listed once, as zero, with
+// gyroscopics and without.
 TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
   for (double g : {0.0, 0.4}) {
     Shaft s = shaft(90, g, 0.0, true);
     const auto modes = lowestDampedModes(s.M, s.C, s.K, 6);
     ASSERT_EQ(modes.values.size(), 6);
-    // gyroscopic coupling of free masses turns one chain into a whirl at g / m, far below the first elastic mode here only for
-    // the plain shaft
+    // gyroscopic coupling of free masses turns one chain into a whirl at g / m, far below the first
+    // elastic mode here only for the plain shaft
     const int zeros = static_cast<int>((modes.values.cwiseAbs().array() == 0.0).count());
     EXPECT_EQ(zeros, 2) << g;
-    const Vector size = (s.K * modes.vectors.leftCols(zeros).real()).cwiseAbs().colwise().maxCoeff();
+    const Vector size =
+        (s.K * modes.vectors.leftCols(zeros).real()).cwiseAbs().colwise().maxCoeff();
     EXPECT_LT(size.maxCoeff(), 1e-9) << "K phi = 0";
   }
   const auto plate = membrane(14, 14, true);
@@ -195,7 +206,8 @@ TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
   EXPECT_GT(std::abs(modes.values[1]), 1.0);
 }
 
-// u'' + g v' + w^2 u = 0, v'' - g u' + w^2 v = 0 with strong gyroscopics: whirl at sqrt(g^2/4 + w^2) -+ g/2, twice each.
+// u'' + g v' + w^2 u = 0, v'' - g u' + w^2 v = 0 with strong gyroscopics: whirl at sqrt(g^2/4 +
+// w^2) -+ g/2, twice each.
 TEST(LowestDampedModes, StrongGyroscopicsAreNotDamped) {
   const int nx = 9, n = nx * nx;
   const Shaft plate = membrane(nx, nx, false);
@@ -205,17 +217,20 @@ TEST(LowestDampedModes, StrongGyroscopicsAreNotDamped) {
   both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = K;
   C.topRightCorner(n, n) = g * Matrix::Identity(n, n);
   C.bottomLeftCorner(n, n) = -g * Matrix::Identity(n, n);
-  const auto modes = lowestDampedModes(sparse(Matrix::Identity(2 * n, 2 * n)), sparse(C), sparse(both), 15);
+  const auto modes =
+      lowestDampedModes(sparse(Matrix::Identity(2 * n, 2 * n)), sparse(C), sparse(both), 15);
   std::vector<std::complex<double>> exact;
   for (int i = 1; i <= nx; ++i)
     for (int j = 1; j <= nx; ++j) {
-      const double w2 = 400.0 * (4 - 2 * std::cos(i * pi / (nx + 1)) - 2 * std::cos(j * pi / (nx + 1)));
+      const double w2 =
+          400.0 * (4 - 2 * std::cos(i * pi / (nx + 1)) - 2 * std::cos(j * pi / (nx + 1)));
       exact.emplace_back(0, std::sqrt(g * g / 4 + w2) - g / 2);
     }
   std::sort(exact.begin(), exact.end(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
   exact.resize(18);
   expectAmong(modes, exact, 1e-9, "gyroscopic");
-  for (Eigen::Index j = 0; j < 15; ++j) EXPECT_LT(std::abs(modes.values[j].real()), 1e-10 * std::abs(modes.values[j]));
+  for (Eigen::Index j = 0; j < 15; ++j)
+    EXPECT_LT(std::abs(modes.values[j].real()), 1e-10 * std::abs(modes.values[j]));
 }
 
 // Dofs without mass follow statically: the same values as the condensed model.
@@ -226,10 +241,14 @@ TEST(LowestDampedModes, DofsWithoutMassAreCondensed) {
     std::vector<Eigen::Index> heavy, light;
     for (Eigen::Index i = 0; i < 2 * n; ++i) (i / 2 % 3 == 1 ? light : heavy).push_back(i);
     for (auto i : light) M(i, i) = 0, C.row(i).setZero(), C.col(i).setZero();
-    const auto block = [](const Matrix& A, const auto& rows, const auto& columns) { return Matrix(A(rows, columns)); };
+    const auto block = [](const Matrix& A, const auto& rows, const auto& columns) {
+      return Matrix(A(rows, columns));
+    };
     const Matrix condensed =
-        block(K, heavy, heavy) - block(K, heavy, light) * block(K, light, light).lu().solve(block(K, light, heavy));
-    const auto exact = lowestDampedModes(sparse(block(M, heavy, heavy)), sparse(block(C, heavy, heavy)), sparse(condensed), 8);
+        block(K, heavy, heavy) -
+        block(K, heavy, light) * block(K, light, light).lu().solve(block(K, light, heavy));
+    const auto exact = lowestDampedModes(sparse(block(M, heavy, heavy)),
+                                         sparse(block(C, heavy, heavy)), sparse(condensed), 8);
     const auto modes = lowestDampedModes(sparse(M), sparse(C), s.K, 8);
     ASSERT_EQ(modes.values.size(), 8);
     for (Eigen::Index j = 0; j < 8; ++j)
@@ -237,8 +256,8 @@ TEST(LowestDampedModes, DofsWithoutMassAreCondensed) {
   }
 }
 
-// Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and +-sqrt(-omega^2) where omega^2 <
-// 0.
+// Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
+// +-sqrt(-omega^2) where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
   Shaft s = membrane(11, 13, false);
   const double shift = 400.0 * 0.4;  // the lowest ones become negative

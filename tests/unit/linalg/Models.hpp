@@ -22,7 +22,8 @@ inline Sparse assembled(int n, const Triplets& entries) {
 }
 
 /// n masses m in a row, springs k between neighbours; springs to the wall at both ends unless free.
-/// Held: lambda_j = 4 k/m sin^2(j pi / (2 (n+1))), j = 1..n. Free: 4 k/m sin^2(j pi / (2 n)), j = 0..n-1.
+/// Held: lambda_j = 4 k/m sin^2(j pi / (2 (n+1))), j = 1..n. Free: 4 k/m sin^2(j pi / (2 n)), j =
+/// 0..n-1.
 inline Pencil springChain(int n, double k, double m, bool free = false) {
   Triplets stiffness, mass;
   for (int i = 0; i < n; ++i) {
@@ -43,15 +44,18 @@ inline Pencil sideBySide(const std::vector<Pencil>& parts) {
   int offset = 0;
   for (const Pencil& part : parts) {
     for (int row = 0; row < part.K.rows(); ++row) {
-      for (Sparse::InnerIterator it(part.K, row); it; ++it) stiffness.emplace_back(offset + row, offset + it.col(), it.value());
-      for (Sparse::InnerIterator it(part.M, row); it; ++it) mass.emplace_back(offset + row, offset + it.col(), it.value());
+      for (Sparse::InnerIterator it(part.K, row); it; ++it)
+        stiffness.emplace_back(offset + row, offset + it.col(), it.value());
+      for (Sparse::InnerIterator it(part.M, row); it; ++it)
+        mass.emplace_back(offset + row, offset + it.col(), it.value());
     }
     offset += static_cast<int>(part.K.rows());
   }
   return {assembled(offset, stiffness), assembled(offset, mass)};
 }
 
-/// Unsymmetric: diffusion with strong transport to one side and a skew coupling over three places (as gyroscopics give).
+/// Unsymmetric: diffusion with strong transport to one side and a skew coupling over three places
+/// (as gyroscopics give).
 inline Sparse transport(int n) {
   Triplets entries;
   for (int i = 0; i < n; ++i) {
@@ -66,10 +70,12 @@ inline Sparse transport(int n) {
   return assembled(n, entries);
 }
 
-/// `planes` uncoupled Euler-Bernoulli beams (v, theta per node) of `elements` elements, length L, unit mass per length and
-/// bending stiffness EI, simply supported at both ends or free: every eigenvalue comes `planes` times.
-/// Simply supported: lambda_j = EI (j pi / L)^4. Free: zero twice per plane, then EI (4.730041/L)^4 ...
-inline Pencil beam(int elements, double L, double EI, int planes = 1, bool free = false, double axialForce = 0.0) {
+/// `planes` uncoupled Euler-Bernoulli beams (v, theta per node) of `elements` elements, length L,
+/// unit mass per length and bending stiffness EI, simply supported at both ends or free: every
+/// eigenvalue comes `planes` times. Simply supported: lambda_j = EI (j pi / L)^4. Free: zero twice
+/// per plane, then EI (4.730041/L)^4 ...
+inline Pencil beam(int elements, double L, double EI, int planes = 1, bool free = false,
+                   double axialForce = 0.0) {
   const double l = L / elements;
   const int perPlane = 2 * (elements + 1) - (free ? 0 : 2);
   const auto dof = [&](int plane, int node, int component) {
@@ -84,8 +90,10 @@ inline Pencil beam(int elements, double L, double EI, int planes = 1, bool free 
                            {6 * l, 4 * l * l, -6 * l, 2 * l * l},
                            {-12, -6 * l, 12, -6 * l},
                            {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
-  const double ge[4][4] = {
-      {36, 3 * l, -36, 3 * l}, {3 * l, 4 * l * l, -3 * l, -l * l}, {-36, -3 * l, 36, -3 * l}, {3 * l, -l * l, -3 * l, 4 * l * l}};
+  const double ge[4][4] = {{36, 3 * l, -36, 3 * l},
+                           {3 * l, 4 * l * l, -3 * l, -l * l},
+                           {-36, -3 * l, 36, -3 * l},
+                           {3 * l, -l * l, -3 * l, 4 * l * l}};
   const double me[4][4] = {{156, 22 * l, 54, -13 * l},
                            {22 * l, 4 * l * l, 13 * l, -3 * l * l},
                            {54, 13 * l, 156, -22 * l},

@@ -12,7 +12,8 @@ namespace {
 TEST(QuadraticModes, DampedOscillator) {
   const double m = 3.0, k = 4.8e5, zeta = 0.02, omega = std::sqrt(k / m);
   const QuadraticModes modes =
-      dampedModes(Matrix::Constant(1, 1, m), Matrix::Constant(1, 1, 2.0 * zeta * omega * m), Matrix::Constant(1, 1, k));
+      dampedModes(Matrix::Constant(1, 1, m), Matrix::Constant(1, 1, 2.0 * zeta * omega * m),
+                  Matrix::Constant(1, 1, k));
   ASSERT_EQ(modes.values.size(), 2);
   EXPECT_NEAR(modes.values[0].real(), -zeta * omega, 1e-10 * omega);
   EXPECT_NEAR(modes.values[0].imag(), -omega * std::sqrt(1.0 - zeta * zeta), 1e-10 * omega);
@@ -21,7 +22,8 @@ TEST(QuadraticModes, DampedOscillator) {
 
 TEST(QuadraticModes, OverdampedOscillatorHasTwoRealRoots) {
   // s^2 + 5 s + 4 = 0
-  const QuadraticModes modes = dampedModes(Matrix::Constant(1, 1, 1.0), Matrix::Constant(1, 1, 5.0), Matrix::Constant(1, 1, 4.0));
+  const QuadraticModes modes = dampedModes(Matrix::Constant(1, 1, 1.0), Matrix::Constant(1, 1, 5.0),
+                                           Matrix::Constant(1, 1, 4.0));
   EXPECT_NEAR(modes.values[0].real(), -4.0, 1e-12);
   EXPECT_NEAR(modes.values[1].real(), -1.0, 1e-12);
 }
@@ -31,7 +33,8 @@ TEST(QuadraticModes, GyroscopicSplitting) {
   const double w0 = 30.0, g = 8.0;
   Matrix C(2, 2);
   C << 0.0, g, -g, 0.0;
-  const QuadraticModes modes = dampedModes(Matrix::Identity(2, 2), C, w0 * w0 * Matrix::Identity(2, 2));
+  const QuadraticModes modes =
+      dampedModes(Matrix::Identity(2, 2), C, w0 * w0 * Matrix::Identity(2, 2));
   const double slow = std::sqrt(g * g / 4 + w0 * w0) - g / 2, fast = slow + g;
   for (int j = 0; j < 4; ++j) {
     EXPECT_NEAR(std::abs(modes.values[j].imag()), j < 2 ? slow : fast, 1e-11 * w0);
@@ -51,7 +54,8 @@ TEST(QuadraticModes, WithoutDampingTheyAreTheSymmetricModesTwice) {
   const double largest = std::sqrt(pairs.values[n - 1]);
   for (int j = 0; j < n; ++j)
     for (int side = 0; side < 2; ++side)
-      EXPECT_NEAR(std::abs(modes.values[2 * j + side].imag()), std::sqrt(pairs.values[j]), 1e-8 * largest);
+      EXPECT_NEAR(std::abs(modes.values[2 * j + side].imag()), std::sqrt(pairs.values[j]),
+                  1e-8 * largest);
 }
 
 TEST(QuadraticModes, ProportionalDampingDampsEachModeAsPredicted) {
@@ -59,13 +63,18 @@ TEST(QuadraticModes, ProportionalDampingDampsEachModeAsPredicted) {
   const Matrix K(chain.K), M(chain.M), C = 0.3 * M + 1e-3 * K;
   const QuadraticModes modes = dampedModes(M, C, K);
   const EigenPairs pairs = symmetricModes(K, M);
-  for (int j = 0; j < 10; ++j) EXPECT_NEAR(modes.values[2 * j].real(), -0.5 * (0.3 + 1e-3 * pairs.values[j]), 1e-9);
+  for (int j = 0; j < 10; ++j)
+    EXPECT_NEAR(modes.values[2 * j].real(), -0.5 * (0.3 + 1e-3 * pairs.values[j]), 1e-9);
 }
 
 TEST(QuadraticModes, RefusesASingularMassMatrix) {
-  EXPECT_THROW(dampedModes(Matrix::Zero(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2)), ModelError);
-  EXPECT_THROW(dampedModes(Matrix::Identity(2, 2), Matrix::Zero(3, 3), Matrix::Identity(2, 2)), ModelError);
-  EXPECT_THROW(dampedModes(Matrix::Identity(2, 2), Matrix::Constant(2, 2, NAN), Matrix::Identity(2, 2)), ModelError);
+  EXPECT_THROW(dampedModes(Matrix::Zero(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2)),
+               ModelError);
+  EXPECT_THROW(dampedModes(Matrix::Identity(2, 2), Matrix::Zero(3, 3), Matrix::Identity(2, 2)),
+               ModelError);
+  EXPECT_THROW(
+      dampedModes(Matrix::Identity(2, 2), Matrix::Constant(2, 2, NAN), Matrix::Identity(2, 2)),
+      ModelError);
   EXPECT_EQ(dampedModes(Matrix(0, 0), Matrix(0, 0), Matrix(0, 0)).values.size(), 0);
 }
 

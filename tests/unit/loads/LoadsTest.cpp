@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Loads: the unbalance force against the momentum of the mass it comes from, directions of weight and torque on bit, nodal
-/// forces in time, places by number and by depth, and what decks are refused.
-#include <gtest/gtest.h>
+/// Loads: the unbalance force against the momentum of the mass it comes from, directions of weight
+/// and torque on bit, nodal forces in time, places by number and by depth, and what decks are
+/// refused.
+#include "substructures/loads/Loads.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <cmath>
 #include <functional>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
 #include "common/Log.hpp"
-#include "substructures/loads/Loads.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
@@ -24,7 +25,10 @@ const std::vector<double> depths{0.0, 1.8, 3.6, 5.4, 7.2};
 RotarySpeed turning(double finalSpeed = 12.0) {
   Teuchos::ParameterList list("Rotary Speed");
   list.set("Law", "Exponential");
-  list.sublist("Exponential").set("Final Speed", finalSpeed).set("Initial Speed", 1.0).set("Time Constant", 0.3);
+  list.sublist("Exponential")
+      .set("Final Speed", finalSpeed)
+      .set("Initial Speed", 1.0)
+      .set("Time Constant", 0.3);
   return RotarySpeed(list);
 }
 
@@ -42,9 +46,11 @@ double total(const std::vector<PointLoad>& loads, int node, int component, doubl
   return sum;
 }
 
-// --------------------------------------------------------------------------------------------------------------- unbalance
+// -------------------------------------------------------------------------------------------------
+// unbalance
 
-/// A mass m at m e (cos phi, sin phi)/m from the axis needs the force d2/dt2 of its moment; the string feels the opposite.
+/// A mass m at m e (cos phi, sin phi)/m from the axis needs the force d2/dt2 of its moment; the
+/// string feels the opposite.
 TEST(Unbalance, IsTheRateOfChangeOfTheMomentumOfTheMass) {
   const double moment = 0.7;
   const double phase = 0.9;
@@ -66,8 +72,8 @@ TEST(Unbalance, AtSteadySpeedIsTheCentrifugalForce) {
   const auto loads = pointLoads(unbalanced(0.5, 0.0), rotary, depths);
   const double t = 30.0;
   EXPECT_NEAR(std::hypot(total(loads, 3, 0, t), total(loads, 3, 1, t)), 0.5 * 144.0, 1e-9);
-  EXPECT_NEAR(std::atan2(total(loads, 3, 1, t), total(loads, 3, 0, t)), std::remainder(rotary.angle(t), 2.0 * std::acos(-1.0)),
-              1e-9);
+  EXPECT_NEAR(std::atan2(total(loads, 3, 1, t), total(loads, 3, 0, t)),
+              std::remainder(rotary.angle(t), 2.0 * std::acos(-1.0)), 1e-9);
 }
 
 TEST(Unbalance, AllShareTwoLawsWhateverTheirPhase) {
@@ -94,7 +100,8 @@ TEST(Unbalance, WithoutRotationIsLeftOutWithAWarning) {
   resetCensus();
 }
 
-// --------------------------------------------------------------------------------------------------------------- bit loads
+// -------------------------------------------------------------------------------------------------
+// bit loads
 
 TEST(BitLoads, WeightPushesUpAndTorqueResists) {
   LoadsData loads;
@@ -107,9 +114,12 @@ TEST(BitLoads, WeightPushesUpAndTorqueResists) {
   for (const auto& load : list) EXPECT_EQ(load.law.name, "1");
 }
 
-TEST(BitLoads, NoneWithoutNumbers) { EXPECT_TRUE(pointLoads(LoadsData(), turning(), depths).empty()); }
+TEST(BitLoads, NoneWithoutNumbers) {
+  EXPECT_TRUE(pointLoads(LoadsData(), turning(), depths).empty());
+}
 
-// ------------------------------------------------------------------------------------------------------------ nodal forces
+// -------------------------------------------------------------------------------------------------
+// nodal forces
 
 NodalForce force(double frequency, double phase, double start, double end) {
   return {"push", {2, std::nullopt}, 1, 100.0, frequency, phase, start, end};
@@ -137,8 +147,9 @@ TEST(NodalForces, HarmonicAndWindowed) {
 
 TEST(NodalForces, EqualLawsAreOneAndDifferentOnesAreNot) {
   LoadsData loads;
-  loads.forces = {force(2.0, 0.5, 0.0, never), force(2.0, 0.5, 0.0, never), force(2.0, 0.6, 0.0, never),
-                  force(2.0, 0.5, 0.0, 1.0),   force(2.0, 0.5, 0.5, never), force(3.0, 0.5, 0.0, never)};
+  loads.forces = {force(2.0, 0.5, 0.0, never), force(2.0, 0.5, 0.0, never),
+                  force(2.0, 0.6, 0.0, never), force(2.0, 0.5, 0.0, 1.0),
+                  force(2.0, 0.5, 0.5, never), force(3.0, 0.5, 0.0, never)};
   model::SecondOrderModel model;
   for (int c = 0; c < 6; ++c) model.dofs.push_back(model::DofLabel::physical(2, c));
   addTo(model, pointLoads(loads, RotarySpeed(), depths));
@@ -155,7 +166,8 @@ TEST(NodalForces, HeldDofsTakeNoLoad) {
   EXPECT_TRUE(model.loads.empty());
 }
 
-// ------------------------------------------------------------------------------------------------------------------ places
+// -------------------------------------------------------------------------------------------------
+// places
 
 TEST(Places, ByNumberAndByDepth) {
   EXPECT_EQ(nodeOf({4, std::nullopt}, depths, "x"), 4);
@@ -170,7 +182,8 @@ TEST(Places, ThatDoNotExistAreRefused) {
       FAIL() << part;
     } catch (const DeckError& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("Loads/Forces/push"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("Loads/Forces/push"), std::string::npos)
+          << error.what();
     }
   };
   refused({6, std::nullopt}, "the string has nodes 1 to 5");
@@ -178,7 +191,8 @@ TEST(Places, ThatDoNotExistAreRefused) {
   refused({std::nullopt, 100.0}, "the nearest is node 5 at 7.2 m");
 }
 
-// -------------------------------------------------------------------------------------------------------------------- deck
+// -------------------------------------------------------------------------------------------------
+// deck
 
 Teuchos::ParameterList deckList() { return test::defaultsOf(parameters()); }
 
@@ -199,7 +213,11 @@ TEST(LoadsDeck, GravityIsThereUnlessSwitchedOff) {
 TEST(LoadsDeck, ReadsEverything) {
   Teuchos::ParameterList list = deckList();
   list.set("Weight On Bit", 1e4).set("Torque On Bit", 5000.0);
-  entry(list, "Unbalance", "a").set("Node", 3).set("Mass", 2.0).set("Eccentricity", 0.01).set("Phase", 1.5);
+  entry(list, "Unbalance", "a")
+      .set("Node", 3)
+      .set("Mass", 2.0)
+      .set("Eccentricity", 0.01)
+      .set("Phase", 1.5);
   entry(list, "Unbalance", "b").set("Position", 1.8).set("Moment", 0.3);
   entry(list, "Forces", "push")
       .set("Node", 2)
@@ -227,14 +245,20 @@ TEST(LoadsDeck, ReadsEverything) {
 
 TEST(LoadsDeck, EndTimeEndsAForce) {
   Teuchos::ParameterList list = deckList();
-  entry(list, "Forces", "push").set("Node", 2).set("Component", "u").set("Value", 7.0).set("End Time", 2.0);
+  entry(list, "Forces", "push")
+      .set("Node", 2)
+      .set("Component", "u")
+      .set("Value", 7.0)
+      .set("End Time", 2.0);
   const auto loads = pointLoads(readLoads(list), RotarySpeed(), depths);
   EXPECT_EQ(total(loads, 2, 0, 1.9), 7.0);
   EXPECT_EQ(total(loads, 2, 0, 2.1), 0.0);
 }
 
 TEST(LoadsDeck, SenselessEntriesAreRefused) {
-  const auto refused = [](const char* kind, const std::function<void(Teuchos::ParameterList&)>& fill, const std::string& part) {
+  const auto refused = [](const char* kind,
+                          const std::function<void(Teuchos::ParameterList&)>& fill,
+                          const std::string& part) {
     Teuchos::ParameterList list = deckList();
     fill(entry(list, kind, "odd"));
     try {
@@ -242,25 +266,38 @@ TEST(LoadsDeck, SenselessEntriesAreRefused) {
       FAIL() << part;
     } catch (const DeckError& error) {
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(std::string("Loads/") + kind + "/odd"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(std::string("Loads/") + kind + "/odd"),
+                std::string::npos)
+          << error.what();
     }
   };
   refused(
       "Unbalance", [](auto& l) { l.set("Moment", 1.0); }, "none of them");
   refused(
-      "Unbalance", [](auto& l) { l.set("Node", 1).set("Position", 0.0).set("Moment", 1.0); }, "both");
+      "Unbalance", [](auto& l) { l.set("Node", 1).set("Position", 0.0).set("Moment", 1.0); },
+      "both");
   refused(
-      "Unbalance", [](auto& l) { l.set("Node", 1); }, "either Moment, or both Mass and Eccentricity");
+      "Unbalance", [](auto& l) { l.set("Node", 1); },
+      "either Moment, or both Mass and Eccentricity");
   refused(
       "Unbalance", [](auto& l) { l.set("Node", 1).set("Mass", 1.0); }, "either Moment, or both");
   refused(
-      "Unbalance", [](auto& l) { l.set("Node", 1).set("Mass", 1.0).set("Eccentricity", 0.1).set("Moment", 0.1); },
+      "Unbalance",
+      [](auto& l) {
+        l.set("Node", 1).set("Mass", 1.0).set("Eccentricity", 0.1).set("Moment", 0.1);
+      },
       "either Moment");
   refused(
       "Forces", [](auto& l) { l.set("Component", "u").set("Value", 1.0); }, "none of them");
   refused(
       "Forces",
-      [](auto& l) { l.set("Node", 1).set("Component", "u").set("Value", 1.0).set("Start Time", 2.0).set("End Time", 1.0); },
+      [](auto& l) {
+        l.set("Node", 1)
+            .set("Component", "u")
+            .set("Value", 1.0)
+            .set("Start Time", 2.0)
+            .set("End Time", 1.0);
+      },
       "ends (End Time) before it starts");
 }
 

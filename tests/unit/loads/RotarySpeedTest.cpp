@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rotary speed laws: each against finite differences and quadrature of itself, and against numbers worked out by hand.
+/// Rotary speed laws: each against finite differences and quadrature of itself, and against numbers
+/// worked out by hand.
 #include "substructures/loads/RotarySpeed.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -19,7 +20,8 @@ namespace {
 const double pi = std::acos(-1.0);
 const double rpm = 2.0 * pi / 60.0;
 
-Teuchos::ParameterList law(const std::string& name, const std::function<void(Teuchos::ParameterList&)>& fill) {
+Teuchos::ParameterList law(const std::string& name,
+                           const std::function<void(Teuchos::ParameterList&)>& fill) {
   Teuchos::ParameterList list("Rotary Speed");
   list.set("Law", name);
   Teuchos::ParameterList own = test::defaultsOf(SpeedLaws::instance().find(name).parameters);
@@ -61,7 +63,9 @@ struct Case {
 
 std::vector<Case> allLaws() {
   return {
-      {"Constant", [] { return RotarySpeed(law("Constant", [](auto& l) { l.set("Speed", -7.0); })); }, {}},
+      {"Constant",
+       [] { return RotarySpeed(law("Constant", [](auto& l) { l.set("Speed", -7.0); })); },
+       {}},
       {"Exponential", exponential, {}},
       {"Ramp", [] { return RotarySpeed(ramp(false)); }, {0.5, 2.0}},
       {"smooth Ramp", [] { return RotarySpeed(ramp(true)); }, {}},
@@ -88,7 +92,8 @@ TEST(SpeedLaw, AccelerationIsTheDerivative) {
       bool nearCorner = false;
       for (double corner : one.corners) nearCorner = nearCorner || std::abs(t - corner) < 2.0 * h;
       if (nearCorner) continue;
-      EXPECT_NEAR(r.acceleration(t), (r.speed(t + h) - r.speed(t - h)) / (2.0 * h), 2e-6) << one.name << " at " << t;
+      EXPECT_NEAR(r.acceleration(t), (r.speed(t + h) - r.speed(t - h)) / (2.0 * h), 2e-6)
+          << one.name << " at " << t;
     }
   }
 }
@@ -131,7 +136,8 @@ TEST(SpeedLaw, SmoothLawsHaveContinuousAcceleration) {
 /// Omega = 120 - 120 exp(-6 t) rpm, section 5.3 of Nguyen et al. 2020.
 TEST(SpeedLaw, ReferenceStart) {
   const RotarySpeed r = exponential();
-  for (double t : {0.0, 0.01, 0.5, 3.0, 20.0}) EXPECT_NEAR(r.speed(t) / rpm, 120.0 - 120.0 * std::exp(-6.0 * t), 1e-12);
+  for (double t : {0.0, 0.01, 0.5, 3.0, 20.0})
+    EXPECT_NEAR(r.speed(t) / rpm, 120.0 - 120.0 * std::exp(-6.0 * t), 1e-12);
   EXPECT_NEAR(r.acceleration(0.0), 720.0 * rpm, 1e-10);
   EXPECT_NEAR(r.angle(20.0), 120.0 * rpm * (20.0 - 1.0 / 6.0), 1e-9);
 }
@@ -152,7 +158,8 @@ TEST(SpeedLaw, TablePassesThroughItsEntriesWithoutOvershoot) {
     const RotarySpeed r(table(interpolation));
     const std::vector<double> times{0.4, 1.0, 1.7, 2.0, 3.1};
     const std::vector<double> speeds{1.0, 5.0, 6.0, 6.0, -4.0};
-    for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(r.speed(times[i]), speeds[i], 1e-13) << interpolation;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      EXPECT_NEAR(r.speed(times[i]), speeds[i], 1e-13) << interpolation;
     for (double t = 0.0; t < 4.0; t += 1e-3) {
       EXPECT_LE(r.speed(t), 6.0 + 1e-12) << interpolation;
       EXPECT_GE(r.speed(t), -4.0 - 1e-12) << interpolation;
@@ -162,8 +169,8 @@ TEST(SpeedLaw, TablePassesThroughItsEntriesWithoutOvershoot) {
   }
 }
 
-/// Between two rises the slope is their weighted harmonic mean (Fritsch and Butland 1984, Brodlie's weights), 0 at a level
-/// stretch, a summit and both ends.
+/// Between two rises the slope is their weighted harmonic mean (Fritsch and Butland 1984, Brodlie's
+/// weights), 0 at a level stretch, a summit and both ends.
 TEST(SpeedLaw, MonotoneTableHasTheSlopesOfItsFormula) {
   const RotarySpeed r(table("Monotone cubic"));
   const double before = 4.0 / 0.6, after = 1.0 / 0.7;  // rises on both sides of t = 1 s
@@ -215,10 +222,13 @@ TEST(SpeedLaw, EachParameterCounts) {
   EXPECT_GT(with("Harmonic", "Amplitude", 6.0), wave);
   EXPECT_GT(with("Harmonic", "Frequency", 0.15), wave);
   EXPECT_GT(with("Harmonic", "Phase", 0.2), wave);
-  EXPECT_GT(std::abs(RotarySpeed(table("Linear")).speed(0.6) - RotarySpeed(table("Monotone cubic")).speed(0.6)), 0.01);
+  EXPECT_GT(std::abs(RotarySpeed(table("Linear")).speed(0.6) -
+                     RotarySpeed(table("Monotone cubic")).speed(0.6)),
+            0.01);
 }
 
-// --------------------------------------------------------------------------------------------------------------- the deck
+// -------------------------------------------------------------------------------------------------
+// the deck
 
 TEST(RotarySpeedDeck, WithoutTheListNothingTurns) {
   const RotarySpeed none = RotarySpeed::fromDeck(Teuchos::ParameterList("Scene"));
@@ -238,7 +248,8 @@ TEST(RotarySpeedDeck, EveryLawIsDescribed) {
   for (const auto& name : spec.findParameter("Law")->choices) {
     ASSERT_NE(spec.findList(name), nullptr) << name;
     EXPECT_FALSE(spec.findList(name)->doc().empty());
-    for (const auto& parameter : spec.findList(name)->parameters()) EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
+    for (const auto& parameter : spec.findList(name)->parameters())
+      EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
   }
 }
 
@@ -313,7 +324,8 @@ TEST(RotarySpeed, KnowsTheSenseOfTheFirstRotation) {
   EXPECT_EQ(lateRamp(3.0, false).sense(0.0), 1.0);
   EXPECT_EQ(lateRamp(0.0, true).sense(0.0), 0.0);
   const auto pulse = RotarySpeed(law("Table", [](auto& l) {
-    l.set("Times", Teuchos::Array<double>(std::vector<double>{0.0, 70.0, 70.01, 70.02, 90.0, 91.0}));
+    l.set("Times",
+          Teuchos::Array<double>(std::vector<double>{0.0, 70.0, 70.01, 70.02, 90.0, 91.0}));
     l.set("Speeds", Teuchos::Array<double>(std::vector<double>{0.0, 0.0, -1e-3, 0.0, 0.0, 5.0}));
   }));
   EXPECT_EQ(pulse.sense(0.0), -1.0);
@@ -331,12 +343,14 @@ TEST(RotarySpeed, KnowsTheSenseOfTheFirstRotation) {
 
 /// sin(pi) is 1.2e-16 in floating point, and the speed falls from there.
 TEST(RotarySpeed, DoesNotTakeRoundingForTheFirstRotation) {
-  EXPECT_EQ(RotarySpeed(law("Harmonic", [](auto& l) {
-              l.set("Mean Speed", 0.0);
-              l.set("Amplitude", 2.0);
-              l.set("Frequency", 0.5);
-              l.set("Phase", pi);
-            })).sense(0.0),
+  EXPECT_EQ(RotarySpeed(law("Harmonic",
+                            [](auto& l) {
+                              l.set("Mean Speed", 0.0);
+                              l.set("Amplitude", 2.0);
+                              l.set("Frequency", 0.5);
+                              l.set("Phase", pi);
+                            }))
+                .sense(0.0),
             -1.0);
 }
 

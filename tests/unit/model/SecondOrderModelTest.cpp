@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The general model at a time and a state: every term with the value of its law, point forces and their tangent.
+/// The general model at a time and a state: every term with the value of its law, point forces and
+/// their tangent.
 #include "model/SecondOrderModel.hpp"
 
 #include <cmath>
@@ -64,7 +65,8 @@ TEST(SecondOrderModel, LawsOfOneNameAreOne) {
 TEST(SecondOrderModel, PointForcesAndTheirStiffness) {
   const auto m = sample();
   const Vector q = (Vector(2) << 0.2, 0.05).finished(), v = (Vector(2) << -0.3, 0.7).finished();
-  const double d = 0.1 + 0.4 - 0.05, rate = -0.6 - 0.7, f = -50.0 * d - 300.0 * d * d * d - 6.0 * rate;
+  const double d = 0.1 + 0.4 - 0.05, rate = -0.6 - 0.7,
+               f = -50.0 * d - 300.0 * d * d * d - 6.0 * rate;
   EXPECT_LT((m.pointForce(0.0, q, v) - (Vector(2) << 2.0 * f, -f).finished()).norm(), 1e-12);
   const double k = 50.0 + 900.0 * d * d;
   const Matrix expected = k * (Matrix(2, 2) << 4.0, -2.0, -2.0, 1.0).finished();

@@ -4,7 +4,6 @@
 #include "model/SharedList.hpp"
 
 #include <gtest/gtest.h>
-
 #include <string>
 
 namespace {

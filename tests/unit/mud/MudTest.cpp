@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Mud: limits of every coefficient, what each deck parameter changes, work of the Coriolis forces, the swirl, and the
-/// frequencies of a vertical collar string in mud.
-#include <gtest/gtest.h>
+/// Mud: limits of every coefficient, what each deck parameter changes, work of the Coriolis forces,
+/// the swirl, and the frequencies of a vertical collar string in mud.
+#include "substructures/mud/Mud.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <gtest/gtest.h>
 #include <limits>
 
 #include "common/Census.hpp"
 #include "common/Error.hpp"
 #include "common/Log.hpp"
-#include "substructures/mud/Mud.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::mud {
@@ -36,7 +36,9 @@ MudProperties referenceMud() {
   return p;
 }
 
-beam::Section collar() { return beam::Section::hollow(outerRadius, innerRadius, {7900.0, 2.03e11, 0.3}); }
+beam::Section collar() {
+  return beam::Section::hollow(outerRadius, innerRadius, {7900.0, 2.03e11, 0.3});
+}
 
 const MatrixTerm* find(const std::vector<MatrixTerm>& terms, const std::string& name) {
   for (const auto& term : terms)
@@ -46,12 +48,14 @@ const MatrixTerm* find(const std::vector<MatrixTerm>& terms, const std::string& 
 
 double skewPart(const beam::Matrix12& m) { return (m - m.transpose()).norm() / m.norm(); }
 
-// ----------------------------------------------------------------------------------------------------------- coefficients
+// -------------------------------------------------------------------------------------------------
+// coefficients
 
 TEST(MudFlow, ReferenceNumbersByHand) {
   const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   EXPECT_NEAR(f.innerMass, 1200.0 * pi * 0.0355 * 0.0355, 1e-12);
-  EXPECT_NEAR(f.confinement, (0.108 * 0.108 + 0.0795 * 0.0795) / (0.108 * 0.108 - 0.0795 * 0.0795), 1e-12);
+  EXPECT_NEAR(f.confinement, (0.108 * 0.108 + 0.0795 * 0.0795) / (0.108 * 0.108 - 0.0795 * 0.0795),
+              1e-12);
   EXPECT_NEAR(f.innerSpeed, 0.01 / (pi * 0.0355 * 0.0355), 1e-12);
   EXPECT_NEAR(f.annulusSpeed, 0.01 / (pi * (0.108 * 0.108 - 0.0795 * 0.0795)), 1e-12);
   EXPECT_NEAR(f.buoyantMass, 1200.0 * pi * (0.0355 * 0.0355 - 0.0795 * 0.0795), 1e-12);
@@ -59,8 +63,9 @@ TEST(MudFlow, ReferenceNumbersByHand) {
   EXPECT_NEAR(f.axialDrag, -0.013 * 1200.0 * 0.159 * f.annulusSpeed * f.annulusSpeed / 2.0, 1e-12);
 }
 
-/// The added mass of the annulus against its definition: twice the kinetic energy of the potential flow around a cylinder that
-/// moves with unit speed inside a fixed one, phi = (a r + b/r) cos(theta), integrated numerically.
+/// The added mass of the annulus against its definition: twice the kinetic energy of the potential
+/// flow around a cylinder that moves with unit speed inside a fixed one, phi = (a r + b/r)
+/// cos(theta), integrated numerically.
 TEST(MudFlow, AddedMassIsTheKineticEnergyOfTheAnnularFlow) {
   const double re2 = outerRadius * outerRadius;
   const double rw2 = boreRadius * boreRadius;
@@ -72,7 +77,8 @@ TEST(MudFlow, AddedMassIsTheKineticEnergyOfTheAnnularFlow) {
     const double r = outerRadius + (boreRadius - outerRadius) * (i + 0.5) / rings;
     const double radial = a - b / (r * r);      // times cos(theta)
     const double tangential = a + b / (r * r);  // times -sin(theta)
-    energy += 0.5 * 1200.0 * pi * (radial * radial + tangential * tangential) * r * (boreRadius - outerRadius) / rings;
+    energy += 0.5 * 1200.0 * pi * (radial * radial + tangential * tangential) * r *
+              (boreRadius - outerRadius) / rings;
   }
   const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   EXPECT_NEAR(f.annulusMass, 2.0 * energy, 1e-7 * f.annulusMass);
@@ -87,8 +93,9 @@ TEST(MudFlow, WideBoreIsAnOpenFluid) {
   EXPECT_NEAR(f.rotationDamping, 2.0 * std::sqrt(2.0) * pi * 1200.0 * outerRadius * 1e-3, 1e-9);
   // and the limit is approached: chi - 1 = 2 gamma^2 + ...
   const double gamma = 1e-3;
-  EXPECT_NEAR(Mud(referenceMud()).flow(innerRadius, outerRadius, outerRadius / gamma).confinement - 1.0, 2.0 * gamma * gamma,
-              1e-11);
+  EXPECT_NEAR(
+      Mud(referenceMud()).flow(innerRadius, outerRadius, outerRadius / gamma).confinement - 1.0,
+      2.0 * gamma * gamma, 1e-11);
 }
 
 TEST(MudFlow, NarrowBoreConfinesMore) {
@@ -111,7 +118,8 @@ TEST(MudFlow, BodyThatFillsTheBoreIsRefused) {
       mud.flow(innerRadius, outerRadius, bore);
       FAIL() << "accepted a bore of radius " << bore;
     } catch (const ModelError& error) {
-      EXPECT_NE(std::string(error.what()).find("0.0795 m does not fit a bore"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("0.0795 m does not fit a bore"), std::string::npos)
+          << error.what();
     }
   }
 }
@@ -145,11 +153,13 @@ TEST(MudFlow, ReversedFlowDragsDownAndStillDamps) {
   EXPECT_DOUBLE_EQ(down.axialFlowDamping, up.axialFlowDamping);
 }
 
-// -------------------------------------------------------------------------------------------------------- element matrices
+// -------------------------------------------------------------------------------------------------
+// element matrices
 
 const Vector3 downElement(0.0, 0.0, 9.81);
 
-ElementContribution contribution(const MudProperties& p, double bore = boreRadius, const Vector3& gravity = downElement) {
+ElementContribution contribution(const MudProperties& p, double bore = boreRadius,
+                                 const Vector3& gravity = downElement) {
   return Mud(p).element(collar(), bore, 1.0, gravity);
 }
 
@@ -182,12 +192,13 @@ TEST(MudElement, InviscidMudDoesNotDampRotation) {
   const ElementContribution four = contribution(p);
   const ElementContribution one = contribution(referenceMud());
   ASSERT_NE(find(four.damping, "mud rotation damping"), nullptr);
-  EXPECT_NEAR(
-      find(four.damping, "mud rotation damping")->matrix.norm() / find(one.damping, "mud rotation damping")->matrix.norm(), 2.0,
-      1e-12);
+  EXPECT_NEAR(find(four.damping, "mud rotation damping")->matrix.norm() /
+                  find(one.damping, "mud rotation damping")->matrix.norm(),
+              2.0, 1e-12);
 }
 
-/// What is left when nothing rotates are the terms under the law "1": they do not depend on the viscosity or on the swirl.
+/// What is left when nothing rotates are the terms under the law "1": they do not depend on the
+/// viscosity or on the swirl.
 TEST(MudElement, WithoutRotationOnlyConstantTermsAct) {
   MudProperties p = referenceMud();
   p.rotatingAnnulus = true;
@@ -231,11 +242,12 @@ TEST(MudElement, SymmetryOfEachTerm) {
   EXPECT_LT(skewPart(find(c.damping, "mud axial flow damping")->matrix), 1e-15);
   EXPECT_LT(skewPart(find(c.damping, "mud rotation damping")->matrix), 1e-15);
   EXPECT_LT(skewPart(find(c.stiffness, "mud centrifugal")->matrix), 1e-15);
-  for (const auto* term :
-       {find(c.damping, "mud Coriolis"), find(c.damping, "mud swirl Coriolis"),
-        find(c.stiffness, "mud swirl circulatory, axial flow"), find(c.stiffness, "mud swirl circulatory, rotation")}) {
+  for (const auto* term : {find(c.damping, "mud Coriolis"), find(c.damping, "mud swirl Coriolis"),
+                           find(c.stiffness, "mud swirl circulatory, axial flow"),
+                           find(c.stiffness, "mud swirl circulatory, rotation")}) {
     ASSERT_NE(term, nullptr);
-    EXPECT_LT((term->matrix + term->matrix.transpose()).norm(), 1e-14 * term->matrix.norm()) << term->name;
+    EXPECT_LT((term->matrix + term->matrix.transpose()).norm(), 1e-14 * term->matrix.norm())
+        << term->name;
     EXPECT_GT(term->matrix.norm(), 0.0) << term->name;
   }
 }
@@ -250,8 +262,9 @@ TEST(MudElement, RigidTranslationCarriesAllTheMass) {
   }
 }
 
-/// The pair of Coriolis terms as it follows from the flow, 2 m U int N'N_z, does no work on a chain whose ends are held, and
-/// there it is the skew pair that is assembled: also where the section changes, each element keeps its own m U.
+/// The pair of Coriolis terms as it follows from the flow, 2 m U int N'N_z, does no work on a chain
+/// whose ends are held, and there it is the skew pair that is assembled: also where the section
+/// changes, each element keeps its own m U.
 TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
   const Mud mud(referenceMud());
   const int elements = 6;
@@ -263,7 +276,8 @@ TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
     const SectionFlow f = mud.flow(innerRadius, outerRadius, boreRadius);
     assembled.block<12, 12>(6 * e, 6 * e) += find(c.damping, "mud Coriolis")->matrix;
     oneSided.block<12, 12>(6 * e, 6 * e) +=
-        2.0 * (f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed) * beam::lateralSlope(1.0);
+        2.0 * (f.innerMass * f.innerSpeed - f.annulusMass * f.annulusSpeed) *
+        beam::lateralSlope(1.0);
   }
   for (int trial = 0; trial < 5; ++trial) {
     Vector v = Vector::Random(dofs);
@@ -272,12 +286,14 @@ TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
     EXPECT_NEAR(v.dot(assembled * v) / scale, 0.0, 1e-15);
     EXPECT_NEAR(v.dot(oneSided * v) / scale, 0.0, 1e-15);
     Vector difference = (assembled - oneSided) * v;
-    for (Eigen::Index held : {Eigen::Index{0}, Eigen::Index{1}, dofs - 6, dofs - 5}) difference[held] = 0.0;
+    for (Eigen::Index held : {Eigen::Index{0}, Eigen::Index{1}, dofs - 6, dofs - 5})
+      difference[held] = 0.0;
     EXPECT_LT(difference.norm(), 1e-12 * (assembled * v).norm());
   }
 }
 
-/// A body that whirls with the swirl, at Omega/2, feels nothing of the annular mud: mass, damping and stiffness cancel.
+/// A body that whirls with the swirl, at Omega/2, feels nothing of the annular mud: mass, damping
+/// and stiffness cancel.
 TEST(MudElement, SwirlingMudDoesNotResistWhirlingWithIt) {
   MudProperties p = referenceMud();
   p.rotatingAnnulus = true;
@@ -320,7 +336,8 @@ TEST(MudElement, SwirlIsOffByDefault) {
   for (const auto& term : c.stiffness) EXPECT_EQ(term.law, "1");
 }
 
-// ------------------------------------------------------------------------------------------------------------------- loads
+// -------------------------------------------------------------------------------------------------
+// loads
 
 TEST(MudLoad, SteelAsLightAsMudFloats) {
   MudProperties p = referenceMud();
@@ -350,7 +367,8 @@ TEST(MudLoad, DragPullsUpTheHoleAndCanBeSwitchedOff) {
   EXPECT_EQ(contribution(p, boreRadius, Vector3::Zero()).load.norm(), 0.0);
 }
 
-// -------------------------------------------------------------------------------------------------------------------- deck
+// -------------------------------------------------------------------------------------------------
+// deck
 
 Teuchos::ParameterList deckList() {
   Teuchos::ParameterList list = test::defaultsOf(parameters());
@@ -376,17 +394,27 @@ TEST(MudDeck, EachParameterCounts) {
   };
   const ElementContribution base = element([](auto&) {});
   EXPECT_GT(element([](auto& l) { l.set("Density", 1500.0); }).mass.norm(), base.mass.norm());
-  EXPECT_GT(find(element([](auto& l) { l.set("Friction Coefficient", 0.02); }).damping, "mud axial flow damping")->matrix.norm(),
+  EXPECT_GT(find(element([](auto& l) { l.set("Friction Coefficient", 0.02); }).damping,
+                 "mud axial flow damping")
+                ->matrix.norm(),
             find(base.damping, "mud axial flow damping")->matrix.norm());
-  EXPECT_GT(find(element([](auto& l) { l.set("Kinematic Viscosity", 1e-5); }).damping, "mud rotation damping")->matrix.norm(),
+  EXPECT_GT(find(element([](auto& l) { l.set("Kinematic Viscosity", 1e-5); }).damping,
+                 "mud rotation damping")
+                ->matrix.norm(),
             find(base.damping, "mud rotation damping")->matrix.norm());
-  EXPECT_GT(find(element([](auto& l) { l.set("Flow Rate", 0.02); }).stiffness, "mud centrifugal")->matrix.norm(),
+  EXPECT_GT(find(element([](auto& l) { l.set("Flow Rate", 0.02); }).stiffness, "mud centrifugal")
+                ->matrix.norm(),
             find(base.stiffness, "mud centrifugal")->matrix.norm());
-  EXPECT_EQ(find(element([](auto& l) { l.set("Coriolis", false); }).damping, "mud Coriolis"), nullptr);
+  EXPECT_EQ(find(element([](auto& l) { l.set("Coriolis", false); }).damping, "mud Coriolis"),
+            nullptr);
   EXPECT_NE(find(base.damping, "mud Coriolis"), nullptr);
-  EXPECT_EQ(find(element([](auto& l) { l.set("Centrifugal", false); }).stiffness, "mud centrifugal"), nullptr);
+  EXPECT_EQ(
+      find(element([](auto& l) { l.set("Centrifugal", false); }).stiffness, "mud centrifugal"),
+      nullptr);
   EXPECT_GT(element([](auto& l) { l.set("Axial Drag", false); }).load[2], base.load[2]);
-  EXPECT_NE(find(element([](auto& l) { l.set("Rotating Annulus", true); }).damping, "mud swirl Coriolis"), nullptr);
+  EXPECT_NE(
+      find(element([](auto& l) { l.set("Rotating Annulus", true); }).damping, "mud swirl Coriolis"),
+      nullptr);
 }
 
 TEST(MudDeck, EveryElementIsCounted) {
@@ -402,10 +430,12 @@ TEST(MudDeck, SectionWithoutRadiiIsRefused) {
   EXPECT_THROW(Mud(referenceMud()).element(bare, boreRadius, 1.0, downElement), ModelError);
 }
 
-// ------------------------------------------------------------------------------------------------- vertical string in mud
+// -------------------------------------------------------------------------------------------------
+// vertical string in mud
 
-/// Lowest lateral frequencies [Hz] of a vertical string of collars, pinned at both ends, hung at the top and pushed by the
-/// weight on bit, in still mud: tension from the axial displacements, which is the effective tension.
+/// Lowest lateral frequencies [Hz] of a vertical string of collars, pinned at both ends, hung at
+/// the top and pushed by the weight on bit, in still mud: tension from the axial displacements,
+/// which is the effective tension.
 Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   MudProperties p = referenceMud();
   p.flowRate = 0.0;
@@ -414,13 +444,15 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   const double l = 100.0 / elements;
   const Eigen::Index n = elements + 1;
   const ElementContribution c = mud.element(section, boreRadius, l, downElement);
-  const beam::Vector12 weight = beam::distributedLoad(section.massPerLength() * downElement, l) + c.load;
+  const beam::Vector12 weight =
+      beam::distributedLoad(section.massPerLength() * downElement, l) + c.load;
 
   Matrix axial = Matrix::Zero(n, n);
   Vector load = Vector::Zero(n);
   load[n - 1] = -1e4;
   for (Eigen::Index e = 0; e + 1 < n; ++e) {
-    axial.block<2, 2>(e, e) += section.axialRigidity() / l * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+    axial.block<2, 2>(e, e) +=
+        section.axialRigidity() / l * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
     load[e] += weight[2];
     load[e + 1] += weight[8];
   }
@@ -433,8 +465,9 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   for (Eigen::Index e = 0; e + 1 < n; ++e) {
     const double tension = section.axialRigidity() * (w[e + 1] - w[e]) / l;
     const beam::Matrix12 k = beam::stiffness(section, l) + tension * beam::geometricAxial(l);
-    const beam::Matrix12 own =
-        shearAndRotaryInertia ? beam::mass(section, l) : beam::Matrix12(section.massPerLength() * beam::lateralMass(l));
+    const beam::Matrix12 own = shearAndRotaryInertia
+                                   ? beam::mass(section, l)
+                                   : beam::Matrix12(section.massPerLength() * beam::lateralMass(l));
     const beam::Matrix12 m = own + c.mass;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
@@ -449,8 +482,8 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   std::vector<Eigen::Index> freeDofs;
   for (Eigen::Index i = 0; i < 2 * n; ++i)
     if (i != 0 && i != 2 * n - 2) freeDofs.push_back(i);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(stiffness(freeDofs, freeDofs), mass(freeDofs, freeDofs),
-                                                               Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(
+      stiffness(freeDofs, freeDofs), mass(freeDofs, freeDofs), Eigen::EigenvaluesOnly);
   return modes.eigenvalues().head(4).cwiseSqrt() / (2.0 * pi);
 }
 
@@ -458,7 +491,8 @@ Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
 TEST(MudCollar, FrequenciesOfTheVerticalString) {
   const std::array<double, 4> known{0.06657, 0.17119, 0.31738, 0.51114};
   const Vector found = collarFrequencies(100, false);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(found[static_cast<Eigen::Index>(i)], known[i], 1e-5) << "mode " << i + 1;
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(found[static_cast<Eigen::Index>(i)], known[i], 1e-5) << "mode " << i + 1;
 }
 
 /// Shear and rotary inertia lower them by (pi n R/L)^2-like amounts: less than 1e-4 of the fourth.

@@ -36,7 +36,8 @@ PartContent sample() {
   part.retained = {2};
   content.interfaces = {{"left", {0}, {3}}, {"right", {3}, {6}}};
   content.positions = {{3, {0, 0, 0}}, {6, {0.1, 0, 1e-17}}};
-  content.basis.dofs = {DofLabel::physical(3, 0), DofLabel::physical(4, 0), DofLabel::physical(9, 0)};
+  content.basis.dofs = {DofLabel::physical(3, 0), DofLabel::physical(4, 0),
+                        DofLabel::physical(9, 0)};
   content.basis.vectors = Matrix(Matrix::Identity(3, 4)).sparseView();
   content.basis.offset = Vector::LinSpaced(3, 0, 1.0 / 3.0);
   content.omitted = {"contact"};
@@ -49,13 +50,16 @@ void expectSame(const PartContent& a, const PartContent& b) {
   EXPECT_EQ(x.componentNames, y.componentNames);
   EXPECT_EQ(x.dofs, y.dofs);
   EXPECT_EQ(Matrix(x.mass), Matrix(y.mass));
-  const auto same = [&](const std::vector<model::MatrixTerm>& s, const std::vector<model::MatrixTerm>& t) {
+  const auto same = [&](const std::vector<model::MatrixTerm>& s,
+                        const std::vector<model::MatrixTerm>& t) {
     ASSERT_EQ(s.size(), t.size());
     for (const auto& term : s) {
-      const auto it = std::find_if(t.begin(), t.end(), [&](const auto& other) { return other.name == term.name; });
+      const auto it = std::find_if(t.begin(), t.end(),
+                                   [&](const auto& other) { return other.name == term.name; });
       ASSERT_NE(it, t.end()) << term.name;
       EXPECT_EQ(Matrix(term.matrix), Matrix(it->matrix));
-      EXPECT_EQ(x.laws[static_cast<std::size_t>(term.law)].name, y.laws[static_cast<std::size_t>(it->law)].name);
+      EXPECT_EQ(x.laws[static_cast<std::size_t>(term.law)].name,
+                y.laws[static_cast<std::size_t>(it->law)].name);
     }
   };
   same(x.damping, y.damping);
@@ -65,7 +69,8 @@ void expectSame(const PartContent& a, const PartContent& b) {
   for (const auto& load : x.loads)
     EXPECT_TRUE(std::any_of(y.loads.begin(), y.loads.end(), [&](const auto& other) {
       return other.name == load.name && other.vector == load.vector &&
-             x.laws[static_cast<std::size_t>(load.law)].name == y.laws[static_cast<std::size_t>(other.law)].name;
+             x.laws[static_cast<std::size_t>(load.law)].name ==
+                 y.laws[static_cast<std::size_t>(other.law)].name;
     }));
   EXPECT_EQ(x.initialDisplacement, y.initialDisplacement);
   EXPECT_EQ(x.initialVelocity, y.initialVelocity);
@@ -119,7 +124,9 @@ class BadPart {
     write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 2 1\n");
     write("K.mtx", "%%MatrixMarket matrix array real general\n2 2\n2\n-1\n-1\n1\n");
   }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(scratch_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(scratch_ / name) << text;
+  }
   PartContent read() const { return readPart(scratch_ / "part.json", "beam"); }
   template <class Kind>
   void expect(const std::string& sentence) const {
@@ -136,41 +143,57 @@ class BadPart {
 };
 
 std::string json(const std::string& dofs = R"([[1,"u"],[2,"u"]])", const std::string& more = "") {
-  return R"({"format": "tooljoint part 1", "components": ["u"], "dofs": )" + dofs + R"(, "mass": "M.mtx", "stiffness": "K.mtx")" +
-         more + "}";
+  return R"({"format": "tooljoint part 1", "components": ["u"], "dofs": )" + dofs +
+         R"(, "mass": "M.mtx", "stiffness": "K.mtx")" + more + "}";
 }
 
 TEST(PartFile, OfTwoDofsIsRead) {
   const auto model = BadPart(json()).read().part.model;
-  EXPECT_EQ(model.dofs, (std::vector<DofLabel>{DofLabel::physical(1, 0), DofLabel::physical(2, 0)}));
+  EXPECT_EQ(model.dofs,
+            (std::vector<DofLabel>{DofLabel::physical(1, 0), DofLabel::physical(2, 0)}));
   EXPECT_EQ(Matrix(model.stiffnessAt(0)), (Matrix(2, 2) << 2, -1, -1, 1).finished());
 }
 
 TEST(PartFile, NamesFaultsOfLabels) {
-  BadPart(json(R"([[1,"u"],[1,"u"]])")).expect<DeckError>("\"dofs\" gives u of node 1 twice, as dof 1 and as dof 2");
-  BadPart(json(R"([[1,"u"],[2,"x"]])")).expect<DeckError>("names the component \"x\" of node 2; the components are \"u\"");
-  BadPart(json(R"([[1,"u"],[0,"u"]])")).expect<DeckError>("names node 0; nodes are numbered from 1");
-  BadPart(json(R"([[1,"u"],[2,"u"],[3,"u"]])")).expect<DeckError>("mass (M.mtx)\" is 2 x 2, but \"dofs\" names 3 dofs");
+  BadPart(json(R"([[1,"u"],[1,"u"]])"))
+      .expect<DeckError>("\"dofs\" gives u of node 1 twice, as dof 1 and as dof 2");
+  BadPart(json(R"([[1,"u"],[2,"x"]])"))
+      .expect<DeckError>("names the component \"x\" of node 2; the components are \"u\"");
+  BadPart(json(R"([[1,"u"],[0,"u"]])"))
+      .expect<DeckError>("names node 0; nodes are numbered from 1");
+  BadPart(json(R"([[1,"u"],[2,"u"],[3,"u"]])"))
+      .expect<DeckError>("mass (M.mtx)\" is 2 x 2, but \"dofs\" names 3 dofs");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [7]})"))
       .expect<DeckError>("\"interfaces/end\" names node 7, but the part has no such node");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [2, [2, "u"]]})")).expect<DeckError>("names u of node 2 twice");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "stifness": 1)")).expect<DeckError>("Did you mean \"stiffness\"?");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [2, [2, "u"]]})"))
+      .expect<DeckError>("names u of node 2 twice");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "stifness": 1)"))
+      .expect<DeckError>("Did you mean \"stiffness\"?");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0]])"))
       .expect<DeckError>("\"positions\" is 1 x 3, expected rows \"node x y z\"");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "positions": [[1,0,0,0],[7,1,0,0]])"))
-      .expect<DeckError>("\"positions\" names node 7 in row 2, which the part does not have (its nodes are 1 to 2)");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": 7)")).expect<DeckError>("\"name\" should be a text");
-  EXPECT_NO_THROW(BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": "beam", "positions": [[1,0,0,0]])")).read());
+      .expect<DeckError>(
+          "\"positions\" names node 7 in row 2, which the part does not have (its nodes are 1 to "
+          "2)");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": 7)"))
+      .expect<DeckError>("\"name\" should be a text");
+  EXPECT_NO_THROW(
+      BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": "beam", "positions": [[1,0,0,0]])"))
+          .read());
 }
 
 TEST(PartFile, NamesFaultsOfMatrices) {
   {
     BadPart bad(json());
-    bad.write("M.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 1\n1 2 0.5\n");
+    bad.write("M.mtx",
+              "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 1\n1 2 0.5\n");
     bad.expect<ModelError>(
-        "its mass is not symmetric: 0.5 in the row of u of node 1 and the column of u of node 2, but 0 the other way round");
-    bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 1\n2 1 2\n");
-    bad.expect<ModelError>("its mass is indefinite: there is a motion with negative kinetic energy, and u of node");
+        "its mass is not symmetric: 0.5 in the row of u of node 1 and the column of u of node 2, "
+        "but 0 the other way round");
+    bad.write("M.mtx",
+              "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 1\n2 1 2\n");
+    bad.expect<ModelError>(
+        "its mass is indefinite: there is a motion with negative kinetic energy, and u of node");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 2 -1\n");
     bad.expect<ModelError>("its mass is indefinite: -1 on the diagonal of u of node 2");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 1 1\n");
@@ -188,7 +211,8 @@ TEST(PartFile, NamesFaultsOfMatrices) {
   }
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "loads": [{"vector": [1, 2, 3]}])"))
       .expect<DeckError>("is 3 x 1, expected 2 numbers in one column");
-  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "damping": "C.mtx")")).expect<DeckError>("C.mtx cannot be read");
+  BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "damping": "C.mtx")"))
+      .expect<DeckError>("C.mtx cannot be read");
   BadPart("{").expect<DeckError>("is no JSON");
   BadPart(R"({"format": "tooljoint part 9"})").expect<DeckError>("expected \"tooljoint part 1\"");
 }
@@ -209,7 +233,8 @@ TEST(PartFile, NamesFaultsOfHdf5) {
     readPart(path, "bar");
     FAIL() << "was read";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("Part \"bar\": " + path + " is no part file: it cannot be read: "),
+    EXPECT_NE(std::string(error.what())
+                  .find("Part \"bar\": " + path + " is no part file: it cannot be read: "),
               std::string::npos)
         << error.what();
   }
@@ -217,7 +242,10 @@ TEST(PartFile, NamesFaultsOfHdf5) {
     readPart(scratch / "nowhere.h5", "bar");
     FAIL() << "was read";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("nowhere.h5 cannot be read: No such file or directory."), std::string::npos) << error.what();
+    EXPECT_NE(
+        std::string(error.what()).find("nowhere.h5 cannot be read: No such file or directory."),
+        std::string::npos)
+        << error.what();
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes of imported parts against closed forms: joints, turned parts, equilibrium, starts, laws of time.
+// Scenes of imported parts against closed forms: joints, turned parts, equilibrium, starts, laws of
+// time.
 #include "parts/PartsScene.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -22,7 +23,8 @@ using model::DofLabel;
 constexpr double k = 1e6, m = 2.0;
 
 /// One Newton step with the direct solver: enough for linear parts.
-model::SolveOutcome linearSolver(const model::NonlinearProblem& problem, Vector& x, const model::SolveRequest& request) {
+model::SolveOutcome linearSolver(const model::NonlinearProblem& problem, Vector& x,
+                                 const model::SolveRequest& request) {
   Vector r(problem.size());
   Sparse J;
   problem.residual(x, r);
@@ -43,8 +45,8 @@ class Files {
     writePart(content, path, FileKind::Hdf5);
     return path;
   }
-  /// A mass point with components v, u, theta at node 1, on springs to the ground along u and theta; sets "all" and "pin" (u
-  /// alone).
+  /// A mass point with components v, u, theta at node 1, on springs to the ground along u and
+  /// theta; sets "all" and "pin" (u alone).
   std::string point(const std::string& name) {
     PartContent content;
     auto& part = content.part;
@@ -64,7 +66,8 @@ class Files {
   test::Scratch scratch_;
 };
 
-ImportedPart imported(const std::string& name, const std::string& file, const std::vector<std::string>& fixed = {}) {
+ImportedPart imported(const std::string& name, const std::string& file,
+                      const std::vector<std::string>& fixed = {}) {
   ImportedPart part;
   part.name = name;
   part.where = "Parts/Imported/" + name;
@@ -77,7 +80,9 @@ PartsScene build(const PartsSettings& settings, const coupling::CouplingPlan& pl
   return buildScene(settings, plan, [](const std::string& name) { return name; });
 }
 
-coupling::Coupling whole(const PartsScene& scene) { return coupling::coupleWithPositions(scene.parts, scene.coupling); }
+coupling::Coupling whole(const PartsScene& scene) {
+  return coupling::coupleWithPositions(scene.parts, scene.coupling);
+}
 
 Vector omegaSquared(const PartsScene& scene) {
   const auto full = whole(scene);
@@ -94,7 +99,8 @@ TEST(PartsScene, BarsOfOneFileInARowAreTheLongBar) {
   const Vector found = omegaSquared(scene);
   ASSERT_EQ(found.size(), 12);
   const auto one = samples::bar("one", 1, 12, k, m, {1});
-  const Vector expected = linalg::lowestModes(one.model.stiffnessAt(0.0), one.model.mass, 12).values;
+  const Vector expected =
+      linalg::lowestModes(one.model.stiffnessAt(0.0), one.model.mass, 12).values;
   for (int i = 0; i < 12; ++i) EXPECT_NEAR(found[i], expected[i], 1e-11 * expected[11]);
   // consistent bar, exact: omega^2 = 6 k/m (1 - cos x)/(2 + cos x), x = pi / 24
   const double x = std::acos(-1.0) / 24;
@@ -126,7 +132,8 @@ TEST(PartsScene, SetsJoinOnlyTheirComponents) {
 TEST(PartsScene, PartsOfDifferentComponentsMeet) {
   Files files;
   PartsSettings settings;
-  settings.imported = {imported("bar", files.bar("bar", 1), {"left"}), imported("p", files.point("p"), {"1 v theta"})};
+  settings.imported = {imported("bar", files.bar("bar", 1), {"left"}),
+                       imported("p", files.point("p"), {"1 v theta"})};
   settings.joints = {"bar:right = p:pin"};
   const Vector found = omegaSquared(build(settings));
   ASSERT_EQ(found.size(), 1);
@@ -142,7 +149,8 @@ TEST(PartsScene, TurnedPartsAreSeenInTheCommonFrame) {
   settings.starts = {{"Parts/Starts/kick", "p", 1, "u", 0.25, 2.0}};
   auto scene = build(settings);
   findStart(settings, 0.0, linearSolver, scene);
-  EXPECT_EQ(scene.parts[0].model.initialVelocity, Vector3(0, 2.0, 0));  // in the frame of the part: v, u, theta
+  EXPECT_EQ(scene.parts[0].model.initialVelocity,
+            Vector3(0, 2.0, 0));  // in the frame of the part: v, u, theta
   const auto full = whole(scene);
   const Vector D = full.model.recoveryOffset + full.model.recovery * full.model.initialDisplacement;
   EXPECT_NEAR(D[0], 0.25, 1e-16);  // v of the common frame
@@ -207,7 +215,9 @@ TEST(PartsScene, RefusesWhatDoesNotFit) {
   refused("a:right = b:left", "u of node 3 is fixed in part \"a\" and free in part \"b\"");
 }
 
-Teuchos::Array<double> numbers(const std::vector<double>& values) { return Teuchos::Array<double>(values); }
+Teuchos::Array<double> numbers(const std::vector<double>& values) {
+  return Teuchos::Array<double>(values);
+}
 double at(const std::string& form, const Teuchos::ParameterList& list, double t) {
   return TimeLaws::instance().make(form, list)->value(t);
 }

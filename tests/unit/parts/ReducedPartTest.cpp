@@ -20,13 +20,15 @@ using model::Substructure;
 
 /// Two bars in a row, the first held at node 1, about a state that is not zero, with loads.
 std::vector<Substructure> bars() {
-  std::vector<Substructure> parts{samples::bar("a", 1, 12, 3e6, 2.0, {1}), samples::bar("b", 13, 9, 2e6, 1.0)};
+  std::vector<Substructure> parts{samples::bar("a", 1, 12, 3e6, 2.0, {1}),
+                                  samples::bar("b", 13, 9, 2e6, 1.0)};
   samples::classify(parts[0], {13}, {5});
   samples::classify(parts[1], {13}, {22});
   for (auto& part : parts) {
     auto& m = part.model;
     part.reference = Vector::Zero(m.size());
-    for (int i = 0; i < m.size(); ++i) part.reference[i] = 1e-4 * static_cast<double>(m.dofs[static_cast<std::size_t>(i)].entity);
+    for (int i = 0; i < m.size(); ++i)
+      part.reference[i] = 1e-4 * static_cast<double>(m.dofs[static_cast<std::size_t>(i)].entity);
     m.initialDisplacement = 1.5 * part.reference;
     m.loads.push_back({"pull", Vector::LinSpaced(m.size(), 1.0, 2.0), 0});
     m.damping.push_back({"damping", Sparse(1e-4 * m.stiffness.front().matrix), 0});
@@ -42,7 +44,9 @@ reduction::ReductionOptions fourModes() {
 }
 
 std::vector<reduction::ReducedSubstructure> reduced(const std::vector<Substructure>& parts) {
-  return reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")), fourModes());
+  return reduction::reduceAll(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")),
+      fourModes());
 }
 
 /// A node that was held is none of the part any more: with its position the file would be refused.
@@ -74,15 +78,20 @@ TEST(ReducedPart, HasTheFrequenciesAndForcesOfTheOneReducedInPlace) {
     const auto again = coupling::coupleWithPositions(back);
     const int n = coupled.model.size();
     ASSERT_EQ(again.model.size(), n);
-    const Vector f = coupling::lowestModes(coupled.model, n).values, g = coupling::lowestModes(again.model, n).values;
+    const Vector f = coupling::lowestModes(coupled.model, n).values,
+                 g = coupling::lowestModes(again.model, n).values;
     for (int i = 0; i < n; ++i) EXPECT_NEAR(g[i], f[i], 1e-12 * f[i] + 1e-15 * f[n - 1]);
-    // the same recovered state and the same recovered acceleration M q'' = F - K q - C q' at the start
+    // the same recovered state and the same recovered acceleration M q'' = F - K q - C q' at the
+    // start
     const auto start = [](const model::SecondOrderModel& m) {
-      const Vector force = m.loadAt(0.0) - m.stiffnessAt(0.0) * m.initialDisplacement - m.dampingAt(0.0) * m.initialVelocity;
+      const Vector force = m.loadAt(0.0) - m.stiffnessAt(0.0) * m.initialDisplacement -
+                           m.dampingAt(0.0) * m.initialVelocity;
       return Vector(m.recovery * Matrix(m.mass).ldlt().solve(force));
     };
-    const Vector D = coupled.model.recoveryOffset + coupled.model.recovery * coupled.model.initialDisplacement;
-    const Vector E = again.model.recoveryOffset + again.model.recovery * again.model.initialDisplacement;
+    const Vector D =
+        coupled.model.recoveryOffset + coupled.model.recovery * coupled.model.initialDisplacement;
+    const Vector E =
+        again.model.recoveryOffset + again.model.recovery * again.model.initialDisplacement;
     const Vector a = start(coupled.model), b = start(again.model);
     ASSERT_EQ(coupled.model.recoveryNodes, again.model.recoveryNodes);
     EXPECT_LT((D - E).cwiseAbs().maxCoeff(), 1e-15);
@@ -92,7 +101,8 @@ TEST(ReducedPart, HasTheFrequenciesAndForcesOfTheOneReducedInPlace) {
 }
 
 TEST(ReducedPart, FitsAPartWithAnotherReferenceState) {
-  // Only "a" is exported; "b" starts from the files of another state: total displacements agree at the joint.
+  // Only "a" is exported; "b" starts from the files of another state: total displacements agree at
+  // the joint.
   auto parts = bars();
   const auto small = reduced(parts);
   std::vector<Substructure> mixed{reducedContent(contentOf(parts[0]), small[0]).part, parts[1]};
@@ -112,12 +122,14 @@ TEST(ReducedPart, FitsAPartWithAnotherReferenceState) {
 TEST(ReducedPart, ReducedAgainKeepsTheFirstOriginal) {
   const test::Scratch scratch;
   auto parts = bars();
-  writePart(reducedContent(contentOf(parts[0]), reduced(parts)[0]), scratch / "once.h5", FileKind::Hdf5);
+  writePart(reducedContent(contentOf(parts[0]), reduced(parts)[0]), scratch / "once.h5",
+            FileKind::Hdf5);
   const auto once = readPart(scratch / "once.h5", "a");
   auto options = fourModes();
   options.modes.counts = {1};
   const auto basis = reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"));
-  const auto twice = reducedContent(once, reduction::reduceAll({once.part}, *basis, options).front());
+  const auto twice =
+      reducedContent(once, reduction::reduceAll({once.part}, *basis, options).front());
   EXPECT_EQ(twice.basis.dofs, parts[0].model.dofs);
   EXPECT_EQ(twice.part.model.size(), 3);  // two kept dofs, one of four modes
   // D of the start is that of the original at kept dofs

@@ -41,7 +41,8 @@ TEST(ComplexCraigBampton, UndampedPartsHaveRealModes) {
 
 TEST(ComplexCraigBampton, ProportionalDampingHasRealModes) {
   auto part = bar();
-  part.model.damping.push_back({"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
+  part.model.damping.push_back(
+      {"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
   const auto basis = build(part, count(3));
   ASSERT_EQ(basis.modes(), 3) << "no imaginary halves";
   const auto real = makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(3));
@@ -61,7 +62,10 @@ TEST(ComplexCraigBampton, ADashpotGivesBothHalves) {
 TEST(ComplexCraigBampton, AllOfThemAreTheWholeInterior) {
   for (const bool overdamped : {false, true}) {
     auto part = bar();
-    part.model.damping.push_back({"dashpot", samples::square(9, {{2, 2, overdamped ? 60.0 : 0.8}, {5, 5, overdamped ? 30.0 : 0.1}}), 0});
+    part.model.damping.push_back(
+        {"dashpot",
+         samples::square(9, {{2, 2, overdamped ? 60.0 : 0.8}, {5, 5, overdamped ? 30.0 : 0.1}}),
+         0});
     const auto basis = build(part, ModeRequest());
     EXPECT_EQ(basis.modes(), 7);
     EXPECT_TRUE(basis.complete);
@@ -81,17 +85,22 @@ TEST(ComplexCraigBampton, ACutOffLooksAtTheSizeOfS) {
 
 TEST(ComplexCraigBampton, TheTimeOfTheLawsMatters) {
   const auto part = samples::loopFrame(8, true)[2];
-  const Matrix slow = build(part, count(4), -2.0).vectors, fast = build(part, count(4), 50.0).vectors;  // Omega = 0 and 52
+  const Matrix slow = build(part, count(4), -2.0).vectors,
+               fast = build(part, count(4), 50.0).vectors;  // Omega = 0 and 52
   EXPECT_TRUE(slow.cols() != fast.cols() || (slow - fast).norm() > 1e-3);
 }
 
 TEST(ComplexCraigBampton, FloatingPartsKeepTheirRigidBodyModes) {
   auto part = samples::bar("loose", 1, 8, 3.0, 2.0);
-  part.model.damping.push_back({"dashpot between", samples::square(9, {{2, 2, 0.8}, {2, 3, -0.8}, {3, 2, -0.8}, {3, 3, 0.8}}), 0});
+  part.model.damping.push_back(
+      {"dashpot between",
+       samples::square(9, {{2, 2, 0.8}, {2, 3, -0.8}, {3, 2, -0.8}, {3, 3, 0.8}}), 0});
   const auto small = reduce(part, build(part, count(3)), ReductionOptions(), 0);
   EXPECT_EQ(small.report.zeroEnergyReduced, 1);
 }
 
-TEST(ComplexCraigBampton, NoModesIsStaticCondensation) { EXPECT_EQ(build(samples::loopFrame(8, true)[2], count(0)).modes(), 0); }
+TEST(ComplexCraigBampton, NoModesIsStaticCondensation) {
+  EXPECT_EQ(build(samples::loopFrame(8, true)[2], count(0)).modes(), 0);
+}
 
 }  // namespace

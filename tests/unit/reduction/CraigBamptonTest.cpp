@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Craig-Bampton basis of single parts, with the special cases: no modes, all modes, no interior, no interface, mechanisms.
+/// The Craig-Bampton basis of single parts, with the special cases: no modes, all modes, no
+/// interior, no interface, mechanisms.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -13,7 +14,9 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-std::unique_ptr<Basis> craigBampton() { return makeBasis("Craig-Bampton", Teuchos::ParameterList()); }
+std::unique_ptr<Basis> craigBampton() {
+  return makeBasis("Craig-Bampton", Teuchos::ParameterList());
+}
 
 ModeRequest modes(int count) {
   ModeRequest request;
@@ -45,7 +48,8 @@ TEST(CraigBampton, KeptRowsAreTheIdentity) {
   const Matrix Phi = basis.vectors;
   ASSERT_EQ(Phi.cols(), 5);
   for (int j = 0; j < 2; ++j)
-    for (int c = 0; c < 5; ++c) EXPECT_EQ(Phi(basis.partition.kept[static_cast<std::size_t>(j)], c), j == c ? 1.0 : 0.0);
+    for (int c = 0; c < 5; ++c)
+      EXPECT_EQ(Phi(basis.partition.kept[static_cast<std::size_t>(j)], c), j == c ? 1.0 : 0.0);
 }
 
 TEST(CraigBampton, ConstraintModesOfABarAreStraight) {
@@ -64,7 +68,8 @@ TEST(CraigBampton, ConstraintModesUseTheFullUnsymmetricStiffness) {
   const Matrix K = constantStiffness(part.model);
   EXPECT_GT((K - K.transpose()).norm(), 1.0);
   const Matrix forces = K * Matrix(basis.vectors).leftCols(6);  // K Phi_C: no force on the interior
-  for (int i : basis.partition.interior) EXPECT_LT(forces.row(i).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
+  for (int i : basis.partition.interior)
+    EXPECT_LT(forces.row(i).cwiseAbs().maxCoeff(), 1e-12 * K.cwiseAbs().maxCoeff());
 }
 
 TEST(CraigBampton, NoModesIsGuyan) {
@@ -124,7 +129,8 @@ TEST(CraigBampton, TermsKeepTheirLaws) {
 
 TEST(CraigBampton, RayleighDampingStaysSparse) {
   auto part = barWithInterface();
-  part.model.damping.push_back({"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
+  part.model.damping.push_back(
+      {"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
   const auto cb = reduced(part, modes(4));
   const Matrix expected = 0.3 * Matrix(cb.model.mass) + 0.02 * Matrix(cb.model.stiffness[0].matrix);
   EXPECT_LT((Matrix(cb.model.damping[0].matrix) - expected).norm(), 1e-13);
@@ -136,7 +142,8 @@ TEST(CraigBampton, ShapesAreZeroWhereNothingReaches) {
   samples::classify(part, {1, 10}, {4, 7});
   const BasisResult basis = craigBampton()->build(part, allModes());
   EXPECT_EQ(basis.vectors.cols(), 10);
-  // kept columns: 1 + 1 + 2 ends each reach 2 or 4 interior dofs; each of the 6 modes lives on its own link of 2 dofs
+  // kept columns: 1 + 1 + 2 ends each reach 2 or 4 interior dofs; each of the 6 modes lives on its
+  // own link of 2 dofs
   EXPECT_EQ(basis.vectors.nonZeros(), 4 + (2 + 2 + 4 + 4) + 6 * 2);
 }
 
@@ -187,7 +194,8 @@ TEST(CraigBampton, NegativeEigenvaluesAreKeptAndReported) {
   const auto buckled = reduced(part, modes(3));
   EXPECT_GT(stable.basis->eigenvalues[0], 0.0);
   EXPECT_LT(buckled.basis->eigenvalues[0], 0.0);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(buckled.basis->eigenvalues[k], stable.basis->eigenvalues[k] - 0.5, 1e-12);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(buckled.basis->eigenvalues[k], stable.basis->eigenvalues[k] - 0.5, 1e-12);
   EXPECT_EQ(buckled.report.negativeModes, 1);
   EXPECT_NE(buckled.report.table().find("omega^2 = "), std::string::npos);
   EXPECT_TRUE(Matrix(buckled.model.stiffness.front().matrix).allFinite());
@@ -205,7 +213,8 @@ TEST(CraigBampton, MechanismIsNamed) {
     FAIL() << "a mechanism was accepted";
   } catch (const ModelError& error) {
     const std::string sentence = error.what();
-    EXPECT_NE(sentence.find("Part \"arm\": its interior is a mechanism while its 2 interface and retained dofs are held"),
+    EXPECT_NE(sentence.find("Part \"arm\": its interior is a mechanism while its 2 interface and "
+                            "retained dofs are held"),
               std::string::npos)
         << sentence;
     EXPECT_NE(sentence.find(" of node "), std::string::npos) << sentence;
@@ -240,14 +249,16 @@ TEST(CraigBampton, PairOfAShaftIsNotCut) {
     for (int i = 0; i < A.outerSize(); ++i)
       for (Sparse::InnerIterator it(A, i); it; ++it)
         for (int plane : {0, 1})
-          entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value() * (plane ? 1.002 : 1.0));
+          entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane,
+                               it.value() * (plane ? 1.002 : 1.0));
     return samples::square(2 * static_cast<int>(A.rows()), entries);
   };
   m.mass = samples::square(18, [&] {
     Triplets entries;
     for (int i = 0; i < m.mass.outerSize(); ++i)
       for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it)
-        for (int plane : {0, 1}) entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
+        for (int plane : {0, 1})
+          entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
     return entries;
   }());
   m.stiffness.own()[0].matrix = doubled(m.stiffness.own()[0].matrix);
@@ -282,11 +293,13 @@ TEST(CraigBampton, ReportSaysWhatWasChecked) {
   EXPECT_EQ(r.zeroEnergyReduced, 3);
   EXPECT_LT(r.orthogonality, 1e-12);
   EXPECT_NEAR(r.explicitStep * r.largestOmega, 2.78, 1e-12);
-  EXPECT_EQ(r.rows->size(), 6u + 7u) << "six constraint modes, five kept, two more looked at for the cut";
+  EXPECT_EQ(r.rows->size(), 6u + 7u)
+      << "six constraint modes, five kept, two more looked at for the cut";
   EXPECT_FALSE(r.rows->back().kept);
   EXPECT_GT(r.firstDroppedHz(), r.cutOffHz());
   const std::string table = r.table();
-  for (const char* word : {"constraint", "fixed-interface", "kept", "dropped", "above the cut", "RK4"})
+  for (const char* word :
+       {"constraint", "fixed-interface", "kept", "dropped", "above the cut", "RK4"})
     EXPECT_NE(table.find(word), std::string::npos) << word;
   EXPECT_NE(r.table(true).find("theta of node 4"), std::string::npos);
   EXPECT_NE(summaryTable({cb}).find("total"), std::string::npos);
@@ -315,7 +328,8 @@ TEST(CraigBampton, ChecksNoticeModesThatAreNotOrthonormal) {
   EXPECT_NE(Matrix(spoilt.model.mass)(2, 3), 0.0) << "left as projected";
   Phi.col(4) = Phi.col(2);
   basis.vectors = Phi.sparseView();
-  EXPECT_THROW(reduce(part, basis, ReductionOptions(), 0), ModelError) << "a repeated vector makes the reduced mass singular";
+  EXPECT_THROW(reduce(part, basis, ReductionOptions(), 0), ModelError)
+      << "a repeated vector makes the reduced mass singular";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Frequencies of a held bar in closed form: what a cut-off frequency keeps, and what reports print, is in Hz.
+/// Frequencies of a held bar in closed form: what a cut-off frequency keeps, and what reports
+/// print, is in Hz.
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@ using namespace tooljoint;
 constexpr int elements = 8;
 constexpr double stiffness = 3e4, mass = 0.2;
 
-/// Bar of linear elements with consistent mass, held at both ends: omega_j^2 = 6 k (1 - c)/(m (2 + c)), c = cos(j pi/n).
+/// Bar of linear elements with consistent mass, held at both ends: omega_j^2 = 6 k (1 - c)/(m (2 +
+/// c)), c = cos(j pi/n).
 double hertz(int j) {
   const double pi = std::acos(-1.0), c = std::cos(j * pi / elements);
   return std::sqrt(6.0 * stiffness * (1.0 - c) / (mass * (2.0 + c))) / (2.0 * pi);
@@ -27,7 +29,9 @@ reduction::ReducedSubstructure reducedBelow(double cutOffHz) {
   reduction::ReductionOptions options;
   options.modes.kind = reduction::ModeRule::Kind::CutOff;
   options.modes.cutOffHz = cutOffHz;
-  return reduction::reduceAll({part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options).front();
+  return reduction::reduceAll(
+             {part}, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options)
+      .front();
 }
 
 TEST(CutOff, KeepsTheModesBelowAFrequencyInHertz) {
@@ -41,7 +45,8 @@ TEST(CutOff, IsReportedInHertz) {
   const auto part = reducedBelow(1.01 * hertz(3));
   EXPECT_NEAR(part.report.cutOffHz(), hertz(3), 1e-9 * hertz(3));
   for (int j = 1; j <= 3; ++j)
-    EXPECT_NEAR(part.basis->eigenvalues[j - 1], std::pow(2.0 * std::acos(-1.0) * hertz(j), 2), 1e-8 * part.basis->eigenvalues[2]);
+    EXPECT_NEAR(part.basis->eigenvalues[j - 1], std::pow(2.0 * std::acos(-1.0) * hertz(j), 2),
+                1e-8 * part.basis->eigenvalues[2]);
 }
 
 }  // namespace

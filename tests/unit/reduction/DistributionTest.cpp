@@ -24,7 +24,9 @@ ReductionOptions perPart(int count) {
   return options;
 }
 
-std::unique_ptr<Basis> craigBampton() { return makeBasis("Craig-Bampton", Teuchos::ParameterList()); }
+std::unique_ptr<Basis> craigBampton() {
+  return makeBasis("Craig-Bampton", Teuchos::ParameterList());
+}
 
 std::vector<model::Substructure> pipes(int count) {
   std::vector<model::Substructure> parts;
@@ -49,17 +51,21 @@ TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
   auto parts = pipes(5);
   parts[2].model.loads.push_back({"weight", Vector::Ones(9), 0});
   std::vector<ModeRequest> requests(5);
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4})) << "the ends have another interface";
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
+      << "the ends have another interface";
   requests[3].kind = ModeRequest::Kind::Count;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another number of modes";
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
+      << "another number of modes";
   requests[3] = requests[1];
   parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-10;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4})) << "rounding of its length";
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
+      << "rounding of its length";
   parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-8;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another stiffness";
   parts[2].model.stiffness.push_back({"geometric", 1e-14 * parts[2].model.stiffness[0].matrix, 0});
   parts[1].model.stiffness.push_back({"geometric", 3e-14 * parts[1].model.stiffness[0].matrix, 0});
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "a force that is rounding";
+  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
+      << "a force that is rounding";
   parts[1].model.stiffness.own()[1].matrix *= 1e6;
   EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 2, 3, 4})) << "another force";
 }
@@ -76,13 +82,15 @@ TEST(FindTwins, IdenticalPartsAreReducedOnce) {
   EXPECT_EQ(twins[2].model.loads.size(), 0u);
   EXPECT_TRUE(twins[3].model.mass.sharesWith(twins[1].model.mass));
   EXPECT_TRUE(twins[3].model.stiffness[0].matrix.sharesWith(twins[1].model.stiffness[0].matrix));
-  EXPECT_TRUE(twins[3].model.recovery.sharesWith(twins[1].model.recovery)) << "the same rows times the same basis";
+  EXPECT_TRUE(twins[3].model.recovery.sharesWith(twins[1].model.recovery))
+      << "the same rows times the same basis";
   EXPECT_FALSE(twins[0].model.mass.sharesWith(twins[1].model.mass));
   for (std::size_t p = 0; p < parts.size(); ++p) {  // the same as each by itself
     ModeRequest request;
     request.kind = ModeRequest::Kind::Count;
     request.count = 3;
-    const auto alone = reduce(parts[p], craigBampton()->build(parts[p], request), perPart(3), static_cast<int>(p));
+    const auto alone =
+        reduce(parts[p], craigBampton()->build(parts[p], request), perPart(3), static_cast<int>(p));
     EXPECT_EQ((Matrix(alone.model.mass) - Matrix(twins[p].model.mass)).norm(), 0.0);
     EXPECT_TRUE(alone.model.dofs == twins[p].model.dofs);
     EXPECT_EQ((alone.model.loadAt(0) - twins[p].model.loadAt(0)).norm(), 0.0);
@@ -109,7 +117,9 @@ TEST(Pack, BringsBackEverything) {
   for (std::size_t i = 0; i < copy.matrices.damping.size(); ++i) {
     EXPECT_EQ(copy.matrices.damping[i].name, core.matrices.damping[i].name);
     EXPECT_EQ(copy.matrices.damping[i].law, core.matrices.damping[i].law);
-    EXPECT_EQ((Matrix(copy.matrices.damping[i].matrix) - Matrix(core.matrices.damping[i].matrix)).norm(), 0.0);
+    EXPECT_EQ(
+        (Matrix(copy.matrices.damping[i].matrix) - Matrix(core.matrices.damping[i].matrix)).norm(),
+        0.0);
   }
   EXPECT_EQ(copy.report.table(true), core.report.table(true));
   EXPECT_EQ(copy.report.cutOffHz(), core.report.cutOffHz());
@@ -122,13 +132,15 @@ TEST(Pack, BringsBackEverything) {
 
 TEST(TotalModes, AreTheLowestOfAllParts) {
   // Bars of different stiffness: the soft one gets more modes.
-  std::vector<model::Substructure> parts{samples::bar("soft", 1, 30, 1.0, 1.0), samples::bar("stiff", 31, 30, 100.0, 1.0)};
+  std::vector<model::Substructure> parts{samples::bar("soft", 1, 30, 1.0, 1.0),
+                                         samples::bar("stiff", 31, 30, 100.0, 1.0)};
   samples::classify(parts[0], {31});
   samples::classify(parts[1], {31});
   ReductionOptions all;
   const auto whole = reduceAll(parts, *craigBampton(), all);
   std::vector<double> spectrum;
-  for (const auto& part : whole) spectrum.insert(spectrum.end(), part.basis->eigenvalues.begin(), part.basis->eigenvalues.end());
+  for (const auto& part : whole)
+    spectrum.insert(spectrum.end(), part.basis->eigenvalues.begin(), part.basis->eigenvalues.end());
   std::sort(spectrum.begin(), spectrum.end());
   for (int total : {0, 1, 7, 25, 41, 60, 99}) {
     ReductionOptions options;
@@ -137,13 +149,17 @@ TEST(TotalModes, AreTheLowestOfAllParts) {
     options.modes.pairTolerance = 0;
     const auto reduced = reduceAll(parts, *craigBampton(), options);
     std::vector<double> kept;
-    for (const auto& part : reduced) kept.insert(kept.end(), part.basis->eigenvalues.begin(), part.basis->eigenvalues.end());
+    for (const auto& part : reduced)
+      kept.insert(kept.end(), part.basis->eigenvalues.begin(), part.basis->eigenvalues.end());
     std::sort(kept.begin(), kept.end());
-    ASSERT_EQ(kept.size(), std::min<std::size_t>(static_cast<std::size_t>(total), spectrum.size())) << total;
-    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_NEAR(kept[i], spectrum[i], 1e-9 * spectrum[i]);
+    ASSERT_EQ(kept.size(), std::min<std::size_t>(static_cast<std::size_t>(total), spectrum.size()))
+        << total;
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      EXPECT_NEAR(kept[i], spectrum[i], 1e-9 * spectrum[i]);
     if (total == 25) {
       EXPECT_GT(reduced[0].modes, reduced[1].modes);
-      EXPECT_NE(reduced[1].report.table().find("above the lowest 25 of all parts"), std::string::npos);
+      EXPECT_NE(reduced[1].report.table().find("above the lowest 25 of all parts"),
+                std::string::npos);
     }
   }
 }

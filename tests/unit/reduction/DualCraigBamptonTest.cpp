@@ -37,9 +37,14 @@ TEST(DualCraigBampton, MatricesOfAPartAreBlocks) {
     ASSERT_EQ(small.size(), 7 + 6);
     const Matrix k = small.model.stiffness.front().matrix, m = small.model.mass;
     const double size = k.bottomRightCorner(6, 6).cwiseAbs().maxCoeff();
-    EXPECT_LT(k.topRightCorner(7, 6).cwiseAbs().maxCoeff(), 1e-9 * std::sqrt(size * k.topLeftCorner(7, 7).cwiseAbs().maxCoeff()));
+    EXPECT_LT(k.topRightCorner(7, 6).cwiseAbs().maxCoeff(),
+              1e-9 * std::sqrt(size * k.topLeftCorner(7, 7).cwiseAbs().maxCoeff()));
     EXPECT_LT((m.topLeftCorner(7, 7) - Matrix::Identity(7, 7)).norm(), 1e-10);
-    EXPECT_LT((Matrix(small.boundary->rows).rightCols(6) - k.bottomRightCorner(6, 6)).cwiseAbs().maxCoeff(), 1e-9 * size) << "Psi_b = Psi' K Psi";
+    EXPECT_LT((Matrix(small.boundary->rows).rightCols(6) - k.bottomRightCorner(6, 6))
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-9 * size)
+        << "Psi_b = Psi' K Psi";
     EXPECT_EQ(m.bottomRightCorner(6, 6).isZero(0.0), family.parameter.empty());
     EXPECT_LT(small.report.staticDefect, 1e-9);
     EXPECT_EQ(small.report.zeroEnergyReduced, 3);
@@ -49,7 +54,8 @@ TEST(DualCraigBampton, MatricesOfAPartAreBlocks) {
 TEST(DualCraigBampton, BringsANegativeEigenvalueForEveryForceWithMass) {
   const auto parts = samples::loopFrame(6, false);
   const auto negative = [&](const samples::Family& family) {
-    const Vector values = samples::eigenvalues(samples::synthesised(parts, family, 6).coupled.model);
+    const Vector values =
+        samples::eigenvalues(samples::synthesised(parts, family, 6).coupled.model);
     return static_cast<int>((values.array() < -1e-6 * values.cwiseAbs().maxCoeff()).count());
   };
   EXPECT_EQ(negative(dual), 0);
@@ -61,12 +67,15 @@ std::vector<model::Substructure> loadedFrame(bool push) {
   auto parts = samples::loopFrame(6, true, true);
   for (auto& part : parts) {
     Vector gravity = Vector::Zero(part.model.size());
-    for (int i = 0; i < part.model.size(); ++i) gravity[i] = part.model.dofs[static_cast<std::size_t>(i)].component == 1 ? -200.0 : 0.0;
+    for (int i = 0; i < part.model.size(); ++i)
+      gravity[i] = part.model.dofs[static_cast<std::size_t>(i)].component == 1 ? -200.0 : 0.0;
     part.model.loads.push_back({"weight", part.model.mass * gravity, 0});
   }
   const auto full = coupling::coupleWithPositions(parts);
-  const Vector rest = linalg::DirectSolver(full.model.stiffnessAt(0.0)).solve(full.model.loadAt(0.0));
-  for (std::size_t p = 0; p < parts.size(); ++p) parts[p].reference = parts[p].model.initialDisplacement = full.maps[p] * rest;
+  const Vector rest =
+      linalg::DirectSolver(full.model.stiffnessAt(0.0)).solve(full.model.loadAt(0.0));
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    parts[p].reference = parts[p].model.initialDisplacement = full.maps[p] * rest;
   if (push) {
     Vector force = Vector::Zero(parts[2].model.size());
     force[samples::find(parts[2].model, model::DofLabel::physical(303, 1))] = 5e3;
@@ -79,7 +88,9 @@ std::vector<model::Substructure> loadedFrame(bool push) {
 class Recorder : public transient::SampleSink {
  public:
   explicit Recorder(const model::SecondOrderModel& m) : model_(m) {}
-  void sample(double, const Vector& q, const Vector&, const Vector&) override { states.push_back(model_.recoveryOffset + model_.recovery * q); }
+  void sample(double, const Vector& q, const Vector&, const Vector&) override {
+    states.push_back(model_.recoveryOffset + model_.recovery * q);
+  }
   std::vector<Vector> states;
 
  private:
@@ -100,7 +111,8 @@ std::vector<Vector> motion(const model::SecondOrderModel& m) {
 
 double largestDifference(const std::vector<Vector>& a, const std::vector<Vector>& b) {
   double error = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) error = std::max(error, (a[i] - b[i]).cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    error = std::max(error, (a[i] - b[i]).cwiseAbs().maxCoeff());
   return error;
 }
 
@@ -112,18 +124,26 @@ TEST(DualCraigBampton, KeepsTheStaticState) {
     const auto coupled = samples::synthesised(parts, dual, count);
     for (std::size_t p = 0; p < parts.size(); ++p) {
       const auto& small = coupled.parts[p];
-      const Vector q = coupled.coupled.local(static_cast<int>(p), coupled.coupled.model.initialDisplacement);
-      EXPECT_LT((small.offset + small.basis->vectors * q - parts[p].reference).cwiseAbs().maxCoeff(), 1e-10 * size) << small.name;
+      const Vector q =
+          coupled.coupled.local(static_cast<int>(p), coupled.coupled.model.initialDisplacement);
+      EXPECT_LT(
+          (small.offset + small.basis->vectors * q - parts[p].reference).cwiseAbs().maxCoeff(),
+          1e-10 * size)
+          << small.name;
     }
     const auto states = motion(coupled.coupled.model);
-    EXPECT_LT(largestDifference(states, std::vector<Vector>(states.size(), states.front())), 1e-7 * size) << "nothing moves";
+    EXPECT_LT(largestDifference(states, std::vector<Vector>(states.size(), states.front())),
+              1e-7 * size)
+        << "nothing moves";
   }
 }
 
-// Without residual mass the dual model is MacNeal's in other coordinates: the same motion, with gyroscopics, torque and damping.
+// Without residual mass the dual model is MacNeal's in other coordinates: the same motion, with
+// gyroscopics, torque and damping.
 TEST(DualCraigBampton, MovesAsMacNeal) {
   const auto parts = loadedFrame(true);
-  const auto primal = samples::synthesised(parts, {"MacNeal", "", ""}, 8).coupled.model, forces = samples::synthesised(parts, dual, 8).coupled.model;
+  const auto primal = samples::synthesised(parts, {"MacNeal", "", ""}, 8).coupled.model,
+             forces = samples::synthesised(parts, dual, 8).coupled.model;
   const auto a = motion(primal), b = motion(forces);
   const double amplitude = largestDifference(a, std::vector<Vector>(a.size(), a.front()));
   EXPECT_GT(amplitude, 0.0);

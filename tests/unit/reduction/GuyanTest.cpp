@@ -41,14 +41,20 @@ TEST(Guyan, OfABarIsOneLongElement) {
   for (const auto& masters : {"Automatic", "None"}) {
     const auto small = reduce(part, guyan(masters)->build(part, modes(0)), ReductionOptions(), 0);
     EXPECT_EQ(small.modes, 0);
-    EXPECT_LT((Matrix(small.model.stiffness.front().matrix) - 3.0 / 8 * (Matrix(2, 2) << 1, -1, -1, 1).finished()).norm(), 1e-14);
-    EXPECT_LT((Matrix(small.model.mass) - 16.0 / 6 * (Matrix(2, 2) << 2, 1, 1, 2).finished()).norm(), 1e-13);
+    EXPECT_LT((Matrix(small.model.stiffness.front().matrix) -
+               3.0 / 8 * (Matrix(2, 2) << 1, -1, -1, 1).finished())
+                  .norm(),
+              1e-14);
+    EXPECT_LT(
+        (Matrix(small.model.mass) - 16.0 / 6 * (Matrix(2, 2) << 2, 1, 1, 2).finished()).norm(),
+        1e-13);
     EXPECT_LT(small.report.staticDefect, 1e-13);
     EXPECT_EQ(small.report.zeroEnergyReduced, 1);
   }
 }
 
-// A cantilever of eight elements: rotations carry next to no mass, so the masters are displacements, spread over the length.
+// A cantilever of eight elements: rotations carry next to no mass, so the masters are
+// displacements, spread over the length.
 TEST(Guyan, MastersOfACantileverAreDisplacements) {
   samples::Frame frame;
   frame.corners = {{1, {0, 0}}, {9, {4, 0}}};
@@ -58,10 +64,15 @@ TEST(Guyan, MastersOfACantileverAreDisplacements) {
   const Partition p = partition(part);
   const auto ranking = rankMasters(part, p, symmetricPart(constantStiffness(part.model)));
   ASSERT_EQ(ranking.positions.size(), 24u);
-  EXPECT_EQ(part.model.dofs[static_cast<std::size_t>(ranking.positions[0])], model::DofLabel::physical(9, 1)) << "the tip";
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(part.model.dofs[static_cast<std::size_t>(ranking.positions[i])].component, 1);
-  for (Eigen::Index i = 1; i < ranking.ratios.size(); ++i) EXPECT_LE(ranking.ratios[i - 1], ranking.ratios[i]);
-  // Guyan: from above, and better with every master. The first frequency of the continuum is 3.516015 sqrt(EI / mu l^4).
+  EXPECT_EQ(part.model.dofs[static_cast<std::size_t>(ranking.positions[0])],
+            model::DofLabel::physical(9, 1))
+      << "the tip";
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(part.model.dofs[static_cast<std::size_t>(ranking.positions[i])].component, 1);
+  for (Eigen::Index i = 1; i < ranking.ratios.size(); ++i)
+    EXPECT_LE(ranking.ratios[i - 1], ranking.ratios[i]);
+  // Guyan: from above, and better with every master. The first frequency of the continuum
+  // is 3.516015 sqrt(EI / mu l^4).
   const double exact = eigenvalues(part.model)[0];
   double before = 1;
   for (int count : {1, 2, 4, 8}) {
@@ -73,9 +84,11 @@ TEST(Guyan, MastersOfACantileverAreDisplacements) {
     EXPECT_LT(error, before);
     before = error;
   }
-  // One element's worth of static shape with the tip as master: 3 / (33/140) = 12.727, sqrt = 3.5675, 1.47 % above 3.5160.
+  // One element's worth of static shape with the tip as master: 3 / (33/140) = 12.727, sqrt
+  // = 3.5675, 1.47 % above 3.5160.
   const auto one = reduce(part, guyan()->build(part, modes(1)), ReductionOptions(), 0);
-  EXPECT_NEAR(std::sqrt(eigenvalues(one.model)[0] * 20 * 256 / 3e5), std::sqrt(3.0 * 140 / 33), 1e-4);
+  EXPECT_NEAR(std::sqrt(eigenvalues(one.model)[0] * 20 * 256 / 3e5), std::sqrt(3.0 * 140 / 33),
+              1e-4);
 }
 
 /// Springs between neighbours in a box, each node with one dof and a mass of its own.
@@ -115,7 +128,8 @@ model::Substructure box(int nx, int ny, int nz) {
   return part;
 }
 
-// The ranking of Henshell and Ong one dof after the other with dense matrices, as it stands in their paper.
+// The ranking of Henshell and Ong one dof after the other with dense matrices, as it stands in
+// their paper.
 TEST(Guyan, MastersAreThoseOfTheEliminationOneByOne) {
   const auto part = box(7, 6, 5);
   const Partition p = partition(part);
@@ -123,8 +137,9 @@ TEST(Guyan, MastersAreThoseOfTheEliminationOneByOne) {
   Matrix K = constantStiffness(part.model), M = part.model.mass;
   std::vector<int> left = p.interior, order;
   while (!left.empty()) {
-    const auto it =
-        std::max_element(left.begin(), left.end(), [&](int a, int b) { return K(a, a) / M(a, a) < K(b, b) / M(b, b); });
+    const auto it = std::max_element(left.begin(), left.end(), [&](int a, int b) {
+      return K(a, a) / M(a, a) < K(b, b) / M(b, b);
+    });
     const int e = *it;
     left.erase(it);
     order.push_back(e);

@@ -28,8 +28,8 @@ ReductionOptions with(InitialState state) {
   return options;
 }
 
-/// A clamped bar under its own weight, at rest in its static state, with cubic springs (which it does not feel there) at two
-/// nodes.
+/// A clamped bar under its own weight, at rest in its static state, with cubic springs (which it
+/// does not feel there) at two nodes.
 model::Substructure hangingBar() {
   auto part = samples::bar("hanging", 0, 12, 3.0, 2.0, {0});
   auto& m = part.model;
@@ -56,7 +56,8 @@ TEST(FitState, IsTheLeastSquaresSolution) {
   const Matrix modal = Matrix(basis.vectors).rightCols(4);
   EXPECT_LT((modal.transpose() * rest).norm(), 1e-12) << "normal equations (39)";
   const Vector inside = basis.vectors * q;
-  EXPECT_LT((fitState(basis, inside) - q).norm(), 1e-12) << "a state inside the basis is met exactly";
+  EXPECT_LT((fitState(basis, inside) - q).norm(), 1e-12)
+      << "a state inside the basis is met exactly";
 }
 
 TEST(KeepStatic, StartsAtRestInTheStaticState) {
@@ -92,7 +93,8 @@ TEST(KeepStatic, MeasuresPointsFromTheSameOrigin) {
   const auto basis = basisOf(part, 100);
   for (const auto state : {InitialState::KeepStatic, InitialState::LeastSquares}) {
     const auto cb = reduce(part, basis, with(state), 0);
-    const Vector d = cb.model.points[0].offset + cb.model.points[0].rows * cb.model.initialDisplacement;
+    const Vector d =
+        cb.model.points[0].offset + cb.model.points[0].rows * cb.model.initialDisplacement;
     const Vector expected = part.model.points[0].rows * part.reference;
     EXPECT_LT((d - expected).norm(), 1e-13);
   }
@@ -113,7 +115,9 @@ TEST(InitialVelocity, IsProjectedLikeTheDisplacement) {
   const BasisResult basis = basisOf(part, 3);
   Vector q = Vector::LinSpaced(4, 1, 4);
   part.model.initialVelocity = basis.vectors * q;
-  EXPECT_LT((reduce(part, basis, with(InitialState::KeepStatic), 0).model.initialVelocity - q).norm(), 1e-12);
+  EXPECT_LT(
+      (reduce(part, basis, with(InitialState::KeepStatic), 0).model.initialVelocity - q).norm(),
+      1e-12);
 }
 
 }  // namespace

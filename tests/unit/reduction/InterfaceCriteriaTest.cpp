@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Modes chosen by what the neighbours of a part feel: closed forms of a bar, choice by share, and what cannot be chosen.
+/// Modes chosen by what the neighbours of a part feel: closed forms of a bar, choice by share, and
+/// what cannot be chosen.
+#include "reduction/InterfaceCriteria.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "reduction/InterfaceCriteria.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -30,22 +32,28 @@ model::Substructure bar() {
   return part;
 }
 
-// Modes of the bar held at its end: sin((2k-1) pi x / 2), so L_k^2 is to the mass of the bar as 8 / ((2k-1) pi)^2 to 1.
+// Modes of the bar held at its end: sin((2k-1) pi x / 2), so L_k^2 is to the mass of the bar as 8 /
+// ((2k-1) pi)^2 to 1.
 TEST(InterfaceShares, OfABarAreItsEffectiveMasses) {
-  const Vector shares = interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMass);
-  for (int k = 1; k <= 4; ++k) EXPECT_NEAR(shares[k - 1], 8.0 / std::pow((2 * k - 1) * M_PI, 2), 4e-3 * shares[k - 1]) << k;
+  const Vector shares =
+      interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMass);
+  for (int k = 1; k <= 4; ++k)
+    EXPECT_NEAR(shares[k - 1], 8.0 / std::pow((2 * k - 1) * M_PI, 2), 4e-3 * shares[k - 1]) << k;
 }
 
 // Divided by omega_k^2, which grows as (2k-1)^2: 96 / ((2k-1) pi)^4.
 TEST(InterfaceShares, OfABarWeighLowFrequenciesMoreAsMoments) {
-  const Vector shares = interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMoment);
-  for (int k = 1; k <= 4; ++k) EXPECT_NEAR(shares[k - 1], 96.0 / std::pow((2 * k - 1) * M_PI, 4), 4e-3 * shares[k - 1]) << k;
+  const Vector shares =
+      interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMoment);
+  for (int k = 1; k <= 4; ++k)
+    EXPECT_NEAR(shares[k - 1], 96.0 / std::pow((2 * k - 1) * M_PI, 4), 4e-3 * shares[k - 1]) << k;
 }
 
 TEST(InterfaceShares, OfAllModesAreOne) {
   for (const auto& part : samples::loopFrame(6, true, true))
     for (const auto kind : {ModeRule::Kind::InterfaceMass, ModeRule::Kind::InterfaceMoment})
-      EXPECT_NEAR(interfaceShares(part, craigBampton(part, 1000), kind).sum(), 1.0, 1e-9) << part.name;
+      EXPECT_NEAR(interfaceShares(part, craigBampton(part, 1000), kind).sum(), 1.0, 1e-9)
+          << part.name;
 }
 
 TEST(KeepByShare, TakesTheLargestFirstAndWholePairs) {
@@ -57,7 +65,8 @@ TEST(KeepByShare, TakesTheLargestFirstAndWholePairs) {
   EXPECT_EQ(keepByShare(shares, pair, 0.7, 0.01), (std::vector<char>{0, 1, 1, 0, 1}));
   EXPECT_TRUE(keepByShare(shares, apart, 0.98, 0.01).empty()) << "more modes must be known";
   const Vector buckled = (Vector(5) << -1, 4, 9, 16, 25).finished();
-  EXPECT_EQ(keepByShare(shares, buckled, 0.5, 0.01), (std::vector<char>{1, 0, 1, 0, 0})) << "a buckled mode is always kept";
+  EXPECT_EQ(keepByShare(shares, buckled, 0.5, 0.01), (std::vector<char>{1, 0, 1, 0, 0}))
+      << "a buckled mode is always kept";
 }
 
 ReductionOptions fraction(ModeRule::Kind kind, double value) {
@@ -77,7 +86,8 @@ TEST(InterfaceCriteria, ReducedPartsHoldTheFraction) {
       int modes = 0;
       for (std::size_t p = 0; p < parts.size(); ++p) {
         EXPECT_GE(interfaceShares(parts[p], *reduced[p].basis, kind).sum(), value - 1e-9);
-        EXPECT_EQ(reduced[p].modes, reduced[p].basis->vectors.cols() - 3 * static_cast<int>(parts[p].interface.size()) / 3);
+        EXPECT_EQ(reduced[p].modes, reduced[p].basis->vectors.cols() -
+                                        3 * static_cast<int>(parts[p].interface.size()) / 3);
         EXPECT_TRUE(reduced[p].report.structureEnforced);
         modes += reduced[p].modes;
       }
@@ -89,7 +99,8 @@ TEST(InterfaceCriteria, ReducedPartsHoldTheFraction) {
 
 TEST(InterfaceCriteria, ASecondModeOfBendingMayComeBeforeAnAxialOne) {
   // Rows of the report stay in the order of frequency, kept or not.
-  const auto reduced = reduceAll(samples::loopFrame(20, false), *makeBasis("Craig-Bampton", Teuchos::ParameterList()),
+  const auto reduced = reduceAll(samples::loopFrame(20, false),
+                                 *makeBasis("Craig-Bampton", Teuchos::ParameterList()),
                                  fraction(ModeRule::Kind::InterfaceMass, 0.8));
   bool skipped = false;
   for (const auto& part : reduced) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The Krylov basis of single parts: how many vectors, deflation, pieces nothing drives, resonances.
+/// The Krylov basis of single parts: how many vectors, deflation, pieces nothing drives,
+/// resonances.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-BasisResult build(const model::Substructure& part, int modes, const std::function<void(Teuchos::ParameterList&)>& set = {}) {
+BasisResult build(const model::Substructure& part, int modes,
+                  const std::function<void(Teuchos::ParameterList&)>& set = {}) {
   Teuchos::ParameterList list("Reduction");
   if (set) set(list.sublist("Krylov"));
   ModeRequest request;
@@ -45,11 +47,13 @@ TEST(Krylov, MoreThanThereAreIsSaid) {
 TEST(Krylov, AnIncompleteFirstBlockIsSaid) {
   const auto basis = build(samples::loopFrame(6, false)[2], 4);
   ASSERT_EQ(basis.remarks.size(), 1u);
-  EXPECT_NE(basis.remarks[0].find("no moment is matched in full"), std::string::npos) << basis.remarks[0];
+  EXPECT_NE(basis.remarks[0].find("no moment is matched in full"), std::string::npos)
+      << basis.remarks[0];
 }
 
 TEST(Krylov, FirstVectorsOfABarSpanWhatTheInertiaOfStraightMotionBends) {
-  // psi = 1 - x, x; consistent mass: M_II psi + M_IC is m (1 - x), m x at the nodes, and K y = that: the cubics of x that vanish at the ends.
+  // psi = 1 - x, x; consistent mass: M_II psi + M_IC is m (1 - x), m x at the nodes, and K y =
+  // that: the cubics of x that vanish at the ends.
   const auto basis = build(bar(), 2);
   const Matrix V = Matrix(basis.vectors).bottomRows(9).rightCols(2).middleRows(1, 7);
   Matrix cubics(7, 2);
@@ -63,7 +67,8 @@ TEST(Krylov, FirstVectorsOfABarSpanWhatTheInertiaOfStraightMotionBends) {
 }
 
 TEST(Krylov, VectorsThatRepeatAreDeflated) {
-  // Both ends of two equal bars tied to one kept dof each: the second retained dof in the middle cuts them; blocks shrink to what is new.
+  // Both ends of two equal bars tied to one kept dof each: the second retained dof in the middle
+  // cuts them; blocks shrink to what is new.
   auto part = bar(8);
   part.retained = {4};
   const auto basis = build(part, -1);  // two links of three dofs
@@ -73,7 +78,8 @@ TEST(Krylov, VectorsThatRepeatAreDeflated) {
 
 TEST(Krylov, DampingInProportionDrivesNothingNew) {
   auto part = bar();
-  part.model.damping.push_back({"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
+  part.model.damping.push_back(
+      {"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
   const auto damped = build(part, 2, [](auto& list) { list.set("Damped", true); });
   const Matrix V = build(part, 2).vectors, W = damped.vectors;
   EXPECT_LT((V - W).norm(), 1e-10) << "at s = 0 the first block is the same";
@@ -98,13 +104,18 @@ TEST(Krylov, PiecesNothingDrivesKeepTheirModes) {
 
 TEST(Krylov, AResonanceIsNamed) {
   const auto part = bar();
-  const double lambda = makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(part, ModeRequest()).eigenvalues[2];
+  const double lambda = makeBasis("Craig-Bampton", Teuchos::ParameterList())
+                            ->build(part, ModeRequest())
+                            .eigenvalues[2];
   const double hertz = std::sqrt(lambda) / (2 * 3.14159265358979323846);
   try {
     build(part, 1, [&](auto& list) { list.set("Expansion Frequency", hertz); });
     FAIL() << "a singular dynamic stiffness was accepted";
   } catch (const ModelError& error) {
-    EXPECT_NE(std::string(error.what()).find("natural frequency of the part with its kept dofs held"), std::string::npos) << error.what();
+    EXPECT_NE(
+        std::string(error.what()).find("natural frequency of the part with its kept dofs held"),
+        std::string::npos)
+        << error.what();
   }
 }
 
@@ -119,7 +130,8 @@ TEST(Krylov, ACutOffAsksForAsManyAsThereAreModesBelow) {
 }
 
 TEST(Krylov, EqualDirectionsStayTogether) {
-  const auto part = bar();  // symmetric about its middle: a block has an even and an odd direction of different size
+  const auto part = bar();  // symmetric about its middle: a block has an even and an odd direction
+                            // of different size
   EXPECT_EQ(build(part, 3).modes(), 3);
 }
 

@@ -25,31 +25,40 @@ std::vector<model::Substructure> loadedFrame(bool spinning) {
     const int base = 100 * (static_cast<int>(p) + 1);
     samples::addCubicSprings(parts[p], {base + 1, base + 3});
     Vector load = Vector::Zero(m.size());
-    for (int i = 0; i < m.size(); ++i) load[i] = m.dofs[static_cast<std::size_t>(i)].entity > 100 ? 1e3 * std::sin(1.7 * i) : 0.0;
+    for (int i = 0; i < m.size(); ++i)
+      load[i] = m.dofs[static_cast<std::size_t>(i)].entity > 100 ? 1e3 * std::sin(1.7 * i) : 0.0;
     m.loads.push_back({"wind", load, 0});
   }
   return parts;
 }
 
-coupling::Synthesis synthesise(const std::vector<model::Substructure>& parts, const std::string& basis, const LoadVectorOptions& loads, int modes) {
+coupling::Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                               const std::string& basis, const LoadVectorOptions& loads,
+                               int modes) {
   ReductionOptions options;
   options.basis = basis;
   options.modes.kind = ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
   options.loadVectors = loads;
-  return coupling::synthesise(parts, *makeBasis(basis, Teuchos::ParameterList("Reduction")), options);
+  return coupling::synthesise(parts, *makeBasis(basis, Teuchos::ParameterList("Reduction")),
+                              options);
 }
 
 /// Largest difference of K D = F, as recovered, relative to the largest displacement.
-double answerError(const model::SecondOrderModel& full, const model::SecondOrderModel& small, const Vector& fullLoad, const Vector& smallLoad) {
+double answerError(const model::SecondOrderModel& full, const model::SecondOrderModel& small,
+                   const Vector& fullLoad, const Vector& smallLoad) {
   const auto answer = [](const model::SecondOrderModel& m, const Vector& load) {
     return Vector(m.recovery * Matrix(constantStiffness(m)).partialPivLu().solve(load));
   };
   const Vector a = answer(full, fullLoad), b = answer(small, smallLoad);
   double worst = 0;
   for (std::size_t n = 0; n < full.recoveryNodes.size(); ++n) {
-    const auto at = std::find(small.recoveryNodes.begin(), small.recoveryNodes.end(), full.recoveryNodes[n]) - small.recoveryNodes.begin();
-    worst = std::max(worst, (a.segment<3>(3 * static_cast<Eigen::Index>(n)) - b.segment<3>(3 * at)).cwiseAbs().maxCoeff());
+    const auto at =
+        std::find(small.recoveryNodes.begin(), small.recoveryNodes.end(), full.recoveryNodes[n]) -
+        small.recoveryNodes.begin();
+    worst = std::max(worst, (a.segment<3>(3 * static_cast<Eigen::Index>(n)) - b.segment<3>(3 * at))
+                                .cwiseAbs()
+                                .maxCoeff());
   }
   return worst / a.cwiseAbs().maxCoeff();
 }
@@ -66,9 +75,11 @@ TEST(LoadVectors, AnswersToLoadsAreExact) {
       for (const int modes : {0, 3}) {
         const auto parts = loadedFrame(spinning);
         const auto full = coupling::couple(parts);
-        const auto without = synthesise(parts, basis, {}, modes).coupled.model, with = synthesise(parts, basis, loadsOnly(), modes).coupled.model;
+        const auto without = synthesise(parts, basis, {}, modes).coupled.model,
+                   with = synthesise(parts, basis, loadsOnly(), modes).coupled.model;
         EXPECT_GT(answerError(full, without, full.loadAt(0), without.loadAt(0)), 1e-4) << basis;
-        EXPECT_LT(answerError(full, with, full.loadAt(0), with.loadAt(0)), 1e-10) << basis << ", " << modes << " modes";
+        EXPECT_LT(answerError(full, with, full.loadAt(0), with.loadAt(0)), 1e-10)
+            << basis << ", " << modes << " modes";
         EXPECT_EQ(with.size(), without.size() + 4) << "one load of each part";
       }
 }
@@ -77,11 +88,14 @@ TEST(LoadVectors, UnitForcesOnPointsAreAnsweredExactly) {
   const auto parts = loadedFrame(false);
   LoadVectorOptions options;
   options.points = true;
-  const auto full = coupling::couple(parts), small = synthesise(parts, "Craig-Bampton", options, 2).coupled.model;
+  const auto full = coupling::couple(parts),
+             small = synthesise(parts, "Craig-Bampton", options, 2).coupled.model;
   ASSERT_EQ(full.points.size(), small.points.size());
   for (std::size_t s = 0; s < full.points.size(); ++s)
     for (Eigen::Index r = 0; r < full.points[s].rows.rows(); ++r)
-      EXPECT_LT(answerError(full, small, Vector(full.points[s].rows.row(r).transpose()), Vector(small.points[s].rows.row(r).transpose())), 1e-10);
+      EXPECT_LT(answerError(full, small, Vector(full.points[s].rows.row(r).transpose()),
+                            Vector(small.points[s].rows.row(r).transpose())),
+                1e-10);
 }
 
 TEST(LoadVectors, OnlyChosenNodes) {
@@ -100,11 +114,16 @@ TEST(LoadVectors, OnlyChosenNodes) {
 
 TEST(LoadVectors, KeepTheStructureAndTheModes) {
   const auto parts = loadedFrame(false);
-  const auto without = synthesise(parts, "Craig-Bampton", {}, 3), with = synthesise(parts, "Craig-Bampton", loadsOnly(), 3);
+  const auto without = synthesise(parts, "Craig-Bampton", {}, 3),
+             with = synthesise(parts, "Craig-Bampton", loadsOnly(), 3);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    EXPECT_TRUE(with.parts[p].report.structureEnforced) << with.parts[p].report.massDefect << " " << with.parts[p].report.stiffnessDefect;
-    const Vector &before = without.parts[p].basis->eigenvalues, &after = with.parts[p].basis->eigenvalues;
-    for (const double value : before) EXPECT_LT((after.array() - value).abs().minCoeff(), 1e-9 * value) << "the modes are still there";
+    EXPECT_TRUE(with.parts[p].report.structureEnforced)
+        << with.parts[p].report.massDefect << " " << with.parts[p].report.stiffnessDefect;
+    const Vector &before = without.parts[p].basis->eigenvalues,
+                 &after = with.parts[p].basis->eigenvalues;
+    for (const double value : before)
+      EXPECT_LT((after.array() - value).abs().minCoeff(), 1e-9 * value)
+          << "the modes are still there";
   }
 }
 
@@ -112,7 +131,10 @@ TEST(LoadVectors, AllModesLeaveNothingToAdd) {
   const auto parts = loadedFrame(false);
   ReductionOptions options;
   options.loadVectors = loadsOnly();
-  const auto small = coupling::synthesise(parts, *makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")), options).coupled.model;
+  const auto small =
+      coupling::synthesise(parts, *makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction")),
+                           options)
+          .coupled.model;
   EXPECT_EQ(small.size(), coupling::couple(parts).size());
 }
 
@@ -120,8 +142,12 @@ TEST(LoadVectors, IdenticalPartsWithOtherLoadsAreReducedApart) {
   std::vector<model::Substructure> parts;
   for (int p = 0; p < 4; ++p) {
     parts.push_back(samples::bar("bar " + std::to_string(p), 1 + 8 * p, 8, 3.0, 2.0));
-    samples::classify(parts.back(), p == 0 ? std::vector<int>{9} : p == 3 ? std::vector<int>{25} : std::vector<int>{1 + 8 * p, 9 + 8 * p});
-    parts.back().interface = p == 0 ? std::vector<int>{8} : p == 3 ? std::vector<int>{0} : std::vector<int>{0, 8};
+    samples::classify(parts.back(), p == 0   ? std::vector<int>{9}
+                                    : p == 3 ? std::vector<int>{25}
+                                             : std::vector<int>{1 + 8 * p, 9 + 8 * p});
+    parts.back().interface = p == 0   ? std::vector<int>{8}
+                             : p == 3 ? std::vector<int>{0}
+                                      : std::vector<int>{0, 8};
     Vector load = Vector::Zero(9);
     load[4] = p == 2 ? 2.0 : 1.0;
     load[5] = p == 2 ? 1.0 : 0.0;
@@ -139,7 +165,8 @@ TEST(LoadVectors, FloatingPiecesAreBalancedByTheirInertia) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = 1;
-  BasisResult basis = makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"))->build(part, request);
+  BasisResult basis =
+      makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"))->build(part, request);
   addLoadVectors(part, loadsOnly(), basis);
   ASSERT_EQ(basis.modes(), 2);
   // K x = f - M a with the acceleration a of the rigid bar is in the span.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// MacNeal's and Craig and Chang's matrices against their formulas; parts that leave little residual flexibility; who integrates them.
+/// MacNeal's and Craig and Chang's matrices against their formulas; parts that leave little
+/// residual flexibility; who integrates them.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -21,8 +22,10 @@ ModeRequest modes(int count) {
   return request;
 }
 
-ReducedSubstructure reduced(const model::Substructure& part, const std::string& basis, const ModeRequest& request) {
-  return reduce(part, makeBasis(basis, Teuchos::ParameterList())->build(part, request), ReductionOptions(), 0);
+ReducedSubstructure reduced(const model::Substructure& part, const std::string& basis,
+                            const ModeRequest& request) {
+  return reduce(part, makeBasis(basis, Teuchos::ParameterList())->build(part, request),
+                ReductionOptions(), 0);
 }
 
 /// The clamped column of a frame, symmetric: K^-1 exists.
@@ -45,14 +48,18 @@ TEST(MacNeal, MatricesAreThoseOfTheFormulas) {
   for (int i = 0; i < 3; ++i) G.row(i) = Psi.row(part.interface[static_cast<std::size_t>(i)]);
   const Matrix F = G.inverse(), H = F * Psi.transpose() * M * Psi * F;
   Matrix k(3 + m, 3 + m), mass = Matrix::Zero(3 + m, 3 + m);
-  k << F, -F * Phib, -Phib.transpose() * F, Matrix(lambda.asDiagonal()) + Phib.transpose() * F * Phib;
+  k << F, -F * Phib, -Phib.transpose() * F,
+      Matrix(lambda.asDiagonal()) + Phib.transpose() * F * Phib;
   mass.bottomRightCorner(m, m).setIdentity();
 
-  const auto near = [](const Matrix& a, const Matrix& b) {  // signs of modes are free: absolute values
+  const auto near = [](const Matrix& a,
+                       const Matrix& b) {  // signs of modes are free: absolute values
     const Vector s = b.diagonal().cwiseAbs().cwiseSqrt();
     double worst = 0;
     for (Eigen::Index i = 0; i < a.rows(); ++i)
-      for (Eigen::Index j = 0; j < a.cols(); ++j) worst = std::max(worst, std::abs(std::abs(a(i, j)) - std::abs(b(i, j))) / std::max(s[i] * s[j], 1e-300));
+      for (Eigen::Index j = 0; j < a.cols(); ++j)
+        worst = std::max(
+            worst, std::abs(std::abs(a(i, j)) - std::abs(b(i, j))) / std::max(s[i] * s[j], 1e-300));
     return worst;
   };
   const auto macNeal = reduced(part, "MacNeal", modes(m));
@@ -70,12 +77,14 @@ TEST(MacNeal, MatricesAreThoseOfTheFormulas) {
   withMass.bottomRightCorner(m, m) += Phib.transpose() * H * Phib;
   EXPECT_LT(near(craigChang.model.stiffness.front().matrix, k), 1e-7);
   EXPECT_LT(near(craigChang.model.mass, withMass), 1e-7);
-  for (int i = 0; i < m; ++i) EXPECT_NEAR(craigChang.basis->eigenvalues[i], lambda[i], 1e-9 * lambda[i]);
+  for (int i = 0; i < m; ++i)
+    EXPECT_NEAR(craigChang.basis->eigenvalues[i], lambda[i], 1e-9 * lambda[i]);
 }
 
 TEST(MacNeal, DampingActsOnTheModesAlone) {
   auto part = column();
-  part.model.damping.push_back({"Rayleigh", Sparse(0.3 * part.model.mass + 1e-4 * constantStiffness(part.model)), 0});
+  part.model.damping.push_back(
+      {"Rayleigh", Sparse(0.3 * part.model.mass + 1e-4 * constantStiffness(part.model)), 0});
   const auto small = reduced(part, "MacNeal", modes(4));
   const Matrix c = small.model.damping.front().matrix;
   EXPECT_LT(c.topRows(3).cwiseAbs().maxCoeff(), 1e-10 * c.cwiseAbs().maxCoeff());
@@ -93,7 +102,8 @@ TEST(MacNeal, FewAndAllModesLeaveAUsableModel) {
     const auto small = reduced(part, "MacNeal", modes(m));
     const Vector values = samples::eigenvalues(small.model);
     ASSERT_GE(values.size(), n - 4);
-    for (int k = 0; k < 6; ++k) EXPECT_NEAR(values[k], exact[k], 1e-6 * exact[k]) << m << " of " << n << " modes";
+    for (int k = 0; k < 6; ++k)
+      EXPECT_NEAR(values[k], exact[k], 1e-6 * exact[k]) << m << " of " << n << " modes";
     EXPECT_LT(small.report.staticDefect, 1e-8);
   }
 }
@@ -128,7 +138,8 @@ TEST(MacNeal, RunsWithImplicitIntegratorsOnly) {
     transient::integrate(coupled, options, sink);
     FAIL() << "RK4 cannot run a singular mass";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("mass matrix is singular"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("mass matrix is singular"), std::string::npos)
+        << error.what();
   }
 }
 

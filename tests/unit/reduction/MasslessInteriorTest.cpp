@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Interior dofs without mass, with every registered basis: it works, with exact statics and finite frequencies, or it refuses with a
-/// sentence that names the part and says what to do.
-#include <gtest/gtest.h>
-
+/// Interior dofs without mass, with every registered basis: it works, with exact statics and finite
+/// frequencies, or it refuses with a sentence that names the part and says what to do.
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
@@ -18,9 +17,12 @@ namespace {
 
 using namespace tooljoint;
 
-/// Bars in a chain held at its far end; three nodes inside of the second have no mass of their own nor share that of their neighbours.
+/// Bars in a chain held at its far end; three nodes inside of the second have no mass of their own
+/// nor share that of their neighbours.
 std::vector<model::Substructure> chain() {
-  std::vector<model::Substructure> parts{samples::bar("upper", 1, 8, 3000.0, 2.0, {1}), samples::bar("middle", 9, 8, 3000.0, 2.0), samples::bar("lower", 17, 8, 3000.0, 2.0)};
+  std::vector<model::Substructure> parts{samples::bar("upper", 1, 8, 3000.0, 2.0, {1}),
+                                         samples::bar("middle", 9, 8, 3000.0, 2.0),
+                                         samples::bar("lower", 17, 8, 3000.0, 2.0)};
   samples::classify(parts[0], {9});
   samples::classify(parts[1], {9, 17});
   samples::classify(parts[2], {17});
@@ -29,24 +31,29 @@ std::vector<model::Substructure> chain() {
   const auto massless = [&](Eigen::Index i) { return i >= 3 && i <= 5; };
   for (int i = 0; i < m.size(); ++i)
     for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it)
-      if (!massless(i) && !massless(it.col())) entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      if (!massless(i) && !massless(it.col()))
+        entries.emplace_back(i, static_cast<int>(it.col()), it.value());
   m.mass = samples::square(m.size(), entries);
   return parts;
 }
 
 /// Those that work; the others need the mass of every interior dof.
 bool works(const std::string& basis, int modes) {
-  if (basis == "Guyan") return modes >= 0;  // all masters, massless ones too, leave a mass that is singular
-  return basis == "Craig-Bampton" || basis == "Enhanced Craig-Bampton" || basis == "Krylov" || basis == "User Vectors";
+  if (basis == "Guyan")
+    return modes >= 0;  // all masters, massless ones too, leave a mass that is singular
+  return basis == "Craig-Bampton" || basis == "Enhanced Craig-Bampton" || basis == "Krylov" ||
+         basis == "User Vectors";
 }
 
-void expectExact(const std::string& basis, int modes, const std::vector<model::Substructure>& parts, const model::SecondOrderModel& small) {
+void expectExact(const std::string& basis, int modes, const std::vector<model::Substructure>& parts,
+                 const model::SecondOrderModel& small) {
   const auto full = coupling::couple(parts);
   EXPECT_TRUE(Matrix(small.mass).allFinite() && Matrix(small.stiffnessAt(0)).allFinite());
   // The coordinates of Enhanced Craig-Bampton that follow the frequencies cost it exact statics.
   const bool promised = basis != "Enhanced Craig-Bampton" || modes < 0;
   EXPECT_LE(checks::staticError(full, small), promised ? 1e-9 : 0.05);
-  const Vector exact = coupling::lowestModes(full, 3).values, found = coupling::lowestModes(small, 3).values;
+  const Vector exact = coupling::lowestModes(full, 3).values,
+               found = coupling::lowestModes(small, 3).values;
   ASSERT_EQ(found.size(), 3);
   // Four vectors without meaning, and four masters in the place of modes, are met from above only.
   const bool all = modes < 0 && basis != "User Vectors";
@@ -62,20 +69,23 @@ class MasslessInterior : public testing::TestWithParam<std::string> {};
 TEST_P(MasslessInterior, WorksOrIsRefusedWithASentence) {
   const auto parts = chain();
   for (const auto& part : parts)
-    std::ofstream("massless " + part.name + ".mtx") << io::matrixMarketText(linalg::scatteredNumbers(part.model.size(), 4, 5));
+    std::ofstream("massless " + part.name + ".mtx")
+        << io::matrixMarketText(linalg::scatteredNumbers(part.model.size(), 4, 5));
   for (const int modes : {4, -1}) {
     std::string refusal;
     try {
-      const auto synthesis = checks::synthesise(parts, GetParam(), modes, [](Teuchos::ParameterList& list) {
-        if (GetParam() == "User Vectors") list.set("File", "massless %.mtx");
-      });
+      const auto synthesis =
+          checks::synthesise(parts, GetParam(), modes, [](Teuchos::ParameterList& list) {
+            if (GetParam() == "User Vectors") list.set("File", "massless %.mtx");
+          });
       expectExact(GetParam(), modes, parts, synthesis.coupled.model);
     } catch (const ModelError& error) {
       refusal = error.what();
       EXPECT_NE(refusal.find("Part \"middle\""), std::string::npos) << refusal;
       EXPECT_NE(refusal.find("mass"), std::string::npos) << refusal;
     }
-    EXPECT_EQ(refusal.empty(), works(GetParam(), modes)) << GetParam() << ", " << modes << " modes: " << refusal;
+    EXPECT_EQ(refusal.empty(), works(GetParam(), modes))
+        << GetParam() << ", " << modes << " modes: " << refusal;
   }
 }
 
@@ -89,7 +99,8 @@ TEST(MasslessInteriorModes, FiniteOnesAreComplete) {
   EXPECT_EQ(synthesis.parts[0].modes, 7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Reduction, MasslessInterior, testing::ValuesIn(reduction::BasisRegistry::instance().names()),
+INSTANTIATE_TEST_SUITE_P(Reduction, MasslessInterior,
+                         testing::ValuesIn(reduction::BasisRegistry::instance().names()),
                          [](const auto& basis) {
                            std::string name;
                            for (const char c : basis.param)

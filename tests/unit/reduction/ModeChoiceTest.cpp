@@ -40,7 +40,8 @@ TEST(RoundUp, DoesNotChainThroughADenseSpectrum) {
     const double omega = 100.0 * std::pow(1.003, k) * (k % 2 == 1 ? 0.9995 : 1.0);
     values[k] = omega * omega;
   }
-  for (int count = 1; count < 199; ++count) EXPECT_EQ(roundUp(values, count, 0.01), count + count % 2) << count;
+  for (int count = 1; count < 199; ++count)
+    EXPECT_EQ(roundUp(values, count, 0.01), count + count % 2) << count;
 }
 
 TEST(RoundUp, KeepsEqualFrequenciesTogetherHoweverMany) {

@@ -35,7 +35,8 @@ TEST(Partition, FindsTheLinksBetweenKeptDofs) {
   samples::classify(part, {1, 7}, {4});
   const Partition p = partition(part);
   EXPECT_EQ(p.links, (std::vector<std::vector<int>>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(p.ends, (std::vector<std::vector<int>>{{0, 2}, {1, 2}})) << "indices into kept = {node 1, node 7, node 4}";
+  EXPECT_EQ(p.ends, (std::vector<std::vector<int>>{{0, 2}, {1, 2}}))
+      << "indices into kept = {node 1, node 7, node 4}";
 }
 
 TEST(Partition, MassAloneAlsoLinks) {
@@ -58,14 +59,17 @@ TEST(Partition, OnlyTheConstantStiffnessMakesTheBasis) {
 TEST(Partition, RefusesWrongPositions) {
   auto part = samples::bar("shaft", 1, 3, 1.0, 1.0);
   part.interface = {4};
-  EXPECT_EQ(refusal(part), "Part \"shaft\": position 4 of its interface dofs is outside its 4 dofs.");
+  EXPECT_EQ(refusal(part),
+            "Part \"shaft\": position 4 of its interface dofs is outside its 4 dofs.");
   part.interface = {2, 1};
-  EXPECT_EQ(refusal(part), "Part \"shaft\": position 1 of its interface dofs is out of order; positions must increase.");
-  part.interface = {1};
-  part.retained = {1};
   EXPECT_EQ(
       refusal(part),
-      "Part \"shaft\": position 1 of its retained dofs (u of node 2) is named twice among its interface and retained dofs.");
+      "Part \"shaft\": position 1 of its interface dofs is out of order; positions must increase.");
+  part.interface = {1};
+  part.retained = {1};
+  EXPECT_EQ(refusal(part),
+            "Part \"shaft\": position 1 of its retained dofs (u of node 2) is named twice among "
+            "its interface and retained dofs.");
 }
 
 TEST(Partition, RefusesWrongStatesAndMasses) {
@@ -77,7 +81,8 @@ TEST(Partition, RefusesWrongStatesAndMasses) {
   EXPECT_EQ(refusal(part), "Part \"shaft\": its mass matrix is not symmetric.");
   part.model.mass.coeffRef(0, 1) = std::nan("");
   EXPECT_EQ(refusal(part),
-            "Part \"shaft\": The second-order model is inconsistent: the mass matrix has an entry that is not finite.");
+            "Part \"shaft\": The second-order model is inconsistent: the mass matrix has an entry "
+            "that is not finite.");
 }
 
 TEST(Partition, BlockPicksRowsAndColumns) {
@@ -85,7 +90,8 @@ TEST(Partition, BlockPicksRowsAndColumns) {
   const Matrix dense = A;
   const Matrix picked = block(A, {3, 0}, {4, 2, 1});
   for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 3; ++j) EXPECT_EQ(picked(i, j), dense(i == 0 ? 3 : 0, j == 0 ? 4 : j == 1 ? 2 : 1));
+    for (int j = 0; j < 3; ++j)
+      EXPECT_EQ(picked(i, j), dense(i == 0 ? 3 : 0, j == 0 ? 4 : j == 1 ? 2 : 1));
 }
 
 }  // namespace

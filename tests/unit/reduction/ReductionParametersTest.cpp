@@ -43,7 +43,8 @@ std::vector<int> modesFor(const std::function<void(Teuchos::ParameterList&)>& ch
 TEST(ReductionParameters, AreDescribed) {
   const deck::ListSpec spec = parameters();
   EXPECT_EQ(spec.name(), "Reduction");
-  for (const auto& parameter : spec.parameters()) EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
+  for (const auto& parameter : spec.parameters())
+    EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
   ASSERT_NE(spec.findParameter("Basis"), nullptr);
   EXPECT_EQ(spec.findParameter("Basis")->choices, BasisRegistry::instance().names());
   EXPECT_EQ(spec.findParameter("Cut-off Frequency")->unit, "Hz");
@@ -53,9 +54,13 @@ TEST(ReductionParameters, AreDescribed) {
 
 TEST(ReductionParameters, EveryModeCountWorks) {
   EXPECT_EQ(modesFor([](auto& list) { list.set("Modes", 2); }), (std::vector<int>{2, 2, 2, 2}));
-  EXPECT_EQ(modesFor([](auto& list) { list.set("Modes by Substructure", Teuchos::Array<int>(Teuchos::tuple<int>(1, 2, 3, 4))); }),
+  EXPECT_EQ(modesFor([](auto& list) {
+              list.set("Modes by Substructure",
+                       Teuchos::Array<int>(Teuchos::tuple<int>(1, 2, 3, 4)));
+            }),
             (std::vector<int>{1, 2, 3, 4}));
-  EXPECT_EQ(modesFor([](auto& list) { list.set("All Modes", true); }), (std::vector<int>{15, 15, 15, 18}));
+  EXPECT_EQ(modesFor([](auto& list) { list.set("All Modes", true); }),
+            (std::vector<int>{15, 15, 15, 18}));
   const auto total = modesFor([](auto& list) { list.set("Total Modes", 9); });
   EXPECT_EQ(total[0] + total[1] + total[2] + total[3], 9);
   const auto low = modesFor([](auto& list) { list.set("Cut-off Frequency", 100.0); });
@@ -65,16 +70,19 @@ TEST(ReductionParameters, EveryModeCountWorks) {
 
 TEST(ReductionParameters, ExactlyOneModeCount) {
   auto list = defaults();
-  EXPECT_EQ(refusal(list, 4),
-            "Reduction does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
-            "Substructure\", \"Total Modes\", "
-            "\"Cut-off Frequency\", \"All Modes\", \"Effective Interface Mass\", \"Interface Moment\", \"Frequency Tolerance\", \"Motion "
-            "Tolerance\".");
+  EXPECT_EQ(
+      refusal(list, 4),
+      "Reduction does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
+      "Substructure\", \"Total Modes\", "
+      "\"Cut-off Frequency\", \"All Modes\", \"Effective Interface Mass\", \"Interface Moment\", "
+      "\"Frequency Tolerance\", \"Motion "
+      "Tolerance\".");
   list.set("Modes", 3);
   EXPECT_EQ(refusal(list, 4), "accepted");
   list.set("Total Modes", 30);
   EXPECT_EQ(refusal(list, 4),
-            "Reduction gives \"Modes\", \"Total Modes\" together: they are different answers to how many modes to "
+            "Reduction gives \"Modes\", \"Total Modes\" together: they are different answers to "
+            "how many modes to "
             "keep. Give exactly one.");
 }
 
@@ -85,7 +93,8 @@ TEST(ReductionParameters, CriteriaAndTolerances) {
   EXPECT_EQ(readOptions(list, 4).modes.fraction, 0.9);
   list.set("Motion Tolerance", 0.02);
   EXPECT_EQ(refusal(list, 4),
-            "Reduction gives \"Interface Moment\", \"Motion Tolerance\" together: they are different answers to how many modes to keep. Give "
+            "Reduction gives \"Interface Moment\", \"Motion Tolerance\" together: they are "
+            "different answers to how many modes to keep. Give "
             "exactly one.");
   list.remove("Interface Moment");
   list.set("Frequency Tolerance", 1e-3);
@@ -93,14 +102,16 @@ TEST(ReductionParameters, CriteriaAndTolerances) {
   EXPECT_EQ(rule.kind, ModeRule::Kind::Tolerance) << "both tolerances hold together";
   EXPECT_EQ(rule.frequencyTolerance, 1e-3);
   EXPECT_EQ(rule.motionTolerance, 0.02);
-  EXPECT_THROW(reduceAll(samples::loopFrame(4, false), list), DeckError) << "no tolerance can be met part by part";
+  EXPECT_THROW(reduceAll(samples::loopFrame(4, false), list), DeckError)
+      << "no tolerance can be met part by part";
 }
 
 TEST(ReductionParameters, OneEntryForEachSubstructure) {
   auto list = defaults();
   list.set("Modes by Substructure", Teuchos::Array<int>(3, 5));
   EXPECT_EQ(refusal(list, 4),
-            "\"Modes by Substructure\" has 3 entries for 4 substructures; give one number for each, or \"Modes\" for the same "
+            "\"Modes by Substructure\" has 3 entries for 4 substructures; give one number for "
+            "each, or \"Modes\" for the same "
             "number everywhere.");
 }
 
@@ -127,7 +138,8 @@ TEST(ReductionParameters, AnasaziReachesTheEigensolver) {
   samples::classify(part, {}, {1, 401});
   list.sublist("Anasazi").set("Block Size", 2);
   const auto reduced = reduceAll({part}, list);
-  EXPECT_NE(reduced[0].report.method.find("Anasazi"), std::string::npos) << reduced[0].report.method;
+  EXPECT_NE(reduced[0].report.method.find("Anasazi"), std::string::npos)
+      << reduced[0].report.method;
   list.sublist("Anasazi").set("Maximum Restarts", 0).set("Num Blocks", 3);
   EXPECT_THROW(reduceAll({part}, list), ConvergenceError);
 }

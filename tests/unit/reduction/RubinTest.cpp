@@ -24,17 +24,20 @@ ModeRequest modes(int count) {
 
 std::unique_ptr<Basis> rubin() { return makeBasis("Rubin", Teuchos::ParameterList()); }
 
-/// [Phi Psi] by the textbook: all modes, A = 1 - Phi_r Phi_r' M, G with the rigid-body motions grounded, residual flexibility by differences.
+/// [Phi Psi] by the textbook: all modes, A = 1 - Phi_r Phi_r' M, G with the rigid-body motions
+/// grounded, residual flexibility by differences.
 Matrix textbookSpace(const model::Substructure& part, const std::vector<int>& kept, int count) {
   const Matrix K = constantStiffness(part.model), M = part.model.mass;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> all(K, M);
   const Vector& lambda = all.eigenvalues();
   int rigid = 0;
-  while (lambda[rigid] < 1e-9 * lambda[lambda.size() - 1] && lambda[rigid] < 1e-4 * lambda[6]) ++rigid;
+  while (lambda[rigid] < 1e-9 * lambda[lambda.size() - 1] && lambda[rigid] < 1e-4 * lambda[6])
+    ++rigid;
   const Matrix R = all.eigenvectors().leftCols(rigid), MR = M * R;
   const Matrix A = Matrix::Identity(K.rows(), K.rows()) - R * MR.transpose();
   Matrix G = A * (K + lambda[rigid + 3] * MR * MR.transpose()).inverse() * A.transpose();
-  for (int k = rigid; k < count; ++k) G -= all.eigenvectors().col(k) * all.eigenvectors().col(k).transpose() / lambda[k];
+  for (int k = rigid; k < count; ++k)
+    G -= all.eigenvectors().col(k) * all.eigenvectors().col(k).transpose() / lambda[k];
   Matrix space(K.rows(), count + static_cast<Eigen::Index>(kept.size()));
   space.leftCols(count) = all.eigenvectors().leftCols(count);
   for (std::size_t j = 0; j < kept.size(); ++j) {
@@ -47,14 +50,18 @@ Matrix textbookSpace(const model::Substructure& part, const std::vector<int>& ke
 /// Largest part of a unit column of `a`, in the mass norm, that the columns of `b` do not have.
 double missing(const Matrix& a, const Matrix& b, const Matrix& M) {
   const Matrix L = M.llt().matrixU();
-  const Matrix inner = (L * b).householderQr().householderQ() * Matrix::Identity(b.rows(), b.cols());
+  const Matrix inner =
+      (L * b).householderQr().householderQ() * Matrix::Identity(b.rows(), b.cols());
   const Matrix scaled = L * a;
-  return ((scaled - inner * (inner.transpose() * scaled)).colwise().norm().array() / scaled.colwise().norm().array()).maxCoeff();
+  return ((scaled - inner * (inner.transpose() * scaled)).colwise().norm().array() /
+          scaled.colwise().norm().array())
+      .maxCoeff();
 }
 
 TEST(Rubin, SpansFreeModesAndResidualAttachmentModes) {
   const auto frame = samples::loopFrame(6, false, true);
-  for (const std::size_t p : {0u, 2u, 3u}) {  // clamped, floating between two parts, floating at the end
+  for (const std::size_t p :
+       {0u, 2u, 3u}) {  // clamped, floating between two parts, floating at the end
     const auto& part = frame[p];
     for (const int count : {4, 7}) {
       const BasisResult basis = rubin()->build(part, modes(count));
@@ -69,10 +76,12 @@ TEST(Rubin, SpansFreeModesAndResidualAttachmentModes) {
 TEST(Rubin, HasTheStructureOfCraigBampton) {
   for (const auto& part : samples::loopFrame(6, true, true)) {
     const auto small = reduce(part, rubin()->build(part, modes(5)), ReductionOptions(), 0);
-    EXPECT_TRUE(small.report.structureEnforced) << part.name << " " << small.report.massDefect << " " << small.report.stiffnessDefect;
+    EXPECT_TRUE(small.report.structureEnforced)
+        << part.name << " " << small.report.massDefect << " " << small.report.stiffnessDefect;
     EXPECT_LT(small.report.staticDefect, 1e-9);
     EXPECT_EQ(small.report.rank, small.size());
-    EXPECT_TRUE(std::is_sorted(small.basis->eigenvalues.data(), small.basis->eigenvalues.data() + small.basis->eigenvalues.size()));
+    EXPECT_TRUE(std::is_sorted(small.basis->eigenvalues.data(),
+                               small.basis->eigenvalues.data() + small.basis->eigenvalues.size()));
   }
 }
 
@@ -85,7 +94,9 @@ TEST(Rubin, FindsRigidBodyModes) {
     EXPECT_EQ(free.rigid, expected[p]);
     EXPECT_EQ(free.kept, expected[p]);
     const auto basis = rubin()->build(part, modes(5));
-    EXPECT_EQ(std::count_if(basis.rows.begin(), basis.rows.end(), [](const auto& row) { return row.kind == "rigid-body" && row.kept; }), expected[p]);
+    EXPECT_EQ(std::count_if(basis.rows.begin(), basis.rows.end(),
+                            [](const auto& row) { return row.kind == "rigid-body" && row.kept; }),
+              expected[p]);
   }
 }
 
@@ -137,7 +148,8 @@ TEST(Rubin, TotalAndCutOffCountFreeModes) {
   EXPECT_LE(total, 18);
   options.modes.kind = ModeRule::Kind::CutOff;
   options.modes.cutOffHz = 0;
-  EXPECT_EQ(reduceAll(frame, *rubin(), options)[2].modes, 3) << "rigid-body modes are kept below any cut";
+  EXPECT_EQ(reduceAll(frame, *rubin(), options)[2].modes, 3)
+      << "rigid-body modes are kept below any cut";
   options.modes.kind = ModeRule::Kind::InterfaceMass;
   options.modes.fraction = 0.5;
   EXPECT_THROW(reduceAll(frame, *rubin(), options), DeckError);
@@ -146,7 +158,8 @@ TEST(Rubin, TotalAndCutOffCountFreeModes) {
 TEST(Rubin, StaticStateIsKept) {
   auto part = samples::loopFrame(6, true, true)[2];
   Vector reference(part.model.size());
-  for (Eigen::Index i = 0; i < reference.size(); ++i) reference[i] = 1e-2 * std::sin(0.7 * static_cast<double>(i));
+  for (Eigen::Index i = 0; i < reference.size(); ++i)
+    reference[i] = 1e-2 * std::sin(0.7 * static_cast<double>(i));
   part.reference = part.model.initialDisplacement = reference;
   const auto small = reduce(part, rubin()->build(part, modes(4)), ReductionOptions(), 0);
   EXPECT_TRUE(small.model.initialDisplacement.isZero(0.0));

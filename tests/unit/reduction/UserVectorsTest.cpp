@@ -29,7 +29,9 @@ std::unique_ptr<Basis> basisOf(const std::string& file, const Change& change = {
   return makeBasis("User Vectors", list);
 }
 
-void write(const std::string& file, const Matrix& vectors) { std::ofstream(file) << io::matrixMarketText(vectors); }
+void write(const std::string& file, const Matrix& vectors) {
+  std::ofstream(file) << io::matrixMarketText(vectors);
+}
 
 model::Substructure bar(const std::string& name = "bar") {
   auto part = samples::bar(name, 1, 8, 3.0, 2.0);
@@ -54,12 +56,14 @@ std::string refusal(const std::function<void()>& action) {
 }
 
 TEST(UserVectors, FixedInterfaceModesFromAFileAreCraigBampton) {
-  const auto reference = makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(4));
+  const auto reference =
+      makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(4));
   // Any mixture of the modes, with constraint modes added: the span is the same.
   const Matrix mixed = Matrix(reference.vectors) * linalg::scatteredNumbers(6, 4, 3);
   write("mixed.mtx", mixed);
   const auto basis = basisOf("mixed.mtx")->build(bar(), count(4));
-  EXPECT_LT((basis.eigenvalues - reference.eigenvalues).norm(), 1e-10 * reference.eigenvalues.norm());
+  EXPECT_LT((basis.eigenvalues - reference.eigenvalues).norm(),
+            1e-10 * reference.eigenvalues.norm());
   EXPECT_LT((Matrix(basis.vectors) - Matrix(reference.vectors)).norm(), 1e-9);
   const auto small = reduce(bar(), basis, ReductionOptions(), 0);
   EXPECT_TRUE(small.report.structureEnforced);
@@ -101,7 +105,9 @@ TEST(UserVectors, EveryPartHasItsOwnFileAlsoWhenTheyAreIdentical) {
 
 TEST(UserVectors, OtherPartsTakeFixedInterfaceModes) {
   write("some.mtx", linalg::scatteredNumbers(9, 3, 1));
-  const auto basis = basisOf("some.mtx", [](auto& list) { list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("bar"))); });
+  const auto basis = basisOf("some.mtx", [](auto& list) {
+    list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("bar")));
+  });
   EXPECT_EQ(basis->build(bar(), count(3)).modeKind[0], "user");
   EXPECT_EQ(basis->build(bar("other"), count(3)).modeKind[0], "fixed-interface");
 }
@@ -113,14 +119,21 @@ TEST(UserVectors, AnUnknownPartIsRefused) {
   auto part = bar("column");
   part.retained = part.interface;
   part.interface.clear();
-  const auto basis = basisOf("some.mtx", [](auto& list) { list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("colum"))); });
-  EXPECT_NE(refusal([&] { coupling::synthesise({part}, *basis, options); }).find("no substructure has that name; did you mean \"column\"?"), std::string::npos);
+  const auto basis = basisOf("some.mtx", [](auto& list) {
+    list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("colum")));
+  });
+  EXPECT_NE(refusal([&] {
+              coupling::synthesise({part}, *basis, options);
+            }).find("no substructure has that name; did you mean \"column\"?"),
+            std::string::npos);
 }
 
 TEST(UserVectors, WrongSizesAreRefused) {
   write("short.mtx", linalg::scatteredNumbers(7, 2, 1));
   const auto sentence = refusal([] { basisOf("short.mtx")->build(bar(), count(2)); });
-  EXPECT_NE(sentence.find("short.mtx: its vectors have 7 rows, but part \"bar\" has 9 dofs"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("short.mtx: its vectors have 7 rows, but part \"bar\" has 9 dofs"),
+            std::string::npos)
+      << sentence;
 }
 
 TEST(UserVectors, DependentVectorsAreRefusedOrDropped) {
@@ -128,8 +141,12 @@ TEST(UserVectors, DependentVectorsAreRefusedOrDropped) {
   vectors.col(2) = vectors.col(0) - 3 * vectors.col(1);
   write("dependent.mtx", vectors);
   const auto sentence = refusal([] { basisOf("dependent.mtx")->build(bar(), count(4)); });
-  EXPECT_NE(sentence.find("dependent.mtx: column 3 is a combination of the columns before it"), std::string::npos) << sentence;
-  const auto basis = basisOf("dependent.mtx", [](auto& list) { list.set("Dependent Vectors", "Drop"); })->build(bar(), count(4));
+  EXPECT_NE(sentence.find("dependent.mtx: column 3 is a combination of the columns before it"),
+            std::string::npos)
+      << sentence;
+  const auto basis = basisOf("dependent.mtx", [](auto& list) {
+                       list.set("Dependent Vectors", "Drop");
+                     })->build(bar(), count(4));
   EXPECT_EQ(basis.modes(), 3);
   ASSERT_EQ(basis.remarks.size(), 1u);
   EXPECT_EQ(basis.remarks[0], "dependent vectors of dependent.mtx are dropped: columns 3");
@@ -139,12 +156,19 @@ TEST(UserVectors, AConstraintModeAddsNothing) {
   Matrix straight(9, 1);
   for (int i = 0; i < 9; ++i) straight(i, 0) = 1 + 2.0 * i;
   write("straight.mtx", straight);
-  EXPECT_NE(refusal([] { basisOf("straight.mtx")->build(bar(), count(1)); }).find("column 1 is a combination"), std::string::npos);
+  EXPECT_NE(refusal([] {
+              basisOf("straight.mtx")->build(bar(), count(1));
+            }).find("column 1 is a combination"),
+            std::string::npos);
 }
 
 TEST(UserVectors, MissingFilesAndListsAreRefused) {
-  EXPECT_NE(refusal([] { basisOf("absent %.mtx")->build(bar(), count(1)); }).find("absent bar.mtx"), std::string::npos);
-  EXPECT_NE(refusal([] { makeBasis("User Vectors", Teuchos::ParameterList("Reduction")); }).find("has no list \"User Vectors\" with the \"File\""), std::string::npos);
+  EXPECT_NE(refusal([] { basisOf("absent %.mtx")->build(bar(), count(1)); }).find("absent bar.mtx"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              makeBasis("User Vectors", Teuchos::ParameterList("Reduction"));
+            }).find("has no list \"User Vectors\" with the \"File\""),
+            std::string::npos);
 }
 
 }  // namespace

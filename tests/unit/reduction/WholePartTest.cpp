@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A part that is kept whole beside parts that are reduced: exact, sparse, with any basis.
+#include "reduction/WholePart.hpp"
+
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
 #include "reduction/Reduce.hpp"
-#include "reduction/WholePart.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -20,7 +21,8 @@ TEST(WholePart, HasTheMatricesOfThePartInTheOrderOfItsKeptDofs) {
     options.modes.kind = reduction::ModeRule::Kind::PerPart;
     options.modes.counts.assign(parts.size(), 2);
     options.modes.counts[1] = reduction::ModeRule::whole;
-    const auto reduced = reduction::reduceAll(parts, *reduction::makeBasis(name, Teuchos::ParameterList()), options);
+    const auto reduced =
+        reduction::reduceAll(parts, *reduction::makeBasis(name, Teuchos::ParameterList()), options);
     const auto& part = parts[1].model;
     const auto& whole = reduced[1];
     ASSERT_TRUE(reduction::isWhole(*whole.basis)) << name;
@@ -31,9 +33,12 @@ TEST(WholePart, HasTheMatricesOfThePartInTheOrderOfItsKeptDofs) {
     const auto& order = whole.basis->partition.kept;
     const Sparse K = reduction::block(reduction::constantStiffness(part), order, order);
     EXPECT_EQ(Matrix(whole.model.mass), Matrix(reduction::block(part.mass, order, order))) << name;
-    EXPECT_LE((Matrix(reduction::constantStiffness(whole.model)) - Matrix(K)).cwiseAbs().maxCoeff(), 1e-12 * Matrix(K).cwiseAbs().maxCoeff());
-    EXPECT_LE(reduction::constantStiffness(whole.model).nonZeros(), K.nonZeros()) << "no entries are added";
-    for (std::size_t i = 0; i < order.size(); ++i) EXPECT_TRUE(whole.model.dofs[i] == part.dofs[static_cast<std::size_t>(order[i])]);
+    EXPECT_LE((Matrix(reduction::constantStiffness(whole.model)) - Matrix(K)).cwiseAbs().maxCoeff(),
+              1e-12 * Matrix(K).cwiseAbs().maxCoeff());
+    EXPECT_LE(reduction::constantStiffness(whole.model).nonZeros(), K.nonZeros())
+        << "no entries are added";
+    for (std::size_t i = 0; i < order.size(); ++i)
+      EXPECT_TRUE(whole.model.dofs[i] == part.dofs[static_cast<std::size_t>(order[i])]);
   }
 }
 

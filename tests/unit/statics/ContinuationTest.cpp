@@ -15,10 +15,12 @@ using testing::DenseProblem;
 TEST(Continuation, SharpeningAContactLawInStages) {
   ContactChain chain(40, 100.0, 1e3);
   const auto sharpen = [&](double lambda) {
-    return Stage{"lambda " + std::to_string(lambda), [&chain, lambda] { chain.sharpness = lambda; }, {}};
+    return Stage{
+        "lambda " + std::to_string(lambda), [&chain, lambda] { chain.sharpness = lambda; }, {}};
   };
   Vector x = Vector::Zero(40);
-  const ContinuationReport report = runStages(chain, x, {sharpen(1e3), sharpen(1e4), sharpen(1e6), sharpen(7e11)});
+  const ContinuationReport report =
+      runStages(chain, x, {sharpen(1e3), sharpen(1e4), sharpen(1e6), sharpen(7e11)});
   EXPECT_TRUE(report.converged) << report.message();
   ASSERT_EQ(report.stages.size(), 4U);
   Vector r;
@@ -35,9 +37,10 @@ TEST(Continuation, StopsAtTheFirstStageThatFails) {
   hopeless.maxIterations = 1;
   int prepared = 0;
   Vector x = Vector::Zero(10);
-  const ContinuationReport report = runStages(
-      chain, x,
-      {{"first", [&] { ++prepared; }, {}}, {"second", [&] { chain.load *= 3.0; }, hopeless}, {"third", [&] { ++prepared; }, {}}});
+  const ContinuationReport report = runStages(chain, x,
+                                              {{"first", [&] { ++prepared; }, {}},
+                                               {"second", [&] { chain.load *= 3.0; }, hopeless},
+                                               {"third", [&] { ++prepared; }, {}}});
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.stages.size(), 2U);
   EXPECT_EQ(prepared, 1);
@@ -48,9 +51,14 @@ TEST(Continuation, StopsAtTheFirstStageThatFails) {
 /// x^2 = target, full steps, Newton allowed few iterations: large increments of the target fail.
 struct Ramp {
   double target = 0.0;
-  DenseProblem problem{
-      1, [this](const Vector& x) -> Vector { return Vector::Constant(1, std::atan(20.0 * (x[0] - target))); },
-      [this](const Vector& x) -> Matrix { return Matrix::Constant(1, 1, 20.0 / (1.0 + std::pow(20.0 * (x[0] - target), 2))); }};
+  DenseProblem problem{1,
+                       [this](const Vector& x) -> Vector {
+                         return Vector::Constant(1, std::atan(20.0 * (x[0] - target)));
+                       },
+                       [this](const Vector& x) -> Matrix {
+                         return Matrix::Constant(
+                             1, 1, 20.0 / (1.0 + std::pow(20.0 * (x[0] - target), 2)));
+                       }};
 };
 
 TEST(Continuation, RampHalvesIncrementsThatFail) {

@@ -37,7 +37,8 @@ TEST(JacobianCheck, FindsOneWrongEntryAndNamesIt) {
   EXPECT_NEAR(error.relative, 1e-3, 1e-5);
   EXPECT_EQ(error.row, 0);
   EXPECT_EQ(error.column, 1);
-  EXPECT_NE(error.describe(wrong).find("row x1, column x2"), std::string::npos) << error.describe(wrong);
+  EXPECT_NE(error.describe(wrong).find("row x1, column x2"), std::string::npos)
+      << error.describe(wrong);
 }
 
 TEST(JacobianCheck, FindsAnEntryTheSparsityPatternForgot) {

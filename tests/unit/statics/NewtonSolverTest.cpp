@@ -15,8 +15,8 @@ namespace {
 using testing::ContactChain;
 using testing::DenseProblem;
 using testing::FrictionChain;
-using testing::StringInHole;
 using testing::rosenbrock;
+using testing::StringInHole;
 
 NewtonOptions with(NewtonOptions::LineSearch search) {
   NewtonOptions options;
@@ -69,7 +69,8 @@ TEST(NewtonSolver, FrictionThatDefeatsFullStepsIsSolvedByBacktracking) {
   const NewtonReport full = solve(chain, x, with(NewtonOptions::FullStep));
   EXPECT_FALSE(full.converged);
   EXPECT_EQ(full.iterations, 50);
-  EXPECT_NE(full.message.find("50 Newton iterations were not enough"), std::string::npos) << full.message;
+  EXPECT_NE(full.message.find("50 Newton iterations were not enough"), std::string::npos)
+      << full.message;
   EXPECT_NE(full.message.find("node"), std::string::npos) << full.message;
   x.setOnes();
   const NewtonReport backtracked = solve(chain, x, with(NewtonOptions::Backtracking));
@@ -84,7 +85,9 @@ TEST(NewtonSolver, FrictionThatDefeatsFullStepsIsSolvedByBacktracking) {
 /// A string in a hole of stiff, sharp walls, from 1 mm off the axis; 200 iterations allowed.
 NewtonReport settle(StringInHole& string, NewtonOptions::LineSearch search) {
   Vector x(string.size());
-  for (int i = 0; i < string.n; ++i) x.segment<2>(2 * i) = 1e-3 * vector2(std::cos(4.0 * i / string.n), std::sin(4.0 * i / string.n));
+  for (int i = 0; i < string.n; ++i)
+    x.segment<2>(2 * i) =
+        1e-3 * vector2(std::cos(4.0 * i / string.n), std::sin(4.0 * i / string.n));
   NewtonOptions options = with(search);
   options.maxIterations = 200;
   const NewtonReport report = solve(string, x, options);
@@ -108,7 +111,8 @@ TEST(NewtonSolver, StepsAlongACurvedWallDoNotPressIntoIt) {
   tangent.slides = false;
   const NewtonReport full = settle(slides, NewtonOptions::LimitedStep);  // in vain on the tangent
   EXPECT_TRUE(full.converged) << full.message;
-  EXPECT_LT(3 * settle(slides, NewtonOptions::CriticalPoint).iterations, 2 * settle(tangent, NewtonOptions::CriticalPoint).iterations);
+  EXPECT_LT(3 * settle(slides, NewtonOptions::CriticalPoint).iterations,
+            2 * settle(tangent, NewtonOptions::CriticalPoint).iterations);
 }
 
 TEST(NewtonSolver, AResidualThatIsNotFiniteStopsTheStepBeforeIt) {
@@ -128,7 +132,9 @@ TEST(NewtonSolver, AToleranceBelowRoundingIsToldSo) {
   Vector x = Vector::Ones(1);
   const NewtonReport report = solve(stiff, x);
   EXPECT_FALSE(report.converged);
-  EXPECT_NE(report.message.find("Rounding to double precision may leave 3.6e-03: ask for no less."), std::string::npos) << report.message;
+  EXPECT_NE(report.message.find("Rounding to double precision may leave 3.6e-03: ask for no less."),
+            std::string::npos)
+      << report.message;
   NewtonOptions attainable;
   attainable.tolerance = 3.6e-3;
   EXPECT_TRUE(solve(stiff, x, attainable).converged);
@@ -149,8 +155,10 @@ TEST(NewtonSolver, RowsOfVeryDifferentSizeAreMeasuredByTheScaleOfTheProblem) {
   EXPECT_TRUE(wild.converged) << wild.message;
   EXPECT_EQ(plain.iterations, wild.iterations);
   ASSERT_EQ(plain.history.size(), wild.history.size());
-  for (std::size_t i = 0; i < plain.history.size(); ++i) EXPECT_NEAR(plain.history[i], wild.history[i], 1e-9 * plain.history[0]);
-  // the tolerance is asked of the scaled residual: with weights that make every row tiny the start is called solved too early
+  for (std::size_t i = 0; i < plain.history.size(); ++i)
+    EXPECT_NEAR(plain.history[i], wild.history[i], 1e-9 * plain.history[0]);
+  // the tolerance is asked of the scaled residual: with weights that make every row tiny the start
+  // is called solved too early
   DenseProblem unweighted = weighted(1e-12, 1e-12);
   unweighted.weight.setOnes();
   Vector z = vector2(-1.2, 1.0);
@@ -189,7 +197,8 @@ TEST(NewtonSolver, AStartThatSolvesTheProblemIsLeftAlone) {
 }
 
 TEST(NewtonSolver, TheStepLimitCapsBacktrackingAndLimitedStepsButNotFullSteps) {
-  for (const auto search : {NewtonOptions::FullStep, NewtonOptions::LimitedStep, NewtonOptions::Backtracking}) {
+  for (const auto search :
+       {NewtonOptions::FullStep, NewtonOptions::LimitedStep, NewtonOptions::Backtracking}) {
     double farthest = 0.0;
     DenseProblem line(
         1,
@@ -236,7 +245,10 @@ TEST(NewtonSolver, LaggedFactorsSaveFactorisationsAndGiveTheSameSolution) {
 
 TEST(NewtonSolver, ASingularJacobianIsReportedByName) {
   DenseProblem plane(
-      2, [](const Vector& x) -> Vector { return vector2(x[0] + x[1] - 1.0, 2.0 * (x[0] + x[1]) - 3.0); },
+      2,
+      [](const Vector& x) -> Vector {
+        return vector2(x[0] + x[1] - 1.0, 2.0 * (x[0] + x[1]) - 3.0);
+      },
       [](const Vector&) -> Matrix {
         Matrix J(2, 2);
         J << 1.0, 1.0, 2.0, 2.0;
@@ -272,7 +284,9 @@ TEST(NewtonSolver, ResidualsThatAreNotFiniteAreReportedByName) {
 
   DenseProblem badJacobian(
       1, [](const Vector& z) -> Vector { return z - Vector::Ones(1); },
-      [](const Vector&) -> Matrix { return Matrix::Constant(1, 1, std::numeric_limits<double>::quiet_NaN()); });
+      [](const Vector&) -> Matrix {
+        return Matrix::Constant(1, 1, std::numeric_limits<double>::quiet_NaN());
+      });
   Vector z = Vector::Zero(1);
   const NewtonReport bad = solve(badJacobian, z);
   EXPECT_FALSE(bad.converged);
@@ -296,7 +310,8 @@ TEST(NewtonSolver, AProblemWithoutSolutionIsReported) {
   Vector y = Vector::Zero(1);
   const NewtonReport stuck = solve(wrong, y);
   EXPECT_FALSE(stuck.converged);
-  EXPECT_NE(stuck.message.find("no step along the Newton direction"), std::string::npos) << stuck.message;
+  EXPECT_NE(stuck.message.find("no step along the Newton direction"), std::string::npos)
+      << stuck.message;
 }
 
 TEST(NewtonSolver, RequireConvergedSaysWhatAndWhatToDo) {
@@ -306,7 +321,9 @@ TEST(NewtonSolver, RequireConvergedSaysWhatAndWhatToDo) {
     requireConverged(report, "The static equilibrium", "Raise \"Maximum Iterations\".");
     ADD_FAILURE() << "nothing was thrown";
   } catch (const ConvergenceError& error) {
-    EXPECT_STREQ(error.what(), "The static equilibrium did not converge: it did not. Raise \"Maximum Iterations\".");
+    EXPECT_STREQ(
+        error.what(),
+        "The static equilibrium did not converge: it did not. Raise \"Maximum Iterations\".");
     EXPECT_EQ(error.code(), ExitCode::NotConverged);
   }
   report.converged = true;

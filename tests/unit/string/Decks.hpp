@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Scenes the string tests read: a straight well of a given bore and length, and a list Drillstring.
+/// Scenes the string tests read: a straight well of a given bore and length, and a list
+/// Drillstring.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ inline std::string real(const std::string& name, const std::string& value) {
   return "<Parameter name=\"" + name + "\" type=\"double\" value=\"" + value + "\"/>\n";
 }
 inline std::string whole(const std::string& name, int value) {
-  return "<Parameter name=\"" + name + "\" type=\"int\" value=\"" + std::to_string(value) + "\"/>\n";
+  return "<Parameter name=\"" + name + "\" type=\"int\" value=\"" + std::to_string(value) +
+         "\"/>\n";
 }
 inline std::string text(const std::string& name, const std::string& value) {
   return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>\n";
@@ -28,10 +30,11 @@ inline std::string list(const std::string& name, const std::string& inside) {
   return "<ParameterList name=\"" + name + "\">\n" + inside + "</ParameterList>\n";
 }
 /// A component of one segment.
-inline std::string tube(const std::string& name, double length, int elements, double outer, double inner,
-                        const std::string& more = "") {
+inline std::string tube(const std::string& name, double length, int elements, double outer,
+                        double inner, const std::string& more = "") {
   return list(name, real("Length", std::to_string(length)) + whole("Elements", elements) +
-                        real("Outer Radius", std::to_string(outer)) + real("Inner Radius", std::to_string(inner)) + more);
+                        real("Outer Radius", std::to_string(outer)) +
+                        real("Inner Radius", std::to_string(inner)) + more);
 }
 
 inline deck::Deck scene(const std::string& drillstring, const std::string& file = "deck.xml") {
@@ -40,13 +43,16 @@ inline deck::Deck scene(const std::string& drillstring, const std::string& file 
   return deck::Deck::parse(list("scene", list("Drillstring", drillstring)), file, spec);
 }
 
-inline well::Well verticalWell(double length = 1000.0, double bore = 0.108) { return well::Well(well::straight(length), bore); }
+inline well::Well verticalWell(double length = 1000.0, double bore = 0.108) {
+  return well::Well(well::straight(length), bore);
+}
 
 inline DrillString build(const std::string& drillstring, const well::Well& well = verticalWell()) {
   return buildDrillString(readDrillstring(scene(drillstring)), well);
 }
 
-inline std::string errorOf(const std::string& drillstring, const well::Well& well = verticalWell()) {
+inline std::string errorOf(const std::string& drillstring,
+                           const well::Well& well = verticalWell()) {
   try {
     build(drillstring, well);
   } catch (const DeckError& error) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every term of the equations of motion alone, against its integral along a straight inclined string of two sections in two
-/// bores: M D'' + C(Omega) D' + (K + dOmega/dt C_ac') D = F - dOmega/dt F_thetaz + R_ipa (Nguyen et al. 2020, equations 19,
-/// 26-28; mud after its section 2.3 with the coefficients of Chen 1981 and Fritz 1970).
+/// Every term of the equations of motion alone, against its integral along a straight inclined
+/// string of two sections in two bores: M D'' + C(Omega) D' + (K + dOmega/dt C_ac') D = F -
+/// dOmega/dt F_thetaz + R_ipa (Nguyen et al. 2020, equations 19, 26-28; mud after its section 2.3
+/// with the coefficients of Chen 1981 and Fritz 1970).
 #include <Eigen/Geometry>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -26,7 +27,8 @@ const std::vector<double> outer{0.0795, 0.0635};  // [m]
 const std::vector<double> inner{0.0355, 0.054};   // [m]
 const std::vector<double> axialForce{3e4, -2e4};  // of the path state [N]
 const std::vector<double> torque{-4e3, 7e3};      // [N m]
-constexpr double density = 7900.0, youngModulus = 2.03e11, shearModulus = youngModulus / 2.6, gravity = 9.81;
+constexpr double density = 7900.0, youngModulus = 2.03e11, shearModulus = youngModulus / 2.6,
+                 gravity = 9.81;
 
 double square(double x) { return x * x; }
 
@@ -47,10 +49,12 @@ mud::MudProperties fluid() {
   return p;
 }
 
-/// The scene. Element axes lie along a well of 40 degrees inclination; the nodal axes are those of the elements turned about the
-/// tangent by 0.3 rad times the number of the node.
+/// The scene. Element axes lie along a well of 40 degrees inclination; the nodal axes are those of
+/// the elements turned about the tangent by 0.3 rad times the number of the node.
 struct Scene {
-  well::Well well{well::straight(20.0, 0.7, 0.4), 0.108, {{"casing", 0.0, 1.5, 0.15}, {"liner", 1.5, 3.0, 0.13}}};
+  well::Well well{well::straight(20.0, 0.7, 0.4),
+                  0.108,
+                  {{"casing", 0.0, 1.5, 0.15}, {"liner", 1.5, 3.0, 0.13}}};
   DrillString string;
   path::PathState path;
   std::vector<char> held = std::vector<char>(18, 0);
@@ -70,7 +74,8 @@ struct Scene {
       Node node;
       node.s = depths[n];
       string.nodes.push_back(node);
-      path.frame.push_back(axes * beam::rotationExponential(Vector3(0.0, 0.0, 0.3 * static_cast<double>(n))));
+      path.frame.push_back(
+          axes * beam::rotationExponential(Vector3(0.0, 0.0, 0.3 * static_cast<double>(n))));
     }
     for (std::size_t e = 0; e < 2; ++e) {
       Element element;
@@ -92,7 +97,9 @@ struct Scene {
   }
   void turn() { rotary = loads::RotarySpeed(std::make_shared<Rising>()); }
 
-  StringModel equations() const { return buildEquations({string, well, path, held, mud, rotary, loads, damping}); }
+  StringModel equations() const {
+    return buildEquations({string, well, path, held, mud, rotary, loads, damping});
+  }
 
   /// Nodal dofs of a motion given in element axes.
   Vector dofs(const PolynomialMotion& motion) const {
@@ -107,7 +114,9 @@ struct Scene {
     return d;
   }
 
-  double form(const Sparse& matrix) const { return dofs(firstMotion()).dot(matrix * dofs(secondMotion())); }
+  double form(const Sparse& matrix) const {
+    return dofs(firstMotion()).dot(matrix * dofs(secondMotion()));
+  }
   double work(const Vector& load) const { return dofs(firstMotion()).dot(load); }
 };
 
@@ -116,30 +125,33 @@ template <class Integrand>
 double alongString(const Integrand& f) {
   double sum = 0.0;
   const PolynomialMotion a = firstMotion(), b = secondMotion();
-  for (std::size_t e = 0; e < 2; ++e) sum += integral(depths[e], depths[e + 1], [&](double z) { return f(a, b, z, e); });
+  for (std::size_t e = 0; e < 2; ++e)
+    sum += integral(depths[e], depths[e + 1], [&](double z) { return f(a, b, z, e); });
   return sum;
 }
 
 double area(std::size_t e) { return pi * (square(outer[e]) - square(inner[e])); }
 double inertia(std::size_t e) { return pi / 4.0 * (std::pow(outer[e], 4) - std::pow(inner[e], 4)); }
 
-const model::MatrixTerm* find(const model::SharedList<model::MatrixTerm>& terms, const std::string& name) {
+const model::MatrixTerm* find(const model::SharedList<model::MatrixTerm>& terms,
+                              const std::string& name) {
   for (const auto& term : terms)
     if (term.name == name) return &term;
   return nullptr;
 }
 
 /// The form of the term of this name and its law.
-void expectTerm(const Scene& scene, const model::SecondOrderModel& model, const model::SharedList<model::MatrixTerm>& terms,
-                const std::string& name, const std::string& law, double value) {
+void expectTerm(const Scene& scene, const model::SecondOrderModel& model,
+                const model::SharedList<model::MatrixTerm>& terms, const std::string& name,
+                const std::string& law, double value) {
   const auto* term = find(terms, name);
   ASSERT_NE(term, nullptr) << name;
   EXPECT_EQ(model.laws[static_cast<std::size_t>(term->law)].name, law) << name;
   EXPECT_NEAR(scene.form(term->matrix), value, 1e-10 * std::abs(value)) << name;
 }
 
-void expectLoad(const Scene& scene, const model::SecondOrderModel& model, const std::string& name, const std::string& law,
-                double value) {
+void expectLoad(const Scene& scene, const model::SecondOrderModel& model, const std::string& name,
+                const std::string& law, double value) {
   for (const auto& load : model.loads) {
     if (load.name != name) continue;
     EXPECT_EQ(model.laws[static_cast<std::size_t>(load.law)].name, law) << name;
@@ -152,17 +164,20 @@ void expectLoad(const Scene& scene, const model::SecondOrderModel& model, const 
 double strain(const PolynomialMotion& a, const PolynomialMotion& b, double z, std::size_t e) {
   return youngModulus * area(e) * a.w.slope(z) * b.w.slope(z) +
          shearModulus * 2.0 * inertia(e) * a.twist.slope(z) * b.twist.slope(z) +
-         youngModulus * inertia(e) * (a.u.curvature(z) * b.u.curvature(z) + a.v.curvature(z) * b.v.curvature(z));
+         youngModulus * inertia(e) *
+             (a.u.curvature(z) * b.u.curvature(z) + a.v.curvature(z) * b.v.curvature(z));
 }
 
 double kinetic(const PolynomialMotion& a, const PolynomialMotion& b, double z, std::size_t e) {
-  return density * (area(e) * (a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z) + a.w.value(z) * b.w.value(z)) +
+  return density * (area(e) * (a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z) +
+                               a.w.value(z) * b.w.value(z)) +
                     inertia(e) * (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z)) +
                     2.0 * inertia(e) * a.twist.value(z) * b.twist.value(z));
 }
 
 /// F (u' du' + v' dv') + T (v' du'' - u' dv'').
-double geometric(const PolynomialMotion& a, const PolynomialMotion& b, double z, double force, double moment) {
+double geometric(const PolynomialMotion& a, const PolynomialMotion& b, double z, double force,
+                 double moment) {
   return force * (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z)) +
          moment * (b.v.slope(z) * a.u.curvature(z) - b.u.slope(z) * a.v.curvature(z));
 }
@@ -171,7 +186,8 @@ double lateral(const PolynomialMotion& a, const PolynomialMotion& b, double z) {
   return a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z);
 }
 
-// ----------------------------------------------------------------------------------------------------------------- structure
+// -------------------------------------------------------------------------------------------------
+// structure
 
 TEST(Equations, MassAndStiffnessOfTheBareString) {
   const Scene scene;
@@ -201,7 +217,8 @@ TEST(Equations, TheTangentOfThePathTakesThePlaceOfStiffnessAndPrestress) {
   for (int e = 0; e < 2; ++e) scene.path.tangent.push_back(beam::Matrix12::Random());
   const StringModel model = scene.equations();
   ASSERT_EQ(model.stiffness.size(), 1u);
-  for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(model.stiffness[0].matrices[e], scene.path.tangent[e]);
+  for (std::size_t e = 0; e < 2; ++e)
+    EXPECT_EQ(model.stiffness[0].matrices[e], scene.path.tangent[e]);
 }
 
 TEST(Equations, WeightActsDownwardsAlongTheWholeString) {
@@ -211,25 +228,30 @@ TEST(Equations, WeightActsDownwardsAlongTheWholeString) {
   EXPECT_GT(std::abs(down.x()), 3.0);
   expectLoad(scene, assemble(scene.equations()), "weight", "1",
              alongString([&](const auto& a, const auto&, double z, std::size_t e) {
-               return density * area(e) * (down.x() * a.u.value(z) + down.y() * a.v.value(z) + down.z() * a.w.value(z));
+               return density * area(e) *
+                      (down.x() * a.u.value(z) + down.y() * a.v.value(z) + down.z() * a.w.value(z));
              }));
 }
 
-// ------------------------------------------------------------------------------------------------------------------ rotation
+// -------------------------------------------------------------------------------------------------
+// rotation
 
-/// Left-hand side: +rho I_p Omega dtheta_y/dt in the row of theta_x, -rho I_p Omega dtheta_x/dt in that of theta_y.
+/// Left-hand side: +rho I_p Omega dtheta_y/dt in the row of theta_x, -rho I_p Omega dtheta_x/dt in
+/// that of theta_y.
 TEST(Equations, GyroscopicMomentsTurnWithTheSpeed) {
   Scene scene;
   scene.turn();
   const auto model = assemble(scene.equations());
   expectTerm(scene, model, model.damping, "gyroscopic", "Omega",
              alongString([](const auto& a, const auto& b, double z, std::size_t e) {
-               const double thetaX = -a.v.slope(z), thetaY = a.u.slope(z), rateX = -b.v.slope(z), rateY = b.u.slope(z);
+               const double thetaX = -a.v.slope(z), thetaY = a.u.slope(z), rateX = -b.v.slope(z),
+                            rateY = b.u.slope(z);
                return density * 2.0 * inertia(e) * (thetaX * rateY - thetaY * rateX);
              }));
 }
 
-/// dOmega/dt C_ac' D: of the kinetic energy Omega rho I_p int theta_y dtheta_x/dt only the row of theta_x is left.
+/// dOmega/dt C_ac' D: of the kinetic energy Omega rho I_p int theta_y dtheta_x/dt only the row of
+/// theta_x is left.
 TEST(Equations, SpinUpCouplesTheSlopesWithTheAngularAcceleration) {
   Scene scene;
   scene.turn();
@@ -238,23 +260,28 @@ TEST(Equations, SpinUpCouplesTheSlopesWithTheAngularAcceleration) {
              alongString([](const auto& a, const auto& b, double z, std::size_t e) {
                return density * 2.0 * inertia(e) * -a.v.slope(z) * b.u.slope(z);
              }));
-  expectLoad(scene, model, "spin-up", "dOmega/dt", alongString([](const auto& a, const auto&, double z, std::size_t e) {
+  expectLoad(scene, model, "spin-up", "dOmega/dt",
+             alongString([](const auto& a, const auto&, double z, std::size_t e) {
                return -density * 2.0 * inertia(e) * a.twist.value(z);
              }));
 }
 
-/// At a time, the terms enter with the value of their law: Omega(0.5 s) = 4 rad/s, dOmega/dt = 2 rad/s2.
+/// At a time, the terms enter with the value of their law: Omega(0.5 s) = 4 rad/s, dOmega/dt = 2
+/// rad/s2.
 TEST(Equations, LawsAreThoseOfTheRotarySpeed) {
   Scene scene;
   scene.turn();
   const auto model = assemble(scene.equations());
   const double gyroscopic = scene.form(find(model.damping, "gyroscopic")->matrix);
   EXPECT_NEAR(scene.form(model.dampingAt(0.5)), 4.0 * gyroscopic, 1e-10 * std::abs(gyroscopic));
-  const double spinUp = scene.form(find(model.stiffness, "spin-up")->matrix), structure = alongString(strain);
-  EXPECT_NEAR(scene.form(model.stiffnessAt(0.5)) - structure, 2.0 * spinUp, 1e-9 * std::abs(structure));
+  const double spinUp = scene.form(find(model.stiffness, "spin-up")->matrix),
+               structure = alongString(strain);
+  EXPECT_NEAR(scene.form(model.stiffnessAt(0.5)) - structure, 2.0 * spinUp,
+              1e-9 * std::abs(structure));
 }
 
-// ---------------------------------------------------------------------------------------------------------- Rayleigh damping
+// -------------------------------------------------------------------------------------------------
+// Rayleigh damping
 
 /// c_M M_a + c_K (K_a + K_gpa + K_gpo(D_s)), equation (28): the mass of the mud has no part in it.
 TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
@@ -264,8 +291,10 @@ TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
   scene.prestress();
   scene.damping = {0.3, 2e-4};
   StringModel model = scene.equations();
-  const auto rayleigh = [](const PolynomialMotion& a, const PolynomialMotion& b, double z, std::size_t e) {
-    return 0.3 * kinetic(a, b, z, e) + 2e-4 * (strain(a, b, z, e) + geometric(a, b, z, axialForce[e], torque[e]));
+  const auto rayleigh = [](const PolynomialMotion& a, const PolynomialMotion& b, double z,
+                           std::size_t e) {
+    return 0.3 * kinetic(a, b, z, e) +
+           2e-4 * (strain(a, b, z, e) + geometric(a, b, z, axialForce[e], torque[e]));
   };
   const auto before = assemble(model);
   expectTerm(scene, before, before.damping, "Rayleigh damping", "1", alongString(rayleigh));
@@ -274,29 +303,37 @@ TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
   const std::vector<double> force{5e6, -4e6}, moment{2e6, 3e6};
   std::vector<beam::Matrix12> still;
   for (std::size_t e = 0; e < 2; ++e) {
-    const beam::Matrix12 turn = beam::rotation12(scene.axes, scene.path.frame[e], scene.path.frame[e + 1]);
+    const beam::Matrix12 turn =
+        beam::rotation12(scene.axes, scene.path.frame[e], scene.path.frame[e + 1]);
     const double l = depths[e + 1] - depths[e];
-    still.push_back(turn.transpose() * (force[e] * beam::geometricAxial(l) + moment[e] * beam::geometricTorque(l)) * turn);
+    still.push_back(turn.transpose() *
+                    (force[e] * beam::geometricAxial(l) + moment[e] * beam::geometricTorque(l)) *
+                    turn);
   }
   const Vector state = Vector::LinSpaced(18, 0.1, 1.8);
   linearise(model, still, state, scene.damping);
   EXPECT_EQ(model.state, state);
   const auto after = assemble(model);
-  const double added =
-      alongString([&](const auto& a, const auto& b, double z, std::size_t e) { return geometric(a, b, z, force[e], moment[e]); });
+  const double added = alongString([&](const auto& a, const auto& b, double z, std::size_t e) {
+    return geometric(a, b, z, force[e], moment[e]);
+  });
   expectTerm(scene, after, after.stiffness, "static geometric", "1", added);
-  expectTerm(scene, after, after.damping, "Rayleigh damping", "1", alongString(rayleigh) + 2e-4 * added);
-  EXPECT_GT(std::abs(2e-4 * added), 1e-3 * std::abs(alongString(rayleigh))) << "too small to be seen";
+  expectTerm(scene, after, after.damping, "Rayleigh damping", "1",
+             alongString(rayleigh) + 2e-4 * added);
+  EXPECT_GT(std::abs(2e-4 * added), 1e-3 * std::abs(alongString(rayleigh)))
+      << "too small to be seen";
 }
 
-// ----------------------------------------------------------------------------------------------------------------------- mud
+// -------------------------------------------------------------------------------------------------
+// mud
 
 double annulus(std::size_t e) { return pi * (square(bore[e]) - square(outer[e])); }
 double innerSpeed(std::size_t e) { return 0.02 / (pi * square(inner[e])); }
 double annulusSpeed(std::size_t e) { return 0.02 / annulus(e); }
 double innerMass(std::size_t e) { return 1200.0 * pi * square(inner[e]); }
 double annulusMass(std::size_t e) {
-  return 1200.0 * pi * square(outer[e]) * (square(bore[e]) + square(outer[e])) / (square(bore[e]) - square(outer[e]));
+  return 1200.0 * pi * square(outer[e]) * (square(bore[e]) + square(outer[e])) /
+         (square(bore[e]) - square(outer[e]));
 }
 
 TEST(Equations, MudAddsItsMassAndItsBuoyancyInTheBoreOfEachElement) {
@@ -310,10 +347,12 @@ TEST(Equations, MudAddsItsMassAndItsBuoyancyInTheBoreOfEachElement) {
   });
   EXPECT_NEAR(scene.form(model.mass), m, 1e-11 * std::abs(m));
   const Vector3 down = scene.axes.transpose() * Vector3(0.0, 0.0, gravity);
-  expectLoad(scene, model, "mud", "1", alongString([&](const auto& a, const auto&, double z, std::size_t e) {
+  expectLoad(scene, model, "mud", "1",
+             alongString([&](const auto& a, const auto&, double z, std::size_t e) {
                const double buoyancy = 1200.0 * pi * (square(inner[e]) - square(outer[e]));
                const double drag = -0.013 * 1200.0 * 2.0 * outer[e] * square(annulusSpeed(e)) / 2.0;
-               return buoyancy * (down.x() * a.u.value(z) + down.y() * a.v.value(z) + down.z() * a.w.value(z)) +
+               return buoyancy * (down.x() * a.u.value(z) + down.y() * a.v.value(z) +
+                                  down.z() * a.w.value(z)) +
                       drag * a.w.value(z);
              }));
 }
@@ -331,23 +370,25 @@ TEST(Equations, MudDampsBendsAndCarriesTheFlowOfEachElement) {
   expectTerm(scene, model, model.damping, "mud rotation damping", "sqrt|Omega|",
              alongString([](const auto& a, const auto& b, double z, std::size_t e) {
                const double gamma = outer[e] / bore[e];
-               return 2.0 * std::sqrt(2.0) * pi * 1200.0 * outer[e] * std::sqrt(3e-6) * (1.0 + std::pow(gamma, 3)) /
-                      square(1.0 - square(gamma)) * lateral(a, b, z);
+               return 2.0 * std::sqrt(2.0) * pi * 1200.0 * outer[e] * std::sqrt(3e-6) *
+                      (1.0 + std::pow(gamma, 3)) / square(1.0 - square(gamma)) * lateral(a, b, z);
              }));
   expectTerm(scene, model, model.damping, "mud Coriolis", "1",
              alongString([](const auto& a, const auto& b, double z, std::size_t e) {
                return (innerMass(e) * innerSpeed(e) - annulusMass(e) * annulusSpeed(e)) *
-                      (a.u.value(z) * b.u.slope(z) + a.v.value(z) * b.v.slope(z) - a.u.slope(z) * b.u.value(z) -
-                       a.v.slope(z) * b.v.value(z));
+                      (a.u.value(z) * b.u.slope(z) + a.v.value(z) * b.v.slope(z) -
+                       a.u.slope(z) * b.u.value(z) - a.v.slope(z) * b.v.value(z));
              }));
-  expectTerm(scene, model, model.stiffness, "mud centrifugal", "1",
-             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
-               return -(innerMass(e) * square(innerSpeed(e)) + annulusMass(e) * square(annulusSpeed(e))) *
-                      (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z));
-             }));
+  expectTerm(
+      scene, model, model.stiffness, "mud centrifugal", "1",
+      alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+        return -(innerMass(e) * square(innerSpeed(e)) + annulusMass(e) * square(annulusSpeed(e))) *
+               (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z));
+      }));
 }
 
-// -------------------------------------------------------------------------------------------------------------------- loads
+// -------------------------------------------------------------------------------------------------
+// loads
 
 TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
   Scene scene;
@@ -357,14 +398,17 @@ TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
   const auto model = assemble(scene.equations());
   const Vector d = scene.dofs(firstMotion());
   const Matrix nodes = Eigen::Map<const Matrix>(d.data(), 6, 3);
-  expectLoad(scene, model, "path reaction", "1", (nodes.array() * scene.path.reaction.array()).sum());
+  expectLoad(scene, model, "path reaction", "1",
+             (nodes.array() * scene.path.reaction.array()).sum());
   expectLoad(scene, model, "weight on bit", "1", -1e4 * d(14));
   expectLoad(scene, model, "torque on bit", "1", -5e3 * d(17));
 }
 
-// -------------------------------------------------------------------------------------------------------------------- parts
+// -------------------------------------------------------------------------------------------------
+// parts
 
-/// Held dofs are left out; two parts have the matrices and loads of the whole between them, each node's load once.
+/// Held dofs are left out; two parts have the matrices and loads of the whole between them, each
+/// node's load once.
 TEST(Equations, PartsAddUpToTheWhole) {
   Scene scene;
   scene.turn();
@@ -386,7 +430,8 @@ TEST(Equations, PartsAddUpToTheWhole) {
     Matrix take = Matrix::Zero(part.model.size(), 12);
     for (int i = 0; i < part.model.size(); ++i)
       for (int j = 0; j < 12; ++j)
-        if (part.model.dofs[static_cast<std::size_t>(i)] == whole.dofs[static_cast<std::size_t>(j)]) take(i, j) = 1.0;
+        if (part.model.dofs[static_cast<std::size_t>(i)] == whole.dofs[static_cast<std::size_t>(j)])
+          take(i, j) = 1.0;
     ASSERT_EQ(take.sum(), part.model.size());
     EXPECT_EQ(part.reference, take * whole.initialDisplacement);
     EXPECT_EQ(part.model.initialDisplacement, part.reference);

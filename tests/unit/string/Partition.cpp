@@ -4,7 +4,6 @@
 #include "substructures/string/Partition.hpp"
 
 #include <gtest/gtest.h>
-
 #include <limits>
 
 #include "tests/unit/string/Decks.hpp"
@@ -16,7 +15,9 @@ using namespace tooljoint::string_::testing;
 namespace {
 
 /// Four components of five elements, 1 m each: nodes 0 to 20 at depths 0 to 20 m.
-DrillString string() { return build(list("Components", tube("pipe", 5.0, 5, 0.06, 0.05)) + array("Assembly", "4*pipe")); }
+DrillString string() {
+  return build(list("Components", tube("pipe", 5.0, 5, 0.06, 0.05)) + array("Assembly", "4*pipe"));
+}
 
 NodeState far(const DrillString& string) {
   NodeState state;
@@ -57,10 +58,12 @@ TEST(Partition, KeepsShortRunsBetweenKeptNodes) {
   rules.shortestRun = 3;
   EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)), (std::vector<int>{6, 7, 8, 9}));
   rules.shortestRun = 5;
-  EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)), (std::vector<int>{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14, 16, 17, 18, 19}));
+  EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)),
+            (std::vector<int>{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14, 16, 17, 18, 19}));
 }
 
-// What each rule of Retained Nodes keeps: gaps of 3 mm, -1 mm and 20 mm at nodes 3, 7 and 12; node 9 carries a gauge.
+// What each rule of Retained Nodes keeps: gaps of 3 mm, -1 mm and 20 mm at nodes 3, 7 and 12; node
+// 9 carries a gauge.
 TEST(Partition, RetainsNodesByTheirGapTheirContactOrTheirGauge) {
   DrillString s = string();
   s.nodes[9].gauge = true;
@@ -107,7 +110,8 @@ TEST(Partition, CutsAtNodesComponentsOrLengths) {
   PartitionRules rules;
   const auto ranges = [&] {
     std::vector<std::pair<int, int>> out;
-    for (const auto& part : cutParts(s, rules)) out.emplace_back(part.firstElement, part.lastElement);
+    for (const auto& part : cutParts(s, rules))
+      out.emplace_back(part.firstElement, part.lastElement);
     return out;
   };
   using Ranges = std::vector<std::pair<int, int>>;

@@ -17,12 +17,16 @@ const double pi = 3.14159265358979323846;
 DrillString reference() {
   const std::string inside =
       text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/helical_170m.xml") +
-      array("Assembly", "5*pipe, last pipe, 3*collar, stabiliser, 4*collar, stabiliser, 3*collar, bit") +
-      list("Material", real("Density", "7900") + real("Young Modulus", "2.03e11") + real("Poisson Ratio", "0.3"));
+      array("Assembly",
+            "5*pipe, last pipe, 3*collar, stabiliser, 4*collar, stabiliser, 3*collar, bit") +
+      list("Material", real("Density", "7900") + real("Young Modulus", "2.03e11") +
+                           real("Poisson Ratio", "0.3"));
   return build(inside, well::Well(well::helix(85.1, 0.5 * pi, 170.2), 0.108));
 }
 
-const Node& node(const DrillString& string, int number) { return string.nodes.at(static_cast<std::size_t>(number - 1)); }
+const Node& node(const DrillString& string, int number) {
+  return string.nodes.at(static_cast<std::size_t>(number - 1));
+}
 
 }  // namespace
 
@@ -31,7 +35,8 @@ TEST(ReferenceString, HasTheMeshOfThePaper) {
   EXPECT_EQ(string.elementCount(), 162);
   EXPECT_EQ(string.nodeCount(), 163);
   EXPECT_NEAR(string.length(), 170.2, 1e-10);
-  const std::vector<std::pair<int, double>> places = {{3, 3.6}, {21, 23.6}, {44, 49.5}, {82, 87.7}, {147, 154.7}};
+  const std::vector<std::pair<int, double>> places = {
+      {3, 3.6}, {21, 23.6}, {44, 49.5}, {82, 87.7}, {147, 154.7}};
   for (const auto& [number, s] : places) EXPECT_NEAR(node(string, number).s, s, 1e-10) << number;
 }
 
@@ -101,10 +106,12 @@ TEST(ReferenceString, HasTheMaterialOfTheDeck) {
 }
 
 TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
-  const std::string inside = text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/api_pipes.xml") +
-                             array("Assembly",
-                                   "2*5 in stand, 5 in HWDP stand, 2*8 in collar, under-gauge stabiliser, 3*6.5 in collar, "
-                                   "string stabiliser, 6.5 in collar, near-bit stabiliser, 8.5 in PDC bit");
+  const std::string inside =
+      text("Library", std::string(TOOLJOINT_SOURCE_DIR) + "/xml/components/api_pipes.xml") +
+      array(
+          "Assembly",
+          "2*5 in stand, 5 in HWDP stand, 2*8 in collar, under-gauge stabiliser, 3*6.5 in collar, "
+          "string stabiliser, 6.5 in collar, near-bit stabiliser, 8.5 in PDC bit");
   const DrillString string = build(inside);
   const auto weight = [&](const std::string& component) {  // kg/m of the first occurrence
     for (const auto* group : {&string.instances, &string.nested})
@@ -121,7 +128,8 @@ TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
     return 0.0;
   };
   const double poundPerFoot = 0.45359237 / 0.3048;
-  EXPECT_NEAR(weight("5 in drill pipe") / poundPerFoot, 20.9, 0.8);  // approximate weight with tool joints, API RP 7G
+  EXPECT_NEAR(weight("5 in drill pipe") / poundPerFoot, 20.9,
+              0.8);  // approximate weight with tool joints, API RP 7G
   EXPECT_NEAR(weight("5 in HWDP") / poundPerFoot, 49.3, 2.0);
   EXPECT_NEAR(weight("6.5 in collar") / poundPerFoot, 92.0, 1.0);
   EXPECT_NEAR(weight("8 in collar") / poundPerFoot, 150.0, 1.0);

@@ -15,7 +15,8 @@ namespace {
 std::vector<char> held(const std::string& inside, int nodes) {
   deck::ListSpec spec("scene", "A scene.");
   spec.list(supportParameters());
-  const deck::Deck deck = deck::Deck::parse(list("scene", list("Supports", inside)), "deck.xml", spec);
+  const deck::Deck deck =
+      deck::Deck::parse(list("scene", list("Supports", inside)), "deck.xml", spec);
   return readSupports(deck.list().sublist("Supports")).held(nodes);
 }
 
@@ -30,7 +31,8 @@ std::string faultOf(const std::string& inside) {
 
 std::string row(const std::vector<char>& flags, int node) {
   std::string text;
-  for (int c = 0; c < 6; ++c) text += flags[static_cast<std::size_t>(6 * (node - 1) + c)] != 0 ? '1' : '0';
+  for (int c = 0; c < 6; ++c)
+    text += flags[static_cast<std::size_t>(6 * (node - 1) + c)] != 0 ? '1' : '0';
   return text;
 }
 
@@ -45,8 +47,9 @@ TEST(Supports, DefaultsHoldTheTopAndKeepTheBitOnTheAxis) {
 }
 
 TEST(Supports, ReadsDofsAtEndsAndNamedNodes) {
-  const auto flags =
-      held(text("Top", "all") + text("Bit", "none") + list("clamp", whole("Node", 3) + text("Dofs", "u, theta_x w")), 4);
+  const auto flags = held(text("Top", "all") + text("Bit", "none") +
+                              list("clamp", whole("Node", 3) + text("Dofs", "u, theta_x w")),
+                          4);
   EXPECT_EQ(row(flags, 1), "111111");
   EXPECT_EQ(row(flags, 2), "000000");
   EXPECT_EQ(row(flags, 3), "101100");
@@ -63,11 +66,14 @@ TEST(Supports, FamiliesThatAreNotModelledAreHeldEverywhere) {
 
 TEST(Supports, FaultsNameTheirPlace) {
   EXPECT_NE(faultOf(text("Top", "u v theta_zz"))
-                .find("/scene/Supports/Top: \"theta_zz\" is not a degree of freedom. Did you mean \"theta_z\"?"),
+                .find("/scene/Supports/Top: \"theta_zz\" is not a degree of freedom. Did you mean "
+                      "\"theta_z\"?"),
             std::string::npos);
-  EXPECT_NE(faultOf(text("Dofs", "lateral axail")).find("Did you mean \"axial\"?"), std::string::npos);
+  EXPECT_NE(faultOf(text("Dofs", "lateral axail")).find("Did you mean \"axial\"?"),
+            std::string::npos);
   EXPECT_NE(faultOf(text("Dofs", "")).find("no family of dofs"), std::string::npos);
-  EXPECT_NE(faultOf(list("guide", whole("Node", 9) + text("Dofs", "u")))
-                .find("/scene/Supports/guide/Node: node 9 does not exist; the string has nodes 1 to 4."),
-            std::string::npos);
+  EXPECT_NE(
+      faultOf(list("guide", whole("Node", 9) + text("Dofs", "u")))
+          .find("/scene/Supports/guide/Node: node 9 does not exist; the string has nodes 1 to 4."),
+      std::string::npos);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// eps_t, eps_n and dyn on histories small enough to work out by hand.
-#include <gtest/gtest.h>
+#include "study/Metrics.hpp"
 
 #include <cmath>
+#include <gtest/gtest.h>
 #include <vector>
 
 #include "common/Error.hpp"
-#include "study/Metrics.hpp"
 
 namespace {
 
@@ -17,7 +17,9 @@ using namespace tooljoint;
 struct TwoNodes {
   std::vector<double> time{0.0, 1.0};
   std::vector<double> reference{3.0, 1.0, 2.0, 0.0, 1.0, 2.0, 4.0, 1.0, 2.0, 0.0, 1.0, 2.0};
-  study::HistoryView view(const std::vector<double>& d) const { return {time.data(), d.data(), 2, 2, 3}; }
+  study::HistoryView view(const std::vector<double>& d) const {
+    return {time.data(), d.data(), 2, 2, 3};
+  }
 };
 
 TEST(Metrics, AHistoryHasNoErrorAgainstItself) {
@@ -39,7 +41,8 @@ TEST(Metrics, ErrorOverTimeIsTheMeanOfTheComponents) {
 TEST(Metrics, AComponentThatNeverMovesIsLeftOut) {
   const TwoNodes h;
   auto changed = h.reference;
-  changed[4] += 0.1;  // v of node 2 at t = 0; its u is zero at all times and not judged: the mean is over v and w
+  changed[4] += 0.1;  // v of node 2 at t = 0; its u is zero at all times and not judged: the mean
+                      // is over v and w
   const auto error = study::errorOverNodes(h.view(changed), h.view(h.reference));
   ASSERT_EQ(error.value.size(), 2u);
   EXPECT_NEAR(error.value[1], 0.1 / std::sqrt(2.0) / 2.0, 1e-15);
@@ -51,16 +54,21 @@ TEST(Metrics, VibrationErrorDoesNotDivideByTheStaticOffset) {
   auto changed = h.reference;
   changed[6] += 0.5;  // the reference moves by 1 in u of node 1, from 3 to 4
   EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still), 0.5, 1e-15);
-  EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still, {1.0, 1.0}), 0.5, 1e-15);
+  EXPECT_NEAR(study::vibrationError(h.view(changed), h.view(h.reference), still, {1.0, 1.0}), 0.5,
+              1e-15);
 }
 
 TEST(Metrics, AMotionOfOneComponentIsJudgedByThatOne) {
   const std::vector<double> time{0.0, 1.0}, reference{1.0, 2.0}, changed{1.0, 2.5};
-  const auto view = [&](const std::vector<double>& d) { return study::HistoryView{time.data(), d.data(), 2, 1, 1, 1, 1}; };
+  const auto view = [&](const std::vector<double>& d) {
+    return study::HistoryView{time.data(), d.data(), 2, 1, 1, 1, 1};
+  };
   EXPECT_NEAR(study::errorOverTime(view(changed), view(reference)).max(), 0.25, 1e-15);
-  EXPECT_NEAR(study::errorOverNodes(view(changed), view(reference)).max(), 0.5 / std::sqrt(5.0), 1e-15);
+  EXPECT_NEAR(study::errorOverNodes(view(changed), view(reference)).max(), 0.5 / std::sqrt(5.0),
+              1e-15);
   EXPECT_NEAR(study::vibrationError(view(changed), view(reference), {1.0}), 0.5, 1e-15);
-  const study::HistoryView three{time.data(), reference.data(), 2, 1, 1};  // says it has three components to judge
+  const study::HistoryView three{time.data(), reference.data(), 2, 1,
+                                 1};  // says it has three components to judge
   EXPECT_THROW(study::errorOverTime(three, three), Error);
 }
 
@@ -70,7 +78,9 @@ TEST(Metrics, TheVibrationIsWhatTheHistorySays) {
   auto changed = h.reference;
   changed[8] += 0.5;  // w of node 1
   EXPECT_EQ(study::vibrationError(h.view(changed), h.view(h.reference), still), 0.0);
-  const auto all = [&](const std::vector<double>& d) { return study::HistoryView{h.time.data(), d.data(), 2, 2, 3, 3, 3}; };
+  const auto all = [&](const std::vector<double>& d) {
+    return study::HistoryView{h.time.data(), d.data(), 2, 2, 3, 3, 3};
+  };
   EXPECT_NEAR(study::vibrationError(all(changed), all(h.reference), still), 0.5, 1e-15);
   EXPECT_NEAR(all(h.reference).radius(1, 0), std::sqrt(21.0), 1e-15);
   EXPECT_THROW(study::vibrationError(all(changed), h.view(h.reference), still), Error);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Rows of a study: storing and reading back, ratios, tables.
-#include <gtest/gtest.h>
+#include "study/Row.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "study/Row.hpp"
 #include "study/RowStore.hpp"
 
 namespace {
@@ -77,9 +77,12 @@ TEST(StudyRow, AHalfWrittenTextIsRefused) {
 }
 
 TEST(Ratios, AgainstTheBaselineAndTheBestFullRun) {
-  // full: cost 2 at 1e-1 and 20 at 1e-3, so 2 sqrt(10) at 1e-2; CPU per simulated second is half of it
-  std::vector<study::StudyRow> rows{row("full", false, 1e-1, 2.0), row("full", false, 1e-3, 20.0), row("reduced", true, 1e-2, 1.0),
-                                    row("reduced", true, 1e-5, 1.0), row("slow", false, 1e-2, 100.0)};
+  // full: cost 2 at 1e-1 and 20 at 1e-3, so 2 sqrt(10) at 1e-2; CPU per simulated second is half of
+  // it
+  std::vector<study::StudyRow> rows{row("full", false, 1e-1, 2.0), row("full", false, 1e-3, 20.0),
+                                    row("reduced", true, 1e-2, 1.0),
+                                    row("reduced", true, 1e-5, 1.0),
+                                    row("slow", false, 1e-2, 100.0)};
   auto failed = row("full", false, 1e-3, 1.0);
   failed.status = "failed";
   rows.push_back(failed);
@@ -101,7 +104,8 @@ TEST(StudyTable, EveryRowHasEveryColumnAndAFailureItsReason) {
   const auto ratios = study::ratios(rows, "");
   const auto lines = split(study::table(rows, ratios), '\n');
   const auto header = split(lines[0], ',');
-  EXPECT_EQ(split(lines[1], ',').size(), header.size() + 1);  // its label "a, 0.1" is quoted and holds one more
+  EXPECT_EQ(split(lines[1], ',').size(),
+            header.size() + 1);  // its label "a, 0.1" is quoted and holds one more
   EXPECT_NE(lines[2].find("\"it blew up, at once\""), std::string::npos);
   EXPECT_EQ(lines[2].find("0.05"), std::string::npos) << "no number of a failed run may be shown";
   EXPECT_NE(study::printedTable(rows, ratios).find("failed: it blew up"), std::string::npos);
@@ -154,7 +158,8 @@ TEST(RowStore, GivesBackWhatItKeptUnderItsKey) {
   EXPECT_EQ(back->displacement, history.displacement);
   EXPECT_EQ(back->nodes, 1u);
 
-  for (const auto& entry : std::filesystem::directory_iterator(folder + "/cache")) std::ofstream(entry.path()) << "{";
+  for (const auto& entry : std::filesystem::directory_iterator(folder + "/cache"))
+    std::ofstream(entry.path()) << "{";
   EXPECT_FALSE(store.restore("0123456789abcdef", found)) << "a damaged file counts as absent";
   EXPECT_FALSE(store.restoreHistory("0123"));
   store.clear();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Statistics of motions whose quantiles, duties, spreads and spectra are known.
-#include <gtest/gtest.h>
+#include "study/Statistics.hpp"
 
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 #include <vector>
 
 #include "common/Error.hpp"
-#include "study/Statistics.hpp"
 
 namespace {
 
@@ -28,7 +28,8 @@ struct Sine {
     }
   }
   study::HistoryView view() const { return {time.data(), displacement.data(), time.size(), 2, 3}; }
-  study::MotionStatistics statistics(const std::vector<double>& clearance = {never, never}, const study::Window& window = {}) const {
+  study::MotionStatistics statistics(const std::vector<double>& clearance = {never, never},
+                                     const study::Window& window = {}) const {
     return study::statisticsOf(view(), speed, clearance, window);
   }
   std::vector<double> time, displacement, speed;
@@ -67,7 +68,8 @@ TEST(Statistics, RmsOfASineIsItsAmplitudeOverRootTwo) {
 }
 
 TEST(Statistics, ContactDutyOfASine) {
-  // 32 samples a period, 11.25 degrees apart: those of 33.75 to 146.25 degrees and their opposites lie above sin 30 degrees = 1/2
+  // 32 samples a period, 11.25 degrees apart: those of 33.75 to 146.25 degrees and their opposites
+  // lie above sin 30 degrees = 1/2
   const auto s = Sine(1.0).statistics({0.5, 0.4});
   EXPECT_NEAR(s.contactDuty[0], 22.0 / 32.0, 1e-12);
   EXPECT_EQ(s.contactDuty[1], 1.0);
@@ -94,7 +96,9 @@ TEST(Statistics, FewSamplesHaveNoSpectrum) {
   EXPECT_EQ(s.contactDuty.size(), 2u);
 }
 
-TEST(Statistics, OfAnEmptyWindowAreRefused) { EXPECT_THROW(Sine(1.0).statistics({never, never}, {50.0, 60.0}), Error); }
+TEST(Statistics, OfAnEmptyWindowAreRefused) {
+  EXPECT_THROW(Sine(1.0).statistics({never, never}, {50.0, 60.0}), Error);
+}
 
 TEST(StatisticsDifference, IsZeroAgainstItself) {
   const auto s = Sine(1.0).statistics({0.5, 0.4});

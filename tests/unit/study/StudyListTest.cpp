@@ -2,7 +2,6 @@
 /// \file
 /// The Study list: what it means, what it refuses, and the runs it makes.
 #include <gtest/gtest.h>
-
 #include <string>
 
 #include "common/Error.hpp"
@@ -14,11 +13,14 @@ namespace {
 
 using namespace tooljoint;
 
-study::StudySettings settingsOf(const std::string& body, const std::vector<std::string>& overrides = {}) {
+study::StudySettings settingsOf(const std::string& body,
+                                const std::vector<std::string>& overrides = {}) {
   deck::ListSpec scene("Scene", "A scene.");
   scene.list(study::parameters());
-  const auto deck = deck::Deck::parse("<ParameterList name=\"scene\"><ParameterList name=\"Study\">" + body + "</ParameterList></ParameterList>", "deck.xml",
-                                      scene, overrides);
+  const auto deck =
+      deck::Deck::parse("<ParameterList name=\"scene\"><ParameterList name=\"Study\">" + body +
+                            "</ParameterList></ParameterList>",
+                        "deck.xml", scene, overrides);
   return study::readStudy(deck.list().sublist("Study"));
 }
 
@@ -28,12 +30,16 @@ std::string text(const std::string& name, const std::string& value) {
 std::string texts(const std::string& name, const std::string& value) {
   return "<Parameter name=\"" + name + "\" type=\"Array(string)\" value=\"{" + value + "}\"/>";
 }
-std::string list(const std::string& name, const std::string& body) { return "<ParameterList name=\"" + name + "\">" + body + "</ParameterList>"; }
-std::string dimension(const std::string& name, const std::string& parameter, const std::string& values) {
+std::string list(const std::string& name, const std::string& body) {
+  return "<ParameterList name=\"" + name + "\">" + body + "</ParameterList>";
+}
+std::string dimension(const std::string& name, const std::string& parameter,
+                      const std::string& values) {
   return list(name, text("Parameter", parameter) + texts("Values", values));
 }
 
-const std::string full = list("Methods", list("explicit", text("Model", "Full") + texts("Set", "Transient/Integrator=RK4")));
+const std::string full = list(
+    "Methods", list("explicit", text("Model", "Full") + texts("Set", "Transient/Integrator=RK4")));
 
 void refuses(const std::string& body, const std::string& sentence) {
   try {
@@ -59,19 +65,30 @@ TEST(StudyList, DefaultsAreATightReferenceAndATighterCheck) {
 
 TEST(StudyList, RefusesWhatMakesNoSense) {
   refuses(list("Methods", ""), "Study/Methods holds no method");
-  refuses(list("Methods", list("a", text("Model", "Full") + list("Sweep", ""))), "Study/Methods/a/Sweep is empty");
-  refuses(list("Methods", list("a", text("Model", "Full") + list("Sweep", dimension("step", "Transient/Step", "")))),
+  refuses(list("Methods", list("a", text("Model", "Full") + list("Sweep", ""))),
+          "Study/Methods/a/Sweep is empty");
+  refuses(list("Methods", list("a", text("Model", "Full") +
+                                        list("Sweep", dimension("step", "Transient/Step", "")))),
           "Study/Methods/a/Sweep/step/Values is empty");
-  refuses(list("Methods", list("a", text("Model", "Full")) + list("b", text("Model", "Reduced") + text("Label", "a"))),
+  refuses(list("Methods", list("a", text("Model", "Full")) +
+                              list("b", text("Model", "Reduced") + text("Label", "a"))),
           "Study/Methods/b has the label \"a\" of the method \"a\"");
-  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Transient/Step"))), "which is no override");
-  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "!"))), "which is no override");
-  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Output/CSV=false"))), "belongs to the whole study");
-  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Transient/End Time=1"))), "all runs must be sampled at the same times");
+  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Transient/Step"))),
+          "which is no override");
+  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "!"))),
+          "which is no override");
+  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Output/CSV=false"))),
+          "belongs to the whole study");
+  refuses(list("Methods", list("a", text("Model", "Full") + texts("Set", "Transient/End Time=1"))),
+          "all runs must be sampled at the same times");
   refuses(full + list("Reference", texts("Set", "Transient/Step=1e-5")), "Add a list Check");
   refuses(full + list("Check", texts("Set", "")), "changes nothing");
-  refuses(full + list("Published", list("p", "<Parameter name=\"CPU Time\" type=\"Array(double)\" value=\"{1, 2}\"/>" + texts("Points", "one"))),
-          "has 1 entries, CPU Time has 2");
+  refuses(
+      full +
+          list("Published",
+               list("p", "<Parameter name=\"CPU Time\" type=\"Array(double)\" value=\"{1, 2}\"/>" +
+                             texts("Points", "one"))),
+      "has 1 entries, CPU Time has 2");
 }
 
 TEST(StudyList, SaysAllFaultsAtOnce) {
@@ -86,9 +103,13 @@ TEST(StudyList, SaysAllFaultsAtOnce) {
 }
 
 TEST(Expansion, IsTheProductWithTheLastDimensionAlongALine) {
-  const auto s = settingsOf(list("Methods", list("cb", text("Model", "Reduced") + text("Label", "CB") + texts("Set", "Transient/Step=1e-3") +
-                                                           list("Sweep", dimension("state", "Reduction/Initial State", "Keep static, Least squares") +
-                                                                             dimension("modes", "Reduction/Modes", "0, 4, 8")))));
+  const auto s = settingsOf(list(
+      "Methods",
+      list("cb",
+           text("Model", "Reduced") + text("Label", "CB") + texts("Set", "Transient/Step=1e-3") +
+               list("Sweep",
+                    dimension("state", "Reduction/Initial State", "Keep static, Least squares") +
+                        dimension("modes", "Reduction/Modes", "0, 4, 8")))));
   const auto runs = study::expand(s);
   ASSERT_EQ(runs.size(), 6u);
   EXPECT_EQ(runs[1].label, "CB, Keep static, Modes 4");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Steps of generalized-alpha in which walls are met as impacts: what is left at their end is in balance.
+/// Steps of generalized-alpha in which walls are met as impacts: what is left at their end is in
+/// balance.
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
@@ -8,7 +9,8 @@
 namespace tooljoint::transient::testing {
 namespace {
 
-/// A chain of 400 consistent masses of 1 kg falls at 1 m/s; two of its nodes meet hard floors, far from each other and not together.
+/// A chain of 400 consistent masses of 1 kg falls at 1 m/s; two of its nodes meet hard floors, far
+/// from each other and not together.
 model::SecondOrderModel chainOntoTwoFloors() {
   constexpr int n = 400;
   auto chain = springChain(n, 1.0, 10.0, 1e6);
@@ -31,7 +33,8 @@ model::SecondOrderModel chainOntoTwoFloors() {
   return chain;
 }
 
-/// M q'' + C v + K q = F + R'f: impacts act in full on q'' too, near the floors and (by M^-1, which falls by 3.7 from node to node) nowhere else.
+/// M q'' + C v + K q = F + R'f: impacts act in full on q'' too, near the floors and (by M^-1, which
+/// falls by 3.7 from node to node) nowhere else.
 TEST(AlphaStep, EndsInBalanceWhereWallsAreMetAsImpacts) {
   const auto model = chainOntoTwoFloors();
   const auto& floor = model.points[0];
@@ -50,8 +53,11 @@ TEST(AlphaStep, EndsInBalanceWhereWallsAreMetAsImpacts) {
     floor.law->evaluate(0.0, {0, 1}, d.data(), v.data(), f.data());
     for (int p : {0, 1}) hit[p] += f[p] > 1e3 ? 1 : 0;
     const Vector inertia = model.mass * samples.a[i];
-    const Vector residual = inertia + model.dampingAt(0.0) * samples.v[i] + model.stiffnessAt(0.0) * samples.q[i] - floor.rows.transpose() * f;
-    EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-7 * std::max(inertia.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff())) << "step " << i;
+    const Vector residual = inertia + model.dampingAt(0.0) * samples.v[i] +
+                            model.stiffnessAt(0.0) * samples.q[i] - floor.rows.transpose() * f;
+    EXPECT_LT(residual.cwiseAbs().maxCoeff(),
+              1e-7 * std::max(inertia.cwiseAbs().maxCoeff(), f.cwiseAbs().maxCoeff()))
+        << "step " << i;
   }
   EXPECT_GT(hit[0], 0);
   EXPECT_GT(hit[1], 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and anything else.
+/// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and anything
+/// else.
 #include "linalg/BlockFactor.hpp"
 
 #include <Eigen/LU>
@@ -13,8 +14,9 @@ namespace {
 
 using Edges = std::vector<std::pair<int, int>>;
 
-/// A random unsymmetric matrix with blocks of these widths and couplings along the edges, strong on the diagonal; rows and
-/// columns differ in size by up to 1e10, as forces and moments do. Dofs of a group are scattered over the numbering.
+/// A random unsymmetric matrix with blocks of these widths and couplings along the edges, strong on
+/// the diagonal; rows and columns differ in size by up to 1e10, as forces and moments do. Dofs of a
+/// group are scattered over the numbering.
 struct Sample {
   Matrix dense;
   Sparse sparse;
@@ -62,7 +64,8 @@ Vector inPositions(const BlockPattern& pattern, const Vector& x) {
 /// Entries of the inverse on the pattern, rows and columns scaled by the diagonal.
 void expectInverse(const BlockPattern& pattern, const double* inverse, const Matrix& dense) {
   const Vector scale = dense.diagonal().cwiseAbs().cwiseSqrt();
-  const Matrix scaled = scale.cwiseInverse().asDiagonal() * dense * scale.cwiseInverse().asDiagonal();
+  const Matrix scaled =
+      scale.cwiseInverse().asDiagonal() * dense * scale.cwiseInverse().asDiagonal();
   const Matrix expected = scaled.inverse();
   const double tolerance = 1e-9 * expected.cwiseAbs().maxCoeff();
   const auto& dof = pattern.partition().dof;
@@ -70,18 +73,21 @@ void expectInverse(const BlockPattern& pattern, const double* inverse, const Mat
     for (int q = 0; q < pattern.size(); ++q) {
       if (pattern.find(pattern.blockOf(p), pattern.blockOf(q)) < 0) continue;
       const int i = dof[static_cast<std::size_t>(p)], j = dof[static_cast<std::size_t>(q)];
-      ASSERT_NEAR(inverse[pattern.address(p, q)] * scale[i] * scale[j], expected(i, j), tolerance) << i << " " << j;
+      ASSERT_NEAR(inverse[pattern.address(p, q)] * scale[i] * scale[j], expected(i, j), tolerance)
+          << i << " " << j;
     }
 }
 
 /// Largest backward error of the solution and error of the product.
 void expectSolves(const Sample& sample) {
-  const BlockPattern pattern(partitionDofs({&sample.sparse}, sample.group, sample.kind), {&sample.sparse});
+  const BlockPattern pattern(partitionDofs({&sample.sparse}, sample.group, sample.kind),
+                             {&sample.sparse});
   const int n = pattern.size();
   BlockValues values(pattern.storage(), 0.0);
   pattern.add(sample.sparse, 1.0, values);
   BlockFactor factor(pattern);
-  for (int repeat = 0; repeat < 2; ++repeat) {  // the second factorisation must not see what the first left behind
+  for (int repeat = 0; repeat < 2;
+       ++repeat) {  // the second factorisation must not see what the first left behind
     std::copy(values.begin(), values.end(), factor.values());
     ASSERT_EQ(factor.factor(), -1);
   }
@@ -90,7 +96,8 @@ void expectSolves(const Sample& sample) {
   Vector solution = inPositions(pattern, b);
   factor.solve(solution.data());
   Vector back(n);
-  for (int i = 0; i < n; ++i) back[pattern.partition().dof[static_cast<std::size_t>(i)]] = solution[i];
+  for (int i = 0; i < n; ++i)
+    back[pattern.partition().dof[static_cast<std::size_t>(i)]] = solution[i];
   const Vector residual = (sample.dense * back - b).cwiseAbs();
   const Vector scale = sample.dense.cwiseAbs() * back.cwiseAbs() + b.cwiseAbs();
   EXPECT_LT(residual.cwiseQuotient(scale).maxCoeff(), 1e-11);
@@ -106,11 +113,12 @@ void expectSolves(const Sample& sample) {
   const Vector size = inPositions(pattern, sample.dense.cwiseAbs() * x.cwiseAbs());
   EXPECT_LT((y - expected).cwiseAbs().cwiseQuotient(size).maxCoeff(), 1e-14);
   EXPECT_FALSE(product.isSymmetric());
-  EXPECT_NEAR(product.form(values.data(), in.data()), x.dot(b), 1e-14 * x.cwiseAbs().dot(sample.dense.cwiseAbs() * x.cwiseAbs()));
+  EXPECT_NEAR(product.form(values.data(), in.data()), x.dot(b),
+              1e-14 * x.cwiseAbs().dot(sample.dense.cwiseAbs() * x.cwiseAbs()));
 }
 
-/// A x and x'A x of a symmetric chain of blocks (but for its diagonal blocks, if so wanted), whole and in runs, against Eigen's
-/// sparse product.
+/// A x and x'A x of a symmetric chain of blocks (but for its diagonal blocks, if so wanted), whole
+/// and in runs, against Eigen's sparse product.
 void expectSymmetricProduct(const std::vector<int>& widths, bool skewDiagonal = false) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -141,7 +149,8 @@ void expectSymmetricProduct(const std::vector<int>& widths, bool skewDiagonal = 
   const Vector size = inPositions(pattern, matrix.cwiseAbs() * x.cwiseAbs());
   Vector y = Vector::Zero(n), parts = y;
   product.addTo(values.data(), in.data(), y.data());
-  EXPECT_LT((y - inPositions(pattern, matrix * x)).cwiseAbs().cwiseQuotient(size).maxCoeff(), 1e-14);
+  EXPECT_LT((y - inPositions(pattern, matrix * x)).cwiseAbs().cwiseQuotient(size).maxCoeff(),
+            1e-14);
   double form = 0;
   for (const BlockRange& run : blockRuns(pattern, 20)) {
     product.addTo(values.data(), in.data(), parts.data(), 1.0, run);
@@ -168,7 +177,9 @@ TEST(BlockProduct, ofLongSymmetricMatrices) {
   expectSymmetricProduct(std::vector<int>(5000, 6), true);
 }
 
-TEST(BlockFactor, chainOfSixWithHeldEnds) { expectSolves(Sample({2, 6, 6, 6, 6, 6, 6, 4}, chain(8), 1)); }
+TEST(BlockFactor, chainOfSixWithHeldEnds) {
+  expectSolves(Sample({2, 6, 6, 6, 6, 6, 6, 4}, chain(8), 1));
+}
 TEST(BlockFactor, chainsOfAnyWidth) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -177,17 +188,24 @@ TEST(BlockFactor, chainsOfAnyWidth) {
     expectSolves(Sample(widths, chain(9), seed));
   }
 }
-TEST(BlockFactor, wideBlocksAcrossSeveralPanels) { expectSolves(Sample({6, 61, 6, 30, 6}, chain(5), 3)); }
+TEST(BlockFactor, wideBlocksAcrossSeveralPanels) {
+  expectSolves(Sample({6, 61, 6, 30, 6}, chain(5), 3));
+}
 TEST(BlockFactor, loop) {
   auto edges = chain(9);
   edges.emplace_back(8, 0);
   expectSolves(Sample({3, 6, 6, 2, 9, 6, 6, 1, 5}, edges, 4));
 }
-TEST(BlockFactor, star) { expectSolves(Sample({6, 3, 6, 9, 1, 6}, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}, 5)); }
-TEST(BlockFactor, chainOfInterfacesWithModesBetween) {
-  expectSolves(Sample({6, 6, 6, 6, 12, 25, 7}, {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 6));
+TEST(BlockFactor, star) {
+  expectSolves(Sample({6, 3, 6, 9, 1, 6}, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}, 5));
 }
-TEST(BlockFactor, everythingCoupled) { expectSolves(Sample({4, 5, 6}, {{0, 1}, {1, 2}, {0, 2}}, 7)); }
+TEST(BlockFactor, chainOfInterfacesWithModesBetween) {
+  expectSolves(Sample({6, 6, 6, 6, 12, 25, 7},
+                      {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 6));
+}
+TEST(BlockFactor, everythingCoupled) {
+  expectSolves(Sample({4, 5, 6}, {{0, 1}, {1, 2}, {0, 2}}, 7));
+}
 TEST(BlockFactor, grid) {
   Edges edges;
   for (int i = 0; i < 16; ++i) {
@@ -204,22 +222,29 @@ BlockPattern patternOf(const Sample& sample) {
 
 TEST(BlockFactor, chainsAndStarsFillNothing) {
   EXPECT_EQ(BlockFactor(patternOf(Sample(std::vector<int>(12, 6), chain(12), 1))).fill(), 0u);
-  EXPECT_EQ(BlockFactor(patternOf(Sample({6, 3, 6, 9, 1, 6}, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}, 1))).fill(), 0u);
+  EXPECT_EQ(BlockFactor(
+                patternOf(Sample({6, 3, 6, 9, 1, 6}, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}, 1)))
+                .fill(),
+            0u);
 }
 
 TEST(BlockFactor, modesBetweenNodesFillNothing) {
-  const Sample coupled({6, 6, 6, 6, 12, 25, 7}, {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 1);
+  const Sample coupled({6, 6, 6, 6, 12, 25, 7},
+                       {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 1);
   EXPECT_EQ(BlockFactor(patternOf(coupled)).fill(), 0u);
 }
 
 TEST(BlockFactor, workIsLinearInTheLengthOfAChain) {
-  const double shorter = BlockFactor(patternOf(Sample(std::vector<int>(20, 6), chain(20), 1))).solveWork();
-  const double longer = BlockFactor(patternOf(Sample(std::vector<int>(40, 6), chain(40), 1))).solveWork();
+  const double shorter =
+      BlockFactor(patternOf(Sample(std::vector<int>(20, 6), chain(20), 1))).solveWork();
+  const double longer =
+      BlockFactor(patternOf(Sample(std::vector<int>(40, 6), chain(40), 1))).solveWork();
   EXPECT_NEAR(longer / shorter, 2.0, 0.06);
 }
 
 TEST(BlockFactor, invertsWhatIsWanted) {
-  const Sample sample({6, 6, 6, 6, 12, 25, 7}, {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 6);
+  const Sample sample({6, 6, 6, 6, 12, 25, 7},
+                      {{0, 1}, {1, 2}, {2, 3}, {4, 0}, {4, 1}, {5, 1}, {5, 2}, {6, 2}, {6, 3}}, 6);
   const auto pattern = patternOf(sample);
   BlockValues values(pattern.storage(), 0.0);
   pattern.add(sample.sparse, 1.0, values);
@@ -232,17 +257,20 @@ TEST(BlockFactor, invertsWhatIsWanted) {
   const Matrix expected = sample.dense.inverse();
   for (int p = pattern.start(2); p < pattern.start(3); ++p) {
     const int i = pattern.partition().dof[static_cast<std::size_t>(p)];
-    EXPECT_NEAR(factor.inverse()[pattern.address(p, p)], expected(i, i), 1e-9 * std::abs(expected(i, i)));
+    EXPECT_NEAR(factor.inverse()[pattern.address(p, p)], expected(i, i),
+                1e-9 * std::abs(expected(i, i)));
   }
 }
 
-// A force on one block of a stiff chain: the whole answer without a bound, what is above the bound with one, and only there.
+// A force on one block of a stiff chain: the whole answer without a bound, what is above the bound
+// with one, and only there.
 TEST(BlockFactor, solvesNearAForce) {
   for (const int width : {6, 3, 70}) {
     Sample sample(std::vector<int>(60, width), chain(60), 3);
     for (int i = 0; i < sample.dense.rows(); ++i)
       for (int j = 0; j < sample.dense.cols(); ++j)
-        if (sample.dense(i, j) != 0.0) sample.dense(i, j) = (i == j ? 1.0 : 0.0) + 0.04 / width * std::sin(i + 3.0 * j);
+        if (sample.dense(i, j) != 0.0)
+          sample.dense(i, j) = (i == j ? 1.0 : 0.0) + 0.04 / width * std::sin(i + 3.0 * j);
     sample.sparse = sample.dense.sparseView();
     const auto pattern = patternOf(sample);
     BlockValues values(pattern.storage(), 0.0);
@@ -328,7 +356,8 @@ TEST(Partition, uncoupledFamiliesGetBlocksOfTheirOwn) {
 TEST(Partition, denseInterfaceIsOneBlockAndModesAnother) {
   const Matrix a = Matrix::Ones(10, 10);
   const Sparse sparse = a.sparseView();
-  const auto partition = partitionDofs({&sparse}, {0, 0, 1, 1, 2, 2, 3, 3, 3, 3}, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1});
+  const auto partition =
+      partitionDofs({&sparse}, {0, 0, 1, 1, 2, 2, 3, 3, 3, 3}, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1});
   EXPECT_EQ(partition.start, (std::vector<int>{0, 6, 10}));
 }
 
@@ -362,12 +391,14 @@ TEST(BlockProduct, sharesTheListOfBlocksThatAreReadAlike) {
   BlockValues values(pattern.storage(), 1.0), diagonal(pattern.storage(), 0.0);
   diagonal[pattern.offset(pattern.find(0, 0))] = 3.0;
   const BlockProduct product(pattern, {&values});
-  const BlockProduct alike(pattern, {&values}, &product), other(pattern, {&diagonal}, &product), alone(pattern, {&values});
+  const BlockProduct alike(pattern, {&values}, &product), other(pattern, {&diagonal}, &product),
+      alone(pattern, {&values});
   EXPECT_TRUE(alike.shares(product));
   EXPECT_FALSE(other.shares(product));
   EXPECT_FALSE(alone.shares(product));
   const Vector x = Vector::LinSpaced(6, 1, 6);
-  for (const auto& [each, its, sum] : {std::make_tuple(&alike, &values, 21.0), std::make_tuple(&other, &diagonal, 3.0)}) {
+  for (const auto& [each, its, sum] :
+       {std::make_tuple(&alike, &values, 21.0), std::make_tuple(&other, &diagonal, 3.0)}) {
     Vector y = Vector::Zero(6);
     each->addTo(its->data(), x.data(), y.data());
     EXPECT_EQ(y[0], sum);
@@ -382,11 +413,15 @@ TEST(BlockProduct, ofNodesBesideModes) {
     Matrix a = Matrix::Random(n, n);
     if (symmetric) a = (a + a.transpose()).eval();
     std::vector<int> group;
-    for (int b = 0; b < 5; ++b) group.insert(group.end(), static_cast<std::size_t>(widths[static_cast<std::size_t>(b)]), b);
+    for (int b = 0; b < 5; ++b)
+      group.insert(group.end(), static_cast<std::size_t>(widths[static_cast<std::size_t>(b)]), b);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        const int far = std::abs(group[static_cast<std::size_t>(i)] - group[static_cast<std::size_t>(j)]);
-        if (far > 1 || (far == 0 && i != j && widths[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])] == 6)) a(i, j) = 0;
+        const int far =
+            std::abs(group[static_cast<std::size_t>(i)] - group[static_cast<std::size_t>(j)]);
+        if (far > 1 || (far == 0 && i != j &&
+                        widths[static_cast<std::size_t>(group[static_cast<std::size_t>(i)])] == 6))
+          a(i, j) = 0;
       }
     const Sparse sparse = a.sparseView();
     const BlockPattern pattern(partitionDofs({&sparse}, group, group), {&sparse});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The file of a checkpoint: everything in it comes back, and no changed byte is taken; and which models and steps it goes on
-/// with.
+/// The file of a checkpoint: everything in it comes back, and no changed byte is taken; and which
+/// models and steps it goes on with.
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
@@ -25,7 +25,9 @@ std::string failure(const std::function<void()>& work) {
   return "";
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 Checkpoint full() {
   Checkpoint point;
@@ -61,8 +63,8 @@ TEST(Checkpoints, comeBackWhole) {
   EXPECT_EQ(after.state.v, before.state.v);
   EXPECT_EQ(after.state.a, before.state.a);
   const auto& c = after.counters;
-  EXPECT_EQ((std::vector<long>{c.steps, c.rejected, c.halved, c.newtonIterations, c.unconvergedSteps, c.factorisations,
-                               c.rightHandSides}),
+  EXPECT_EQ((std::vector<long>{c.steps, c.rejected, c.halved, c.newtonIterations,
+                               c.unconvergedSteps, c.factorisations, c.rightHandSides}),
             (std::vector<long>{1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(c.minStep, 0.8);
   EXPECT_EQ(c.maxStep, 0.9);
@@ -81,7 +83,8 @@ TEST(Checkpoints, areRefusedWithAnyBitChanged) {
     for (const int bit : {0, 3, 7}) {
       auto changed = bytes;
       changed[i] = static_cast<char>(changed[i] ^ (1 << bit));
-      EXPECT_THROW(Checkpoint::decode(changed, "a file"), FileError) << "byte " << i << ", bit " << bit;
+      EXPECT_THROW(Checkpoint::decode(changed, "a file"), FileError)
+          << "byte " << i << ", bit " << bit;
     }
 }
 
@@ -101,7 +104,8 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   EXPECT_TRUE(says(said("something else entirely, and long enough to be read as numbers"),
                    "\"DIR/checkpoint.bin\" is not a checkpoint."));
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
-  EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" + std::string(200, '\0')),
+  EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
+                        std::string(200, '\0')),
                    "has the layout 5 of another version of the program; this one reads layout 6"));
   auto changed = bytes;
   changed[20] = 7;  // the layout follows the magic
@@ -110,7 +114,8 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
       << said(bytes.substr(0, bytes.size() - 5));
   changed = bytes;
   changed.back() = static_cast<char>(changed.back() ^ 1);
-  EXPECT_TRUE(says(said(changed), "is damaged: its SHA-256 does not match its content")) << said(changed);
+  EXPECT_TRUE(says(said(changed), "is damaged: its SHA-256 does not match its content"))
+      << said(changed);
   EXPECT_TRUE(says(failure([] { Checkpoint::read("/nowhere/checkpoint.bin"); }), "cannot be read"));
   EXPECT_TRUE(says(failure([] { full().write("/nowhere/checkpoint.bin"); }), "cannot be written"));
 }
@@ -125,7 +130,8 @@ TEST(Checkpoints, comeAtMultiplesOfTheirInterval) {
   Keep samples;
   integrate(model, o, samples, hooks);
   ASSERT_EQ(points.size(), 2u);  // none at the end
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(points[i].state.t, 0.1 * static_cast<double>(i + 1), 1.1e-3);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(points[i].state.t, 0.1 * static_cast<double>(i + 1), 1.1e-3);
   // a run that goes on has those that are left
   const auto first = points.front();
   points.clear();
@@ -156,9 +162,14 @@ TEST(Identity, differsForEveryInput) {
       {"load", [](Model& m) { m.loads[1].vector[3] += 1e-9; }},
       {"law of load", [](Model& m) { m.loads[1].law = 0; }},
       {"a load more", [](Model& m) { m.loads.push_back(m.loads[0]); }},
-      {"law in time", [](Model& m) { m.laws.own()[1].value = [](double t) { return 1 + 0.5 * std::sin(40.0001 * t); }; }},
-      {"stiffness of points", [](Model& m) { m.points[0].law = std::make_shared<Floor>(6, 1.000001e6, 2e3, 7e11); }},
-      {"damping of points", [](Model& m) { m.points[0].law = std::make_shared<Floor>(6, 1e6, 2.000001e3, 7e11); }},
+      {"law in time",
+       [](Model& m) {
+         m.laws.own()[1].value = [](double t) { return 1 + 0.5 * std::sin(40.0001 * t); };
+       }},
+      {"stiffness of points",
+       [](Model& m) { m.points[0].law = std::make_shared<Floor>(6, 1.000001e6, 2e3, 7e11); }},
+      {"damping of points",
+       [](Model& m) { m.points[0].law = std::make_shared<Floor>(6, 1e6, 2.000001e3, 7e11); }},
       {"rows of points", [](Model& m) { m.points[0].rows.coeffRef(4, 4) = 1 + 1e-9; }},
       {"offset of points", [](Model& m) { m.points[0].offset[5] = 1e-9; }},
       {"initial displacement", [](Model& m) { m.initialDisplacement[0] += 1e-12; }},
@@ -176,7 +187,8 @@ TEST(Identity, differsForEveryInput) {
       {"step", [](TransientOptions& p) { p.step = 1e-3; }},
       {"sampling", [](TransientOptions& p) { p.sampling = 0.001; }},
       {"ledger", [](TransientOptions& p) { p.ledger = false; }},
-      {"parameter of the integrator", [](TransientOptions& p) { p.own.set("Spectral Radius", 0.80000001); }},
+      {"parameter of the integrator",
+       [](TransientOptions& p) { p.own.set("Spectral Radius", 0.80000001); }},
   };
   for (const auto& [what, change] : steps) {
     auto other = o;
@@ -200,9 +212,14 @@ TEST(Identity, isAskedForByARestart) {
   const auto o = options("RK4", 0.3, 1e-4, 0.005);
   integrate(model, o, samples, hooks);
   again.resume = &kept;
-  EXPECT_TRUE(says(failure([&] { integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples, again); }),
+  EXPECT_TRUE(says(failure([&] {
+                     integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples,
+                               again);
+                   }),
                    "written by the integrator \"RK4\""));
-  EXPECT_TRUE(says(failure([&] { integrate(model, options("RK4", 0.3, 2e-4, 0.005), samples, again); }), "other steps"));
+  EXPECT_TRUE(
+      says(failure([&] { integrate(model, options("RK4", 0.3, 2e-4, 0.005), samples, again); }),
+           "other steps"));
   model.loads[1].vector[3] += 1e-9;
   EXPECT_TRUE(says(failure([&] { integrate(model, o, samples, again); }), "another model"));
 }

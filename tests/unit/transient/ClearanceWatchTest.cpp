@@ -3,16 +3,16 @@
 /// No point loses its clearance in its sleep, and most of them do sleep.
 #include "transient/ClearanceWatch.hpp"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <random>
 
 namespace tooljoint::transient {
 namespace {
 
-/// Points of three coordinates (two of them lengths) on one block of coordinates, clearance = gap - |(d_0, d_1)|.
+/// Points of three coordinates (two of them lengths) on one block of coordinates, clearance = gap -
+/// |(d_0, d_1)|.
 struct Cloud {
   static constexpr int points = 40, width = 3, coordinates = 30;
   std::vector<int> rowBegin{0}, column;
@@ -121,8 +121,8 @@ TEST(ClearanceWatch, PointsFarFromTheWallSleep) {
   EXPECT_LT(calm.looks, 4000L * Cloud::points / 2);
 }
 
-/// Rows of one sign that all coordinates pull alike: the bound is the way the point really goes, so it is looked at when it touches
-/// and not long before.
+/// Rows of one sign that all coordinates pull alike: the bound is the way the point really goes, so
+/// it is looked at when it touches and not long before.
 TEST(ClearanceWatch, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
   constexpr int points = 3, width = 2, coordinates = 20;
   std::vector<int> rowBegin{0}, column;
@@ -130,7 +130,8 @@ TEST(ClearanceWatch, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
   for (int row = 0; row < points * width; ++row) {
     for (int j = 0; j < coordinates; ++j) {
       column.push_back(j);
-      value.push_back(row % width == 0 ? 3.0 : 4.0);  // 5 m along (0.6, 0.8) per unit of each coordinate
+      value.push_back(row % width == 0 ? 3.0
+                                       : 4.0);  // 5 m along (0.6, 0.8) per unit of each coordinate
     }
     rowBegin.push_back(static_cast<int>(column.size()));
   }
@@ -138,7 +139,9 @@ TEST(ClearanceWatch, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
   const std::vector<int> group(coordinates, 0);
   const linalg::BlockPattern pattern(linalg::partitionDofs({&full}, group, group), {&full});
   ClearanceWatch watch(points, width, width, rowBegin, column, value, pattern);
-  const auto at = [](double way) { return Vector(Vector::Constant(coordinates, way / (5.0 * coordinates))); };
+  const auto at = [](double way) {
+    return Vector(Vector::Constant(coordinates, way / (5.0 * coordinates)));
+  };
   Vector q = at(0.0);
   const double clearance[points] = {0.4, 0.5, 0.9};
   watch.wake(q.data());

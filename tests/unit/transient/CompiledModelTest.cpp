@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The compiled model says what the model says: laws, products, loads, point forces and their tangents.
+/// The compiled model says what the model says: laws, products, loads, point forces and their
+/// tangents.
 #include "transient/CompiledModel.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -38,7 +39,9 @@ model::SecondOrderModel rich() {
   auto model = denseModel(M, banded(0), banded(20), 3);
   const int omega = model.lawIndex({"Omega", [](double t) { return 3 * t; }});
   const int root = model.lawIndex({"sqrt|Omega|", [](double t) { return std::sqrt(3 * t); }});
-  model.laws.push_back({"Omega", [](double t) { return 3 * t; }});  // the same law once more, as couplings may leave it
+  model.laws.push_back({"Omega", [](double t) {
+                          return 3 * t;
+                        }});  // the same law once more, as couplings may leave it
   const int again = static_cast<int>(model.laws.size()) - 1;
   model.damping.push_back({"gyroscopic", banded(0).sparseView(), omega});
   model.damping.push_back({"drag", banded(0).sparseView(), root});
@@ -80,10 +83,14 @@ TEST(CompiledModel, productsAndLoadsAreThoseOfTheModelAtEveryTime) {
         EXPECT_LT((back - a * x).cwiseAbs().maxCoeff(), 1e-13) << "t = " << t;
       }
     };
-    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows); }, Matrix(source.mass));
-    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows, -3.0); }, -3.0 * Matrix(source.mass));
-    expectProduct([&](linalg::BlockRange rows) { model.addDamping(xp.data(), y.data(), rows); }, Matrix(source.dampingAt(t)));
-    expectProduct([&](linalg::BlockRange rows) { model.addStiffness(xp.data(), y.data(), rows); }, Matrix(source.stiffnessAt(t)));
+    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows); },
+                  Matrix(source.mass));
+    expectProduct([&](linalg::BlockRange rows) { model.addMass(xp.data(), y.data(), rows, -3.0); },
+                  -3.0 * Matrix(source.mass));
+    expectProduct([&](linalg::BlockRange rows) { model.addDamping(xp.data(), y.data(), rows); },
+                  Matrix(source.dampingAt(t)));
+    expectProduct([&](linalg::BlockRange rows) { model.addStiffness(xp.data(), y.data(), rows); },
+                  Matrix(source.stiffnessAt(t)));
     model.toDofs(Eigen::Map<const Vector>(model.load(), n), back);
     EXPECT_LT((back - source.loadAt(t)).cwiseAbs().maxCoeff(), 1e-14);
   }
@@ -118,7 +125,8 @@ TEST(CompiledModel, combinesAnEffectiveMatrix) {
   model.combine(3.0, 0.5, 2.0, factor.values());
   ASSERT_EQ(factor.factor(), -1);
   const Vector x = sampleVector(source.size(), 0.1);
-  const Vector b = (3.0 * source.mass + 0.5 * source.dampingAt(1.5) + 2.0 * source.stiffnessAt(1.5)) * x;
+  const Vector b =
+      (3.0 * source.mass + 0.5 * source.dampingAt(1.5) + 2.0 * source.stiffnessAt(1.5)) * x;
   Vector bp, back;
   model.toPositions(b, bp);
   factor.solve(bp.data());
@@ -128,7 +136,8 @@ TEST(CompiledModel, combinesAnEffectiveMatrix) {
 
 TEST(CompiledModel, constantLawsCostNothing) {
   auto source = rich();
-  source.laws.own()[1].value = source.laws.own()[3].value = [](double t) { return t < 1 ? t : 1.0; };
+  source.laws.own()[1].value =
+      source.laws.own()[3].value = [](double t) { return t < 1 ? t : 1.0; };
   source.laws.own()[2].value = [](double t) { return t < 1 ? std::sqrt(t) : 1.0; };
   CompiledModel model(source);
   model.setTime(0.5);
@@ -152,8 +161,8 @@ TEST(CompiledModel, changeSinceAnotherTime) {
   model.toPositions(x, xp);
   model.addChangeSince(then, 4.0, xp.data(), y.data());
   model.toDofs(y, back);
-  const Vector expected =
-      4.0 * ((source.dampingAt(2.0) - source.dampingAt(0.5)) * x) + (source.stiffnessAt(2.0) - source.stiffnessAt(0.5)) * x;
+  const Vector expected = 4.0 * ((source.dampingAt(2.0) - source.dampingAt(0.5)) * x) +
+                          (source.stiffnessAt(2.0) - source.stiffnessAt(0.5)) * x;
   EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -218,14 +227,15 @@ TEST(CompiledModel, refusesAnInconsistentModel) {
 }
 
 // Point laws
-// ------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
-/// Contact with friction at the nodes of `source` (three dofs u, v, theta_z each); with `general` every row mixes several dofs,
-/// as the rows of a reduced model do.
+/// Contact with friction at the nodes of `source` (three dofs u, v, theta_z each); with `general`
+/// every row mixes several dofs, as the rows of a reduced model do.
 void addBore(model::SecondOrderModel& source, bool general, double lambda = 2e3) {
   const int n = source.size();
   contact::ContactPoints points;
-  for (int i = 0; i < n / 3; ++i) points.add({i + 1, 0.3, 0.1, 1e4, 1e2, lambda, lambda, 0.3, 0.2, 0.1});
+  for (int i = 0; i < n / 3; ++i)
+    points.add({i + 1, 0.3, 0.1, 1e4, 1e2, lambda, lambda, 0.3, 0.2, 0.1});
   model::PointSet set;
   set.name = "contact";
   set.law = contact::makeLaw("Nguyen")->inMotion(points, [](double t) { return 2 + t; });
@@ -262,7 +272,8 @@ TEST(PointBatch, forcesAreThoseOfTheModel) {
   }
 }
 
-// Without what pushes on, no motion of a point gains energy from its tangent; what does not push stays as it is.
+// Without what pushes on, no motion of a point gains energy from its tangent; what does not push
+// stays as it is.
 TEST(PointBatch, takesOutWhatPushesOn) {
   auto source = rich();
   addBore(source, false);
@@ -288,8 +299,10 @@ TEST(PointBatch, takesOutWhatPushesOn) {
         if (old.diagonal().maxCoeff() > 0) {
           ++taken;
           const Matrix symmetric = 0.5 * (P + P.transpose());
-          EXPECT_LE(Eigen::SelfAdjointEigenSolver<Matrix>(symmetric).eigenvalues().maxCoeff(), 1e-12 * size);
-          EXPECT_LT(((P - P.transpose()) - (old - old.transpose())).cwiseAbs().maxCoeff(), 1e-12 * size);
+          EXPECT_LE(Eigen::SelfAdjointEigenSolver<Matrix>(symmetric).eigenvalues().maxCoeff(),
+                    1e-12 * size);
+          EXPECT_LT(((P - P.transpose()) - (old - old.transpose())).cwiseAbs().maxCoeff(),
+                    1e-12 * size);
         } else {
           EXPECT_EQ(P, old);
         }
@@ -331,7 +344,8 @@ TEST(PointBatch, tangentsMatchDifferences) {
     EXPECT_LT((back - expected).cwiseAbs().maxCoeff(), 1e-6 * scale) << "general rows: " << general;
     Vector z = Vector::Zero(n);
     linalg::BlockProduct(model.pattern(), {&values}).addTo(values.data(), xp.data(), z.data());
-    EXPECT_LT((y + z).cwiseAbs().maxCoeff(), 1e-12 * scale) << "assembled and applied tangents differ; general rows: " << general;
+    EXPECT_LT((y + z).cwiseAbs().maxCoeff(), 1e-12 * scale)
+        << "assembled and applied tangents differ; general rows: " << general;
   }
 }
 
@@ -342,7 +356,8 @@ TEST(PointBatch, looksOnlyAtPointsThatCanTouchBeforeTheNextLook) {
   Vector q(4);
   q << 0.5, 0.2, 0.05, -0.01;
   batch.look(0.0, 0.1, q.data());
-  EXPECT_EQ(batch.active(), (std::vector<int>{3})) << "without a rate only what touches is looked at";
+  EXPECT_EQ(batch.active(), (std::vector<int>{3}))
+      << "without a rate only what touches is looked at";
   q << 0.4, 0.15, 0.00, 0.01;  // closing at 1, 0.5, 0.5 m/s; the last one leaves
   batch.look(0.1, 0.1, q.data());
   EXPECT_EQ(batch.active(), (std::vector<int>{2}));

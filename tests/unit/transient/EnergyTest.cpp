@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The energy ledger: what is lost is booked where it was lost, and energy made of nothing is no result.
+/// The energy ledger: what is lost is booked where it was lost, and energy made of nothing is no
+/// result.
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
@@ -40,7 +41,8 @@ TEST(Energy, dampingTakesWhatIsMissing) {
     const auto report = integrate(model, options(integrator, 3.0, 5e-4, 0.1), samples);
     ASSERT_EQ(report.energy.damping.size(), 1u);
     EXPECT_EQ(report.energy.dampingNames[0], "damping");
-    EXPECT_NEAR(report.energy.damping[0], 5.0 - report.energy.kinetic - report.energy.strain, 0.01) << integrator;
+    EXPECT_NEAR(report.energy.damping[0], 5.0 - report.energy.kinetic - report.energy.strain, 0.01)
+        << integrator;
     EXPECT_LT(std::abs(report.energy.residual()), 2e-3) << integrator;
   }
 }
@@ -76,11 +78,13 @@ TEST(Energy, loadsAndGyroscopicsAreBooked) {
   EXPECT_LT(std::abs(report.energy.residual()), 1e-5);
 }
 
-/// A free body under a force 6 t moves as q = t^3/2: the work of the force is its kinetic energy 2.25 t^4. The mean of the force over a
-/// step counts, not that at its start or end, which would be 3 % off.
+/// A free body under a force 6 t moves as q = t^3/2: the work of the force is its kinetic
+/// energy 2.25 t^4. The mean of the force over a step counts, not that at its start or end, which
+/// would be 3 % off.
 TEST(Energy, aGrowingLoadDoesTheWorkOfItsMean) {
   auto model = oscillator(2.0, 0.0, 0.0, 0.0, 0.0);
-  model.loads.push_back({"growing", Vector::Constant(1, 6.0), model.lawIndex({"t", [](double t) { return t; }})});
+  model.loads.push_back(
+      {"growing", Vector::Constant(1, 6.0), model.lawIndex({"t", [](double t) { return t; }})});
   Keep samples;
   const auto report = integrate(model, options("RK4", 1.0, 0.01, 0.1), samples);
   EXPECT_NEAR(samples.q.back()[0], 0.5, 1e-12);
@@ -89,7 +93,8 @@ TEST(Energy, aGrowingLoadDoesTheWorkOfItsMean) {
 }
 
 TEST(Energy, skewStiffnessIsCirculatory) {
-  auto model = denseModel(Matrix::Identity(2, 2), Matrix::Identity(2, 2), 100 * Matrix::Identity(2, 2), 2);
+  auto model =
+      denseModel(Matrix::Identity(2, 2), Matrix::Identity(2, 2), 100 * Matrix::Identity(2, 2), 2);
   Matrix S(2, 2);
   S << 0, 5, -5, 0;
   model.stiffness.push_back({"torque", S.sparseView(), 0});
@@ -108,21 +113,25 @@ TEST(Energy, bouncingBallsBalance) {
   EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
 }
 
-/// A floor that gives back more than it gets and keeps silent about it: what a step that makes energy looks like.
+/// A floor that gives back more than it gets and keeps silent about it: what a step that makes
+/// energy looks like.
 class Trampoline final : public model::PointLaw {
  public:
   int size() const override { return 1; }
   int width() const override { return 1; }
-  void evaluate(double, const std::vector<int>&, const double* d, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>&, const double* d, const double* v,
+                double* f) const override {
     f[0] = d[0] < 0 ? -1e4 * d[0] + 40 * v[0] : 0.0;
   }
-  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv) const override {
     evaluate(t, active, d, v, f);
     dfdd[0] = d[0] < 0 ? -1e4 : 0.0;
     dfdv[0] = d[0] < 0 ? 40 : 0.0;
   }
-  void clearanceLeft(const std::vector<int>&, const double* d, double* gap) const override { gap[0] = d[0]; }
+  void clearanceLeft(const std::vector<int>&, const double* d, double* gap) const override {
+    gap[0] = d[0];
+  }
   Power power(double, const std::vector<int>&, const double* d, const double*) const override {
     Power power;
     power.stored = d[0] < 0 ? 0.5e4 * d[0] * d[0] : 0.0;
@@ -130,7 +139,9 @@ class Trampoline final : public model::PointLaw {
   }
   std::vector<model::Channel> channels() const override { return {}; }
   void record(double, const double*, const double*, double*) const override {}
-  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>&) const override { return nullptr; }
+  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>&) const override {
+    return nullptr;
+  }
 };
 
 TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
@@ -145,13 +156,17 @@ TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
   model.points.push_back(set);
   for (const auto& integrator : {"Generalized-alpha", "RK4"}) {
     Keep samples;
-    const auto text = failure([&] { integrate(model, options(integrator, 20.0, 1e-3, 0.01), samples); });
+    const auto text =
+        failure([&] { integrate(model, options(integrator, 20.0, 1e-3, 0.01), samples); });
     EXPECT_NE(text.find("J out of nothing"), std::string::npos) << text;
-    EXPECT_EQ(text.find("Spectral Radius") != std::string::npos, std::string(integrator) == "Generalized-alpha") << text;
+    EXPECT_EQ(text.find("Spectral Radius") != std::string::npos,
+              std::string(integrator) == "Generalized-alpha")
+        << text;
   }
 }
 
-/// A wall far too stiff for the step: impacts never make energy, at any spectral radius, and nothing passes through the wall.
+/// A wall far too stiff for the step: impacts never make energy, at any spectral radius, and
+/// nothing passes through the wall.
 TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
   for (double radius : {0.2, 0.8, 1.0})
     for (double stiffness : {1e8, 1e10}) {
@@ -163,7 +178,8 @@ TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
       o.own.set("Accept Coarse Steps", true);  // where the balls are after the first bounce is lost
       const auto report = integrate(model, o, samples);
       EXPECT_EQ(report.counters.unconvergedSteps, 0);
-      EXPECT_GT(report.energy.numerical(), -0.01 * report.energy.supplied) << radius << " " << stiffness;
+      EXPECT_GT(report.energy.numerical(), -0.01 * report.energy.supplied)
+          << radius << " " << stiffness;
       for (const auto& q : samples.q) ASSERT_GT(q.minCoeff(), -1e-3);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Every integrator against closed forms, its order of convergence, and what each of its parameters does.
+/// Every integrator against closed forms, its order of convergence, and what each of its parameters
+/// does.
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
@@ -10,7 +11,8 @@ namespace tooljoint::transient::testing {
 namespace {
 
 /// Largest error of the samples of a damped free vibration with step h: m 2, zeta 0.05, omega 10.
-double freeVibrationError(const std::string& integrator, double h, const Teuchos::ParameterList& own = {}) {
+double freeVibrationError(const std::string& integrator, double h,
+                          const Teuchos::ParameterList& own = {}) {
   const double m = 2, omega = 10, zeta = 0.05;
   const auto model = oscillator(m, 2 * zeta * omega * m, omega * omega * m, 0.3, -1.0);
   Keep samples;
@@ -22,15 +24,16 @@ double freeVibrationError(const std::string& integrator, double h, const Teuchos
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     const double t = samples.time[i];
     const double exact =
-        std::exp(-zeta * omega * t) * (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
+        std::exp(-zeta * omega * t) *
+        (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
     error = std::max(error, std::abs(samples.q[i][0] - exact));
   }
   EXPECT_EQ(samples.time.size(), 5u);
   return error;
 }
 
-TransientReport runFor(const model::SecondOrderModel& model, const std::string& integrator, double end, double step,
-                       const Teuchos::ParameterList& own = {}) {
+TransientReport runFor(const model::SecondOrderModel& model, const std::string& integrator,
+                       double end, double step, const Teuchos::ParameterList& own = {}) {
   Keep samples;
   auto o = options(integrator, end, step, end / 10);
   o.own = own;
@@ -54,7 +57,7 @@ std::string refusal(const std::function<void()>& work) {
 }
 
 // Order of convergence
-// ---------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(Integrators, fixedRungeKuttaIsOfFourthOrder) {
   const double coarse = freeVibrationError("RK4", 0.01);
@@ -74,9 +77,11 @@ TEST(Integrators, generalizedAlphaIsOfSecondOrderAtEverySpectralRadius) {
 }
 
 TEST(Integrators, phaseCorrectionFollowsVibrationToFourthOrder) {
-  // Undamped, so that the period error stands alone; the damping of spectral radii below 1 is of third order.
+  // Undamped, so that the period error stands alone; the damping of spectral radii below 1 is of
+  // third order.
   const auto error = [](double h, double radius, bool corrected) {
-    // From rest: the velocity belonging to an amplitude is of second order still, at every time alike.
+    // From rest: the velocity belonging to an amplitude is of second order still, at every time
+    // alike.
     const auto model = oscillator(2, 0, 200, 0.3, 0.0);
     Keep samples;
     auto o = options("Generalized-alpha", 5.0, h, 1.0);
@@ -89,7 +94,8 @@ TEST(Integrators, phaseCorrectionFollowsVibrationToFourthOrder) {
     return worst;
   };
   EXPECT_GT(std::log2(error(0.01, 1.0, true) / error(0.005, 1.0, true)), 3.3);
-  for (double radius : {0.8, 1.0}) EXPECT_LT(error(0.01, radius, true), 0.02 * error(0.01, radius, false)) << radius;
+  for (double radius : {0.8, 1.0})
+    EXPECT_LT(error(0.01, radius, true), 0.02 * error(0.01, radius, false)) << radius;
   EXPECT_LT(error(0.01, 0.0, true), 0.2 * error(0.01, 0.0, false));  // its own damping is left
 }
 
@@ -111,7 +117,8 @@ TEST(Integrators, phaseCorrectionIsUnconditionallyStable) {
     o.ledger = false;
     integrate(model, o, samples);
     for (int i = 0; i < 40; ++i)
-      for (const auto& q : samples.q) ASSERT_LT(std::abs(q[i]), 2.5 * start[i]) << radius << " " << i;
+      for (const auto& q : samples.q)
+        ASSERT_LT(std::abs(q[i]), 2.5 * start[i]) << radius << " " << i;
   }
 }
 
@@ -127,13 +134,15 @@ TEST(Integrators, adaptiveRungeKuttaFollowsItsTolerance) {
   EXPECT_LT(last, 1e-6);
 }
 
-/// q = sin(3 t) made to solve m q'' + (c + t^2 d) q' + (k + cos(t) e) q = F(t): every law of time is in it.
+/// q = sin(3 t) made to solve m q'' + (c + t^2 d) q' + (k + cos(t) e) q = F(t): every law of time
+/// is in it.
 model::SecondOrderModel manufactured() {
   auto model = oscillator(2.0, 0.5, 30.0, 0.0, 3.0);
   const int square = model.lawIndex({"t^2", [](double t) { return t * t; }});
   const int cosine = model.lawIndex({"cos t", [](double t) { return std::cos(t); }});
   const int load = model.lawIndex({"load", [](double t) {
-                                     return -18.0 * std::sin(3 * t) + (0.5 + 1.5 * t * t) * 3 * std::cos(3 * t) +
+                                     return -18.0 * std::sin(3 * t) +
+                                            (0.5 + 1.5 * t * t) * 3 * std::cos(3 * t) +
                                             (30.0 + 12.0 * std::cos(t)) * std::sin(3 * t);
                                    }});
   model.damping.push_back({"growing", scalar(1.5).sparseView(), square});
@@ -158,7 +167,9 @@ double manufacturedError(const std::string& integrator, double h) {
 
 TEST(Integrators, keepTheirOrderWhenMatricesAndLoadsChangeWithTime) {
   EXPECT_NEAR(std::log2(manufacturedError("RK4", 0.02) / manufacturedError("RK4", 0.01)), 4.0, 0.2);
-  EXPECT_NEAR(std::log2(manufacturedError("Generalized-alpha", 0.004) / manufacturedError("Generalized-alpha", 0.002)), 2.0, 0.1);
+  EXPECT_NEAR(std::log2(manufacturedError("Generalized-alpha", 0.004) /
+                        manufacturedError("Generalized-alpha", 0.002)),
+              2.0, 0.1);
   EXPECT_LT(manufacturedError("RK4", 0.01), 1e-6);
   EXPECT_LT(manufacturedError("Generalized-alpha", 0.002), 1e-4);
 }
@@ -169,7 +180,8 @@ TEST(Integrators, accelerationBalancesTheForces) {
     Keep samples;
     integrate(model, options(integrator, 1.0, 0.002, 0.1), samples);
     for (std::size_t i = 0; i < samples.time.size(); ++i)
-      EXPECT_NEAR(samples.a[i][0], -9 * std::sin(3 * samples.time[i]), 1e-2) << integrator << " at " << samples.time[i];
+      EXPECT_NEAR(samples.a[i][0], -9 * std::sin(3 * samples.time[i]), 1e-2)
+          << integrator << " at " << samples.time[i];
   }
 }
 
@@ -184,7 +196,8 @@ double impactError(double h, double lambda, double damping) {
   integrate(model, fine, reference);
   integrate(model, options("Generalized-alpha", 0.1, h, 0.005), samples);
   double error = 0;
-  for (std::size_t i = 0; i < samples.q.size(); ++i) error += (samples.q[i] - reference.q[i]).squaredNorm();
+  for (std::size_t i = 0; i < samples.q.size(); ++i)
+    error += (samples.q[i] - reference.q[i]).squaredNorm();
   return std::sqrt(error);
 }
 
@@ -201,8 +214,8 @@ TEST(Integrators, generalizedAlphaIsOfSecondOrderThroughASharpElasticStop) {
   EXPECT_GT(0.25 * std::log2(coarse / fine), 1.6);
 }
 
-/// Damping that sets in at once makes the force jump: where in the step that happens is not resolved, which costs an impulse
-/// proportional to the step.
+/// Damping that sets in at once makes the force jump: where in the step that happens is not
+/// resolved, which costs an impulse proportional to the step.
 TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
   const double coarse = impactError(4e-4, 7e11, 300);
   const double fine = impactError(2.5e-5, 7e11, 300);
@@ -210,7 +223,7 @@ TEST(Integrators, generalizedAlphaIsOfFirstOrderWhereTheForceJumps) {
 }
 
 // Parameters
-// -------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
   // Step 0.01 s: 1e4 rad/s is far above it, 10 rad/s far below.
@@ -272,7 +285,8 @@ TEST(Integrators, withoutHalvingsAFailedStepEndsTheRunWithAdvice) {
   } catch (const ConvergenceError& error) {
     const std::string text = error.what();
     EXPECT_EQ(error.code(), ExitCode::NotConverged);
-    EXPECT_NE(text.find("Newton did not converge in the step from t = 0.0"), std::string::npos) << text;
+    EXPECT_NE(text.find("Newton did not converge in the step from t = 0.0"), std::string::npos)
+        << text;
     EXPECT_NE(text.find("u of node "), std::string::npos) << text;
     EXPECT_NE(text.find("Choose a smaller Transient/Step"), std::string::npos) << text;
   }
@@ -372,7 +386,8 @@ TEST(Integrators, fixedStepsDivideTheSamplingInterval) {
   EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 1e-3), 1e-3);
   EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.0019), 0.005 / 3);
   EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.005), 0.005);
-  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.03), 1.0 / 34);  // longer than the interval: samples are interpolated
+  EXPECT_DOUBLE_EQ(fittedStep({0, 1, 0.005, 0}, 0.03),
+                   1.0 / 34);  // longer than the interval: samples are interpolated
 }
 
 }  // namespace

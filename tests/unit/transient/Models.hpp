@@ -13,11 +13,13 @@
 namespace tooljoint::transient::testing {
 
 /// Model with these dense matrices; one node per dof unless `perNode` says otherwise.
-inline model::SecondOrderModel denseModel(const Matrix& M, const Matrix& C, const Matrix& K, int perNode = 1) {
+inline model::SecondOrderModel denseModel(const Matrix& M, const Matrix& C, const Matrix& K,
+                                          int perNode = 1) {
   model::SecondOrderModel model;
   const int n = static_cast<int>(M.rows());
   model.componentNames = {"u", "v", "w", "theta_x", "theta_y", "theta_z"};
-  for (int i = 0; i < n; ++i) model.dofs.push_back(model::DofLabel::physical(1 + i / perNode, i % perNode));
+  for (int i = 0; i < n; ++i)
+    model.dofs.push_back(model::DofLabel::physical(1 + i / perNode, i % perNode));
   model.mass = M.sparseView();
   if (C.size() > 0) model.damping.push_back({"damping", C.sparseView(), 0});
   if (K.size() > 0) model.stiffness.push_back({"stiffness", K.sparseView(), 0});
@@ -46,20 +48,23 @@ inline model::SecondOrderModel springChain(int n, double m, double c, double k) 
   return denseModel(m * Matrix::Identity(n, n), (c / k) * K, K);
 }
 
-/// One-sided spring-damper at d = 0: force on a point at d < 0 is (-k d - c v) times a smoothed step of sharpness lambda.
+/// One-sided spring-damper at d = 0: force on a point at d < 0 is (-k d - c v) times a smoothed
+/// step of sharpness lambda.
 class Floor final : public model::PointLaw {
  public:
-  Floor(int points, double k, double c, double lambda) : points_(points), k_(k), c_(c), lambda_(lambda) {}
+  Floor(int points, double k, double c, double lambda)
+      : points_(points), k_(k), c_(c), lambda_(lambda) {}
   int size() const override { return points_; }
   int width() const override { return 1; }
-  void evaluate(double, const std::vector<int>& active, const double* d, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const override {
     for (int p : active) {
       const double s = step(-d[p]);
       f[p] = s * (-k_ * d[p] - c_ * v[p]);
     }
   }
-  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double, const std::vector<int>& active, const double* d, const double* v,
+                           double* f, double* dfdd, double* dfdv) const override {
     for (int p : active) {
       const double s = step(-d[p]);
       const double x = M_PI * lambda_ * d[p];
@@ -72,7 +77,8 @@ class Floor final : public model::PointLaw {
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
     for (int p : points) gap[p] = d[p] - tail();
   }
-  Power power(double, const std::vector<int>& points, const double* d, const double* v) const override {
+  Power power(double, const std::vector<int>& points, const double* d,
+              const double* v) const override {
     Power sum;
     for (int p : points) {
       if (d[p] < 0) sum.stored += 0.5 * k_ * d[p] * d[p];
@@ -114,8 +120,10 @@ inline void addFloor(model::SecondOrderModel& model, double k, double c, double 
   model.points.push_back(set);
 }
 
-/// Balls of 5 kg dropped on one floor from heights of 4 to 6 mm; with links between neighbours of this stiffness.
-inline model::SecondOrderModel droppedBalls(int n, double k, double c, double lambda, double link = 0) {
+/// Balls of 5 kg dropped on one floor from heights of 4 to 6 mm; with links between neighbours of
+/// this stiffness.
+inline model::SecondOrderModel droppedBalls(int n, double k, double c, double lambda,
+                                            double link = 0) {
   Matrix K = Matrix::Zero(n, n);
   for (int i = 1; i < n; ++i) {
     K(i, i) += link, K(i - 1, i - 1) += link;
@@ -123,7 +131,8 @@ inline model::SecondOrderModel droppedBalls(int n, double k, double c, double la
   }
   auto model = denseModel(5 * Matrix::Identity(n, n), Matrix(), K);
   model.loads.push_back({"weight", Vector::Constant(n, -5 * 9.81), 0});
-  for (int i = 0; i < n; ++i) model.initialDisplacement[i] = 0.005 + 0.001 * std::sin(3.0 * i + 0.4);
+  for (int i = 0; i < n; ++i)
+    model.initialDisplacement[i] = 0.005 + 0.001 * std::sin(3.0 * i + 0.4);
   addFloor(model, k, c, lambda);
   return model;
 }
@@ -141,7 +150,8 @@ class Keep final : public SampleSink {
   std::vector<Vector> q, v, a;
 };
 
-inline TransientOptions options(const std::string& integrator, double end, double step, double sampling) {
+inline TransientOptions options(const std::string& integrator, double end, double step,
+                                double sampling) {
   TransientOptions o;
   o.integrator = integrator;
   o.end = end;
@@ -151,7 +161,8 @@ inline TransientOptions options(const std::string& integrator, double end, doubl
   return o;
 }
 
-/// Balls with contact, plus a load and a damping that change with time, so that everything a run remembers matters.
+/// Balls with contact, plus a load and a damping that change with time, so that everything a run
+/// remembers matters.
 inline model::SecondOrderModel eventful() {
   auto model = droppedBalls(6, 1e6, 2e3, 7e11, 2e4);
   const int law = model.lawIndex({"swell", [](double t) { return 1 + 0.5 * std::sin(40 * t); }});
@@ -165,7 +176,8 @@ inline constexpr const char* controlledAlpha = "Generalized-alpha with Step Tole
 
 /// Options of an integrator, or of controlledAlpha, good for eventful().
 inline TransientOptions wayToStep(const std::string& way, double end) {
-  auto o = options(way == controlledAlpha ? "Generalized-alpha" : way, end, way == "RK4" ? 5e-5 : 0, 0.005);
+  auto o = options(way == controlledAlpha ? "Generalized-alpha" : way, end, way == "RK4" ? 5e-5 : 0,
+                   0.005);
   if (way == controlledAlpha) o.own.set("Step Tolerance", 1e-5);
   return o;
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One point against its compliance: balances of sharp contact with friction that falls with speed, from states all around touching
-/// and sticking.
+/// One point against its compliance: balances of sharp contact with friction that falls with speed,
+/// from states all around touching and sticking.
 #include "transient/NodalProblem.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 #include <random>
 
 #include "Models.hpp"
@@ -16,9 +15,11 @@
 namespace tooljoint::transient {
 namespace {
 
-/// A node of 100 kg and 0.6 kg m^2 in a bore that turns with 0.1 rad/s, friction 0.4 falling to 0.3 within `velocity`.
+/// A node of 100 kg and 0.6 kg m^2 in a bore that turns with 0.1 rad/s, friction 0.4 falling to 0.3
+/// within `velocity`.
 model::SecondOrderModel nodeInBore(double velocity) {
-  auto source = testing::denseModel(Eigen::Vector3d(100, 100, 0.6).asDiagonal(), Matrix(), Matrix::Identity(3, 3), 3);
+  auto source = testing::denseModel(Eigen::Vector3d(100, 100, 0.6).asDiagonal(), Matrix(),
+                                    Matrix::Identity(3, 3), 3);
   contact::ContactPoints points;
   points.add({1, 0.028, 0.08, 1e7, 1e4, 7e11, 7e11, 0.4, 0.3, velocity});
   model::PointSet set;
@@ -32,7 +33,8 @@ model::SecondOrderModel nodeInBore(double velocity) {
 }
 
 /// |y - free - G phi| in units of 1/sqrt(G_ii), relative to |free| + |y|.
-double imbalance(const NodalProblem& problem, const NodalProblem::Local& y, const NodalProblem::Local& phi) {
+double imbalance(const NodalProblem& problem, const NodalProblem::Local& y,
+                 const NodalProblem::Local& phi) {
   const NodalProblem::Local scale = problem.G.diagonal().cwiseSqrt().cwiseInverse();
   const auto size = [&](const NodalProblem::Local& x) { return x.cwiseProduct(scale).norm(); };
   return size(y - problem.free - problem.G * phi) / (size(problem.free) + size(y));
@@ -47,18 +49,24 @@ NodalProblem randomProblem(std::mt19937& random, double velocity) {
   problem.P = NodalProblem::LocalMatrix::Zero(3, 3);
   problem.f0 = NodalProblem::Local::Zero(3);
   problem.d = Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), 0);
-  const double slip = velocity * std::pow(10.0, 1.5 * uniform(random)) * (uniform(random) > 0 ? 1 : -1), inwards = 0.02 * uniform(random);
-  problem.v = Eigen::Vector3d(inwards * std::cos(angle) - slip * std::sin(angle), inwards * std::sin(angle) + slip * std::cos(angle), 0.01 * uniform(random));
+  const double slip = velocity * std::pow(10.0, 1.5 * uniform(random)) *
+                      (uniform(random) > 0 ? 1 : -1),
+               inwards = 0.02 * uniform(random);
+  problem.v =
+      Eigen::Vector3d(inwards * std::cos(angle) - slip * std::sin(angle),
+                      inwards * std::sin(angle) + slip * std::cos(angle), 0.01 * uniform(random));
   Eigen::Matrix3d S = (4e6 * mass).asDiagonal();
   const Eigen::Vector3d unit = mass.cwiseSqrt() * 2e3;
   S(0, 1) = S(1, 0) = 0.3 * uniform(random) * unit[0] * unit[1];
   S(0, 2) = S(2, 0) = 0.3 * uniform(random) * unit[0] * unit[2];
   problem.G = S.inverse();
-  problem.free = h * Eigen::Vector3d(0.02 * uniform(random), 0.02 * uniform(random), 0.02 * uniform(random));
+  problem.free =
+      h * Eigen::Vector3d(0.02 * uniform(random), 0.02 * uniform(random), 0.02 * uniform(random));
   return problem;
 }
 
-/// All but one in three thousand, where the step has Newton for the whole and shorter steps left; without the path it is one in a thousand.
+/// All but one in three thousand, where the step has Newton for the whole and shorter steps left;
+/// without the path it is one in a thousand.
 TEST(NodalProblem, findsABalanceOfSharpContactAndFallingFriction) {
   for (const double velocity : {0.1, 1e-3, 1e-4}) {
     const auto source = nodeInBore(velocity);
@@ -77,8 +85,9 @@ TEST(NodalProblem, findsABalanceOfSharpContactAndFallingFriction) {
   }
 }
 
-/// Nodes that hit the wall with damping enough to throw them back within the step come to rest where the law switches, within 1e-12 m. That
-/// balance is known no better than rounding of the position, and is taken for one.
+/// Nodes that hit the wall with damping enough to throw them back within the step come to rest
+/// where the law switches, within 1e-12 m. That balance is known no better than rounding of the
+/// position, and is taken for one.
 TEST(NodalProblem, takesABalanceKnownToRoundingForOne) {
   const auto source = nodeInBore(0.1);
   CompiledModel model(source);
@@ -88,7 +97,8 @@ TEST(NodalProblem, takesABalanceKnownToRoundingForOne) {
   constexpr int count = 1000;
   long most = 0;
   for (int k = 0; k < count; ++k) {
-    const double speed = 0.02 + 0.1 * uniform(random), angle = 6 * uniform(random), thrown = 1e4 * speed / 4e8;  // c v / (ca m)
+    const double speed = 0.02 + 0.1 * uniform(random), angle = 6 * uniform(random),
+                 thrown = 1e4 * speed / 4e8;  // c v / (ca m)
     const Eigen::Vector3d outwards(std::cos(angle), std::sin(angle), 0);
     NodalProblem problem;
     problem.P = NodalProblem::LocalMatrix::Zero(3, 3);
@@ -102,7 +112,8 @@ TEST(NodalProblem, takesABalanceKnownToRoundingForOne) {
     ASSERT_TRUE(problem.solve(batch, 0.0, 2e3, y, phi));
     most = std::max(most, batch.evaluations() - before);
     ASSERT_LT(imbalance(problem, y, phi), 1e-5);
-    ASSERT_LT(std::abs((problem.d + y).head(2).norm() - 0.028), 1e-9) << "it stays where the law switches";
+    ASSERT_LT(std::abs((problem.d + y).head(2).norm() - 0.028), 1e-9)
+        << "it stays where the law switches";
     ASSERT_GT(phi.norm(), 1.0);
   }
   EXPECT_LT(most, 1000);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A run that goes on from a checkpoint takes the steps of the run that was never stopped, to the last bit: every integrator,
-/// stopped at many places, twice in a row, on models where everything a checkpoint holds matters.
+/// A run that goes on from a checkpoint takes the steps of the run that was never stopped, to the
+/// last bit: every integrator, stopped at many places, twice in a row, on models where everything a
+/// checkpoint holds matters.
 #include <functional>
 #include <gtest/gtest.h>
 #include <optional>
@@ -21,8 +22,8 @@ struct Outcome {
 };
 
 /// Runs on from `from`, or from the start; stops before the step after so many.
-Outcome run(const model::SecondOrderModel& model, const TransientOptions& options, const Checkpoint* from = nullptr,
-            long stopAfter = -1) {
+Outcome run(const model::SecondOrderModel& model, const TransientOptions& options,
+            const Checkpoint* from = nullptr, long stopAfter = -1) {
   Outcome out;
   RunHooks hooks;
   hooks.resume = from;
@@ -43,7 +44,8 @@ Outcome run(const model::SecondOrderModel& model, const TransientOptions& option
 /// As a file would have it.
 Checkpoint reread(const Checkpoint& point) { return Checkpoint::decode(point.encode(), "a test"); }
 
-void expectSameSamples(const Keep& whole, const Keep& later, std::size_t from, const std::string& where) {
+void expectSameSamples(const Keep& whole, const Keep& later, std::size_t from,
+                       const std::string& where) {
   ASSERT_EQ(from + later.time.size(), whole.time.size()) << where;
   for (std::size_t i = 0; i < later.time.size(); ++i) {
     ASSERT_EQ(later.time[i], whole.time[from + i]) << where;
@@ -53,7 +55,8 @@ void expectSameSamples(const Keep& whole, const Keep& later, std::size_t from, c
   }
 }
 
-void expectSameReport(const TransientReport& whole, const TransientReport& later, const std::string& where) {
+void expectSameReport(const TransientReport& whole, const TransientReport& later,
+                      const std::string& where) {
   const auto &a = whole.counters, &b = later.counters;
   EXPECT_EQ(a.steps, b.steps) << where;
   EXPECT_EQ(a.rejected, b.rejected) << where;
@@ -86,8 +89,8 @@ void expectSameReport(const TransientReport& whole, const TransientReport& later
 }
 
 /// Stops after so many steps, goes on, stops after as many again, goes on to the end.
-void expectSameAfterStopping(const model::SecondOrderModel& model, const TransientOptions& options, const Outcome& whole,
-                             long steps) {
+void expectSameAfterStopping(const model::SecondOrderModel& model, const TransientOptions& options,
+                             const Outcome& whole, long steps) {
   const std::string where = "stopped after " + std::to_string(steps) + " steps";
   auto first = run(model, options, nullptr, steps);
   if (!first.report.interrupted) return;
@@ -106,8 +109,8 @@ void expectSameAfterStopping(const model::SecondOrderModel& model, const Transie
   expectSameReport(whole.report, second.report, where);
 }
 
-/// Stiffness and damping of two terms each whose law stands still from half of the run on: products then go by the sum of the
-/// terms, which rounds otherwise.
+/// Stiffness and damping of two terms each whose law stands still from half of the run on: products
+/// then go by the sum of the terms, which rounds otherwise.
 model::SecondOrderModel spinUp() {
   auto model = springChain(7, 1.3, 0.7, 211.0);
   const int law = model.lawIndex({"ramp", [](double t) { return std::min(1.0, t / 0.15); }});
@@ -144,7 +147,9 @@ class Restart : public ::testing::TestWithParam<std::string> {
     const auto whole = run(model, o);
     ASSERT_TRUE(whole.error.empty()) << whole.error;
     for (const double part : {0.0, 0.13, 0.31, 0.52, 0.77, 0.96})
-      expectSameAfterStopping(model, o, whole, static_cast<long>(part * static_cast<double>(whole.report.counters.steps)));
+      expectSameAfterStopping(
+          model, o, whole,
+          static_cast<long>(part * static_cast<double>(whole.report.counters.steps)));
   }
 };
 
@@ -161,7 +166,8 @@ TEST_P(Restart, takesTheSameStepsAmongImpacts) {
   expectSameWherever(impacts(), o);
 }
 
-/// A run that goes on and is stopped at once writes the checkpoint it came from: nothing is lost on the way.
+/// A run that goes on and is stopped at once writes the checkpoint it came from: nothing is lost on
+/// the way.
 TEST_P(Restart, hasTheMemoryOfItsCheckpoint) {
   for (const auto& model : {eventful(), spinUp(), impacts()}) {
     auto o = options(0.15);
@@ -175,7 +181,8 @@ TEST_P(Restart, hasTheMemoryOfItsCheckpoint) {
       const auto again = run(model, o, &point, 0).kept.back();
       ASSERT_EQ(again.memory.size(), point.memory.size());
       for (std::size_t i = 0; i < point.memory.size(); ++i)
-        ASSERT_EQ(again.memory[i], point.memory[i]) << "entry " << i << " of " << point.memory.size() << ", stopped after " << steps;
+        ASSERT_EQ(again.memory[i], point.memory[i])
+            << "entry " << i << " of " << point.memory.size() << ", stopped after " << steps;
     }
   }
 }
@@ -187,14 +194,15 @@ TEST_P(Restart, goesOnFromAnEarlierCheckpoint) {
   for (const auto& kept : whole.kept) {
     const auto point = reread(kept);
     const auto later = run(eventful(), options(), &point);
-    expectSameSamples(whole.samples, later.samples, static_cast<std::size_t>(point.samples), "a checkpoint");
+    expectSameSamples(whole.samples, later.samples, static_cast<std::size_t>(point.samples),
+                      "a checkpoint");
     expectSameReport(whole.report, later.report, "a checkpoint");
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Transient, Restart,
-                         ::testing::Values("Generalized-alpha", controlledAlpha, "RK4", "RK4 adaptive", "SUNDIALS ARKODE",
-                                           "SUNDIALS CVODE"),
+                         ::testing::Values("Generalized-alpha", controlledAlpha, "RK4",
+                                           "RK4 adaptive", "SUNDIALS ARKODE", "SUNDIALS CVODE"),
                          [](const auto& tested) {
                            std::string name;
                            for (const char c : tested.param)
@@ -231,7 +239,8 @@ TEST(Restarts, keepTheWaitOfStepControl) {
   const auto whole = run(model, o);
   ASSERT_GT(whole.report.counters.rejected, 0);
   ASSERT_GT(whole.report.counters.maxStep, whole.report.counters.minStep);
-  for (long steps = 1; steps < whole.report.counters.steps; steps += 3) expectSameAfterStopping(model, o, whole, steps);
+  for (long steps = 1; steps < whole.report.counters.steps; steps += 3)
+    expectSameAfterStopping(model, o, whole, steps);
 }
 
 /// Gives energy: pushes more strongly on the way out than on the way in.
@@ -239,21 +248,26 @@ class Spender final : public model::PointLaw {
  public:
   int size() const override { return 1; }
   int width() const override { return 1; }
-  void evaluate(double, const std::vector<int>& active, const double*, const double* v, double* f) const override {
+  void evaluate(double, const std::vector<int>& active, const double*, const double* v,
+                double* f) const override {
     for (int p : active) f[p] = 2.0 * v[p];
   }
-  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d, const double* v, double* f, double* dfdd,
-                           double* dfdv) const override {
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv) const override {
     evaluate(t, active, d, v, f);
     for (int p : active) dfdd[p] = 0, dfdv[p] = 2.0;
   }
   void clearanceLeft(const std::vector<int>& points, const double*, double* gap) const override {
     for (int p : points) gap[p] = 0;
   }
-  Power power(double, const std::vector<int>&, const double*, const double*) const override { return {}; }
+  Power power(double, const std::vector<int>&, const double*, const double*) const override {
+    return {};
+  }
   std::vector<model::Channel> channels() const override { return {}; }
   void record(double, const double*, const double*, double*) const override {}
-  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>&) const override { return nullptr; }
+  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>&) const override {
+    return nullptr;
+  }
 };
 
 /// A run that makes energy is refused after some samples in a row; a restart counts on.
@@ -279,7 +293,8 @@ TEST(Restarts, keepTheWatchForRunawayEnergy) {
   EXPECT_GT(counting, 0);
 }
 
-/// A sum of terms whose laws stand still rounds otherwise than its terms one by one: which one it is goes on, too.
+/// A sum of terms whose laws stand still rounds otherwise than its terms one by one: which one it
+/// is goes on, too.
 TEST(Restarts, keepHowSumsAreFormed) {
   const auto source = spinUp();
   const Vector x = Vector::LinSpaced(7, 0.137, 1.731);
@@ -306,7 +321,8 @@ TEST(Restarts, keepHowSumsAreFormed) {
   }
 }
 
-/// SUNDIALS begins anew at each checkpoint; where checkpoints come makes a difference there, but no large one.
+/// SUNDIALS begins anew at each checkpoint; where checkpoints come makes a difference there, but no
+/// large one.
 TEST(Restarts, ofSundialsDependOnTheIntervalToTheTolerance) {
   for (const auto& integrator : {"SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
     auto o = options(integrator, 0.3, 0, 0.005);
@@ -324,7 +340,8 @@ TEST(Restarts, ofSundialsDependOnTheIntervalToTheTolerance) {
     often = run(model, o);
     double difference = 0, size = 0;
     for (std::size_t i = 0; i < once.samples.q.size(); ++i) {
-      difference = std::max(difference, (once.samples.q[i] - often.samples.q[i]).cwiseAbs().maxCoeff());
+      difference =
+          std::max(difference, (once.samples.q[i] - often.samples.q[i]).cwiseAbs().maxCoeff());
       size = std::max(size, once.samples.q[i].cwiseAbs().maxCoeff());
     }
     EXPECT_GT(difference, 0.0) << integrator;

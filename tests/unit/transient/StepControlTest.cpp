@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Steps of Generalized-alpha that follow their error: what they promise, where they are short, what they refuse.
-#include <gtest/gtest.h>
+/// Steps of Generalized-alpha that follow their error: what they promise, where they are short,
+/// what they refuse.
+#include "transient/StepControl.hpp"
 
 #include <algorithm>
+#include <gtest/gtest.h>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
-#include "transient/StepControl.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -39,19 +40,19 @@ class Steps final : public SampleSink {
 };
 
 // The rule
-// -------------------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(StepControl, halvesAsOftenAsAnErrorOfThirdOrderAsksFor) {
   StepControl control;
   control.set(1e-6, 10);
   EXPECT_TRUE(control.accepts(1e-6));
   EXPECT_FALSE(control.accepts(1.01e-6));
-  EXPECT_EQ(control.shorter(2e-6, 3), 4);     // to an eighth, half of the tolerance being aimed at
-  EXPECT_EQ(control.shorter(3.9e-6, 3), 4);   // 4.9e-7 after one
-  EXPECT_EQ(control.shorter(8e-6, 3), 5);     // 1e-6 after one, 1.25e-7 after two
-  EXPECT_EQ(control.shorter(31e-6, 3), 5);    // 4.8e-7 after two
-  EXPECT_EQ(control.shorter(1.0, 3), 10);     // no deeper than it goes
-  EXPECT_EQ(control.shorter(2e-6, 10), 11);   // nothing left
+  EXPECT_EQ(control.shorter(2e-6, 3), 4);    // to an eighth, half of the tolerance being aimed at
+  EXPECT_EQ(control.shorter(3.9e-6, 3), 4);  // 4.9e-7 after one
+  EXPECT_EQ(control.shorter(8e-6, 3), 5);    // 1e-6 after one, 1.25e-7 after two
+  EXPECT_EQ(control.shorter(31e-6, 3), 5);   // 4.8e-7 after two
+  EXPECT_EQ(control.shorter(1.0, 3), 10);    // no deeper than it goes
+  EXPECT_EQ(control.shorter(2e-6, 10), 11);  // nothing left
   EXPECT_EQ(control.shorter(std::nan(""), 3), 10);
 }
 
@@ -68,7 +69,8 @@ TEST(StepControl, lengthensOnlyWhatWasCalmForAWhileAndAtMultiplesOfTheLongerStep
   EXPECT_EQ(done % 16, 0);
   EXPECT_GE(steps, 4);
   EXPECT_LE(steps, 6);
-  // Too large for a longer step however long it lasts: an error eight times as large would be refused at once.
+  // Too large for a longer step however long it lasts: an error eight times as large would be
+  // refused at once.
   level = control.shorter(2e-6, 0);
   for (int i = 0; i < 1000; ++i) ASSERT_EQ(control.next(1.3e-7, level, done += 8), 1);
 }
@@ -91,9 +93,10 @@ TEST(StepControl, isMorePatientAfterALongerStepThatFailed) {
 }
 
 // The length
-// -----------------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
-/// Ten masses that move along x and turn, as they are and in modes of any scale: the same displacement has the same length.
+/// Ten masses that move along x and turn, as they are and in modes of any scale: the same
+/// displacement has the same length.
 TEST(MassNorm, isTheSameInAllCoordinates) {
   const int n = 10;
   Matrix M = Matrix::Zero(2 * n, 2 * n);
@@ -107,11 +110,13 @@ TEST(MassNorm, isTheSameInAllCoordinates) {
   Matrix T = Matrix::Zero(2 * n, 3);
   for (int i = 0; i < n; ++i) {
     const double x = (i + 0.5) / n * M_PI;
-    T(2 * i, 0) = 0.3 * std::sin(x), T(2 * i, 1) = 7.0 * std::sin(2 * x), T(2 * i, 2) = 100 * std::sin(3 * x);
+    T(2 * i, 0) = 0.3 * std::sin(x), T(2 * i, 1) = 7.0 * std::sin(2 * x),
+             T(2 * i, 2) = 100 * std::sin(3 * x);
   }
   auto reduced = denseModel(T.transpose() * M * T, Matrix(), 1e3 * T.transpose() * M * T);
   reduced.componentNames = full.componentNames;
-  for (int j = 0; j < 3; ++j) reduced.dofs[static_cast<std::size_t>(j)] = model::DofLabel::modal(0, j);
+  for (int j = 0; j < 3; ++j)
+    reduced.dofs[static_cast<std::size_t>(j)] = model::DofLabel::modal(0, j);
   reduced.recovery = T.sparseView();
   reduced.recoveryOffset = Vector::Zero(2 * n);
 
@@ -127,7 +132,8 @@ TEST(MassNorm, isTheSameInAllCoordinates) {
     lengths[k++] = norm(positions);
   }
   const Vector moved = T * y;
-  EXPECT_NEAR(lengths[0], moved.norm() / std::sqrt(n), 1e-3 * lengths[0]);  // turning adds its little inertia
+  EXPECT_NEAR(lengths[0], moved.norm() / std::sqrt(n),
+              1e-3 * lengths[0]);  // turning adds its little inertia
   EXPECT_NEAR(lengths[1], lengths[0], 1e-3 * lengths[0]);
 }
 
@@ -140,20 +146,22 @@ TEST(MassNorm, takesCoordinatesAsLengthsWhereNothingMovesAlong) {
 }
 
 // Motion
-// -----------------------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 /// Largest error of a free vibration of 10 rad/s that is 0.3 m wide, over 2 s.
 double vibrationError(const TransientOptions& o, TransientReport& report) {
   Steps samples;
   report = integrate(oscillator(2, 0, 200, 0.3, 0), o, samples);
   double error = 0;
-  for (std::size_t i = 0; i < samples.time.size(); ++i) error = std::max(error, std::abs(samples.place[i] - 0.3 * std::cos(10 * samples.time[i])));
+  for (std::size_t i = 0; i < samples.time.size(); ++i)
+    error = std::max(error, std::abs(samples.place[i] - 0.3 * std::cos(10 * samples.time[i])));
   return error;
 }
 
-/// The local error is of third order, the scheme of second: errors fall as tolerance^(2/3), by 16 for a tolerance 64 times as
-/// small. The steps are powers of two, so 64 is two halvings. With the phase corrected they are smaller at the same steps; there
-/// each change of the step leaves an error of third order, once.
+/// The local error is of third order, the scheme of second: errors fall as tolerance^(2/3), by 16
+/// for a tolerance 64 times as small. The steps are powers of two, so 64 is two halvings. With the
+/// phase corrected they are smaller at the same steps; there each change of the step leaves an
+/// error of third order, once.
 TEST(ControlledSteps, errorFollowsTheTolerance) {
   for (const bool phase : {false, true}) {
     double last = 0;
@@ -165,11 +173,14 @@ TEST(ControlledSteps, errorFollowsTheTolerance) {
       TransientReport report;
       const double error = vibrationError(o, report);
       const double h = report.counters.minStep;
-      const double late = 0.3 * 20 * 0.088 * (10 * h) * (10 * h);  // amplitude w t e (w h)^2, what the scheme leaves after 2 s
+      const double late = 0.3 * 20 * 0.088 * (10 * h) *
+                          (10 * h);  // amplitude w t e (w h)^2, what the scheme leaves after 2 s
       EXPECT_LT(error, (phase ? 0.4 : 2) * late) << "tolerance " << tolerance;
       if (last > 0) {
-        EXPECT_GT(std::log2(last / error), phase ? 0 : 3.6) << "tolerance " << tolerance << " error " << error;
-        EXPECT_NEAR(static_cast<double>(report.counters.steps) / static_cast<double>(lastSteps), 4, 0.6);
+        EXPECT_GT(std::log2(last / error), phase ? 0 : 3.6)
+            << "tolerance " << tolerance << " error " << error;
+        EXPECT_NEAR(static_cast<double>(report.counters.steps) / static_cast<double>(lastSteps), 4,
+                    0.6);
       }
       EXPECT_EQ(report.counters.halved, 0);
       EXPECT_GT(report.counters.rejected, 0);
@@ -189,12 +200,16 @@ TEST(ControlledSteps, keepTheirLengthInSteadyVibration) {
   EXPECT_LT(report.counters.rejected, report.counters.steps / 20);
 }
 
-/// The error estimated for one step is the error of that step, but for the first two: A_0 is taken at t = 0.
+/// The error estimated for one step is the error of that step, but for the first two: A_0 is taken
+/// at t = 0.
 TEST(ControlledSteps, acceptsWhatTheFirstStepReallyMisses) {
-  // q = t^3/6 under a force m t from rest: q''' = 1, and a scheme of second order misses (d/2 + b - 1/6) h^3 a step.
+  // q = t^3/6 under a force m t from rest: q''' = 1, and a scheme of second order misses (d/2 + b -
+  // 1/6) h^3 a step.
   auto model = denseModel(scalar(3.0), Matrix(), Matrix());
-  model.loads.push_back({"ramp", Vector::Constant(1, 3.0), model.lawIndex({"t", [](double t) { return t; }})});
-  const double r = 0.8, am = (2 * r - 1) / (r + 1), af = r / (r + 1), b = 0.25 * (1 + af - am) * (1 + af - am);
+  model.loads.push_back(
+      {"ramp", Vector::Constant(1, 3.0), model.lawIndex({"t", [](double t) { return t; }})});
+  const double r = 0.8, am = (2 * r - 1) / (r + 1), af = r / (r + 1),
+               b = 0.25 * (1 + af - am) * (1 + af - am);
   const double h = 0.125, missed = ((am - af) / 2 + b - 1.0 / 6) * h * h * h;
   for (const double factor : {1.15, 0.85}) {
     Steps samples;
@@ -206,7 +221,8 @@ TEST(ControlledSteps, acceptsWhatTheFirstStepReallyMisses) {
   }
 }
 
-/// A ball falls 5 mm onto a floor and bounces: long steps in the air, short ones on the floor, and the motion is right.
+/// A ball falls 5 mm onto a floor and bounces: long steps in the air, short ones on the floor, and
+/// the motion is right.
 TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   const auto model = droppedBalls(1, 1e6, 0, 7e11);
   auto fine = options("RK4", 0.3, 1e-6, 0.004);
@@ -216,7 +232,8 @@ TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   const auto report = integrate(model, controlled(1e-7, 0.3, 4e-3, 4e-3), samples);
   ASSERT_EQ(samples.time.size(), reference.time.size());
   double worst = 0;
-  for (std::size_t i = 0; i < samples.place.size(); ++i) worst = std::max(worst, std::abs(samples.place[i] - reference.place[i]));
+  for (std::size_t i = 0; i < samples.place.size(); ++i)
+    worst = std::max(worst, std::abs(samples.place[i] - reference.place[i]));
   EXPECT_LT(worst, 1e-4);  // 2 % of the fall after four impacts
   EXPECT_EQ(report.counters.maxStep, 4e-3);
   EXPECT_LT(report.counters.minStep, 3e-4);  // the contact takes pi sqrt(m/k) = 7 ms
@@ -224,13 +241,18 @@ TEST(ControlledSteps, areShortOnlyAroundAnImpact) {
   // Equal steps of the shortest length would be several times as many.
   EXPECT_LT(4 * static_cast<double>(report.counters.steps) * report.counters.minStep, 0.3);
   // and fixed steps, as many of them, are less accurate
-  integrate(model, options("Generalized-alpha", 0.3, 0.3 / static_cast<double>(report.counters.steps), 4e-3), fixed);
+  integrate(
+      model,
+      options("Generalized-alpha", 0.3, 0.3 / static_cast<double>(report.counters.steps), 4e-3),
+      fixed);
   double worstFixed = 0;
-  for (std::size_t i = 0; i < fixed.place.size(); ++i) worstFixed = std::max(worstFixed, std::abs(fixed.place[i] - reference.place[i]));
+  for (std::size_t i = 0; i < fixed.place.size(); ++i)
+    worstFixed = std::max(worstFixed, std::abs(fixed.place[i] - reference.place[i]));
   EXPECT_GT(worstFixed, worst);
 }
 
-/// A wall too stiff for the longest step is an impact there; the tolerance says how well its time has to be known.
+/// A wall too stiff for the longest step is an impact there; the tolerance says how well its time
+/// has to be known.
 TEST(ControlledSteps, resolveAStiffWallAsFarAsAsked) {
   const auto model = droppedBalls(1, 1e10, 0, 7e11);
   double last = 1;
@@ -249,7 +271,8 @@ TEST(ControlledSteps, resolveAStiffWallAsFarAsAsked) {
 
 TEST(ControlledSteps, samplesStandOnTheGrid) {
   Steps samples;
-  const auto report = integrate(oscillator(2, 0, 200, 0.3, 0), controlled(1e-5, 1, 0.02, 0.005), samples);
+  const auto report =
+      integrate(oscillator(2, 0, 200, 0.3, 0), controlled(1e-5, 1, 0.02, 0.005), samples);
   ASSERT_EQ(samples.time.size(), 201u);
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     EXPECT_NEAR(samples.time[i], 0.005 * static_cast<double>(i), 1e-12);
@@ -258,12 +281,14 @@ TEST(ControlledSteps, samplesStandOnTheGrid) {
   EXPECT_LE(report.counters.maxStep, 0.02);
 }
 
-/// What the steps leave of the energy is what the scheme damps, and that shrinks with the tolerance.
+/// What the steps leave of the energy is what the scheme damps, and that shrinks with the
+/// tolerance.
 TEST(ControlledSteps, theLedgerCloses) {
   double last = 1;
   for (const double tolerance : {1e-6, 1e-8}) {
     Steps samples;
-    const auto report = integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4), controlled(tolerance, 0.3, 2e-3, 0.01), samples);
+    const auto report = integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4),
+                                  controlled(tolerance, 0.3, 2e-3, 0.01), samples);
     EXPECT_LT(std::abs(report.energy.residual()), last / 2) << tolerance;
     last = std::abs(report.energy.residual());
   }
@@ -297,7 +322,8 @@ TEST(ControlledSteps, aStepBelowTheSmallestEndsTheRunWithAdvice) {
   o.own.set("Smallest Step", 2e-4);
   const auto text = refusal([&] { integrate(droppedBalls(1, 1e8, 0, 7e11), o, samples); });
   EXPECT_NE(text.find("needs a step below 0.00025 s at t ="), std::string::npos) << text;
-  EXPECT_NE(text.find("Raise Transient/Generalized-alpha/Step Tolerance"), std::string::npos) << text;
+  EXPECT_NE(text.find("Raise Transient/Generalized-alpha/Step Tolerance"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("node 1"), std::string::npos) << text;
 }
 
@@ -305,10 +331,15 @@ TEST(ControlledSteps, refuseASmallestStepThatMeansNothing) {
   Steps samples;
   auto o = controlled(1e-6, 0.1, 1e-3, 1e-3);
   o.own.set("Smallest Step", 2e-3);
-  EXPECT_NE(refusal([&] { integrate(oscillator(1, 0, 1, 1, 0), o, samples); }).find("is longer than the longest step"), std::string::npos);
+  EXPECT_NE(refusal([&] {
+              integrate(oscillator(1, 0, 1, 1, 0), o, samples);
+            }).find("is longer than the longest step"),
+            std::string::npos);
   o = options("Generalized-alpha", 0.1, 1e-3, 1e-3);
   o.own.set("Smallest Step", 2e-4);
-  EXPECT_NE(refusal([&] { integrate(oscillator(1, 0, 1, 1, 0), o, samples); }).find("Step Tolerance chooses, which is not given"),
+  EXPECT_NE(refusal([&] {
+              integrate(oscillator(1, 0, 1, 1, 0), o, samples);
+            }).find("Step Tolerance chooses, which is not given"),
             std::string::npos);
 }
 

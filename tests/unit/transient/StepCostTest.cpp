@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The predicted cost of a step against counts that can be made by hand.
+#include "transient/StepCost.hpp"
+
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
-#include "transient/StepCost.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -43,7 +44,8 @@ TEST(StepCost, explicitStepsSolveWithTheMassMatrixFourTimes) {
   const auto model = springChain(50, 1, 0.1, 100);
   const auto cost = stepCost(model, options("RK4", 1, 1e-3, 0.1));
   const auto implicit = stepCost(model, options("Generalized-alpha", 1, 1e-3, 0.1));
-  EXPECT_DOUBLE_EQ(cost.solves / implicit.solves, 4.0 / 3.0);  // two relaxations and the phase correction
+  EXPECT_DOUBLE_EQ(cost.solves / implicit.solves,
+                   4.0 / 3.0);  // two relaxations and the phase correction
 }
 
 }  // namespace

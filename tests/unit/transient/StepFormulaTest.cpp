@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// One step of each scheme against its formulas worked out here: coefficients of generalized-alpha, stages of Runge-Kutta, and
-/// the error by which each of the two adaptive integrators judges a step.
+/// One step of each scheme against its formulas worked out here: coefficients of generalized-alpha,
+/// stages of Runge-Kutta, and the error by which each of the two adaptive integrators judges a
+/// step.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -23,9 +24,13 @@ struct Point {
 /// The classical fourth-order method (Kutta 1901).
 Point rungeKutta(const Point& y, double h) {
   const auto rate = [](const Point& at) { return Point{at.v, acceleration(at.q, at.v)}; };
-  const auto moved = [&](const Point& k, double by) { return Point{y.q + by * k.q, y.v + by * k.v}; };
-  const Point k1 = rate(y), k2 = rate(moved(k1, h / 2)), k3 = rate(moved(k2, h / 2)), k4 = rate(moved(k3, h));
-  return {y.q + h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q), y.v + h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v)};
+  const auto moved = [&](const Point& k, double by) {
+    return Point{y.q + by * k.q, y.v + by * k.v};
+  };
+  const Point k1 = rate(y), k2 = rate(moved(k1, h / 2)), k3 = rate(moved(k2, h / 2)),
+              k4 = rate(moved(k3, h));
+  return {y.q + h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q),
+          y.v + h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v)};
 }
 
 TEST(StepFormula, RungeKuttaHasItsFourStages) {
@@ -43,17 +48,21 @@ TEST(StepFormula, RungeKuttaHasItsFourStages) {
 }
 
 /// Accepted and rejected first steps of one step of length h at a tolerance.
-TransientReport oneStep(const std::string& integrator, double h, const char* parameter, double tolerance, Keep& samples) {
+TransientReport oneStep(const std::string& integrator, double h, const char* parameter,
+                        double tolerance, Keep& samples) {
   auto o = options(integrator, h, h, h);
   o.own.set(parameter, tolerance);
-  if (integrator == "Generalized-alpha") o.own.set("Phase Correction", false).set("Tolerance", 1e-12);
+  if (integrator == "Generalized-alpha")
+    o.own.set("Phase Correction", false).set("Tolerance", 1e-12);
   return integrate(body(), o, samples);
 }
 
-/// error = (|q1 - q2| + |v1 - v2|)/15 of one step against two half steps, which are kept (Nguyen et al. 2020, appendix B).
+/// error = (|q1 - q2| + |v1 - v2|)/15 of one step against two half steps, which are kept (Nguyen et
+/// al. 2020, appendix B).
 TEST(StepFormula, AdaptiveRungeKuttaDividesTheDifferenceByFifteen) {
   const double h = 0.06;
-  const Point whole = rungeKutta({start, speed}, h), halves = rungeKutta(rungeKutta({start, speed}, h / 2), h / 2);
+  const Point whole = rungeKutta({start, speed}, h),
+              halves = rungeKutta(rungeKutta({start, speed}, h / 2), h / 2);
   const double error = (std::abs(whole.q - halves.q) + std::abs(whole.v - halves.v)) / 15.0;
   Keep accepted, rejected;
   EXPECT_EQ(oneStep("RK4 adaptive", h, "Tolerance", 1.001 * error, accepted).counters.rejected, 0);
@@ -62,10 +71,12 @@ TEST(StepFormula, AdaptiveRungeKuttaDividesTheDifferenceByFifteen) {
   EXPECT_NEAR(accepted.v.back()[0], halves.v, 1e-14);
 }
 
-/// A step whose error is below a hundredth of the tolerance is followed by one that is longer by the growth factor.
+/// A step whose error is below a hundredth of the tolerance is followed by one that is longer by
+/// the growth factor.
 TEST(StepFormula, AdaptiveRungeKuttaGrowsBelowAHundredthOfTheTolerance) {
   const double h = 0.06;
-  const Point whole = rungeKutta({start, speed}, h), halves = rungeKutta(rungeKutta({start, speed}, h / 2), h / 2);
+  const Point whole = rungeKutta({start, speed}, h),
+              halves = rungeKutta(rungeKutta({start, speed}, h / 2), h / 2);
   const double error = (std::abs(whole.q - halves.q) + std::abs(whole.v - halves.v)) / 15.0;
   const auto longest = [&](double tolerance) {
     auto o = options("RK4 adaptive", 2.5 * h, h, 2.5 * h);
@@ -81,26 +92,32 @@ struct AlphaState {
   double q, v, a, A;
 };
 
-/// Chung and Hulbert (1993) with the forces balanced at the end of the step (Arnold and Bruels 2007), by their formulas.
+/// Chung and Hulbert (1993) with the forces balanced at the end of the step (Arnold and Bruels
+/// 2007), by their formulas.
 AlphaState alphaStep(const AlphaState& s, double h, double radius) {
   const double am = (2 * radius - 1) / (radius + 1), af = radius / (radius + 1), g = 0.5 - am + af,
                b = 0.25 * (1 - am + af) * (1 - am + af);
   // A1 = c0 + c1 a1, q1 = p + h^2 b A1, v1 = w + h g A1, m a1 + c v1 + k q1 = 0
   const double c0 = (af * s.a - am * s.A) / (1 - am), c1 = (1 - af) / (1 - am);
   const double p = s.q + h * s.v + h * h * (0.5 - b) * s.A, w = s.v + h * (1 - g) * s.A;
-  const double a =
-      -(damping * (w + h * g * c0) + stiffness * (p + h * h * b * c0)) / (mass + c1 * (damping * h * g + stiffness * h * h * b));
+  const double a = -(damping * (w + h * g * c0) + stiffness * (p + h * h * b * c0)) /
+                   (mass + c1 * (damping * h * g + stiffness * h * h * b));
   const double A = c0 + c1 * a;
   return {p + h * h * b * A, w + h * g * A, a, A};
 }
 
-AlphaState atRest() { return {start, speed, acceleration(start, speed), acceleration(start, speed)}; }
+AlphaState atRest() {
+  return {start, speed, acceleration(start, speed), acceleration(start, speed)};
+}
 
 TEST(StepFormula, GeneralizedAlphaHasTheCoefficientsOfItsSpectralRadius) {
   const double h = 0.05;
   for (const double radius : {0.0, 0.3, 0.8, 1.0}) {
     auto o = options("Generalized-alpha", 5 * h, h, h);
-    o.own.set("Spectral Radius", radius).set("Phase Correction", false).set("Tolerance", 1e-13).set("Accept Coarse Steps", true);
+    o.own.set("Spectral Radius", radius)
+        .set("Phase Correction", false)
+        .set("Tolerance", 1e-13)
+        .set("Accept Coarse Steps", true);
     Keep samples;
     integrate(body(), o, samples);
     ASSERT_EQ(samples.q.size(), 6u);
@@ -118,7 +135,10 @@ TEST(StepFormula, GeneralizedAlphaHasTheCoefficientsOfItsSpectralRadius) {
 TEST(StepFormula, GeneralizedAlphaHasItsSpectralRadiusAtInfinity) {
   for (const double radius : {0.2, 0.5, 0.8}) {
     auto o = options("Generalized-alpha", 0.041, 1e-3, 1e-3);
-    o.own.set("Spectral Radius", radius).set("Phase Correction", false).set("Tolerance", 1e-13).set("Accept Coarse Steps", true);
+    o.own.set("Spectral Radius", radius)
+        .set("Phase Correction", false)
+        .set("Tolerance", 1e-13)
+        .set("Accept Coarse Steps", true);
     Keep samples;
     integrate(oscillator(1.0, 0.0, 1e14, 1e-3, 0.0), o, samples);
     // a double eigenvalue -radius: |q_n| is of order n radius^n
@@ -127,15 +147,21 @@ TEST(StepFormula, GeneralizedAlphaHasItsSpectralRadiusAtInfinity) {
   }
 }
 
-/// e = ((am - af)/2 + b - 1/6) h^2 (A_1 - A_0), the third term of the series of the displacement that the scheme has wrong.
+/// e = ((am - af)/2 + b - 1/6) h^2 (A_1 - A_0), the third term of the series of the displacement
+/// that the scheme has wrong.
 TEST(StepFormula, GeneralizedAlphaJudgesAStepByTheTermItHasWrong) {
   const double h = 0.02, radius = 0.8;  // the default
-  const double am = (2 * radius - 1) / (radius + 1), af = radius / (radius + 1), b = 0.25 * (1 - am + af) * (1 - am + af);
+  const double am = (2 * radius - 1) / (radius + 1), af = radius / (radius + 1),
+               b = 0.25 * (1 - am + af) * (1 - am + af);
   const AlphaState first = atRest(), next = alphaStep(first, h, radius);
   const double error = std::abs(((am - af) / 2 + b - 1.0 / 6) * h * h * (next.A - first.A));
   Keep samples;
-  EXPECT_EQ(oneStep("Generalized-alpha", h, "Step Tolerance", 1.001 * error, samples).counters.rejected, 0);
-  EXPECT_GT(oneStep("Generalized-alpha", h, "Step Tolerance", 0.999 * error, samples).counters.rejected, 0);
+  EXPECT_EQ(
+      oneStep("Generalized-alpha", h, "Step Tolerance", 1.001 * error, samples).counters.rejected,
+      0);
+  EXPECT_GT(
+      oneStep("Generalized-alpha", h, "Step Tolerance", 0.999 * error, samples).counters.rejected,
+      0);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Steps taken a second time as halves: what they measure, and that the run does not notice them.
-#include <gtest/gtest.h>
+#include "transient/StepHalving.hpp"
 
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "Models.hpp"
-#include "transient/StepHalving.hpp"
 #include "transient/StepResolution.hpp"
 
 namespace tooljoint::transient::testing {
@@ -24,14 +24,17 @@ double ofVibration(double wh) {
   return integrate(oscillator(1.0, 0.0, w * w, 0.3, 0.0), o, samples).stepErrors.halving;
 }
 
-/// Without damping (r = 1) the scheme is the trapezoidal rule, which turns (q, v/w) by 2 atan(wh/2) and keeps its length. A step and its halves end
-/// apart by b = |2 atan(wh/2) - 4 atan(wh/4)|; v changes by a = 2 atan(wh/2): over many phases |e_v|^2 : |v|^2 : |dv|^2 = 4 sin^2 b/2 : 1 : 4 sin^2 a/2,
-/// so D^2 = 4 sin^2(b/2) / (2 sin(a/2)). Of sin^2, which |e_v|^2 follows, the lower three quarters have the mean 1/2 - sin(3 pi/4) / (3 pi/2).
+/// Without damping (r = 1) the scheme is the trapezoidal rule, which turns (q, v/w) by 2 atan(wh/2)
+/// and keeps its length. A step and its halves end apart by b = |2 atan(wh/2) - 4 atan(wh/4)|; v
+/// changes by a = 2 atan(wh/2): over many phases |e_v|^2 : |v|^2 : |dv|^2 = 4 sin^2 b/2 : 1 : 4
+/// sin^2 a/2, so D^2 = 4 sin^2(b/2) / (2 sin(a/2)). Of sin^2, which |e_v|^2 follows, the lower
+/// three quarters have the mean 1/2 - sin(3 pi/4) / (3 pi/2).
 TEST(StepHalving, measuresThePhaseThatAStepLoses) {
   for (double wh : {0.05, 0.2, 0.8}) {
     const double a = 2 * std::atan(wh / 2), b = a - 4 * std::atan(wh / 4);
     const double kept = 2 * (0.5 - std::sin(0.75 * M_PI) / (1.5 * M_PI));
-    const double expected = std::sqrt(kept * 4 * std::pow(std::sin(b / 2), 2) / (2 * std::sin(a / 2)));
+    const double expected =
+        std::sqrt(kept * 4 * std::pow(std::sin(b / 2), 2) / (2 * std::sin(a / 2)));
     EXPECT_NEAR(ofVibration(wh), expected, 0.1 * expected) << wh;
   }
 }
@@ -43,7 +46,8 @@ TransientReport drop(double tolerance, double end, Keep& samples) {
   return integrate(droppedBalls(6, 1e6, 2e3, 7e11, 2e4), o, samples);
 }
 
-/// The longer the run, the further apart the steps looked at: same motion, same counts, to the last digit.
+/// The longer the run, the further apart the steps looked at: same motion, same counts, to the last
+/// digit.
 TEST(StepHalving, leavesTheRunAlone) {
   Keep brief, whole;
   const auto first = drop(1e-5, 0.1, brief);
@@ -59,7 +63,8 @@ TEST(StepHalving, leavesTheRunAlone) {
   EXPECT_EQ(first.counters.steps, 100);
 }
 
-/// Balls that lie on a wall too stiff for the step have a velocity that depends on its length; no halves differ by it.
+/// Balls that lie on a wall too stiff for the step have a velocity that depends on its length; no
+/// halves differ by it.
 TEST(StepHalving, contactThatLastsIsNoError) {
   auto model = droppedBalls(10, 1e8, 0, 7e11, 2e5);
   model.loads[0].vector *= 20;
@@ -75,7 +80,7 @@ TEST(StepHalving, contactThatLastsIsNoError) {
 
 TEST(StepHalving, isWeighedBesideTheLocalError) {
   EXPECT_EQ(judge({0.0, 0.0}), Resolution::Good);
-  EXPECT_EQ(judge({0.0005, 0.2}), Resolution::Good);  // rest
+  EXPECT_EQ(judge({0.0005, 0.2}), Resolution::Good);       // rest
   EXPECT_EQ(judge({0.0062, 0.0258}), Resolution::Coarse);  // sticking points
   EXPECT_EQ(judge({0.0105, 0.0378}), Resolution::Coarse);
   EXPECT_EQ(judge({0.005, 0.024}), Resolution::Lost);  // what contact and iterations spoil

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// ARKODE and CVODE against closed forms and other integrators, their Newton matrix against a dense one, what each parameter does
-/// and how they fail.
+/// ARKODE and CVODE against closed forms and other integrators, their Newton matrix against a dense
+/// one, what each parameter does and how they fail.
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -31,8 +31,9 @@ std::string refusal(const std::function<void()>& work) {
   return "";
 }
 
-TransientReport run(const model::SecondOrderModel& model, const std::string& integrator, double end, double sampling,
-                    const Teuchos::ParameterList& own, Keep& samples, const RunHooks& hooks = {}) {
+TransientReport run(const model::SecondOrderModel& model, const std::string& integrator, double end,
+                    double sampling, const Teuchos::ParameterList& own, Keep& samples,
+                    const RunHooks& hooks = {}) {
   auto o = options(integrator, end, 0, sampling);
   o.own = own;
   return integrate(model, o, samples, hooks);
@@ -52,11 +53,13 @@ double largestDifference(const Keep& a, const Keep& b) {
   return difference;
 }
 
-/// Whether this build is without SUNDIALS, and the integrator says so; any other refusal is none of the build.
+/// Whether this build is without SUNDIALS, and the integrator says so; any other refusal is none of
+/// the build.
 bool missing(const std::string& integrator) {
   const auto text = refusal([&] { run(oscillator(1, 0, 1, 1, 0), integrator, 0.1); });
   if (text.find("built without SUNDIALS") == std::string::npos) return false;
-  EXPECT_NE(text.find("\"" + integrator + "\" needs. Install libsundials-dev"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"" + integrator + "\" needs. Install libsundials-dev"), std::string::npos)
+      << text;
   return true;
 }
 
@@ -74,24 +77,28 @@ INSTANTIATE_TEST_SUITE_P(Transient, Sundials, ::testing::Values(arkode, cvode),
 double freeVibrationError(const std::string& integrator, const Teuchos::ParameterList& own) {
   const double m = 2, omega = 10, zeta = 0.05;
   Keep samples;
-  run(oscillator(m, 2 * zeta * omega * m, omega * omega * m, 0.3, -1.0), integrator, 1.0, 0.05, own, samples);
+  run(oscillator(m, 2 * zeta * omega * m, omega * omega * m, 0.3, -1.0), integrator, 1.0, 0.05, own,
+      samples);
   const double wd = omega * std::sqrt(1 - zeta * zeta);
   double error = 0;
   for (std::size_t i = 0; i < samples.time.size(); ++i) {
     const double t = samples.time[i];
     const double exact =
-        std::exp(-zeta * omega * t) * (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
+        std::exp(-zeta * omega * t) *
+        (0.3 * std::cos(wd * t) + (-1.0 + zeta * omega * 0.3) / wd * std::sin(wd * t));
     error = std::max(error, std::abs(samples.q[i][0] - exact));
     // q'' is that of the equation of motion at the sampled q and v
-    EXPECT_NEAR(samples.a[i][0], -2 * zeta * omega * samples.v[i][0] - omega * omega * samples.q[i][0], 1e-10);
+    EXPECT_NEAR(samples.a[i][0],
+                -2 * zeta * omega * samples.v[i][0] - omega * omega * samples.q[i][0], 1e-10);
   }
   EXPECT_EQ(samples.time.size(), 21u);
   return error;
 }
 
 TEST_P(Sundials, theErrorFollowsTheTolerance) {
-  // Local errors add up over a few periods: within 100 tolerances of the amplitude, and a thousandth at a thousandth, give or
-  // take a factor of 30 (the error per step is controlled, not that of the end).
+  // Local errors add up over a few periods: within 100 tolerances of the amplitude, and a
+  // thousandth at a thousandth, give or take a factor of 30 (the error per step is controlled, not
+  // that of the end).
   const double coarse = freeVibrationError(GetParam(), tolerance(1e-4));
   const double fine = freeVibrationError(GetParam(), tolerance(1e-7));
   EXPECT_LT(coarse, 100 * 1e-4 * 0.3);
@@ -105,11 +112,14 @@ TEST_P(Sundials, samplesDoNotDependOnTheInterval) {
   const auto coarse = run(model, GetParam(), 1.0, 0.25, tolerance(1e-6), few);
   const auto fine = run(model, GetParam(), 1.0, 0.0025, tolerance(1e-6), many);
   // The interpolation is as good as the steps, which the samples do not shorten.
-  EXPECT_NEAR(static_cast<double>(fine.counters.steps), static_cast<double>(coarse.counters.steps), 2.0);
-  for (std::size_t i = 0; i < few.time.size(); ++i) EXPECT_EQ(few.q[i], many.q[100 * i]) << "sample " << i;
+  EXPECT_NEAR(static_cast<double>(fine.counters.steps), static_cast<double>(coarse.counters.steps),
+              2.0);
+  for (std::size_t i = 0; i < few.time.size(); ++i)
+    EXPECT_EQ(few.q[i], many.q[100 * i]) << "sample " << i;
   for (std::size_t i = 0; i < many.time.size(); ++i) {
     const double wd = std::sqrt(400 - 0.04), t = many.time[i];
-    EXPECT_NEAR(many.q[i][0], 0.1 * std::exp(-0.2 * t) * (std::cos(wd * t) + 0.2 / wd * std::sin(wd * t)), 2e-4);
+    EXPECT_NEAR(many.q[i][0],
+                0.1 * std::exp(-0.2 * t) * (std::cos(wd * t) + 0.2 / wd * std::sin(wd * t)), 2e-4);
   }
 }
 
@@ -140,7 +150,8 @@ TEST_P(Sundials, whatWasDoneIsCounted) {
 
 TEST_P(Sundials, stepsStartAndEndAsAsked) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);
-  const auto bounded = run(model, GetParam(), 1.0, with("Maximum Step", 1e-3, with("Initial Step", 2e-5)));
+  const auto bounded =
+      run(model, GetParam(), 1.0, with("Maximum Step", 1e-3, with("Initial Step", 2e-5)));
   EXPECT_DOUBLE_EQ(bounded.counters.minStep, 2e-5);
   EXPECT_LE(bounded.counters.maxStep, 1e-3 * (1 + 1e-12));
   EXPECT_GE(bounded.counters.steps, 1000);
@@ -155,12 +166,15 @@ TEST_P(Sundials, aDofWithoutMassIsRefused) {
   auto model = springChain(3, 1.0, 0.0, 10.0);
   model.mass.coeffRef(1, 1) = 0.0;
   const auto text = refusal([&] { run(model, GetParam(), 1.0); });
-  EXPECT_NE(text.find("The mass matrix is singular at u of node 2: the integrator \"" + GetParam()), std::string::npos) << text;
+  EXPECT_NE(text.find("The mass matrix is singular at u of node 2: the integrator \"" + GetParam()),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("Generalized-alpha"), std::string::npos) << text;
 }
 
 TEST_P(Sundials, tooManyStepsEndTheRun) {
-  const auto text = refusal([&] { run(oscillator(1, 0, 1e6, 1e-3, 0), GetParam(), 10.0, with("Maximum Steps", 50)); });
+  const auto text = refusal(
+      [&] { run(oscillator(1, 0, 1e6, 1e-3, 0), GetParam(), 10.0, with("Maximum Steps", 50)); });
   EXPECT_NE(text.find(GetParam() + " has taken 50 steps by t = "), std::string::npos) << text;
   EXPECT_NE(text.find("Transient/" + GetParam() + "/Maximum Steps"), std::string::npos) << text;
 }
@@ -172,7 +186,9 @@ TEST_P(Sundials, noNumberInALoadEndsTheRunWithTimeAndDof) {
   Keep samples;
   const auto text = refusal([&] { run(model, GetParam(), 1.0, 0.1, {}, samples); });
   EXPECT_NE(text.find("The motion is not finite"), std::string::npos) << text;
-  EXPECT_TRUE(text.find("t = 0.49") != std::string::npos || text.find("t = 0.5") != std::string::npos) << text;
+  EXPECT_TRUE(text.find("t = 0.49") != std::string::npos ||
+              text.find("t = 0.5") != std::string::npos)
+      << text;
   EXPECT_NE(text.find("of node"), std::string::npos) << text;
   for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
   // from the first moment on
@@ -183,7 +199,8 @@ TEST_P(Sundials, noNumberInALoadEndsTheRunWithTimeAndDof) {
 TEST_P(Sundials, errorsOfTheModelComeThrough) {
   auto model = springChain(3, 1.0, 0.5, 100.0);
   const int law = model.lawIndex({"ends", [](double t) {
-                                    if (t > 0.3) throw ModelError("The table of loads ends at 0.3 s.");
+                                    if (t > 0.3)
+                                      throw ModelError("The table of loads ends at 0.3 s.");
                                     return 1.0;
                                   }});
   model.loads.push_back({"ends", Vector::Unit(3, 2), law});
@@ -194,11 +211,13 @@ TEST_P(Sundials, toleranceBelowRoundingIsRefused) {
   auto own = tolerance(1e-30);
   const auto text = refusal([&] { run(oscillator(1, 0, 400, 0.1, 0), GetParam(), 1.0, own); });
   EXPECT_NE(text.find("more digits than numbers have"), std::string::npos) << text;
-  EXPECT_NE(text.find("Transient/" + GetParam() + "/Relative Tolerance"), std::string::npos) << text;
+  EXPECT_NE(text.find("Transient/" + GetParam() + "/Relative Tolerance"), std::string::npos)
+      << text;
 }
 
 TEST_P(Sundials, moreNewtonIterationsSaveSteps) {
-  // On walls from soft to hard, to coarse and fine tolerances: steps that had to be shortened because Newton was not done.
+  // On walls from soft to hard, to coarse and fine tolerances: steps that had to be shortened
+  // because Newton was not done.
   const auto shortened = [&](int iterations) {
     long sum = 0;
     for (const double stiffness : {1e6, 1e9})
@@ -215,37 +234,45 @@ TEST_P(Sundials, absoluteTolerancesRuleSmallMotion) {
   const auto model = oscillator(1, 0, 400, 1e-5, 0);
   const auto usual = run(model, GetParam(), 1.0).counters.steps;
   EXPECT_GT(run(model, GetParam(), 1.0, with("Absolute Tolerance", 1e-10)).counters.steps, usual);
-  EXPECT_GT(run(model, GetParam(), 1.0, with("Absolute Velocity Tolerance", 1e-9)).counters.steps, usual);
+  EXPECT_GT(run(model, GetParam(), 1.0, with("Absolute Velocity Tolerance", 1e-9)).counters.steps,
+            usual);
 }
 
 TEST(SundialsMethods, everyTableIntegratesToItsTolerance) {
-  const auto* method = IntegratorRegistry::instance().find(arkode).parameters.findParameter("Method");
+  const auto* method =
+      IntegratorRegistry::instance().find(arkode).parameters.findParameter("Method");
   ASSERT_NE(method, nullptr);
   if (missing(arkode)) GTEST_SKIP() << "built without SUNDIALS";
   for (const auto& name : method->choices)
-    EXPECT_LT(freeVibrationError(arkode, with("Method", name, tolerance(1e-5))), 100 * 1e-5 * 0.3) << name;
+    EXPECT_LT(freeVibrationError(arkode, with("Method", name, tolerance(1e-5))), 100 * 1e-5 * 0.3)
+        << name;
 }
 
 TEST(SundialsMethods, ordersAboveTwoSaveStepsOnDampedMotionOnly) {
   if (missing(cvode)) GTEST_SKIP() << "built without SUNDIALS";
   const auto steps = [](double damping, int order) {
-    return run(oscillator(1, damping, 400, 0.1, 0), cvode, 2.0, with("Maximum Order", order, tolerance(1e-6))).counters.steps;
+    return run(oscillator(1, damping, 400, 0.1, 0), cvode, 2.0,
+               with("Maximum Order", order, tolerance(1e-6)))
+        .counters.steps;
   };
   EXPECT_LT(steps(40, 5), steps(40, 2));
   EXPECT_LT(steps(40, 2), steps(40, 1));
 }
 
 // The Newton matrix
-// -------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
-/// A chain of nodes with two dofs each, unsymmetric K, changing damping, and points that touch, hang on several dofs or are away.
+/// A chain of nodes with two dofs each, unsymmetric K, changing damping, and points that touch,
+/// hang on several dofs or are away.
 model::SecondOrderModel entangled() {
   const int n = 8;
   Matrix M = 2.0 * Matrix::Identity(n, n), C = Matrix::Zero(n, n), K = Matrix::Zero(n, n);
   for (int i = 0; i < n; ++i) {
     K(i, i) = 500 + 10 * i;
     C(i, i) = 3;
-    if (i > 0) M(i, i - 1) = M(i - 1, i) = 0.3, K(i, i - 1) = -120, K(i - 1, i) = -90, C(i, i - 1) = 1.5, C(i - 1, i) = -1.5;
+    if (i > 0)
+      M(i, i - 1) = M(i - 1, i) = 0.3, K(i, i - 1) = -120, K(i - 1, i) = -90, C(i, i - 1) = 1.5,
+               C(i - 1, i) = -1.5;
   }
   auto model = denseModel(M, C, K, 2);
   const int law = model.lawIndex({"swell", [](double t) { return 1 + t; }});
@@ -267,7 +294,8 @@ TEST(FirstOrderForm, solvesWithItsJacobian) {
   const double t = 0.4;
   Vector y(m), up(m), down(m);
   for (int i = 0; i < m; ++i) y[i] = 0.05 * std::sin(1.0 + 3.1 * i);
-  // J by central differences of the right-hand side: error of the order of e^2 f''' with lengths of 1/lambda
+  // J by central differences of the right-hand side: error of the order of e^2 f''' with lengths of
+  // 1/lambda
   const double e = 1e-6;
   Matrix J(m, m);
   for (int j = 0; j < m; ++j) {
@@ -289,7 +317,8 @@ TEST(FirstOrderForm, solvesWithItsJacobian) {
 }
 
 TEST(FirstOrderForm, aPointActsWhereverItIsLookedAt) {
-  // The solver may ask for a state in contact after one far away, at any time: the force is that of the state.
+  // The solver may ask for a state in contact after one far away, at any time: the force is that of
+  // the state.
   auto source = oscillator(2.0, 0, 0, 1.0, 0);
   addFloor(source, 1e4, 0, 1e6);
   CompiledModel model(source);

@@ -35,7 +35,7 @@ std::string failure(const std::function<void()>& work) {
 }
 
 // Samples
-// ----------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(Transient, samplesStandAtMultiplesOfTheInterval) {
   const auto model = oscillator(1, 0.1, 400, 0.1, 0);
@@ -45,7 +45,8 @@ TEST(Transient, samplesStandAtMultiplesOfTheInterval) {
     o.start = 0.5;
     const auto report = integrate(model, o, samples);
     ASSERT_EQ(samples.time.size(), 25u) << integrator;
-    for (std::size_t i = 0; i < samples.time.size(); ++i) EXPECT_DOUBLE_EQ(samples.time[i], 0.5 + 0.05 * static_cast<double>(i));
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      EXPECT_DOUBLE_EQ(samples.time[i], 0.5 + 0.05 * static_cast<double>(i));
     EXPECT_EQ(report.samples, 25);
     EXPECT_EQ(report.start, 0.5);
     EXPECT_EQ(report.end, 1.7);
@@ -77,8 +78,8 @@ TEST(Transient, samplesBetweenLongStepsAreInterpolated) {
 TEST(Transient, samplesAreInTheOrderOfTheModel) {
   // Dofs of two nodes mixed: the kernel sorts them by node, the sink must not notice.
   auto model = springChain(4, 1, 0, 50);
-  model.dofs = {model::DofLabel::physical(1, 0), model::DofLabel::physical(2, 0), model::DofLabel::physical(1, 1),
-                model::DofLabel::physical(2, 1)};
+  model.dofs = {model::DofLabel::physical(1, 0), model::DofLabel::physical(2, 0),
+                model::DofLabel::physical(1, 1), model::DofLabel::physical(2, 1)};
   model.initialDisplacement << 1, 2, 3, 4;
   model.initialVelocity << 5, 6, 7, 8;
   Keep samples;
@@ -103,7 +104,7 @@ TEST(Transient, integratorsAgree) {
 }
 
 // Options
-// ----------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(Transient, readsItsListWithDefaults) {
   Teuchos::ParameterList list("Transient");
@@ -130,19 +131,25 @@ TEST(Transient, refusesAnEndBeforeTheStart) {
   Teuchos::ParameterList list("Transient");
   list.set("End Time", 1.0);
   list.set("Start Time", 1.0);
-  EXPECT_NE(failure([&] { readOptions(list); }).find("must be later than Transient/Start Time"), std::string::npos);
+  EXPECT_NE(failure([&] { readOptions(list); }).find("must be later than Transient/Start Time"),
+            std::string::npos);
 }
 
 TEST(Transient, refusesCountsOfStepsAndSamplesThatNobodyCanCompute) {
   Teuchos::ParameterList list("Transient");
   list.set("End Time", 1e6);
   list.set("Step", 1e-9);
-  EXPECT_NE(failure([&] { readOptions(list); }).find("Transient/Step is 1e-09 s, which makes 1e+15 of them in the 1e+06 s from Start Time to End Time; at most 1e+12"),
+  EXPECT_NE(failure([&] { readOptions(list); })
+                .find("Transient/Step is 1e-09 s, which makes 1e+15 of them in the 1e+06 s from "
+                      "Start Time to End Time; at most 1e+12"),
             std::string::npos)
       << failure([&] { readOptions(list); });
   list.set("Step", 1e-3);
   list.set("Sampling Interval", 1e-3);
-  EXPECT_NE(failure([&] { readOptions(list); }).find("Transient/Sampling Interval is 0.001 s, which makes 1e+09 of them"), std::string::npos);
+  EXPECT_NE(failure([&] {
+              readOptions(list);
+            }).find("Transient/Sampling Interval is 0.001 s, which makes 1e+09 of them"),
+            std::string::npos);
   list.set("Sampling Interval", 1.0);
   EXPECT_EQ(readOptions(list).sampling, 1.0);
   list.set("Start Time", -1e308);
@@ -158,12 +165,14 @@ TEST(Transient, everyIntegratorDescribesItself) {
     EXPECT_GT(own->doc().size(), 20u);
     EXPECT_FALSE(own->parameters().empty());
   }
-  EXPECT_NE(failure([] { IntegratorRegistry::instance().make("Newmark", Teuchos::ParameterList()); }).find("\"RK4 adaptive\""),
+  EXPECT_NE(failure([] {
+              IntegratorRegistry::instance().make("Newmark", Teuchos::ParameterList());
+            }).find("\"RK4 adaptive\""),
             std::string::npos);
 }
 
 // Failures
-// -----------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 /// Advice after a motion that is wrong names parameters this integrator has.
 TEST(Transient, adviceFitsTheIntegrator) {
@@ -180,16 +189,22 @@ TEST(Transient, adviceFitsTheIntegrator) {
   }
   Teuchos::ParameterList own;
   own.set("Step Tolerance", 1e-6);
-  EXPECT_NE(registry.make("Generalized-alpha", own)->advice().find("Generalized-alpha/Step Tolerance"), std::string::npos);
+  EXPECT_NE(
+      registry.make("Generalized-alpha", own)->advice().find("Generalized-alpha/Step Tolerance"),
+      std::string::npos);
 }
 
 TEST(Transient, rightHandSidesAreCounted) {
   const auto model = springChain(4, 1, 0.1, 100);
   Keep samples;
-  EXPECT_EQ(integrate(model, options("RK4", 1, 0.01, 0.1), samples).counters.rightHandSides, 1 + 4 * 100);
+  EXPECT_EQ(integrate(model, options("RK4", 1, 0.01, 0.1), samples).counters.rightHandSides,
+            1 + 4 * 100);
   const auto adaptive = integrate(model, options("RK4 adaptive", 1, 0.01, 0.1), samples).counters;
-  EXPECT_EQ(adaptive.rightHandSides, 1 + 10 * (adaptive.steps + adaptive.rejected) + adaptive.steps);
-  EXPECT_EQ(integrate(model, options("Generalized-alpha", 1, 0.01, 0.1), samples).counters.rightHandSides, 0);
+  EXPECT_EQ(adaptive.rightHandSides,
+            1 + 10 * (adaptive.steps + adaptive.rejected) + adaptive.steps);
+  EXPECT_EQ(
+      integrate(model, options("Generalized-alpha", 1, 0.01, 0.1), samples).counters.rightHandSides,
+      0);
 }
 
 TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
@@ -200,8 +215,10 @@ TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
   model.initialVelocity[1] = 1.0;
   for (const auto& integrator : allIntegrators) {
     Keep samples;
-    const auto text = failure([&] { integrate(model, options(integrator, 100.0, 1e-2, 1.0), samples); });
-    EXPECT_NE(text.find("The motion blew up in the step from t = "), std::string::npos) << integrator << ": " << text;
+    const auto text =
+        failure([&] { integrate(model, options(integrator, 100.0, 1e-2, 1.0), samples); });
+    EXPECT_NE(text.find("The motion blew up in the step from t = "), std::string::npos)
+        << integrator << ": " << text;
     EXPECT_NE(text.find("u of node 2"), std::string::npos) << text;
   }
 }
@@ -220,8 +237,10 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
   model.loads.push_back({"broken", Vector::Unit(3, 2), law});
   for (const auto& integrator : allIntegrators) {
     Keep samples;
-    const auto text = failure([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
-    EXPECT_TRUE(text.find("t = 0.4") != std::string::npos || text.find("t = 0.5") != std::string::npos)
+    const auto text =
+        failure([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
+    EXPECT_TRUE(text.find("t = 0.4") != std::string::npos ||
+                text.find("t = 0.5") != std::string::npos)
         << integrator << ": " << text;
     EXPECT_NE(text.find("of node"), std::string::npos) << text;
     for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
@@ -229,7 +248,7 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
 }
 
 // Interrupt
-// ----------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 TEST(Transient, anInterruptStopsCleanly) {
   const auto model = oscillator(1, 0, 400, 0.1, 0);
@@ -243,7 +262,7 @@ TEST(Transient, anInterruptStopsCleanly) {
 }
 
 // Cost
-// ---------------------------------------------------------------------------------------------------------------------------------
+// -------------------------------------------------------------------------------------------------
 
 #ifdef COUNTS_ALLOCATIONS
 /// Counter of allocations at the first sample and at the last.
@@ -276,14 +295,17 @@ TEST(Cost, theStepLoopAllocatesNothing) {
 
 TEST(Cost, onlyPointsNearTheFloorAreEvaluated) {
   auto model = droppedBalls(10, 1e6, 2e3, 7e11);
-  for (int i = 0; i < 5; ++i) model.initialDisplacement[i] = 10.0 + i;  // five never come down in time
+  for (int i = 0; i < 5; ++i)
+    model.initialDisplacement[i] = 10.0 + i;  // five never come down in time
   Keep samples;
   const auto report = integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples);
   EXPECT_GT(report.contactEvaluations, 0);
   // Five balls, at most a dozen evaluations per step and ball.
   EXPECT_LT(report.contactEvaluations, 5 * 12 * report.counters.steps);
   model.initialDisplacement.setConstant(10.0);
-  EXPECT_EQ(integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples).contactEvaluations, 0);
+  EXPECT_EQ(
+      integrate(model, options("Generalized-alpha", 0.2, 1e-3, 0.05), samples).contactEvaluations,
+      0);
 }
 
 TEST(Cost, reportAddsUp) {

@@ -20,7 +20,8 @@ std::vector<double> depths(double length, int n) {
   return s;
 }
 
-void expectOrthonormal(const std::vector<Matrix3>& frames, const Trajectory& well, const std::vector<double>& s) {
+void expectOrthonormal(const std::vector<Matrix3>& frames, const Trajectory& well,
+                       const std::vector<double>& s) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_LT((frames[i].transpose() * frames[i] - Matrix3::Identity()).norm(), 1e-14) << s[i];
     EXPECT_NEAR(frames[i].determinant(), 1.0, 1e-14) << s[i];
@@ -63,7 +64,8 @@ TEST(BishopFrames, PlanarArcTurnsAboutTheNormalOfItsPlane) {
   }
 }
 
-// Against the Frenet frame of a helix a Bishop frame turns back by the integral of the torsion b/(a^2+b^2).
+// Against the Frenet frame of a helix a Bishop frame turns back by the integral of the torsion
+// b/(a^2+b^2).
 TEST(BishopFrames, TurnAgainstTheFrenetFrameByTheTorsionIntegral) {
   const double a = 85.1;
   const double alpha = 0.5 * pi;
@@ -78,16 +80,19 @@ TEST(BishopFrames, TurnAgainstTheFrenetFrameByTheTorsionIntegral) {
     double start = 0.0;
     for (std::size_t i = 0; i < s.size(); ++i) {
       const Vector3 normal = well->at(s[i]).curvature.normalized();
-      const double angle = std::atan2(frames[i].col(1).dot(normal), frames[i].col(0).dot(normal));  // of the normal in the frame
+      const double angle = std::atan2(frames[i].col(1).dot(normal),
+                                      frames[i].col(0).dot(normal));  // of the normal in the frame
       if (i == 0) start = angle;
       EXPECT_NEAR(std::remainder(angle - start - torsion * s[i], 2.0 * pi), 0.0, 1e-10) << s[i];
     }
   }
 }
 
-// The spin x'.y of the frames is zero to second order of the spacing, whatever the spacing the frames are asked for.
+// The spin x'.y of the frames is zero to second order of the spacing, whatever the spacing the
+// frames are asked for.
 TEST(BishopFrames, DoNotDependOnTheDepthsAskedFor) {
-  const auto well = minimumCurvature({{0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}});
+  const auto well = minimumCurvature(
+      {{0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}});
   const Matrix3 direct = bishopFrames(*well, {120.0}).front();
   const auto s = depths(120.0, 1000);
   const auto fine = bishopFrames(*well, s);
@@ -95,15 +100,20 @@ TEST(BishopFrames, DoNotDependOnTheDepthsAskedFor) {
   EXPECT_LT((direct - fine.back()).norm(), 1e-11);
 }
 
-// On circular arcs parallel transport is the smallest rotation from station to station: an exact reference for surveys.
+// On circular arcs parallel transport is the smallest rotation from station to station: an exact
+// reference for surveys.
 TEST(BishopFrames, AreExactOnASurvey) {
   const std::vector<Station> stations = {
       {0.0, 0.1, 0.0}, {30.0, 0.3, 1.0}, {47.0, 0.5, 0.2}, {90.0, 0.2, -1.0}, {120.0, 0.9, 2.0}};
   const auto well = minimumCurvature(stations);
   Matrix3 expected = smallestRotation(Vector3::UnitZ(), well->at(0.0).tangent);
   for (std::size_t i = 1; i < stations.size(); ++i)
-    expected = smallestRotation(well->at(stations[i - 1].depth).tangent, well->at(stations[i].depth).tangent) * expected;
+    expected = smallestRotation(well->at(stations[i - 1].depth).tangent,
+                                well->at(stations[i].depth).tangent) *
+               expected;
   EXPECT_LT((bishopFrames(*well, {120.0}).front() - expected).norm(), 1e-11);
 }
 
-TEST(BishopFrames, RefuseDecreasingDepths) { EXPECT_THROW(bishopFrames(*straight(10.0), {5.0, 4.0}), ModelError); }
+TEST(BishopFrames, RefuseDecreasingDepths) {
+  EXPECT_THROW(bishopFrames(*straight(10.0), {5.0, 4.0}), ModelError);
+}

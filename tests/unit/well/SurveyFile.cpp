@@ -37,7 +37,8 @@ std::string errorOf(const std::string& text) {
     readSurvey(file.name());
   } catch (const DeckError& error) {
     std::string message = error.what();
-    for (auto at = message.find(file.name()); at != std::string::npos; at = message.find(file.name()))
+    for (auto at = message.find(file.name()); at != std::string::npos;
+         at = message.find(file.name()))
       message.replace(at, file.name().size(), "F");
     return message;
   }
@@ -57,7 +58,8 @@ TEST(SurveyFile, WithoutHeaderIsDepthInclinationAzimuthInMetresAndDegrees) {
 }
 
 TEST(SurveyFile, HeaderNamesColumnsInAnyOrderWithUnits) {
-  const CsvFile file("Azimuth [deg], TVD, MD (ft), Inclination [rad]\n90, 0, 0, 0\n90, 99, 1000, 0.5\n");
+  const CsvFile file(
+      "Azimuth [deg], TVD, MD (ft), Inclination [rad]\n90, 0, 0, 0\n90, 99, 1000, 0.5\n");
   const auto stations = readSurvey(file.name());
   ASSERT_EQ(stations.size(), 2u);
   EXPECT_DOUBLE_EQ(stations[1].depth, 304.8);
@@ -72,7 +74,8 @@ TEST(SurveyFile, UnitsOfTheDeckApplyWhereTheHeaderHasNone) {
   EXPECT_DOUBLE_EQ(stations[1].inclination, 0.1);
 }
 
-/// Each column alone in each unit: 50 gon would be 0.785 rad, and a unit that is not read leaves degrees.
+/// Each column alone in each unit: 50 gon would be 0.785 rad, and a unit that is not read leaves
+/// degrees.
 TEST(SurveyFile, TheUnitOfEachColumnIsReadFromTheHeader) {
   const auto second = [](const std::string& header, const std::string& row) {
     const CsvFile file(header + "\n0,0,0\n" + row + "\n");
@@ -86,26 +89,30 @@ TEST(SurveyFile, TheUnitOfEachColumnIsReadFromTheHeader) {
   EXPECT_DOUBLE_EQ(second("MD [km], Inc, Azi", "2,5,5").depth, 2000.0);
   EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").depth, 30.48);
   EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").azimuth, 0.5);
-  EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").inclination, 5.0 * degree);
+  EXPECT_DOUBLE_EQ(second("MD (Feet), Inc (Degrees), Azi (Radians)", "100,5,0.5").inclination,
+                   5.0 * degree);
 }
 
 TEST(SurveyFile, SemicolonsWithDecimalCommasAndTabs) {
   for (const std::string separator : {";", "\t"}) {
     const std::string s = separator;
-    const CsvFile file("\xEF\xBB\xBFMD" + s + "Inc" + s + "Azi\r\n0" + s + "0" + s + "0\r\n100,5" + s + "2,25" + s + "-7\r\n");
+    const CsvFile file("\xEF\xBB\xBFMD" + s + "Inc" + s + "Azi\r\n0" + s + "0" + s + "0\r\n100,5" +
+                       s + "2,25" + s + "-7\r\n");
     const auto table = readSurveyTable(file.name());
     ASSERT_EQ(table.stations.size(), 2U);
     EXPECT_DOUBLE_EQ(table.stations[1].depth, 100.5);
     EXPECT_DOUBLE_EQ(table.stations[1].inclination, 2.25 * degree);
     EXPECT_DOUBLE_EQ(table.stations[1].azimuth, -7.0 * degree);
     ASSERT_EQ(table.remarks.size(), 1U);
-    EXPECT_EQ(table.remarks[0], file.name() + ": 2 stations, cells separated by " + (s == ";" ? "semicolons" : "tabs") + ", decimal commas");
+    EXPECT_EQ(table.remarks[0], file.name() + ": 2 stations, cells separated by " +
+                                    (s == ";" ? "semicolons" : "tabs") + ", decimal commas");
   }
 }
 
 TEST(SurveyFile, DegreeSignsInHeaderAndCells) {
   for (const std::string degreeSign : {"\xC2\xB0", "\xB0"}) {
-    const CsvFile file("MD [ft];Inc [" + degreeSign + "];Azi" + degreeSign + "\n0;0;0\n100;2.5" + degreeSign + ";10 " + degreeSign + "\n");
+    const CsvFile file("MD [ft];Inc [" + degreeSign + "];Azi" + degreeSign + "\n0;0;0\n100;2.5" +
+                       degreeSign + ";10 " + degreeSign + "\n");
     const auto stations = readSurvey(file.name(), "m", "rad");
     ASSERT_EQ(stations.size(), 2U);
     EXPECT_DOUBLE_EQ(stations[1].depth, 30.48);
@@ -123,25 +130,38 @@ TEST(SurveyFile, ARowOfUnitsBelowTheHeader) {
     EXPECT_DOUBLE_EQ(stations[1].inclination, 0.5);
     EXPECT_DOUBLE_EQ(stations[1].azimuth, 90.0 * degree);
   }
-  EXPECT_NE(errorOf("MD,Inc,Azi\nm,furlong,deg\n0,0,0\n1,0,0\n").find("F:2: the unit \"furlong\" of the inclination is not known"), std::string::npos);
-  EXPECT_NE(errorOf("MD [ft],Inc,Azi\nm,deg,deg\n0,0,0\n1,0,0\n").find("F:2: the unit \"m\" of the measured depth is another one than that of the header"),
+  EXPECT_NE(errorOf("MD,Inc,Azi\nm,furlong,deg\n0,0,0\n1,0,0\n")
+                .find("F:2: the unit \"furlong\" of the inclination is not known"),
             std::string::npos);
-  EXPECT_NE(errorOf("MD,Inc,Azi\nkg,deg,deg\n0,0,0\n1,0,0\n").find("the unit \"kg\" of the measured depth is not known"), std::string::npos);
+  EXPECT_NE(
+      errorOf("MD [ft],Inc,Azi\nm,deg,deg\n0,0,0\n1,0,0\n")
+          .find("F:2: the unit \"m\" of the measured depth is another one than that of the header"),
+      std::string::npos);
+  EXPECT_NE(errorOf("MD,Inc,Azi\nkg,deg,deg\n0,0,0\n1,0,0\n")
+                .find("the unit \"kg\" of the measured depth is not known"),
+            std::string::npos);
 }
 
 TEST(SurveyFile, SaysWhatWasNotRead) {
   const CsvFile file("# exported\n#\nMD,TVD,Inc,Azi,Remarks\n0,0,0,0,start\n,,,,\n100,99,10,0,\n");
   const auto table = readSurveyTable(file.name());
   ASSERT_EQ(table.remarks.size(), 1U);
-  EXPECT_EQ(table.remarks[0], file.name() + ": 2 stations; not read: columns \"TVD\", \"Remarks\", 2 comment lines, 1 empty row");
+  EXPECT_EQ(
+      table.remarks[0],
+      file.name() +
+          ": 2 stations; not read: columns \"TVD\", \"Remarks\", 2 comment lines, 1 empty row");
   const CsvFile plain("0,0,0\n100,5,5\n");
   EXPECT_TRUE(readSurveyTable(plain.name()).remarks.empty());
 }
 
 TEST(SurveyFile, DecimalCommasAndPointsDoNotMix) {
   const std::string mixed = errorOf("MD;Inc;Azi\n0;0;0\n100,5;1.5;0\n");
-  EXPECT_NE(mixed.find("F:3: the inclination \"1.5\" has a decimal point, but there is a decimal comma in line 3"), std::string::npos) << mixed;
-  EXPECT_NE(errorOf("MD;Inc;Azi\n0;0;0\n1.234,5;1;0\n").find("\"1.234,5\" is not a finite number"), std::string::npos);
+  EXPECT_NE(mixed.find("F:3: the inclination \"1.5\" has a decimal point, but there is a decimal "
+                       "comma in line 3"),
+            std::string::npos)
+      << mixed;
+  EXPECT_NE(errorOf("MD;Inc;Azi\n0;0;0\n1.234,5;1;0\n").find("\"1.234,5\" is not a finite number"),
+            std::string::npos);
 }
 
 TEST(SurveyFile, UTF16AndPipesAreRefused) {
@@ -162,24 +182,33 @@ TEST(SurveyFile, QuotesLittleOfALongCell) {
 TEST(SurveyFile, EveryFaultIsReportedWithItsLine) {
   const std::string message = errorOf("0,0,0\n100,10\n90,abc,0\n80,200,0\n70,5,0\n");
   EXPECT_NE(message.find("F:2: found 2 columns"), std::string::npos) << message;
-  EXPECT_NE(message.find("F:3: the inclination \"abc\" is not a finite number."), std::string::npos) << message;
-  EXPECT_NE(message.find("F:4: the inclination must lie between 0 and 180 degrees."), std::string::npos) << message;
-  EXPECT_NE(message.find("F:5: the measured depth does not increase"), std::string::npos) << message;
+  EXPECT_NE(message.find("F:3: the inclination \"abc\" is not a finite number."), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("F:4: the inclination must lie between 0 and 180 degrees."),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("F:5: the measured depth does not increase"), std::string::npos)
+      << message;
 }
 
 TEST(SurveyFile, RefusesWhatIsNotANumber) {
   for (const char* cell : {"12abc", "", "nan", "inf", "1 2", "0x10"})
-    EXPECT_NE(errorOf("0,0,0\n100," + std::string(cell) + ",0\n").find("F:2: the inclination"), std::string::npos) << cell;
+    EXPECT_NE(errorOf("0,0,0\n100," + std::string(cell) + ",0\n").find("F:2: the inclination"),
+              std::string::npos)
+        << cell;
 }
 
 TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {
-  EXPECT_NE(errorOf("5,0,0\n100,0,0\n").find("F:1: the first station must be at measured depth 0"), std::string::npos);
+  EXPECT_NE(errorOf("5,0,0\n100,0,0\n").find("F:1: the first station must be at measured depth 0"),
+            std::string::npos);
   EXPECT_NE(errorOf("0,0,0\n").find("at least two stations"), std::string::npos);
   EXPECT_NE(errorOf("").find("at least two stations"), std::string::npos);
-  EXPECT_NE(errorOf("0,90,0\n10,90,180\n").find("F:2: the hole turns back by 180 degrees"), std::string::npos);
+  EXPECT_NE(errorOf("0,90,0\n10,90,180\n").find("F:2: the hole turns back by 180 degrees"),
+            std::string::npos);
   EXPECT_NE(errorOf("0,0,0\n10,0,400\n").find("F:2: the azimuth must lie"), std::string::npos);
   EXPECT_NE(errorOf("MD,Inc\n0,0\n10,0\n").find("no column for the azimuth"), std::string::npos);
-  EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n").find("the unit \"furlong\" of the measured depth is not known"),
+  EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n")
+                .find("the unit \"furlong\" of the measured depth is not known"),
             std::string::npos);
   EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("stands twice"), std::string::npos);
   EXPECT_THROW(readSurvey("no_such_file.csv"), DeckError);

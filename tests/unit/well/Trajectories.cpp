@@ -13,7 +13,8 @@ namespace {
 const double pi = 3.14159265358979323846;
 const double degree = pi / 180.0;
 
-/// Tangent and curvature are the derivatives of the position, the tangent has unit length, and nothing jumps.
+/// Tangent and curvature are the derivatives of the position, the tangent has unit length, and
+/// nothing jumps.
 void expectConsistent(const Trajectory& well, const std::vector<double>& depths) {
   const double h = 1e-3;
   for (const double s : depths) {
@@ -40,7 +41,9 @@ TEST(Helix, HasTheClosedFormCurvatureAndInclination) {
     EXPECT_NEAR(well->at(s).curvature.norm(), a / (a * a + b * b), 1e-15) << s;
     // eq. (44)
     const double p = alpha * s / length;
-    EXPECT_LT((well->at(s).position - Vector3(a * std::cos(p) - a, a * std::sin(p), b * p)).norm(), 1e-12) << s;
+    EXPECT_LT((well->at(s).position - Vector3(a * std::cos(p) - a, a * std::sin(p), b * p)).norm(),
+              1e-12)
+        << s;
   }
   EXPECT_NEAR(std::acos(well->at(0.0).tangent.z()) / degree, 51.76, 5e-3);
   EXPECT_NEAR(well->at(0.0).tangent.x(), 0.0, 1e-15);
@@ -53,7 +56,8 @@ TEST(Helix, RefusesALengthTooShortForItsAngle) {
     helix(100.0, 2.0, 150.0);
     FAIL() << "no error";
   } catch (const DeckError& error) {
-    EXPECT_NE(std::string(error.what()).find("at least 200 m long"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("at least 200 m long"), std::string::npos)
+        << error.what();
   }
 }
 
@@ -71,7 +75,9 @@ TEST(Straight, RunsAlongItsDirection) {
   EXPECT_EQ(vertical->at(30.0).position, Vector3(0.0, 0.0, 30.0));
   EXPECT_EQ(vertical->at(30.0).curvature.norm(), 0.0);
   const auto inclined = straight(100.0, 30.0 * degree, 90.0 * degree);
-  EXPECT_LT((inclined->at(100.0).position - Vector3(0.0, 50.0, 100.0 * std::cos(30.0 * degree))).norm(), 1e-12);
+  EXPECT_LT(
+      (inclined->at(100.0).position - Vector3(0.0, 50.0, 100.0 * std::cos(30.0 * degree))).norm(),
+      1e-12);
 }
 
 TEST(Arc, IsACircleBetweenStraights) {
@@ -127,12 +133,15 @@ TEST(MinimumCurvature, IsExactOnAPlanarArc) {
   }
 }
 
-// The ratio factor form of the method for one leg: dX = L/2 (sum of the tangents) (2/beta) tan(beta/2).
+// The ratio factor form of the method for one leg: dX = L/2 (sum of the tangents) (2/beta)
+// tan(beta/2).
 TEST(MinimumCurvature, AgreesWithTheRatioFactorForm) {
-  const double i1 = 20.0 * degree, i2 = 35.0 * degree, a1 = 350.0 * degree, a2 = 25.0 * degree, length = 90.0;
+  const double i1 = 20.0 * degree, i2 = 35.0 * degree, a1 = 350.0 * degree, a2 = 25.0 * degree,
+               length = 90.0;
   const Vector3 t1(std::sin(i1) * std::cos(a1), std::sin(i1) * std::sin(a1), std::cos(i1));
   const Vector3 t2(std::sin(i2) * std::cos(a2), std::sin(i2) * std::sin(a2), std::cos(i2));
-  const double beta = std::acos(std::cos(i2 - i1) - std::sin(i1) * std::sin(i2) * (1.0 - std::cos(a2 - a1)));
+  const double beta =
+      std::acos(std::cos(i2 - i1) - std::sin(i1) * std::sin(i2) * (1.0 - std::cos(a2 - a1)));
   const Vector3 expected = 0.5 * length * (t1 + t2) * (2.0 / beta) * std::tan(0.5 * beta);
   const auto survey = minimumCurvature({{0.0, i1, a1}, {length, i2, a2}});
   EXPECT_LT((survey->at(length).position - expected).norm(), 1e-11);
@@ -149,7 +158,8 @@ TEST(MinimumCurvature, ConvergesToTheHelixWithTheSquareOfTheSpacing) {
       const Vector3 t = exact->at(170.2 * i / n).tangent;
       stations.push_back({170.2 * i / n, std::acos(t.z()), std::atan2(t.y(), t.x())});
     }
-    const double error = (minimumCurvature(stations)->at(170.2).position - exact->at(170.2).position).norm();
+    const double error =
+        (minimumCurvature(stations)->at(170.2).position - exact->at(170.2).position).norm();
     if (before > 0.0) {
       EXPECT_NEAR(before / error, 4.0, 0.2) << n;
     }

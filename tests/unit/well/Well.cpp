@@ -17,9 +17,10 @@ const double pi = 3.14159265358979323846;
 Well fromDeck(const std::string& inside) {
   deck::ListSpec scene("scene", "A scene.");
   scene.requiredList(parameters());
-  const deck::Deck deck = deck::Deck::parse(
-      "<ParameterList name=\"scene\"><ParameterList name=\"Well\">" + inside + "</ParameterList></ParameterList>", "deck.xml",
-      scene);
+  const deck::Deck deck =
+      deck::Deck::parse("<ParameterList name=\"scene\"><ParameterList name=\"Well\">" + inside +
+                            "</ParameterList></ParameterList>",
+                        "deck.xml", scene);
   return readWell(deck.list().sublist("Well"), deck.folder());
 }
 
@@ -57,53 +58,64 @@ TEST(Well, BoreRadiusFollowsTheIntervalsAndTheSmallerCountsWhereTwoMeet) {
 TEST(Well, RefusesIntervalsThatMakeNoSense) {
   EXPECT_THROW(Well(straight(100.0), 0.1, {{"a", 10.0, 10.0, 0.1}}), DeckError);
   EXPECT_THROW(Well(straight(100.0), 0.1, {{"a", 10.0, 20.0, 0.0}}), DeckError);
-  EXPECT_THROW(Well(straight(100.0), 0.1, {{"a", 10.0, 30.0, 0.1}, {"b", 20.0, 40.0, 0.1}}), DeckError);
+  EXPECT_THROW(Well(straight(100.0), 0.1, {{"a", 10.0, 30.0, 0.1}, {"b", 20.0, 40.0, 0.1}}),
+               DeckError);
 }
 
 TEST(Well, ReadsEveryTrajectoryFromADeck) {
-  const Well spiral = fromDeck(text("Trajectory", "Helix") + real("Bore Radius", "0.108") +
-                               list("Helix", real("Radius", "85.1") + text("Angle", "90 deg") + real("Length", "170.2")));
+  const Well spiral = fromDeck(
+      text("Trajectory", "Helix") + real("Bore Radius", "0.108") +
+      list("Helix", real("Radius", "85.1") + text("Angle", "90 deg") + real("Length", "170.2")));
   EXPECT_NEAR(spiral.inclination(0.0) * 180.0 / pi, 51.76, 5e-3);
   EXPECT_EQ(spiral.boreRadius(20.0), 0.108);
 
-  const Well vertical =
-      fromDeck(text("Trajectory", "Vertical") + text("Bore Radius", "10.8 cm") + list("Vertical", real("Length", "1000")));
+  const Well vertical = fromDeck(text("Trajectory", "Vertical") + text("Bore Radius", "10.8 cm") +
+                                 list("Vertical", real("Length", "1000")));
   EXPECT_EQ(vertical.inclination(500.0), 0.0);
   EXPECT_NEAR(vertical.boreRadius(1.0), 0.108, 1e-15);
 
-  const Well curved =
-      fromDeck(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
-               list("Arc", real("Kick-off Depth", "100") + text("Build Rate", "3 deg/30m") + text("End Inclination", "60 deg")) +
-               list("Bore", list("casing", real("From", "0") + real("To", "100") + real("Radius", "0.15"))));
+  const Well curved = fromDeck(
+      text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
+      list("Arc", real("Kick-off Depth", "100") + text("Build Rate", "3 deg/30m") +
+                      text("End Inclination", "60 deg")) +
+      list("Bore", list("casing", real("From", "0") + real("To", "100") + real("Radius", "0.15"))));
   EXPECT_NEAR(curved.length(), 700.0, 1e-9);
   EXPECT_NEAR(curved.inclination(400.0), pi / 6.0, 1e-12);
   EXPECT_EQ(curved.boreRadius(50.0), 0.15);
   EXPECT_EQ(curved.boreRadius(150.0), 0.1);
 
   const Well surveyed = fromDeck(text("Trajectory", "Survey") + real("Bore Radius", "0.1") +
-                                 list("Survey", text("File", std::string(TOOLJOINT_SOURCE_DIR) + "/tests/unit/well/survey.csv")));
+                                 list("Survey", text("File", std::string(TOOLJOINT_SOURCE_DIR) +
+                                                                 "/tests/unit/well/survey.csv")));
   EXPECT_NEAR(surveyed.length(), 1500.0 * 0.3048, 1e-9);
 }
 
 TEST(Well, FaultsNameTheirPlaceInTheDeck) {
-  EXPECT_NE(errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1")).find("/scene/Well"), std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1") +
-                    list("Helix", real("Radius", "100") + real("Angle", "2") + real("Length", "100")))
-                .find("/scene/Well/Helix: A helix of radius 100 m"),
+  EXPECT_NE(errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1")).find("/scene/Well"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") + list("Arc", real("End Inclination", "1")))
+  EXPECT_NE(
+      errorOf(text("Trajectory", "Helix") + real("Bore Radius", "0.1") +
+              list("Helix", real("Radius", "100") + real("Angle", "2") + real("Length", "100")))
+          .find("/scene/Well/Helix: A helix of radius 100 m"),
+      std::string::npos);
+  EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
+                    list("Arc", real("End Inclination", "1")))
                 .find("either Radius or Build Rate"),
             std::string::npos);
   EXPECT_NE(errorOf(text("Trajectory", "Arc") + real("Bore Radius", "0.1") +
                     list("Arc", real("End Inclination", "0") + real("Radius", "1")))
                 .find("the same inclination"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Survey") + real("Bore Radius", "0.1") + list("Survey", text("File", "none.csv")))
+  EXPECT_NE(errorOf(text("Trajectory", "Survey") + real("Bore Radius", "0.1") +
+                    list("Survey", text("File", "none.csv")))
                 .find("/scene/Well/Survey/File names a file"),
             std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Spiral") + real("Bore Radius", "0.1")).find("\"Helix\""), std::string::npos);
-  EXPECT_NE(errorOf(text("Trajectory", "Vertical") + real("Bore Radius", "0.1") + list("Vertical", real("Length", "10")) +
-                    list("Bore", list("a", real("From", "5") + real("To", "4") + real("Radius", "0.1"))))
-                .find("/scene/Well/Bore: The bore interval \"a\" ends at 4 m"),
+  EXPECT_NE(errorOf(text("Trajectory", "Spiral") + real("Bore Radius", "0.1")).find("\"Helix\""),
             std::string::npos);
+  EXPECT_NE(
+      errorOf(text("Trajectory", "Vertical") + real("Bore Radius", "0.1") +
+              list("Vertical", real("Length", "10")) +
+              list("Bore", list("a", real("From", "5") + real("To", "4") + real("Radius", "0.1"))))
+          .find("/scene/Well/Bore: The bore interval \"a\" ends at 4 m"),
+      std::string::npos);
 }

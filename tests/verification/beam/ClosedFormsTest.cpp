@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Straight beams against closed forms: buckling under force and torque, frequencies of rods, beam-columns, chains and
-/// spinning shafts. With n Hermite elements the relative error of a mode with k half waves is of order (k pi/n)^4/720.
-#include <gtest/gtest.h>
-
+/// Straight beams against closed forms: buckling under force and torque, frequencies of rods,
+/// beam-columns, chains and spinning shafts. With n Hermite elements the relative error of a mode
+/// with k half waves is of order (k pi/n)^4/720.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <gtest/gtest.h>
 
 #include "tests/support/StraightBeam.hpp"
 
@@ -19,26 +19,31 @@ using testing_::StraightBeam;
 const double pi = std::acos(-1.0);
 const std::vector<int> lateral{0, 1, 3, 4};
 
-Section slender() { return Section::hollow(0.0635, 0.054, Material{7900.0, 2.03e11, 0.3}).withoutShear(); }
+Section slender() {
+  return Section::hollow(0.0635, 0.054, Material{7900.0, 2.03e11, 0.3}).withoutShear();
+}
 
 /// u = v = 0 at both ends.
 std::vector<int> pinned(const StraightBeam& beam) {
   return beam.free(lateral, {0, 1, beam.tip(), beam.tip() + 1});
 }
 std::vector<int> clamped(const StraightBeam& beam) {
-  return beam.free(lateral, {0, 1, 3, 4, beam.tip(), beam.tip() + 1, beam.tip() + 3, beam.tip() + 4});
+  return beam.free(lateral,
+                   {0, 1, 3, 4, beam.tip(), beam.tip() + 1, beam.tip() + 3, beam.tip() + 4});
 }
 
 Matrix select(const Matrix& m, const std::vector<int>& dofs) {
   const auto n = static_cast<int>(dofs.size());
   Matrix out(n, n);
   for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) out(i, j) = m(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
+    for (int j = 0; j < n; ++j)
+      out(i, j) = m(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
   return out;
 }
 
 Vector frequencies(const Matrix& k, const Matrix& m, const std::vector<int>& dofs) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(select(k, dofs), select(m, dofs), Eigen::EigenvaluesOnly);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(select(k, dofs), select(m, dofs),
+                                                               Eigen::EigenvaluesOnly);
   return eigen.eigenvalues().cwiseSqrt();
 }
 
@@ -109,14 +114,16 @@ TEST(Frequencies, BeamColumn) {
   const double euler = pi * pi * s.youngModulus() * s.inertiaX() / (beam.length * beam.length);
   const Matrix m = beam.assemble(mass(s, beam.elementLength()));
   for (const double tension : {0.0, 2.0 * euler, -0.5 * euler}) {
-    const Matrix k =
-        beam.assemble(stiffness(s, beam.elementLength()) + tension * geometricAxial(beam.elementLength()));
+    const Matrix k = beam.assemble(stiffness(s, beam.elementLength()) +
+                                   tension * geometricAxial(beam.elementLength()));
     const Vector omega = frequencies(k, m, pinned(beam));
     for (int mode = 1; mode <= 3; ++mode) {
       const double q = mode * pi / beam.length;
-      const double exact = std::sqrt((s.youngModulus() * s.inertiaX() * std::pow(q, 4) + tension * q * q) /
-                                     (s.massPerLength() + s.density() * s.inertiaX() * q * q));
-      for (int plane = 0; plane < 2; ++plane) EXPECT_NEAR(omega(2 * (mode - 1) + plane) / exact, 1.0, 2e-5);
+      const double exact =
+          std::sqrt((s.youngModulus() * s.inertiaX() * std::pow(q, 4) + tension * q * q) /
+                    (s.massPerLength() + s.density() * s.inertiaX() * q * q));
+      for (int plane = 0; plane < 2; ++plane)
+        EXPECT_NEAR(omega(2 * (mode - 1) + plane) / exact, 1.0, 2e-5);
     }
   }
 }
@@ -155,7 +162,8 @@ TEST(Frequencies, RodWithEndMass) {
 }
 
 TEST(Frequencies, HangingChain) {
-  // omega = j_k/2 sqrt(g/L) with the zeros of J_0; a bending stiffness of 1e-7 w L^3 shifts it by about its square root
+  // omega = j_k/2 sqrt(g/L) with the zeros of J_0; a bending stiffness of 1e-7 w L^3 shifts it by
+  // about its square root
   const double g = 9.81;
   const Material rope{7900.0, 2.03e11, 0.3};
   const StraightBeam beam{60, 100.0};
@@ -172,7 +180,8 @@ TEST(Frequencies, HangingChain) {
   const Vector omega = frequencies(k, m, beam.free(lateral, {0, 1}));
   const double unit = std::sqrt(g / beam.length);
   const double exact[] = {1.20241, 2.76004, 4.32686};
-  for (int mode = 0; mode < 3; ++mode) EXPECT_NEAR(omega(2 * mode) / unit / exact[mode], 1.0, 5e-4) << mode;
+  for (int mode = 0; mode < 3; ++mode)
+    EXPECT_NEAR(omega(2 * mode) / unit / exact[mode], 1.0, 5e-4) << mode;
 }
 
 TEST(Frequencies, GyroscopicSplittingOfAPinnedShaft) {
@@ -185,7 +194,8 @@ TEST(Frequencies, GyroscopicSplittingOfAPinnedShaft) {
   const Matrix c = beam.assemble(gyroscopic(s, beam.elementLength()));
   const Matrix gyro = select(speed * (c.transpose() - c), dofs);
   const Matrix stiff = select(beam.assemble(stiffness(s, beam.elementLength())), dofs);
-  const Eigen::PartialPivLU<Matrix> inertia(select(beam.assemble(mass(s, beam.elementLength())), dofs));
+  const Eigen::PartialPivLU<Matrix> inertia(
+      select(beam.assemble(mass(s, beam.elementLength())), dofs));
   Matrix state = Matrix::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n).setIdentity();
   state.bottomLeftCorner(n, n) = -inertia.solve(stiff);
@@ -201,7 +211,8 @@ TEST(Frequencies, GyroscopicSplittingOfAPinnedShaft) {
   ASSERT_GT(forward, 1.02 * backward);
   std::vector<std::pair<double, int>> positive;
   for (int i = 0; i < 2 * n; ++i)
-    if (eigen.eigenvalues()(i).imag() > 0.0) positive.emplace_back(eigen.eigenvalues()(i).imag(), i);
+    if (eigen.eigenvalues()(i).imag() > 0.0)
+      positive.emplace_back(eigen.eigenvalues()(i).imag(), i);
   std::sort(positive.begin(), positive.end());
   EXPECT_NEAR(positive[0].first / backward, 1.0, 1e-5);
   EXPECT_NEAR(positive[1].first / forward, 1.0, 1e-5);

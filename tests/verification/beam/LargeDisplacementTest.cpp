@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Corotational beams against large-displacement solutions: the elastica, the roll-up, Bathe's 45-degree bend.
-#include <gtest/gtest.h>
-
+/// Corotational beams against large-displacement solutions: the elastica, the roll-up, Bathe's
+/// 45-degree bend.
 #include <Eigen/Geometry>
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "tests/support/DirectNewton.hpp"
 #include "tests/support/FrameProblem.hpp"
@@ -19,14 +19,17 @@ const double pi = std::acos(-1.0);
 FrameProblem cantilever(int elements) {
   const Section s = Section::general(1e8, 1.0, 1.0, 1.0, Material{1.0, 1.0, 0.0});
   std::vector<Vector3> positions;
-  for (int i = 0; i <= elements; ++i) positions.emplace_back(0.0, 0.0, static_cast<double>(i) / elements);
+  for (int i = 0; i <= elements; ++i)
+    positions.emplace_back(0.0, 0.0, static_cast<double>(i) / elements);
   const std::vector<Matrix3> triads(positions.size(), Matrix3::Identity());
-  const std::vector<CorotationalElement> chain(static_cast<std::size_t>(elements), CorotationalElement(s, 1.0 / elements));
+  const std::vector<CorotationalElement> chain(static_cast<std::size_t>(elements),
+                                               CorotationalElement(s, 1.0 / elements));
   return FrameProblem(positions, triads, chain, 1.0, 1.0);
 }
 
 /// Brings the load on in equal steps; returns whether all converged.
-bool loadUp(FrameProblem& problem, const Vector3& force, const Vector3& moment, int steps, double tolerance) {
+bool loadUp(FrameProblem& problem, const Vector3& force, const Vector3& moment, int steps,
+            double tolerance) {
   for (int step = 1; step <= steps; ++step) {
     const double part = static_cast<double>(step) / steps;
     problem.loadTip(part * force, part * moment);
@@ -64,10 +67,11 @@ TEST(LargeDisplacement, RollUpToAFullCircle) {
 }
 
 TEST(LargeDisplacement, Bathes45DegreeBend) {
-  // Bathe and Bolourchi (1979): radius 100, unit square section, E = 1e7, nu = 0, tip force 600 out of the plane.
-  // Reference values of Simo and Vu-Quoc (1986), eight straight elements.
+  // Bathe and Bolourchi (1979): radius 100, unit square section, E = 1e7, nu = 0, tip force 600 out
+  // of the plane. Reference values of Simo and Vu-Quoc (1986), eight straight elements.
   const int elements = 8;
-  const Section s = Section::general(1.0, 1.0 / 12.0, 1.0 / 12.0, 1.0 / 6.0, Material{1.0, 1e7, 0.0});
+  const Section s =
+      Section::general(1.0, 1.0 / 12.0, 1.0 / 12.0, 1.0 / 6.0, Material{1.0, 1e7, 0.0});
   std::vector<Vector3> positions;
   std::vector<Matrix3> triads;
   for (int i = 0; i <= elements; ++i) {
@@ -82,15 +86,18 @@ TEST(LargeDisplacement, Bathes45DegreeBend) {
   std::vector<CorotationalElement> chain;
   for (std::size_t e = 0; e < static_cast<std::size_t>(elements); ++e) {
     const Matrix3 triad = elementTriad(positions[e], positions[e + 1], triads[e], triads[e + 1]);
-    chain.emplace_back(s, (positions[e + 1] - positions[e]).norm(), triad, triads[e], triads[e + 1]);
+    chain.emplace_back(s, (positions[e + 1] - positions[e]).norm(), triad, triads[e],
+                       triads[e + 1]);
   }
   FrameProblem problem(positions, triads, chain, 600.0, 60000.0);
   ASSERT_TRUE(loadUp(problem, {0.0, 0.0, 600.0}, Vector3::Zero(), 6, 1e-8));
-  // the curve starts along X and bends towards Y; the published axes give (bend, along, out of plane)
+  // the curve starts along X and bends towards Y; the published axes give (bend, along, out of
+  // plane)
   EXPECT_NEAR(problem.tip().x() / 47.23, 1.0, 0.015);
   EXPECT_NEAR(problem.tip().y() / 15.79, 1.0, 0.015);
   EXPECT_NEAR(problem.tip().z() / 53.37, 1.0, 0.015);
-  RecordProperty("tip", std::to_string(problem.tip().x()) + " " + std::to_string(problem.tip().y()) + " " +
+  RecordProperty("tip", std::to_string(problem.tip().x()) + " " +
+                            std::to_string(problem.tip().y()) + " " +
                             std::to_string(problem.tip().z()));
 }
 

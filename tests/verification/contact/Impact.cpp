@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mass on the wall of the hole: restitution, rolling whirl and the energy balance, integrated with the contact laws alone.
+// A mass on the wall of the hole: restitution, rolling whirl and the energy balance, integrated
+// with the contact laws alone.
 #include <Teuchos_ParameterList.hpp>
 #include <array>
 #include <cmath>
@@ -21,16 +22,21 @@ using Motion = std::array<double, 6>;
 class Body {
  public:
   Body(std::shared_ptr<const BoreholeContact> contact, double mass, double inertia)
-      : contact_(std::move(contact)), inverse_{1.0 / mass, 1.0 / mass, inertia > 0.0 ? 1.0 / inertia : 0.0} {}
+      : contact_(std::move(contact)),
+        inverse_{1.0 / mass, 1.0 / mass, inertia > 0.0 ? 1.0 / inertia : 0.0} {}
 
   Motion step(const Motion& x, double h) const {
-    const Motion a = rate(x), b = rate(moved(x, a, 0.5 * h)), c = rate(moved(x, b, 0.5 * h)), d = rate(moved(x, c, h));
+    const Motion a = rate(x), b = rate(moved(x, a, 0.5 * h)), c = rate(moved(x, b, 0.5 * h)),
+                 d = rate(moved(x, c, h));
     Motion next = x;
-    for (std::size_t i = 0; i < 6; ++i) next[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
+    for (std::size_t i = 0; i < 6; ++i)
+      next[i] += h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
     return next;
   }
 
-  model::PointLaw::Power power(const Motion& x) const { return contact_->power(0.0, {0}, x.data(), x.data() + 3); }
+  model::PointLaw::Power power(const Motion& x) const {
+    return contact_->power(0.0, {0}, x.data(), x.data() + 3);
+  }
 
  private:
   static Motion moved(Motion x, const Motion& rate, double h) {
@@ -60,14 +66,17 @@ ContactPoint wall(double damping, double mu) {
   return p;
 }
 
-std::shared_ptr<const BoreholeContact> touching(const ContactLaw& law, const ContactPoint& point, double speed) {
+std::shared_ptr<const BoreholeContact> touching(const ContactLaw& law, const ContactPoint& point,
+                                                double speed) {
   ContactPoints points;
   points.add(point);
   return law.inMotion(points, [speed](double) { return speed; });
 }
 
-/// Rebound speed over impact speed of a mass that meets the wall head on; `duration` is the time of contact.
-double restitution(const ContactLaw& law, const ContactPoint& point, double mass, double impact, double* duration = nullptr) {
+/// Rebound speed over impact speed of a mass that meets the wall head on; `duration` is the time of
+/// contact.
+double restitution(const ContactLaw& law, const ContactPoint& point, double mass, double impact,
+                   double* duration = nullptr) {
   const Body body(touching(law, point, 0.0), mass, 0.0);
   Motion x{point.clearance, 0.0, 0.0, impact, 0.0, 0.0};
   const double h = 1e-6;
@@ -86,27 +95,33 @@ double restitution(const ContactLaw& law, const ContactPoint& point, double mass
 TEST(Impact, ElasticWallReturnsEverythingAfterHalfAPeriod) {
   for (const char* name : {"Nguyen", "Clamped", "Hunt-Crossley"}) {
     double duration = 0.0;
-    EXPECT_NEAR(restitution(*makeLaw(name), wall(0.0, 0.0), 50.0, 0.3, &duration), 1.0, 1e-4) << name;
+    EXPECT_NEAR(restitution(*makeLaw(name), wall(0.0, 0.0), 50.0, 0.3, &duration), 1.0, 1e-4)
+        << name;
     EXPECT_NEAR(duration, pi * std::sqrt(50.0 / 1e7), 4e-6) << name;
   }
 }
 
-// Spring and dashpot, beta = c/2m, omega^2 = k/m - beta^2. Until G = 0, pull included: exp(-pi beta/omega). With a wall that
-// cannot pull: exp(-(beta/omega)(pi - atan(2 beta omega/(omega^2 - beta^2)))) (Schwager and Poeschel, Granular Matter 9, 2007).
+// Spring and dashpot, beta = c/2m, omega^2 = k/m - beta^2. Until G = 0, pull included: exp(-pi
+// beta/omega). With a wall that cannot pull: exp(-(beta/omega)(pi - atan(2 beta omega/(omega^2 -
+// beta^2)))) (Schwager and Poeschel, Granular Matter 9, 2007).
 TEST(Impact, RestitutionOfSpringAndDashpot) {
   const double mass = 50.0, stiffness = 1e7;
   for (const double damping : {2e3, 1e4, 2e4}) {
     const double beta = damping / (2.0 * mass);
     const double omega = std::sqrt(stiffness / mass - beta * beta);
     ASSERT_LT(beta, omega);
-    EXPECT_NEAR(restitution(*makeLaw("Nguyen"), wall(damping, 0.0), mass, 0.3), std::exp(-pi * beta / omega), 1e-3) << damping;
+    EXPECT_NEAR(restitution(*makeLaw("Nguyen"), wall(damping, 0.0), mass, 0.3),
+                std::exp(-pi * beta / omega), 1e-3)
+        << damping;
     const double angle = pi - std::atan(2.0 * beta * omega / (omega * omega - beta * beta));
-    EXPECT_NEAR(restitution(*makeLaw("Clamped"), wall(damping, 0.0), mass, 0.3), std::exp(-angle * beta / omega), 1e-3)
+    EXPECT_NEAR(restitution(*makeLaw("Clamped"), wall(damping, 0.0), mass, 0.3),
+                std::exp(-angle * beta / omega), 1e-3)
         << damping;
   }
 }
 
-// 1 - (2/3) chi v for slow impacts, whatever the exponent (Hunt and Crossley 1975); the next term is of order (chi v)^2.
+// 1 - (2/3) chi v for slow impacts, whatever the exponent (Hunt and Crossley 1975); the next term
+// is of order (chi v)^2.
 TEST(Impact, RestitutionOfHuntAndCrossley) {
   for (const double exponent : {1.0, 1.5, 2.0}) {
     Teuchos::ParameterList own;
@@ -115,12 +130,14 @@ TEST(Impact, RestitutionOfHuntAndCrossley) {
     point.stiffness = exponent == 1.0 ? 1e7 : 1e9;
     const auto law = LawRegistry::instance().make("Hunt-Crossley", own);
     for (const double v : {0.1, 0.3})
-      EXPECT_NEAR(restitution(*law, point, 50.0, v), 1.0 - 2.0 / 3.0 * 0.2 * v, std::pow(0.2 * v, 2)) << exponent << " " << v;
+      EXPECT_NEAR(restitution(*law, point, 50.0, v), 1.0 - 2.0 / 3.0 * 0.2 * v,
+                  std::pow(0.2 * v, 2))
+          << exponent << " " << v;
   }
 }
 
-// Friction on a turning string that cannot leave the drive drives it round backwards until it rolls: whirl -Omega R_c/r, which
-// is -Omega R_c/j0 but for the penetration m whirl^2 r/k.
+// Friction on a turning string that cannot leave the drive drives it round backwards until it
+// rolls: whirl -Omega R_c/r, which is -Omega R_c/j0 but for the penetration m whirl^2 r/k.
 TEST(Whirl, FrictionEndsInBackwardRolling) {
   const double speed = 12.0;
   const ContactPoint point = wall(1e4, 0.2);
@@ -133,7 +150,8 @@ TEST(Whirl, FrictionEndsInBackwardRolling) {
   EXPECT_NEAR(r - point.clearance, 50.0 * whirl * whirl * r / 1e7, 1e-8);
 }
 
-// Kinetic + stored energy plus what was lost minus what the drive fed in stays constant along a bouncing, sliding motion.
+// Kinetic + stored energy plus what was lost minus what the drive fed in stays constant along a
+// bouncing, sliding motion.
 TEST(Energy, LedgerCloses) {
   const double mass = 50.0, inertia = 0.2;
   for (const char* name : {"Nguyen", "Clamped", "Hunt-Crossley"}) {
@@ -145,7 +163,8 @@ TEST(Energy, LedgerCloses) {
     const Body body(touching(*LawRegistry::instance().make(name, own), point, 12.0), mass, inertia);
     Motion x{0.01, 0.02, 0.0, 0.5, 0.2, -1.0};
     const auto energy = [&](const Motion& at) {
-      return 0.5 * mass * (at[3] * at[3] + at[4] * at[4]) + 0.5 * inertia * at[5] * at[5] + body.power(at).stored;
+      return 0.5 * mass * (at[3] * at[3] + at[4] * at[4]) + 0.5 * inertia * at[5] * at[5] +
+             body.power(at).stored;
     };
     const double start = energy(x);
     const double h = 1e-6;

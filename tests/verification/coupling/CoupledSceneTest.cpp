@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A string whose parts are joined in every way the list Coupling knows: reduced with all modes it is the full model with the same
-/// connections, whatever the assembly, and where nothing pushes it stays at rest.
+/// A string whose parts are joined in every way the list Coupling knows: reduced with all modes it
+/// is the full model with the same connections, whatever the assembly, and where nothing pushes it
+/// stays at rest.
 #include <gtest/gtest.h>
 
 #include "app/Stages.hpp"
@@ -15,34 +16,48 @@ namespace {
 using namespace tooljoint;
 
 app::Scene sceneWith(const std::vector<std::string>& overrides) {
-  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/tests/effects/coupling.xml", overrides);
+  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/tests/effects/coupling.xml",
+                        overrides);
 }
 
 class CoupledScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
-  const auto scene = sceneWith({"!Reduction/Modes", "Reduction/All Modes=true", std::string("Coupling/Assembly=") + GetParam()});
+  const auto scene = sceneWith({"!Reduction/Modes", "Reduction/All Modes=true",
+                                std::string("Coupling/Assembly=") + GetParam()});
   const auto stage = app::settle(scene);
   const auto planned = app::plannedParts(scene, stage);
   const auto whole = app::joinUnreduced(planned);
-  const auto reduced = coupling::synthesise(planned.parts, scene.list().sublist("Reduction"), planned.options);
+  const auto reduced =
+      coupling::synthesise(planned.parts, scene.list().sublist("Reduction"), planned.options);
   EXPECT_EQ(reduced.coupled.multipliers.empty(), std::string(GetParam()) == "Primal");
   const int count = 40;
-  const Vector exact = coupling::lowestModes(whole.model, whole.model.size()).values, found = coupling::lowestModes(reduced.coupled.model, count).values;
+  const Vector exact = coupling::lowestModes(whole.model, whole.model.size()).values,
+               found = coupling::lowestModes(reduced.coupled.model, count).values;
   for (int i = 0; i < count; ++i)
-    EXPECT_LE(std::abs(found[i] - exact[i]), 1e-9 * std::abs(exact[i]) + 1e-15 * exact[exact.size() - 1]) << "mode " << i + 1;
+    EXPECT_LE(std::abs(found[i] - exact[i]),
+              1e-9 * std::abs(exact[i]) + 1e-15 * exact[exact.size() - 1])
+        << "mode " << i + 1;
   // and the shapes, by way of both models' maps
-  for (const auto& mode : estimate::compareModes(whole.model, planned.parts, reduced, 12, whole.maps)) EXPECT_GT(mode.mac, 1 - 1e-6);
+  for (const auto& mode :
+       estimate::compareModes(whole.model, planned.parts, reduced, 12, whole.maps))
+    EXPECT_GT(mode.mac, 1 - 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Assemblies, CoupledScene, testing::Values("Primal", "Dual"), [](const auto& tested) { return std::string(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Assemblies, CoupledScene, testing::Values("Primal", "Dual"),
+                         [](const auto& tested) { return std::string(tested.param); });
 
 TEST(CoupledScene, StaysAtRestWhereTheStringWas) {
   // Friction and rotation start with the motion, stops are pressed together.
-  const std::vector<std::string> quiet{"!Loads/Forces", "!Loads/Unbalance", "!Rotary Speed", "!Contact/Friction", "!Contact/Intervals", "!Coupling/Stops"};
+  const std::vector<std::string> quiet{"!Loads/Forces",      "!Loads/Unbalance",
+                                       "!Rotary Speed",      "!Contact/Friction",
+                                       "!Contact/Intervals", "!Coupling/Stops"};
   const auto residual = [](const model::SecondOrderModel& m) {
     const Vector zero = Vector::Zero(m.size());
-    return Vector(m.stiffnessAt(0) * m.initialDisplacement - m.loadAt(0) - m.pointForce(0, m.initialDisplacement, zero)).cwiseAbs().maxCoeff();
+    return Vector(m.stiffnessAt(0) * m.initialDisplacement - m.loadAt(0) -
+                  m.pointForce(0, m.initialDisplacement, zero))
+        .cwiseAbs()
+        .maxCoeff();
   };
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.end(), quiet.begin(), quiet.end());

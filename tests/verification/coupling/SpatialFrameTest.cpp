@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A frame of five members in space with a loop, coupled in several ways, against the same frame as one piece.
+/// A frame of five members in space with a loop, coupled in several ways, against the same frame as
+/// one piece.
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
@@ -13,19 +14,26 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::coupling;
 
-std::vector<reduction::ReducedSubstructure> reduced(const std::vector<model::Substructure>& parts, int modes) {
+std::vector<reduction::ReducedSubstructure> reduced(const std::vector<model::Substructure>& parts,
+                                                    int modes) {
   reduction::ReductionOptions options;
-  options.modes.kind = modes < 0 ? reduction::ModeRule::Kind::All : reduction::ModeRule::Kind::PerPart;
+  options.modes.kind =
+      modes < 0 ? reduction::ModeRule::Kind::All : reduction::ModeRule::Kind::PerPart;
   options.modes.counts = {modes};
-  return reduction::reduceAll(parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
+  return reduction::reduceAll(
+      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
-Vector eigenvalues(const model::SecondOrderModel& m, int count) { return coupling::lowestModes(m, count).values; }
+Vector eigenvalues(const model::SecondOrderModel& m, int count) {
+  return coupling::lowestModes(m, count).values;
+}
 
 /// |lambda - exact| <= 1e-9 lambda + 1e-15 lambda_max
 void expectEqual(const Vector& found, const Vector& exact, double largest) {
   ASSERT_EQ(found.size(), exact.size());
-  for (Eigen::Index i = 0; i < found.size(); ++i) EXPECT_LE(std::abs(found[i] - exact[i]), 1e-9 * std::abs(exact[i]) + 1e-15 * largest) << "mode " << i + 1;
+  for (Eigen::Index i = 0; i < found.size(); ++i)
+    EXPECT_LE(std::abs(found[i] - exact[i]), 1e-9 * std::abs(exact[i]) + 1e-15 * largest)
+        << "mode " << i + 1;
 }
 
 class SpatialFrame : public testing::Test {

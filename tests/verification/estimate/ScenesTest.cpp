@@ -32,12 +32,14 @@ std::vector<std::string> scenes() {
   for (const auto& name : testing_::trackedDecks(folder())) {
     app::RunOptions options;
     options.deck = folder() + name;
-    if (!app::isPartsDeck(options) && app::readScene(options.deck, {}).reduces()) files.push_back(name);
+    if (!app::isPartsDeck(options) && app::readScene(options.deck, {}).reduces())
+      files.push_back(name);
   }
   return files;
 }
 
-/// A scene at rest with its full model, taken through reductions that differ in the choice of modes.
+/// A scene at rest with its full model, taken through reductions that differ in the choice of
+/// modes.
 struct Case {
   std::string file;
   std::vector<std::string> overrides;
@@ -71,8 +73,8 @@ std::vector<double> ratios(const Case& c, const std::string& choice, int count) 
     if (mode.error > 1e-9 && mode.mac > 0.9) all.push_back(mode.estimate / mode.error);
   const auto [low, high] = std::minmax_element(all.begin(), all.end());
   if (!all.empty())
-    std::printf("%-28s %zu of %d frequencies: estimate over error %.3f to %.3f\n", choice.c_str(), all.size(), count, *low,
-                *high);
+    std::printf("%-28s %zu of %d frequencies: estimate over error %.3f to %.3f\n", choice.c_str(),
+                all.size(), count, *low, *high);
   return all;
 }
 
@@ -86,7 +88,8 @@ TEST(FrequencyEstimates, AreWithinAFactorOfThreeOfTheTrueErrors) {
     }
   };
   const Case parts("helical_170m.xml");
-  for (const char* cutOff : {"10", "25", "100", "400"}) look(parts, std::string("Cut-off Frequency=") + cutOff);
+  for (const char* cutOff : {"10", "25", "100", "400"})
+    look(parts, std::string("Cut-off Frequency=") + cutOff);
   const Case single("helical_170m_source.xml");
   for (const char* modes : {"30", "60", "180"}) look(single, std::string("Modes=") + modes);
   EXPECT_GT(counted, 100);
@@ -103,23 +106,29 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
       const auto parts = app::cut(scene, c.stage);
       const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
       // By number, not by shape: the i-th coupled frequency is the i-th full one.
-      const Vector full =
-          linalg::lowestModes(coupling::undampedStiffness(c.full), reduction::symmetricPart(c.full.mass), 20).values;
+      const Vector full = linalg::lowestModes(coupling::undampedStiffness(c.full),
+                                              reduction::symmetricPart(c.full.mass), 20)
+                              .values;
       double worst = 0;
       for (int i = 0; i < 20; ++i)
-        worst = std::max(worst, std::abs(outcome.frequencies[static_cast<std::size_t>(i)].frequency() * 6.28318530717958647692 /
-                                             reduction::signedOmega(full[i]) -
-                                         1.0));
-      std::printf("%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate %.1e\n", file.c_str(),
-                  tolerance, outcome.rounds.back().modes, outcome.rounds.size(), outcome.synthesis.coupled.model.size(),
-                  c.full.size(), worst, outcome.rounds.back().frequencyError);
+        worst =
+            std::max(worst, std::abs(outcome.frequencies[static_cast<std::size_t>(i)].frequency() *
+                                         6.28318530717958647692 / reduction::signedOmega(full[i]) -
+                                     1.0));
+      std::printf(
+          "%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate "
+          "%.1e\n",
+          file.c_str(), tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
+          outcome.synthesis.coupled.model.size(), c.full.size(), worst,
+          outcome.rounds.back().frequencyError);
       EXPECT_LE(worst, tolerance) << file;
     }
   }
 }
 
 /// |(u, v) - (u, v)_ref| / |(u, v)_ref - (u, v)_static|.
-double dyn(const std::vector<Vector>& motion, const std::vector<Vector>& reference, const Vector& rest) {
+double dyn(const std::vector<Vector>& motion, const std::vector<Vector>& reference,
+           const Vector& rest) {
   double error = 0, size = 0;
   for (std::size_t i = 0; i < reference.size(); ++i)
     for (Eigen::Index row = 0; row < rest.size(); ++row)
@@ -133,7 +142,8 @@ double dyn(const std::vector<Vector>& motion, const std::vector<Vector>& referen
 /// Records a motion and estimates its error.
 class Watched : public transient::SampleSink {
  public:
-  Watched(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis, const Vector& rest)
+  Watched(const std::vector<model::Substructure>& parts, const coupling::Synthesis& synthesis,
+          const Vector& rest)
       : history_(synthesis.coupled.model), estimator_(parts, synthesis, rest) {}
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
     history_.sample(t, q, qDot, qDDot);
@@ -147,15 +157,19 @@ class Watched : public transient::SampleSink {
   estimate::MotionEstimator estimator_;
 };
 
-/// A second, before neighbouring motions part (beyond it what is compared is no longer the reduction), in steps that resolve the modes left out: at 1 ms
-/// and 200 Hz, 1.3 rad a step, the full model does not move as its modes do. Without the phase correction, whose share of noise (3e-4 between two models at
-/// 1 ms) is what 400 Hz leave out, and with iterations that are carried on until they add none (the default tolerance of 1e-5 decides which contact acts
-/// first: 1e-3 and more).
-const std::vector<std::string> window{"Transient/End Time=1", "Transient/Step=2.5e-4", "Transient/Progress=false", "Transient/Generalized-alpha/Phase Correction=false",
+/// A second, before neighbouring motions part (beyond it what is compared is no longer the
+/// reduction), in steps that resolve the modes left out: at 1 ms and 200 Hz, 1.3 rad a step, the
+/// full model does not move as its modes do. Without the phase correction, whose share of noise
+/// (3e-4 between two models at 1 ms) is what 400 Hz leave out, and with iterations that are carried
+/// on until they add none (the default tolerance of 1e-5 decides which contact acts first: 1e-3 and
+/// more).
+const std::vector<std::string> window{"Transient/End Time=1", "Transient/Step=2.5e-4",
+                                      "Transient/Progress=false",
+                                      "Transient/Generalized-alpha/Phase Correction=false",
                                       "Transient/Generalized-alpha/Tolerance=1e-7"};
 
-/// Measured: 0.68 to 0.82 times the true error. Where a part lacks a mode that the motion excites (25 Hz) the answer is not static, the estimate is too large
-/// and says so by being above 5 %.
+/// Measured: 0.68 to 0.82 times the true error. Where a part lacks a mode that the motion excites
+/// (25 Hz) the answer is not static, the estimate is too large and says so by being above 5 %.
 TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   const Case c("helical_170m.xml", window);
   const Vector rest = c.stage.state.displacement;
@@ -166,11 +180,12 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
     const auto parts = app::cut(scene, c.stage);
     const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
     Watched watched(parts, outcome.synthesis, rest);
-    const auto report = transient::integrate(outcome.synthesis.coupled.model, scene.list().sublist("Transient"), watched);
+    const auto report = transient::integrate(outcome.synthesis.coupled.model,
+                                             scene.list().sublist("Transient"), watched);
     const double truth = dyn(watched.columns(), reference, rest);
     const auto estimate = watched.result();
-    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff, truth, estimate.error,
-                estimate.error / truth, estimate.wall, report.wall);
+    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff,
+                truth, estimate.error, estimate.error / truth, estimate.wall, report.wall);
     EXPECT_GT(estimate.error, truth / 3.0) << cutOff;
     if (estimate.error > 0.05) continue;
     EXPECT_LT(estimate.error, truth * 3.0) << cutOff;
@@ -188,13 +203,16 @@ double chosen(const Case& c, const std::vector<Vector>& reference, double tolera
   const auto& transient = scene.list().sublist("Transient");
   const auto parts = app::cut(scene, c.stage);
   const auto outcome = estimate::synthesise(
-      parts, scene.list().sublist("Reduction"), [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
+      parts, scene.list().sublist("Reduction"),
+      [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
         estimate::MotionEstimator estimator(parts, synthesis, rest);
-        return estimate::watchMotion(estimator, synthesis.coupled.model, transient::readOptions(transient), limit);
+        return estimate::watchMotion(estimator, synthesis.coupled.model,
+                                     transient::readOptions(transient), limit);
       });
   const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
-  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance, outcome.rounds.back().modes,
-              outcome.rounds.size(), outcome.rounds.back().motionError, truth);
+  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance,
+              outcome.rounds.back().modes, outcome.rounds.size(), outcome.rounds.back().motionError,
+              truth);
   return truth;
 }
 

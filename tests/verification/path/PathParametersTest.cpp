@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <gtest/gtest.h>
 
 #include "substructures/path/Path.hpp"
 
@@ -32,7 +31,8 @@ TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
   EXPECT_EQ(options.maxIterations, 33);
   // everything that is read is registered
   const deck::ListSpec spec = parameters();
-  for (auto it = list.begin(); it != list.end(); ++it) EXPECT_NE(spec.findParameter(list.name(it)), nullptr) << list.name(it);
+  for (auto it = list.begin(); it != list.end(); ++it)
+    EXPECT_NE(spec.findParameter(list.name(it)), nullptr) << list.name(it);
 }
 
 }  // namespace

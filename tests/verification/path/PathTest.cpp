@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The string bent into straight, arced and helical wells, against what a bent elastic rod must do.
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "substructures/path/PathProblem.hpp"
 #include "substructures/well/Frames.hpp"
@@ -17,8 +16,12 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-beam::Section pipe() { return beam::Section::hollow(0.0635, 0.054, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear(); }
-beam::Section collar() { return beam::Section::hollow(0.0795, 0.0355, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear(); }
+beam::Section pipe() {
+  return beam::Section::hollow(0.0635, 0.054, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear();
+}
+beam::Section collar() {
+  return beam::Section::hollow(0.0795, 0.0355, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear();
+}
 
 PathInput uniform(const well::Trajectory& well, int elements, double length) {
   PathInput input;
@@ -45,19 +48,21 @@ PathOptions options(Mode mode, Prestress prestress = Prestress::FullTangent) {
 TEST(Path, StraightWellNeedsNoForces) {
   // rounding of positions of 100 m strains an element of E S/l = 7e8 N/m by 1e-5 N
   const auto inclined = well::straight(100.0, 0.6, 0.4);
-  const PathState centre = computePath(uniform(*inclined, 50, 100.0), options(Mode::CentreLine), testing_::directNewton);
+  const PathState centre =
+      computePath(uniform(*inclined, 50, 100.0), options(Mode::CentreLine), testing_::directNewton);
   EXPECT_LT(centre.reaction.cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_LT(centre.axialForce.cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_LT(centre.torque.cwiseAbs().maxCoeff(), 1e-6);
   const auto vertical = well::straight(100.0);
-  const PathState imposed = computePath(uniform(*vertical, 50, 100.0), options(Mode::ImposedNodes), testing_::directNewton);
+  const PathState imposed = computePath(uniform(*vertical, 50, 100.0), options(Mode::ImposedNodes),
+                                        testing_::directNewton);
   EXPECT_LT(imposed.reaction.cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT(imposed.report.maxPositionError, 1e-12);
 }
 
 TEST(Path, PlanarArcAwayFromItsEnds) {
-  // M = E I kappa, F = -E I kappa^2, guide reaction E I kappa^3 per length towards the centre; h kappa = 0.01, so the
-  // polygon deviates by (h kappa)^2 ~ 1e-4
+  // M = E I kappa, F = -E I kappa^2, guide reaction E I kappa^3 per length towards the centre; h
+  // kappa = 0.01, so the polygon deviates by (h kappa)^2 ~ 1e-4
   const double radius = 100.0;
   const auto well = quarterArc(radius);
   const PathInput input = uniform(*well, 100, 100.0);
@@ -86,14 +91,18 @@ TEST(Path, PlanarArcAwayFromItsEnds) {
   EXPECT_NEAR(state.axialForce(50) / (-rigidity * kappa * kappa), 1.0, 5e-4);
   EXPECT_LT(state.torque.cwiseAbs().maxCoeff(), 1e-6);
   // R_ipa is minus the guide's force: away from the centre
-  const Vector3 towardsCentre = state.frame[50].transpose() * well->at(state.arcLength[50]).curvature.normalized();
-  EXPECT_NEAR(state.reaction.col(50).head<3>().dot(towardsCentre) / (-rigidity * std::pow(kappa, 3) * input.lengths[0]), 1.0, 5e-3);
+  const Vector3 towardsCentre =
+      state.frame[50].transpose() * well->at(state.arcLength[50]).curvature.normalized();
+  EXPECT_NEAR(state.reaction.col(50).head<3>().dot(towardsCentre) /
+                  (-rigidity * std::pow(kappa, 3) * input.lengths[0]),
+              1.0, 5e-3);
   EXPECT_LT(state.reaction.col(50).tail<3>().norm(), 1e-3);
   EXPECT_LT(state.report.maxPositionError, 1e-10);
 }
 
 TEST(Path, EndCouplesAlternateAndDecay) {
-  // three-moment equation M_{i-1} + 4 M_i + M_{i+1} = 6 E I kappa with M_0 = 0: the deviation from E I kappa goes down by
+  // three-moment equation M_{i-1} + 4 M_i + M_{i+1} = 6 E I kappa with M_0 = 0: the deviation from
+  // E I kappa goes down by
   // -(2 - sqrt 3) = -0.268 from node to node
   const auto well = quarterArc(100.0);
   const PathInput input = uniform(*well, 60, 60.0);
@@ -107,7 +116,8 @@ TEST(Path, EndCouplesAlternateAndDecay) {
   const auto responses = problem.responses(x, false);
   const double whole = pipe().youngModulus() * pipe().inertiaX() / 100.0;
   const auto deviation = [&](std::size_t node) {
-    return responses[node].force.segment<3>(3).norm() - whole;  // moment at the upper end of the element below the node
+    return responses[node].force.segment<3>(3).norm() -
+           whole;  // moment at the upper end of the element below the node
   };
   EXPECT_NEAR(deviation(0) / whole, -1.0, 1e-6);
   for (std::size_t node = 1; node < 4; ++node)
@@ -115,25 +125,28 @@ TEST(Path, EndCouplesAlternateAndDecay) {
 }
 
 TEST(Path, ReactionsFormACoupleWhereTheStiffnessJumps) {
-  // the bending moment steps from E I_1 kappa to E I_2 kappa, so the guide holds a couple of the difference there
+  // the bending moment steps from E I_1 kappa to E I_2 kappa, so the guide holds a couple of the
+  // difference there
   const auto well = quarterArc(100.0);
   PathInput input = uniform(*well, 80, 80.0);
   for (std::size_t e = 40; e < 80; ++e) input.sections[e] = collar();
   const PathState state = computePath(input, options(Mode::CentreLine), testing_::directNewton);
   double couple = 0.0;
   for (int node = 28; node <= 52; ++node) {
-    const Vector3 normal = state.frame[static_cast<std::size_t>(node)].transpose() *
-                           well->at(state.arcLength[static_cast<std::size_t>(node)]).curvature.normalized();
+    const Vector3 normal =
+        state.frame[static_cast<std::size_t>(node)].transpose() *
+        well->at(state.arcLength[static_cast<std::size_t>(node)]).curvature.normalized();
     couple += (node - 40) * state.reaction.col(node).head<3>().dot(normal);
   }
   const double jump = (collar().inertiaX() - pipe().inertiaX()) * pipe().youngModulus() / 100.0;
   EXPECT_NEAR(std::abs(couple) / jump, 1.0, 0.02);
-  EXPECT_GT(state.reaction.col(40).norm() + state.reaction.col(41).norm(), 100.0 * state.reaction.col(20).norm());
+  EXPECT_GT(state.reaction.col(40).norm() + state.reaction.col(41).norm(),
+            100.0 * state.reaction.col(20).norm());
 }
 
 TEST(Path, OnlyTheFullTangentLetsACurvedStringTurnAboutItsAxis) {
-  // theta_z = 1 at all nodes: the energy of a straight rod bent into an arc does not change, while K_a + K_g charges
-  // E I kappa^2 L
+  // theta_z = 1 at all nodes: the energy of a straight rod bent into an arc does not change, while
+  // K_a + K_g charges E I kappa^2 L
   const double kappa = 0.01;
   const auto well = quarterArc(1.0 / kappa);
   const double length = 100.0;
@@ -146,7 +159,8 @@ TEST(Path, OnlyTheFullTangentLetsACurvedStringTurnAboutItsAxis) {
   for (std::size_t e = 0; e < 100; ++e) {
     const auto n = static_cast<int>(e);
     full += turn.dot(state.tangent[e] * turn);
-    const beam::Matrix12 r = beam::rotation12(state.elementFrame[e], state.frame[e], state.frame[e + 1]);
+    const beam::Matrix12 r =
+        beam::rotation12(state.elementFrame[e], state.frame[e], state.frame[e + 1]);
     const beam::Matrix12 k = beam::stiffness(pipe(), state.initialLength[e]) +
                              state.axialForce(n) * beam::geometricAxial(state.initialLength[e]) +
                              state.torque(n) * beam::geometricTorque(state.initialLength[e]);
@@ -155,12 +169,15 @@ TEST(Path, OnlyTheFullTangentLetsACurvedStringTurnAboutItsAxis) {
   const double charge = pipe().youngModulus() * pipe().inertiaX() * kappa * kappa * length;
   EXPECT_NEAR(geometric / charge, 1.0, 0.02);
   EXPECT_LT(std::abs(full), 0.02 * charge);
-  EXPECT_TRUE(computePath(input, options(Mode::CentreLine, Prestress::AxialAndTorque), testing_::directNewton).tangent.empty());
+  EXPECT_TRUE(computePath(input, options(Mode::CentreLine, Prestress::AxialAndTorque),
+                          testing_::directNewton)
+                  .tangent.empty());
 }
 
 TEST(Path, HelixIsFreeOfTorque) {
   const auto well = well::helix(85.1, 0.5 * pi, 170.2);
-  const PathState state = computePath(uniform(*well, 170, 170.2), options(Mode::CentreLine), testing_::noxNewton);
+  const PathState state =
+      computePath(uniform(*well, 170, 170.2), options(Mode::CentreLine), testing_::noxNewton);
   const double rigidity = pipe().youngModulus() * pipe().inertiaX();
   const double kappa = well->at(50.0).curvature.norm();
   EXPECT_NEAR(state.axialForce(85) / (-rigidity * kappa * kappa), 1.0, 0.01);
@@ -171,7 +188,8 @@ TEST(Path, HelixIsFreeOfTorque) {
 TEST(Path, JacobianOfTheCentreLineIsExact) {
   const auto well = well::helix(8.0, 1.2, 14.0);
   PathInput input = uniform(*well, 6, 12.0);
-  input.sections.assign(6, beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
+  input.sections.assign(6,
+                        beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
   std::vector<double> depths{0, 2, 4, 6, 8, 10, 12};
   const CentreLineProblem problem(input, depths, well::bishopFrames(*well, depths));
   std::srand(7);
@@ -184,7 +202,8 @@ TEST(Path, JacobianOfTheCentreLineIsExact) {
 TEST(Path, JacobianOfImposedNodesIsExact) {
   const auto well = well::helix(8.0, 1.2, 14.0);
   PathInput input = uniform(*well, 6, 12.0);
-  input.sections.assign(6, beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
+  input.sections.assign(6,
+                        beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
   std::srand(8);
   for (const Imposition imposition : {Imposition::Elimination, Imposition::Penalty}) {
     ImposedNodesProblem problem(input, {3, 6}, imposition, 10.0);
@@ -219,13 +238,15 @@ TEST(Path, ImposedNodesReachTheWellAndStrayBetween) {
   asked.imposition = Imposition::Elimination;
   asked.nodeCount = 18;
   asked.increments = 20;
-  EXPECT_LT(computePath(input, asked, testing_::noxNewton).report.maxPositionError, 0.5 * eliminated.report.maxPositionError);
+  EXPECT_LT(computePath(input, asked, testing_::noxNewton).report.maxPositionError,
+            0.5 * eliminated.report.maxPositionError);
   asked.nodeCount = 9;
   const PathState slower = computePath(input, asked, testing_::noxNewton);
   EXPECT_GE(slower.report.increments, 20);
   EXPECT_LT((slower.position[100] - eliminated.position[100]).norm(), 1e-6);
   asked.nodes = {1, 60, 120, 171};
-  EXPECT_GT(computePath(input, asked, testing_::noxNewton).report.maxPositionError, eliminated.report.maxPositionError);
+  EXPECT_GT(computePath(input, asked, testing_::noxNewton).report.maxPositionError,
+            eliminated.report.maxPositionError);
 }
 
 TEST(Path, ImpossibleRequestsAreRefused) {
@@ -238,7 +259,8 @@ TEST(Path, ImpossibleRequestsAreRefused) {
   PathOptions hasty = options(Mode::CentreLine);
   hasty.maxIterations = 1;
   hasty.tolerance = 1e-14;
-  EXPECT_THROW(computePath(uniform(*helix, 170, 170.2), hasty, testing_::directNewton), ConvergenceError);
+  EXPECT_THROW(computePath(uniform(*helix, 170, 170.2), hasty, testing_::directNewton),
+               ConvergenceError);
 }
 
 }  // namespace

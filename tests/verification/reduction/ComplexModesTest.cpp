@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Halves of complex modes against real modes on rotors with discs and dampers, where real modes do not diagonalise the damping.
+/// Halves of complex modes against real modes on rotors with discs and dampers, where real modes do
+/// not diagonalise the damping.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -13,9 +14,11 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-/// A shaft as a string in two planes u, v between nodes first .. first + elements: gyroscopic discs on every third inner node turn u into v, a dashpot on one
-/// node acts on u alone, a follower stiffness couples the planes.
-model::Substructure rotor(const std::string& name, int first, int elements, double gyro, double dashpot) {
+/// A shaft as a string in two planes u, v between nodes first .. first + elements: gyroscopic discs
+/// on every third inner node turn u into v, a dashpot on one node acts on u alone, a follower
+/// stiffness couples the planes.
+model::Substructure rotor(const std::string& name, int first, int elements, double gyro,
+                          double dashpot) {
   const auto line = samples::bar(name, first, elements, 400.0, 0.1);
   model::Substructure part;
   part.name = name;
@@ -26,7 +29,8 @@ model::Substructure rotor(const std::string& name, int first, int elements, doub
   const auto twice = [](const Sparse& A, Triplets& entries) {
     for (int i = 0; i < A.outerSize(); ++i)
       for (Sparse::InnerIterator it(A, i); it; ++it)
-        for (int plane : {0, 1}) entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
+        for (int plane : {0, 1})
+          entries.emplace_back(2 * i + plane, 2 * static_cast<int>(it.col()) + plane, it.value());
   };
   twice(line.model.mass, mass);
   twice(line.model.stiffness[0].matrix, stiffness);
@@ -51,7 +55,8 @@ model::Substructure rotor(const std::string& name, int first, int elements, doub
 }
 
 std::vector<model::Substructure> shaft() {
-  std::vector<model::Substructure> parts{rotor("left", 1, 20, 1.2, 4.0), rotor("right", 21, 16, 0.8, 2.5)};
+  std::vector<model::Substructure> parts{rotor("left", 1, 20, 1.2, 4.0),
+                                         rotor("right", 21, 16, 0.8, 2.5)};
   samples::classify(parts[0], {21}, {1});
   samples::classify(parts[1], {21}, {37});
   return parts;
@@ -64,7 +69,8 @@ double error(const std::string& basis, int modes, int count) {
   const auto small = checks::synthesise(parts, basis, modes, [&](Teuchos::ParameterList& list) {
     if (basis != "Craig-Bampton") list.set("Time", time);
   });
-  const Eigen::VectorXcd full = checks::dampedEigenvalues(coupling::couple(parts), time), found = checks::dampedEigenvalues(small.coupled.model, time);
+  const Eigen::VectorXcd full = checks::dampedEigenvalues(coupling::couple(parts), time),
+                         found = checks::dampedEigenvalues(small.coupled.model, time);
   double sum = 0;
   int counted = 0;
   for (Eigen::Index k = 0; counted < count; ++k) {
@@ -78,13 +84,15 @@ double error(const std::string& basis, int modes, int count) {
 // With 4 vectors there are but two complex modes for eight eigenvalues, and real ones are no worse.
 TEST(ComplexModes, GiveBetterDampedEigenvaluesThanRealOnes) {
   for (const int modes : {6, 8, 12}) {
-    const double complex = error("Complex Craig-Bampton", modes, 8), real = error("Craig-Bampton", modes, 8);
+    const double complex = error("Complex Craig-Bampton", modes, 8),
+                 real = error("Craig-Bampton", modes, 8);
     EXPECT_LT(complex, 0.75 * real) << modes;
   }
 }
 
-// With the kept dofs held and no others, an eigenvalue of the part is one of the reduced part as long as both halves of its mode are in the basis (Galerkin
-// with an exact vector in the span): the fixed-interface s are exact, which real modes do not give.
+// With the kept dofs held and no others, an eigenvalue of the part is one of the reduced part as
+// long as both halves of its mode are in the basis (Galerkin with an exact vector in the span): the
+// fixed-interface s are exact, which real modes do not give.
 TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
   auto part = rotor("left", 1, 20, 1.2, 4.0);
   samples::classify(part, {}, {1, 21});
@@ -99,11 +107,16 @@ TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
   for (int k = 0; k < basis.modes(); ++k) modal.push_back(static_cast<int>(p.kept.size()) + k);
   const Matrix V = block(basis.vectors, p.interior, modal);
   const auto inner = [&](const Sparse& A) { return Matrix(block(A, p.interior, p.interior)); };
-  const Matrix M = inner(part.model.mass), C = inner(part.model.dampingAt(1.0)), K = inner(part.model.stiffnessAt(1.0));
+  const Matrix M = inner(part.model.mass), C = inner(part.model.dampingAt(1.0)),
+               K = inner(part.model.stiffnessAt(1.0));
   Eigen::VectorXcd full = linalg::dampedModes(M, C, K).values;
-  std::stable_sort(full.data(), full.data() + full.size(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
-  const Eigen::VectorXcd small = linalg::dampedModes(V.transpose() * M * V, V.transpose() * C * V, V.transpose() * K * V).values;
-  for (int k = 0; k < 8; ++k) EXPECT_LT((small.array() - full[k]).abs().minCoeff(), 1e-8 * std::abs(full[k])) << full[k];
+  std::stable_sort(full.data(), full.data() + full.size(),
+                   [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+  const Eigen::VectorXcd small =
+      linalg::dampedModes(V.transpose() * M * V, V.transpose() * C * V, V.transpose() * K * V)
+          .values;
+  for (int k = 0; k < 8; ++k)
+    EXPECT_LT((small.array() - full[k]).abs().minCoeff(), 1e-8 * std::abs(full[k])) << full[k];
 }
 
 }  // namespace

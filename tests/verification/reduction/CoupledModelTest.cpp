@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The coupled reduced model against the full one: chains, a frame with a loop, gyroscopic and unsymmetric matrices.
+/// The coupled reduced model against the full one: chains, a frame with a loop, gyroscopic and
+/// unsymmetric matrices.
 #include <Eigen/Eigenvalues>
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
@@ -27,21 +28,25 @@ ReductionOptions someModes(int count) {
   return options;
 }
 
-std::vector<ReducedSubstructure> reduced(const std::vector<model::Substructure>& parts, const ReductionOptions& options) {
+std::vector<ReducedSubstructure> reduced(const std::vector<model::Substructure>& parts,
+                                         const ReductionOptions& options) {
   return reduceAll(parts, *makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
 }
 
-/// `count` bars of different stiffness in a chain, clamped at node 1, with a retained node in every second one.
+/// `count` bars of different stiffness in a chain, clamped at node 1, with a retained node in every
+/// second one.
 std::vector<model::Substructure> chain(int count, int elements) {
   std::vector<model::Substructure> parts;
   for (int p = 0; p < count; ++p) {
     const int first = 1 + elements * p;
-    parts.push_back(samples::bar("part " + std::to_string(p + 1), first, elements, 100.0 + 7 * p, 2.0 - 0.01 * p,
+    parts.push_back(samples::bar("part " + std::to_string(p + 1), first, elements, 100.0 + 7 * p,
+                                 2.0 - 0.01 * p,
                                  p == 0 ? std::vector<int>{1} : std::vector<int>{}));
     std::vector<int> ends;
     if (p > 0) ends.push_back(first);
     if (p + 1 < count) ends.push_back(first + elements);
-    samples::classify(parts.back(), ends, p % 2 == 1 ? std::vector<int>{first + elements / 2} : std::vector<int>{});
+    samples::classify(parts.back(), ends,
+                      p % 2 == 1 ? std::vector<int>{first + elements / 2} : std::vector<int>{});
   }
   return parts;
 }
@@ -50,12 +55,14 @@ Vector frequenciesSquared(const model::SecondOrderModel& m) {
   return linalg::symmetricModes(Matrix(symmetricPart(m.stiffnessAt(0))), Matrix(m.mass)).values;
 }
 
-void expectSameEigenvalues(const model::SecondOrderModel& full, const model::SecondOrderModel& small) {
+void expectSameEigenvalues(const model::SecondOrderModel& full,
+                           const model::SecondOrderModel& small) {
   ASSERT_EQ(full.size(), small.size());
   const Vector a = frequenciesSquared(full);
   const Vector b = frequenciesSquared(small);
   const double largest = a[a.size() - 1];
-  for (Eigen::Index i = 0; i < a.size(); ++i) EXPECT_LE(std::abs(a[i] - b[i]), 1e-9 * a[i] + 1e-15 * largest) << i;
+  for (Eigen::Index i = 0; i < a.size(); ++i)
+    EXPECT_LE(std::abs(a[i] - b[i]), 1e-9 * a[i] + 1e-15 * largest) << i;
 }
 
 TEST(AllModes, ChainOfBarsKeepsItsEigenvalues) {
@@ -74,7 +81,8 @@ TEST(AllModes, FrameWithALoopKeepsItsEigenvalues) {
 
 /// Eigenvalues s of s^2 M + s C + K, with positive imaginary part first, sorted by it.
 std::vector<std::complex<double>> complexEigenvalues(const model::SecondOrderModel& m, double t) {
-  const auto modes = linalg::dampedModes(Matrix(m.mass), Matrix(m.dampingAt(t)), Matrix(m.stiffnessAt(t)));
+  const auto modes =
+      linalg::dampedModes(Matrix(m.mass), Matrix(m.dampingAt(t)), Matrix(m.stiffnessAt(t)));
   std::vector<std::complex<double>> values;
   for (Eigen::Index i = 0; i < modes.values.size(); ++i)
     if (modes.values[i].imag() >= 0) values.push_back(modes.values[i]);
@@ -87,8 +95,8 @@ TEST(AllModes, GyroscopicUnsymmetricFrameKeepsItsComplexEigenvalues) {
   const auto small = complexEigenvalues(coupling::couple(reduced(parts, allModes())), 0.5);
   ASSERT_EQ(full.size(), small.size());
   const double largest = std::abs(full.back());
-  // lambda = s^2: |dlambda| <= 1e-9 |lambda| + 1e-13 lambda_max (the unsymmetric problem is worse conditioned than a symmetric
-  // one)
+  // lambda = s^2: |dlambda| <= 1e-9 |lambda| + 1e-13 lambda_max (the unsymmetric problem is worse
+  // conditioned than a symmetric one)
   for (const auto& s : full) {
     double nearest = 1e300;
     for (const auto& other : small) nearest = std::min(nearest, std::abs(s * s - other * other));
@@ -98,7 +106,8 @@ TEST(AllModes, GyroscopicUnsymmetricFrameKeepsItsComplexEigenvalues) {
 
 /// q'' of a model, everything included.
 Vector acceleration(const model::SecondOrderModel& m, double t, const Vector& q, const Vector& v) {
-  const Vector force = m.loadAt(t) + m.pointForce(t, q, v) - m.dampingAt(t) * v - m.stiffnessAt(t) * q;
+  const Vector force =
+      m.loadAt(t) + m.pointForce(t, q, v) - m.dampingAt(t) * v - m.stiffnessAt(t) * q;
   return linalg::DirectSolver(m.mass).solve(force);
 }
 
@@ -110,7 +119,8 @@ TEST(AllModes, AccelerationIsThatOfTheFullModel) {
       const int base = 100 * (static_cast<int>(p) + 1);
       samples::addCubicSprings(parts[p], {base + 1, base + 3});
       Vector load = Vector::Zero(m.size());
-      for (int i = 0; i < m.size(); ++i) load[i] = m.dofs[static_cast<std::size_t>(i)].entity > 100 ? 1e3 * (i + 1) : 0.0;
+      for (int i = 0; i < m.size(); ++i)
+        load[i] = m.dofs[static_cast<std::size_t>(i)].entity > 100 ? 1e3 * (i + 1) : 0.0;
       m.loads.push_back({"weight", load, 0});
       m.loads.push_back({"spin load", 0.1 * load, m.lawIndex(samples::spinRate())});
       // A reference state and an initial state that agree where parts meet.
@@ -137,9 +147,11 @@ TEST(AllModes, AccelerationIsThatOfTheFullModel) {
     EXPECT_LT((D - expected).norm(), 1e-11 * expected.norm());
     EXPECT_LT((small.recovery * v - full.recovery * full.initialVelocity).norm(), 1e-10);
     const Vector a = small.recovery * acceleration(small, 0.4, q, v);
-    const Vector b = full.recovery * acceleration(full, 0.4, full.initialDisplacement, full.initialVelocity);
+    const Vector b =
+        full.recovery * acceleration(full, 0.4, full.initialDisplacement, full.initialVelocity);
     EXPECT_LT((a - b).norm(), 1e-8 * b.norm());
-    EXPECT_GT(full.pointForce(0.4, full.initialDisplacement, full.initialVelocity).norm(), 1e4) << "the points take part";
+    EXPECT_GT(full.pointForce(0.4, full.initialDisplacement, full.initialVelocity).norm(), 1e4)
+        << "the points take part";
   }
 }
 

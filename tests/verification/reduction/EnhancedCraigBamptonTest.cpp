@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The enhanced Craig-Bampton method against its definition (J.-G. Kim, P.-S. Lee 2015), closed forms, and Craig-Bampton with as many coordinates.
+/// The enhanced Craig-Bampton method against its definition (J.-G. Kim, P.-S. Lee 2015), closed
+/// forms, and Craig-Bampton with as many coordinates.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -16,33 +17,41 @@ using namespace tooljoint::reduction;
 
 Vector omegas(const model::SecondOrderModel& m) { return checks::eigenvalues(m).cwiseSqrt(); }
 
-/// J. L. Humar, Dynamics of Structures, example 19.1: a bar clamped on the left, two components of four consistent elements each.
+/// J. L. Humar, Dynamics of Structures, example 19.1: a bar clamped on the left, two components of
+/// four consistent elements each.
 std::vector<model::Substructure> humarBar() {
   const double l = 1.0 / 8;
-  std::vector<model::Substructure> parts{samples::bar("component 1", 0, 4, 1 / l, l, {0}), samples::bar("component 2", 4, 4, 1 / l, l)};
+  std::vector<model::Substructure> parts{samples::bar("component 1", 0, 4, 1 / l, l, {0}),
+                                         samples::bar("component 2", 4, 4, 1 / l, l)};
   samples::classify(parts[0], {4});
   samples::classify(parts[1], {4});
   return parts;
 }
 
-// Printed here: T_1 = T_0 + T_a M^-1 K, F_rs, as in (21)-(32) of the paper, formed with numpy and scipy on the assembled matrices of the bar; Craig-Bampton from
-// the same script gives the 1.57342778 and so on of Humar's example.
+// Printed here: T_1 = T_0 + T_a M^-1 K, F_rs, as in (21)-(32) of the paper, formed with numpy and
+// scipy on the assembled matrices of the bar; Craig-Bampton from the same script gives
+// the 1.57342778 and so on of Humar's example.
 TEST(EnhancedCraigBampton, FollowsItsDefinition) {
   const double oneMode[3] = {1.5733210093, 4.7814512631, 8.3127688797};
-  const double twoModes[5] = {1.5733208283, 4.7807879966, 8.172356254, 11.8771273161, 16.4301540201};
-  const Vector one = omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 1).coupled.model);
-  const Vector two = omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 2).coupled.model);
+  const double twoModes[5] = {1.5733208283, 4.7807879966, 8.172356254, 11.8771273161,
+                              16.4301540201};
+  const Vector one =
+      omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 1).coupled.model);
+  const Vector two =
+      omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 2).coupled.model);
   ASSERT_EQ(one.size(), 3) << "no coordinates are added";
   ASSERT_EQ(two.size(), 5);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(one[i], oneMode[i], 1e-9);
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(two[i], twoModes[i], 1e-9);
 }
 
-// The bar of eight consistent elements in closed form, omega = sqrt(6 (1 - cos theta) / (2 + cos theta)) / l, theta = (2 n - 1) pi / 16: errors fall by two to
-// four orders, as in the tables of the paper.
+// The bar of eight consistent elements in closed form, omega = sqrt(6 (1 - cos theta) / (2 + cos
+// theta)) / l, theta = (2 n - 1) pi / 16: errors fall by two to four orders, as in the tables of
+// the paper.
 TEST(EnhancedCraigBampton, OrderOfAccuracyAgainstTheClosedForm) {
   const Vector plain = omegas(checks::synthesise(humarBar(), "Craig-Bampton", 2).coupled.model);
-  const Vector enhanced = omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 2).coupled.model);
+  const Vector enhanced =
+      omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 2).coupled.model);
   const double factors[3] = {1e4, 1e2, 1e1};
   for (int n = 1; n <= 3; ++n) {
     const double theta = (2 * n - 1) * 3.14159265358979323846 / 16;
@@ -54,34 +63,45 @@ TEST(EnhancedCraigBampton, OrderOfAccuracyAgainstTheClosedForm) {
 }
 
 /// Largest relative error of the lowest `count` eigenvalues.
-double error(const std::vector<model::Substructure>& parts, const std::string& basis, int modes, int count, bool free = false) {
+double error(const std::vector<model::Substructure>& parts, const std::string& basis, int modes,
+             int count, bool free = false) {
   const auto set = [&](Teuchos::ParameterList& list) {
     if (free) list.set("Residual Coordinates", "Free");
   };
-  const Vector full = checks::eigenvalues(coupling::couple(parts)), small = checks::eigenvalues(checks::synthesise(parts, basis, modes, set).coupled.model);
+  const Vector full = checks::eigenvalues(coupling::couple(parts)),
+               small =
+                   checks::eigenvalues(checks::synthesise(parts, basis, modes, set).coupled.model);
   return (small.head(count).array() / full.head(count).array() - 1).maxCoeff();
 }
 
 TEST(EnhancedCraigBampton, BeatsCraigBamptonOnAFrameWithALoop) {
   for (const bool retain : {false, true}) {
     const auto parts = samples::loopFrame(10, false, retain);
-    for (const int modes : {1, 3, 5}) EXPECT_LT(error(parts, "Enhanced Craig-Bampton", modes, 4), 0.1 * error(parts, "Craig-Bampton", modes, 4)) << modes;
+    for (const int modes : {1, 3, 5})
+      EXPECT_LT(error(parts, "Enhanced Craig-Bampton", modes, 4),
+                0.1 * error(parts, "Craig-Bampton", modes, 4))
+          << modes;
   }
 }
 
-// Coordinates of their own span what tied ones follow: by Rayleigh and Ritz they are at least as good.
+// Coordinates of their own span what tied ones follow: by Rayleigh and Ritz they are at least as
+// good.
 TEST(EnhancedCraigBampton, FreeCoordinatesAreAtLeastAsGoodAsTiedOnes) {
   const auto parts = samples::loopFrame(10, false);
   for (const int modes : {1, 3, 5})
-    EXPECT_LE(error(parts, "Enhanced Craig-Bampton", modes, 6, true), error(parts, "Enhanced Craig-Bampton", modes, 6) * (1 + 1e-6) + 1e-12) << modes;
+    EXPECT_LE(error(parts, "Enhanced Craig-Bampton", modes, 6, true),
+              error(parts, "Enhanced Craig-Bampton", modes, 6) * (1 + 1e-6) + 1e-12)
+        << modes;
 }
 
 TEST(EnhancedCraigBampton, TiedCoordinatesAddNoDofs) {
   const auto parts = samples::loopFrame(8, false);
-  const auto plain = checks::synthesise(parts, "Craig-Bampton", 3), tied = checks::synthesise(parts, "Enhanced Craig-Bampton", 3);
+  const auto plain = checks::synthesise(parts, "Craig-Bampton", 3),
+             tied = checks::synthesise(parts, "Enhanced Craig-Bampton", 3);
   EXPECT_EQ(tied.coupled.model.size(), plain.coupled.model.size());
   EXPECT_GT(tied.parts[0].modes, plain.parts[0].modes);
-  for (std::size_t p = 0; p < parts.size(); ++p) EXPECT_EQ(tied.coupled.maps[p].cols(), tied.coupled.model.size());
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    EXPECT_EQ(tied.coupled.maps[p].cols(), tied.coupled.model.size());
   tied.coupled.model.validate();
 }
 
@@ -97,7 +117,9 @@ TEST(EnhancedCraigBampton, TheStateOfThePartsIsThatOfTheCoupledModel) {
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const auto& all = tied.coupled.model.recoveryNodes;
       const auto at = std::find(all.begin(), all.end(), nodes[n]) - all.begin();
-      EXPECT_LT((part.segment<3>(3 * static_cast<Eigen::Index>(n)) - whole.segment<3>(3 * at)).norm(), 1e-9 * (1 + whole.norm()));
+      EXPECT_LT(
+          (part.segment<3>(3 * static_cast<Eigen::Index>(n)) - whole.segment<3>(3 * at)).norm(),
+          1e-9 * (1 + whole.norm()));
     }
   }
 }

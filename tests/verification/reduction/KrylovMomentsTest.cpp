@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What Krylov vectors promise: the stiffness the neighbours feel, and what the interior answers, have the derivatives of the full part at the expansion point.
+/// What Krylov vectors promise: the stiffness the neighbours feel, and what the interior answers,
+/// have the derivatives of the full part at the expansion point.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
@@ -20,10 +21,14 @@ constexpr double twoPi = 6.28318530717958647692;
 struct Blocks {
   Matrix CC, CI, IC, II;
   Blocks(const Sparse& A, const Partition& p)
-      : CC(block(A, p.kept, p.kept)), CI(block(A, p.kept, p.interior)), IC(block(A, p.interior, p.kept)), II(block(A, p.interior, p.interior)) {}
+      : CC(block(A, p.kept, p.kept)),
+        CI(block(A, p.kept, p.interior)),
+        IC(block(A, p.interior, p.kept)),
+        II(block(A, p.interior, p.interior)) {}
 };
 
-/// Taylor coefficients in delta of X(s0 + delta) = -Z_II^-1 Z_IC and of Z_CC + Z_CI X, with Z = Z0 + delta Z1 + delta^2 Z2: from sum_j Z_j X_k-j = 0.
+/// Taylor coefficients in delta of X(s0 + delta) = -Z_II^-1 Z_IC and of Z_CC + Z_CI X, with Z = Z0
+/// + delta Z1 + delta^2 Z2: from sum_j Z_j X_k-j = 0.
 struct Series {
   std::vector<Matrix> interior, felt;
   Series(const Blocks& z0, const Blocks& z1, const Blocks& z2, int count) {
@@ -31,10 +36,12 @@ struct Series {
     const Blocks* z[3] = {&z0, &z1, &z2};
     for (int k = 0; k < count; ++k) {
       Matrix right = k < 3 ? z[k]->IC : Matrix(Matrix::Zero(z0.IC.rows(), z0.IC.cols()));
-      for (int j = 1; j <= std::min(k, 2); ++j) right += z[j]->II * interior[static_cast<std::size_t>(k - j)];
+      for (int j = 1; j <= std::min(k, 2); ++j)
+        right += z[j]->II * interior[static_cast<std::size_t>(k - j)];
       interior.push_back(factor.solve(-right));
       Matrix force = k < 3 ? z[k]->CC : Matrix(Matrix::Zero(z0.CC.rows(), z0.CC.cols()));
-      for (int j = 0; j <= std::min(k, 2); ++j) force += z[j]->CI * interior[static_cast<std::size_t>(k - j)];
+      for (int j = 0; j <= std::min(k, 2); ++j)
+        force += z[j]->CI * interior[static_cast<std::size_t>(k - j)];
       felt.push_back(force);
     }
   }
@@ -49,7 +56,8 @@ struct Pair {
   Series full, small;
 };
 
-/// Series of a part and of its reduction to `modes` vectors; Z = K - omega^2 M in delta of lambda, or K + s C + s^2 M in delta of s.
+/// Series of a part and of its reduction to `modes` vectors; Z = K - omega^2 M in delta of lambda,
+/// or K + s C + s^2 M in delta of s.
 Pair series(const model::Substructure& part, int modes, double hertz, bool damped, int count) {
   Teuchos::ParameterList list("Reduction");
   list.sublist("Krylov").set("Expansion Frequency", hertz).set("Damped", damped).set("Time", 0.4);
@@ -60,43 +68,58 @@ Pair series(const model::Substructure& part, int modes, double hertz, bool dampe
   EXPECT_EQ(basis.modes(), modes);
   const Sparse& Phi = basis.vectors;
   const double s0 = twoPi * hertz;
-  const Sparse K = constantStiffness(part.model), M = part.model.mass, C = part.model.dampingAt(0.4);
+  const Sparse K = constantStiffness(part.model), M = part.model.mass,
+               C = part.model.dampingAt(0.4);
   const Sparse none(K.rows(), K.cols());
-  const Sparse z0 = damped ? Sparse(K + s0 * C + s0 * s0 * M) : Sparse(K - s0 * s0 * M), z1 = damped ? Sparse(C + 2.0 * s0 * M) : M, z2 = damped ? M : none;
+  const Sparse z0 = damped ? Sparse(K + s0 * C + s0 * s0 * M) : Sparse(K - s0 * s0 * M),
+               z1 = damped ? Sparse(C + 2.0 * s0 * M) : M, z2 = damped ? M : none;
   const Partition& p = basis.partition;
   Partition q;
   for (int i = 0; i < static_cast<int>(p.kept.size()); ++i) q.kept.push_back(i);
   for (int i = 0; i < modes; ++i) q.interior.push_back(static_cast<int>(p.kept.size()) + i);
-  const auto projected = [&](const Sparse& A) { return Blocks(Sparse(Phi.transpose() * (A * Phi).eval()), q); };
-  Pair pair{Series(Blocks(z0, p), Blocks(z1, p), Blocks(z2, p), count), Series(projected(z0), projected(z1), projected(z2), count)};
+  const auto projected = [&](const Sparse& A) {
+    return Blocks(Sparse(Phi.transpose() * (A * Phi).eval()), q);
+  };
+  Pair pair{Series(Blocks(z0, p), Blocks(z1, p), Blocks(z2, p), count),
+            Series(projected(z0), projected(z1), projected(z2), count)};
   // Interior of the reduced part in its dofs: psi delta_k0 + V X_k
   const Matrix V = block(Phi, p.interior, q.interior), psi = block(Phi, p.interior, q.kept);
-  for (std::size_t k = 0; k < pair.small.interior.size(); ++k) pair.small.interior[k] = V * pair.small.interior[k] + (k == 0 ? psi : Matrix(Matrix::Zero(psi.rows(), psi.cols())));
+  for (std::size_t k = 0; k < pair.small.interior.size(); ++k)
+    pair.small.interior[k] =
+        V * pair.small.interior[k] + (k == 0 ? psi : Matrix(Matrix::Zero(psi.rows(), psi.cols())));
   return pair;
 }
 
 double difference(const Matrix& a, const Matrix& b) {
   double worst = 0;  // by columns: motions of translations and rotations have different units
-  for (Eigen::Index j = 0; j < a.cols(); ++j) worst = std::max(worst, (a - b).col(j).cwiseAbs().maxCoeff() / b.col(j).cwiseAbs().maxCoeff());
+  for (Eigen::Index j = 0; j < a.cols(); ++j)
+    worst = std::max(worst, (a - b).col(j).cwiseAbs().maxCoeff() / b.col(j).cwiseAbs().maxCoeff());
   return worst;
 }
 
 int matched(const std::vector<Matrix>& small, const std::vector<Matrix>& full, double tolerance) {
   int count = 0;
-  while (count < static_cast<int>(full.size()) && difference(small[static_cast<std::size_t>(count)], full[static_cast<std::size_t>(count)]) < tolerance) ++count;
+  while (count < static_cast<int>(full.size()) &&
+         difference(small[static_cast<std::size_t>(count)], full[static_cast<std::size_t>(count)]) <
+             tolerance)
+    ++count;
   return count;
 }
 
-// Undamped and symmetric, k blocks of 6: k derivatives of the interior, 2k of what is felt (Galerkin on both sides); at lambda_0 = 0, where the drive is
-// proportional to lambda and psi gives the first term, one and two more. Matched ones differ by 1e-13, the first other ones by 1e-8 or more; with two blocks the
-// next ones of what is felt, an error squared, are rounding again.
+// Undamped and symmetric, k blocks of 6: k derivatives of the interior, 2k of what is felt
+// (Galerkin on both sides); at lambda_0 = 0, where the drive is proportional to lambda and psi
+// gives the first term, one and two more. Matched ones differ by 1e-13, the first other ones by
+// 1e-8 or more; with two blocks the next ones of what is felt, an error squared, are rounding
+// again.
 TEST(KrylovMoments, AreMatchedAtAFrequency) {
   for (const int blocks : {1, 2}) {
     const Pair pair = series(beam(false), 6 * blocks, 40.0, false, 2 * blocks + 2);
     EXPECT_EQ(matched(pair.small.interior, pair.full.interior, 1e-10), blocks);
     const int felt = matched(pair.small.felt, pair.full.felt, 1e-10);
     EXPECT_GE(felt, 2 * blocks);
-    if (blocks == 1) { EXPECT_EQ(felt, 2); }
+    if (blocks == 1) {
+      EXPECT_EQ(felt, 2);
+    }
   }
 }
 
@@ -106,12 +129,15 @@ TEST(KrylovMoments, OneMoreAtZero) {
     EXPECT_EQ(matched(pair.small.interior, pair.full.interior, 1e-10), blocks + 1);
     const int felt = matched(pair.small.felt, pair.full.felt, 1e-10);
     EXPECT_GE(felt, 2 * blocks + 2);
-    if (blocks == 1) { EXPECT_EQ(felt, 4); }
+    if (blocks == 1) {
+      EXPECT_EQ(felt, 4);
+    }
   }
 }
 
-// Damped and gyroscopic: blocks of 12 (mass and damping both drive), one derivative of the interior and of what is felt for each; K and C are unsymmetric, so
-// that nothing is gained on the other side.
+// Damped and gyroscopic: blocks of 12 (mass and damping both drive), one derivative of the interior
+// and of what is felt for each; K and C are unsymmetric, so that nothing is gained on the other
+// side.
 TEST(KrylovMoments, OfAGyroscopicPartAreMatchedOnTheRealAxis) {
   const Pair pair = series(beam(true), 12, 20.0, true, 4);
   EXPECT_GE(matched(pair.small.interior, pair.full.interior, 1e-10), 1);
@@ -133,16 +159,21 @@ double feltError(const std::string& basisName, double hertz) {
   const Sparse Z = constantStiffness(part.model) - omega * omega * part.model.mass;
   const auto felt = [](const Matrix& A, Eigen::Index kept) {
     const auto rest = A.rows() - kept;
-    return Matrix(A.topLeftCorner(kept, kept) - A.topRightCorner(kept, rest) * A.bottomRightCorner(rest, rest).partialPivLu().solve(A.bottomLeftCorner(rest, kept)));
+    return Matrix(
+        A.topLeftCorner(kept, kept) -
+        A.topRightCorner(kept, rest) *
+            A.bottomRightCorner(rest, rest).partialPivLu().solve(A.bottomLeftCorner(rest, kept)));
   };
   const Partition& p = basis.partition;
   std::vector<int> order = p.kept;
   order.insert(order.end(), p.interior.begin(), p.interior.end());
-  return difference(felt(Matrix(basis.vectors.transpose() * (Z * basis.vectors).eval()), 6), felt(Matrix(block(Z, order, order)), 6));
+  return difference(felt(Matrix(basis.vectors.transpose() * (Z * basis.vectors).eval()), 6),
+                    felt(Matrix(block(Z, order, order)), 6));
 }
 
 TEST(KrylovMoments, BeatModesNearTheExpansionPoint) {
-  for (const double hertz : {36.0, 44.0}) EXPECT_LT(feltError("Krylov", hertz), 0.1 * feltError("Craig-Bampton", hertz)) << hertz;
+  for (const double hertz : {36.0, 44.0})
+    EXPECT_LT(feltError("Krylov", hertz), 0.1 * feltError("Craig-Bampton", hertz)) << hertz;
 }
 
 }  // namespace

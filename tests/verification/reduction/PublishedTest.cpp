@@ -33,8 +33,9 @@ Vector omegas(const model::SecondOrderModel& m) {
   return linalg::symmetricModes(Matrix(m.stiffnessAt(0)), Matrix(m.mass)).values.cwiseSqrt();
 }
 
-// A clamped-free rod of unit length, EA = rho A = 1, kept dof at its free end. In the continuum the constraint mode is x and the
-// fixed-interface modes are sqrt(2) sin(k pi x), so with one mode m = [1/3, s; s, 1], s = sqrt(2)/pi, k = diag(1, pi^2).
+// A clamped-free rod of unit length, EA = rho A = 1, kept dof at its free end. In the continuum the
+// constraint mode is x and the fixed-interface modes are sqrt(2) sin(k pi x), so with one mode m =
+// [1/3, s; s, 1], s = sqrt(2)/pi, k = diag(1, pi^2).
 TEST(Rod, MatchesTheClosedFormOfTheContinuum) {
   auto rod = samples::bar("rod", 0, 400, 400.0, 1.0 / 400, {0});
   samples::classify(rod, {}, {400});
@@ -61,9 +62,10 @@ TEST(Rod, ErrorFallsWithTheModesAndFromAbove) {
   }
 }
 
-// J. L. Humar, Dynamics of Structures, example 19.1: a bar clamped on the left, two components of four consistent elements each,
-// two fixed-interface modes per component. Printed for component 1 (there normalised with the element length 1/8 in the mass):
-// first mode 0.5264, 0.7444, 0.5264, constraint mode 0.25, 0.5, 0.75, 1.
+// J. L. Humar, Dynamics of Structures, example 19.1: a bar clamped on the left, two components of
+// four consistent elements each, two fixed-interface modes per component. Printed for component 1
+// (there normalised with the element length 1/8 in the mass): first mode 0.5264, 0.7444, 0.5264,
+// constraint mode 0.25, 0.5, 0.75, 1.
 TEST(Humar, BarOfTwoComponents) {
   const double l = 1.0 / 8;
   std::vector<model::Substructure> parts{samples::bar("component 1", 0, 4, 1 / l, l, {0}),
@@ -77,7 +79,8 @@ TEST(Humar, BarOfTwoComponents) {
     EXPECT_NEAR(Phi(i, 0), 0.25 * (i + 1), 1e-14);
     EXPECT_NEAR(Phi(i, 1) * std::sqrt(l), printed[i], 5e-5);
   }
-  // The coupled frequencies, computed independently with numpy/scipy from the definition of the method.
+  // The coupled frequencies, computed independently with numpy/scipy from the definition of the
+  // method.
   const double expected[5] = {1.57342778, 4.78413406, 8.19337258, 11.97215214, 17.68506349};
   const Vector omega = omegas(coupling::couple(small));
   ASSERT_EQ(omega.size(), 5);
@@ -115,7 +118,8 @@ TEST(FreeBeam, KeepsItsSixRigidBodyModes) {
       if (ends.empty() && count < 6) continue;  // without kept dofs, only modes are left
       const auto small = reduced({pipe}, count)[0];
       EXPECT_EQ(small.report.zeroEnergyFull, 6);
-      EXPECT_EQ(small.report.zeroEnergyReduced, 6) << ends.size() << " kept nodes, " << count << " modes";
+      EXPECT_EQ(small.report.zeroEnergyReduced, 6)
+          << ends.size() << " kept nodes, " << count << " modes";
       EXPECT_TRUE(small.report.remarks.empty() || count == 99);
     }
   }
@@ -129,7 +133,8 @@ TEST(FreeBeam, LateralModesComeInPairsThatAreNotCut) {
   EXPECT_EQ(reduced({pipe}, 3)[0].modes, 4);
   const Vector values = reduced({pipe}, 3)[0].basis->eigenvalues;
   EXPECT_NEAR(values[0], values[1], 1e-9 * values[0]);
-  EXPECT_EQ(reduced({pipe}, 3)[0].basis->partition.links.size(), 4u) << "two planes, the axis and torsion are links of their own";
+  EXPECT_EQ(reduced({pipe}, 3)[0].basis->partition.links.size(), 4u)
+      << "two planes, the axis and torsion are links of their own";
 }
 
 TEST(FreeBeam, ExplicitStepFollowsTheRetainedDofs) {

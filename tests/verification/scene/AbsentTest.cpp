@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// What a deck does not ask for is not built, stored or evaluated: counted, not believed.
-#include <gtest/gtest.h>
-
 #include <algorithm>
+#include <gtest/gtest.h>
 
 #include "common/Census.hpp"
 #include "tests/support/Scenes.hpp"
@@ -12,9 +11,11 @@ namespace {
 
 using namespace tooljoint;
 
-/// A short motion of the full reference string without some lists; returns its model, the census tells what was done.
+/// A short motion of the full reference string without some lists; returns its model, the census
+/// tells what was done.
 model::SecondOrderModel without(std::vector<std::string> overrides) {
-  for (const char* override : {"!Reduction", "!Substructures", "Transient/End Time=0.02", "Transient/Progress=false"})
+  for (const char* override :
+       {"!Reduction", "!Substructures", "Transient/End Time=0.02", "Transient/Progress=false"})
     overrides.emplace_back(override);
   resetCensus();
   const auto scene = testing_::reference(overrides);
@@ -24,7 +25,8 @@ model::SecondOrderModel without(std::vector<std::string> overrides) {
 }
 
 bool hasTerm(const std::vector<model::MatrixTerm>& terms, const std::string& part) {
-  return std::any_of(terms.begin(), terms.end(), [&](const auto& term) { return term.name.find(part) != std::string::npos; });
+  return std::any_of(terms.begin(), terms.end(),
+                     [&](const auto& term) { return term.name.find(part) != std::string::npos; });
 }
 
 TEST(Absent, TheWholeSceneBuildsEverything) {
@@ -81,8 +83,10 @@ TEST(Absent, AReductionThatIsNotThereComputesNoModes) {
 }
 
 TEST(Absent, AFamilyOfDofsThatIsNotModelledIsNotInTheModel) {
-  const auto lateral = without({"Supports/Dofs=lateral", "Loads/Weight On Bit=0", "Loads/Torque On Bit=0"});
-  for (const auto& dof : lateral.dofs) EXPECT_TRUE(dof.component != 2 && dof.component != 5) << dof.component;
+  const auto lateral =
+      without({"Supports/Dofs=lateral", "Loads/Weight On Bit=0", "Loads/Torque On Bit=0"});
+  for (const auto& dof : lateral.dofs)
+    EXPECT_TRUE(dof.component != 2 && dof.component != 5) << dof.component;
   EXPECT_EQ(lateral.size(), 163 * 4 - 4);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// With every interior mode kept the coupled model is the full model in other coordinates, however the string is cut: the same
-/// eigenvalues, and the same motion in contact from the same integrator and step.
-#include <gtest/gtest.h>
-
+/// With every interior mode kept the coupled model is the full model in other coordinates, however
+/// the string is cut: the same eigenvalues, and the same motion in contact from the same integrator
+/// and step.
 #include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -18,7 +18,8 @@ using namespace tooljoint;
 Vector eigenvalues(const model::SecondOrderModel& model) {
   const Matrix stiffness = model.stiffnessAt(0.0);
   const Matrix mass = model.mass;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(0.5 * (stiffness + stiffness.transpose()), 0.5 * (mass + mass.transpose()),
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(0.5 * (stiffness + stiffness.transpose()),
+                                                          0.5 * (mass + mass.transpose()),
                                                           Eigen::EigenvaluesOnly)
       .eigenvalues();
 }
@@ -34,12 +35,15 @@ void PrintTo(const Cut& cut, std::ostream* out) { *out << cut.name; }
 class AllModes : public ::testing::TestWithParam<Cut> {};
 
 TEST_P(AllModes, IsTheFullModel) {
-  // Retained nodes are few, so that most of the string is modal; the step and the tolerance are those of both runs.
-  std::vector<std::string> overrides{"!Reduction",                   "Reduction/All Modes=true", "Substructures/Retained Nodes=Gauges",
-                                     "Transient/End Time=0.5",       "Transient/Step=0.001",     "Transient/Generalized-alpha/Tolerance=1e-12",
-                                     // taken at an iterate, so equal in both models to the root of the tolerance alone
-                                     "Transient/Generalized-alpha/Phase Correction=false",
-                                     "Transient/Progress=false",     "Transient/Energy Ledger=false"};
+  // Retained nodes are few, so that most of the string is modal; the step and the tolerance are
+  // those of both runs.
+  std::vector<std::string> overrides{
+      "!Reduction", "Reduction/All Modes=true", "Substructures/Retained Nodes=Gauges",
+      "Transient/End Time=0.5", "Transient/Step=0.001",
+      "Transient/Generalized-alpha/Tolerance=1e-12",
+      // taken at an iterate, so equal in both models to the root of the tolerance alone
+      "Transient/Generalized-alpha/Phase Correction=false", "Transient/Progress=false",
+      "Transient/Energy Ledger=false"};
   overrides.insert(overrides.end(), GetParam().overrides.begin(), GetParam().overrides.end());
   const auto scene = testing_::reference(overrides);
   const auto stage = app::settle(scene);
@@ -52,18 +56,24 @@ TEST_P(AllModes, IsTheFullModel) {
   const Vector found = eigenvalues(coupled);
   const double largest = expected.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < expected.size(); ++i)
-    EXPECT_NEAR(found(i), expected(i), 1e-9 * std::abs(expected(i)) + 1e-15 * largest) << "eigenvalue " << i + 1;
+    EXPECT_NEAR(found(i), expected(i), 1e-9 * std::abs(expected(i)) + 1e-15 * largest)
+        << "eigenvalue " << i + 1;
 
-  EXPECT_LE(testing_::largestError(testing_::move(scene, coupled), testing_::move(scene, full)), 1e-8);
+  EXPECT_LE(testing_::largestError(testing_::move(scene, coupled), testing_::move(scene, full)),
+            1e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cuts, AllModes,
                          ::testing::Values(Cut{"one part", 1, {"Substructures/Rule=Single"}},
-                                           Cut{"three parts", 3, {"Substructures/Rule=By nodes", "Substructures/Cut Nodes={40, 90}"}},
+                                           Cut{"three parts",
+                                               3,
+                                               {"Substructures/Rule=By nodes",
+                                                "Substructures/Cut Nodes={40, 90}"}},
                                            Cut{"twenty parts",
                                                20,
                                                {"Substructures/Rule=By nodes",
-                                                "Substructures/Cut Nodes={9, 17, 25, 33, 41, 49, 57, 65, 73, 81, 89, 97, 105, 113, 121, 129, "
+                                                "Substructures/Cut Nodes={9, 17, 25, 33, 41, 49, "
+                                                "57, 65, 73, 81, 89, 97, 105, 113, 121, 129, "
                                                 "137, 145, 153}"}}));
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The static state of the reference scene against the published one (Nguyen et al. 2020, section 5.2); docs/validation.md
-/// explains the differences the tolerances allow for.
+/// The static state of the reference scene against the published one (Nguyen et al. 2020,
+/// section 5.2); docs/validation.md explains the differences the tolerances allow for.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,8 @@ const app::StaticStage& sourcePrestress() {
 
 TEST(ReferenceStatic, TouchesWhereThePaperSays) {
   const auto& state = sourcePrestress().state;
-  EXPECT_EQ(state.contactNodes, 81);             // 82 published; node 44 stays open by micrometres with this pre-stress
+  EXPECT_EQ(state.contactNodes,
+            81);  // 82 published; node 44 stays open by micrometres with this pre-stress
   EXPECT_NEAR(state.compressedElements, 15, 1);  // 15 published
   EXPECT_EQ(state.maxNormalForceNode, 86);       // "largest at the gauge"
   EXPECT_LT(state.gap(43), 0.0);
@@ -28,24 +29,32 @@ TEST(ReferenceStatic, TouchesWhereThePaperSays) {
 
 TEST(ReferenceStatic, TheLastElementCarriesTheBitLoads) {
   const auto& state = sourcePrestress().state;
-  EXPECT_NEAR(state.lastElementAxialForce, -1e4, 500.0);  // half an element of weight and the chord's inclination
+  EXPECT_NEAR(state.lastElementAxialForce, -1e4,
+              500.0);  // half an element of weight and the chord's inclination
   EXPECT_NEAR(state.lastElementTorque, -5e3, 10.0);
 }
 
-/// A string without bending stiffness on a helix (curvature kappa, constant inclination theta): its effective tension falls from the top by w cos(theta)
-/// a metre to the weight on bit, and it presses on the wall with sqrt((F kappa)^2 + (w sin(theta))^2) a metre, since the normal of a helix is
-/// horizontal. w is the weight in mud. Bending stiffness spreads the forces and leaves both sums where they are, to a per cent.
+/// A string without bending stiffness on a helix (curvature kappa, constant inclination theta): its
+/// effective tension falls from the top by w cos(theta) a metre to the weight on bit, and it
+/// presses on the wall with sqrt((F kappa)^2 + (w sin(theta))^2) a metre, since the normal of a
+/// helix is horizontal. w is the weight in mud. Bending stiffness spreads the forces and leaves
+/// both sums where they are, to a per cent.
 TEST(ReferenceStatic, AgreesWithTheSoftString) {
   const auto scene = reference();
   const auto& state = sourcePrestress().state;
-  constexpr double gravity = 9.81, mud = 1200, steel = 7900, weightOnBit = 1e4, radius = 85.1, turned = 0.5 * M_PI, length = 170.2;
-  const double drop = std::sqrt(length * length - std::pow(radius * turned, 2)), pitch = drop / turned;
-  const double curvature = radius / (radius * radius + pitch * pitch), down = drop / length, aside = std::sqrt(1 - down * down);
+  constexpr double gravity = 9.81, mud = 1200, steel = 7900, weightOnBit = 1e4, radius = 85.1,
+                   turned = 0.5 * M_PI, length = 170.2;
+  const double drop = std::sqrt(length * length - std::pow(radius * turned, 2)),
+               pitch = drop / turned;
+  const double curvature = radius / (radius * radius + pitch * pitch), down = drop / length,
+               aside = std::sqrt(1 - down * down);
   double tension = -weightOnBit, pressed = 0, middle = 0;
   int compressed = 0;
-  for (auto element = scene.string.elements.rbegin(); element != scene.string.elements.rend(); ++element) {
+  for (auto element = scene.string.elements.rbegin(); element != scene.string.elements.rend();
+       ++element) {
     const auto& section = element->section;
-    const double in = M_PI * std::pow(section.innerRadius(), 2), out = M_PI * std::pow(section.outerRadius(), 2);
+    const double in = M_PI * std::pow(section.innerRadius(), 2),
+                 out = M_PI * std::pow(section.outerRadius(), 2);
     const double weight = gravity * (steel * (out - in) - mud * out + mud * in);
     middle = tension + 0.5 * weight * down * element->length;
     compressed += middle < 0;
@@ -59,7 +68,8 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
 
 TEST(ReferenceStatic, BothRecipesFindTheSameState) {
   const auto state = [](const std::string& recipe) {
-    return app::settle(reference({"Static/Tolerance=1e-12", "Static/Recipe=" + recipe})).state.displacement;
+    return app::settle(reference({"Static/Tolerance=1e-12", "Static/Recipe=" + recipe}))
+        .state.displacement;
   };
   const Vector expected = state("Continuation");
   EXPECT_LE((state("Source") - expected).norm(), 1e-11 * expected.norm());
@@ -68,9 +78,11 @@ TEST(ReferenceStatic, BothRecipesFindTheSameState) {
 TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
   const auto full = app::settle(reference({"Path/Pre-stress=Full tangent"})).state;
   EXPECT_EQ(full.contactNodes, 82);
-  // Turning the whole string about its curved axis must cost next to nothing; K_a + K_g alone resists like EI kappa^2 L.
+  // Turning the whole string about its curved axis must cost next to nothing; K_a + K_g alone
+  // resists like EI kappa^2 L.
   EXPECT_LT(std::abs(full.torqueBalanceDefect()), 0.005 * std::abs(full.topTorque));
-  EXPECT_GT(std::abs(sourcePrestress().state.torqueBalanceDefect()), 0.5 * std::abs(full.topTorque));
+  EXPECT_GT(std::abs(sourcePrestress().state.torqueBalanceDefect()),
+            0.5 * std::abs(full.topTorque));
 }
 
 TEST(ReferenceStatic, ImposedNodesStrayFromTheAxisAndTouchElsewhere) {

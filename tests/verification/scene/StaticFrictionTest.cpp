@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which friction the static state has: decided by Static/Friction and by how the string turns when the motion starts.
+/// Which friction the static state has: decided by Static/Friction and by how the string turns when
+/// the motion starts.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -13,12 +14,14 @@ using namespace tooljoint;
 const double rpm = std::acos(-1.0) / 30.0;
 
 app::Scene scene(std::vector<std::string> overrides) {
-  overrides.insert(overrides.begin(), {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
-                                       "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}"});
+  overrides.insert(overrides.begin(),
+                   {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
+                    "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}"});
   return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml", overrides);
 }
 
-const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 100, 101}",
+const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table",
+                                             "Rotary Speed/Table/Times={0, 100, 101}",
                                              "Rotary Speed/Table/Speeds={0, 0, -5}"};
 
 TEST(StaticFriction, FollowsTheSpeedWithWhichTheMotionStarts) {
@@ -30,8 +33,9 @@ TEST(StaticFriction, FollowsTheSpeedWithWhichTheMotionStarts) {
   EXPECT_EQ(backwards.direction, -1.0);
   EXPECT_NEAR(backwards.speed, 60.0 * rpm, 1e-12);
 
-  const auto laterStart = app::staticFriction(scene({"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 1, 2}",
-                                                     "Rotary Speed/Table/Speeds={0, 3, 3}", "Transient/Start Time=1.5"}));
+  const auto laterStart = app::staticFriction(
+      scene({"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 1, 2}",
+             "Rotary Speed/Table/Speeds={0, 3, 3}", "Transient/Start Time=1.5"}));
   EXPECT_NEAR(laterStart.speed, 3.0, 1e-12);
 }
 
@@ -61,9 +65,10 @@ TEST(StaticFriction, ActsWithItsCoefficient) {
     EXPECT_GT(state.totalNormalForce, 1e3);
     return -state.totalFrictionTorque / (0.084 * state.totalNormalForce);  // it lies on its joints
   };
-  // eq. (9) of Nguyen et al. 2020 at v = Omega R_c = 4 pi 0.084 m/s, v_r = 0.1 m/s, mu_s = 0.3, mu_d = 0.25
-  const double v = 4.0 * std::acos(-1.0) * 0.084, xi = std::sqrt(1.0 - 0.25 / 0.3), c = (1.0 - xi) / (2.0 * 0.1 * 0.25),
-               q = 1.0 / (1.0 + c * v);
+  // eq. (9) of Nguyen et al. 2020 at v = Omega R_c = 4 pi 0.084 m/s, v_r = 0.1 m/s, mu_s = 0.3,
+  // mu_d = 0.25
+  const double v = 4.0 * std::acos(-1.0) * 0.084, xi = std::sqrt(1.0 - 0.25 / 0.3),
+               c = (1.0 - xi) / (2.0 * 0.1 * 0.25), q = 1.0 / (1.0 + c * v);
   const double sliding = v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q);
   EXPECT_NEAR(sliding, 0.27, 0.02);
   EXPECT_NEAR(coefficient({}), sliding, 1e-9);

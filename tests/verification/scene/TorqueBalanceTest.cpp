@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A section that spins about its own axis meets no elastic force, however the string bends: the torque at the top is the sum of
-/// the torques of bit and friction, on every mesh, at rest and in motion.
+/// A section that spins about its own axis meets no elastic force, however the string bends: the
+/// torque at the top is the sum of the torques of bit and friction, on every mesh, at rest and in
+/// motion.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -25,11 +26,13 @@ struct WellCase {
 const WellCase wells[] = {
     {"3 deg/30 m to 60 deg", {}},
     {"4 deg/30 m to 80 deg, 2500 m, no bit torque",
-     {"Well/Arc/Kick-off Depth=600", "Well/Arc/Build Rate=4 deg/30m", "Well/Arc/End Inclination=80 deg",
-      "Well/Arc/Tangent Length=1500", "Drillstring/Assembly={260*stand}", "Loads/Torque On Bit=0"}},
+     {"Well/Arc/Kick-off Depth=600", "Well/Arc/Build Rate=4 deg/30m",
+      "Well/Arc/End Inclination=80 deg", "Well/Arc/Tangent Length=1500",
+      "Drillstring/Assembly={260*stand}", "Loads/Torque On Bit=0"}},
     {"10 deg/30 m to 88 deg, 570 m, off bottom",
-     {"Well/Arc/Kick-off Depth=100", "Well/Arc/Build Rate=10 deg/30m", "Well/Arc/End Inclination=88 deg",
-      "Well/Arc/Tangent Length=300", "Drillstring/Assembly={60*stand}", "Loads/Torque On Bit=0", "Loads/Weight On Bit=0"}},
+     {"Well/Arc/Kick-off Depth=100", "Well/Arc/Build Rate=10 deg/30m",
+      "Well/Arc/End Inclination=88 deg", "Well/Arc/Tangent Length=300",
+      "Drillstring/Assembly={60*stand}", "Loads/Torque On Bit=0", "Loads/Weight On Bit=0"}},
 };
 
 class TorqueBalance : public testing::TestWithParam<WellCase> {
@@ -45,23 +48,28 @@ class TorqueBalance : public testing::TestWithParam<WellCase> {
 TEST_P(TorqueBalance, HoldsWithOneElementPerBody) {
   const auto coarse = state(1);
   EXPECT_GT(std::abs(coarse.totalFrictionTorque), 1e3);
-  EXPECT_NEAR(coarse.topTorque, coarse.topTorqueEquilibrium(), 0.01 * std::abs(coarse.topTorqueEquilibrium()));
+  EXPECT_NEAR(coarse.topTorque, coarse.topTorqueEquilibrium(),
+              0.01 * std::abs(coarse.topTorqueEquilibrium()));
   EXPECT_LT(coarse.relativeTorqueDefect(), 0.005);
 }
 
 TEST_P(TorqueBalance, HoldsBetterWithFive) {
   const auto fine = state(5);
-  EXPECT_NEAR(fine.topTorque, fine.topTorqueEquilibrium(), 0.002 * std::abs(fine.topTorqueEquilibrium()));
+  EXPECT_NEAR(fine.topTorque, fine.topTorqueEquilibrium(),
+              0.002 * std::abs(fine.topTorqueEquilibrium()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Wells, TorqueBalance, testing::ValuesIn(wells),
-                         [](const auto& instance) { return "well" + std::to_string(instance.index); });
+INSTANTIATE_TEST_SUITE_P(Wells, TorqueBalance, testing::ValuesIn(wells), [](const auto& instance) {
+  return "well" + std::to_string(instance.index);
+});
 
 /// Every scene of strings but the published case, which takes the paper's pre-stress.
 TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
-  for (const char* deck : {"xml/build_hold_1400m.xml", "xml/cms_variants.xml", "xml/inclined_1000m.xml", "xml/stress_170m.xml",
-                           "xml/study_helical_170m.xml", "xml/vertical_1000m.xml", "examples/01_vertical_string/deck.xml",
-                           "examples/03_survey_well/deck.xml", "tests/effects/scene.xml", "tests/study/study.xml"}) {
+  for (const char* deck :
+       {"xml/build_hold_1400m.xml", "xml/cms_variants.xml", "xml/inclined_1000m.xml",
+        "xml/stress_170m.xml", "xml/study_helical_170m.xml", "xml/vertical_1000m.xml",
+        "examples/01_vertical_string/deck.xml", "examples/03_survey_well/deck.xml",
+        "tests/effects/scene.xml", "tests/study/study.xml"}) {
     const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/" + deck, {});
     EXPECT_EQ(scene.path.prestress, path::Prestress::FullTangent) << deck;
     const auto state = app::solveStatic(scene).state;
@@ -70,26 +78,31 @@ TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
   }
 }
 
-/// Soft string (Johancsik, Friesen and Dawson 1984) from the bit up: q = |T kappa n + w (g - (g.t) t)| per length is what the
-/// wall carries. A string that turns climbs until normal force and friction together carry it, N sqrt(1 + mu^2) = q; its friction
-/// torque is mu N r with r of the joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
+/// Soft string (Johancsik, Friesen and Dawson 1984) from the bit up: q = |T kappa n + w (g - (g.t)
+/// t)| per length is what the wall carries. A string that turns climbs until normal force and
+/// friction together carry it, N sqrt(1 + mu^2) = q; its friction torque is mu N r with r of the
+/// joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
 TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
   const auto scene = buildAndHold({"!Transient"});
   const auto state = app::settle(scene).state;
   double tension = -50e3, torque = 0.0;
   const auto& elements = scene.string.elements;
-  const double mu = std::abs(scene.contactPoints.slidingAt(120.0 * std::acos(-1.0) / 30.0).muStatic.front());
+  const double mu =
+      std::abs(scene.contactPoints.slidingAt(120.0 * std::acos(-1.0) / 30.0).muStatic.front());
   double s = scene.string.length();
   for (auto element = elements.rbegin(); element != elements.rend(); ++element) {
     const int pieces = 20;
     // weight of body and joint spread over the stand
-    const double weight = 9.81 * 7850.0 * (9.0 * elements[0].section.area() + 0.5 * elements[1].section.area()) / 9.5;
+    const double weight =
+        9.81 * 7850.0 * (9.0 * elements[0].section.area() + 0.5 * elements[1].section.area()) / 9.5;
     for (int piece = 0; piece < pieces; ++piece) {
       const double ds = element->length / pieces;
       const auto well = scene.well.trajectory().at(s - 0.5 * ds);
       const Vector3 g(0.0, 0.0, 1.0);
-      torque += mu / std::sqrt(1.0 + mu * mu) * 0.084 *
-                (tension * well.curvature + weight * (g - g.dot(well.tangent) * well.tangent)).norm() * ds;
+      torque +=
+          mu / std::sqrt(1.0 + mu * mu) * 0.084 *
+          (tension * well.curvature + weight * (g - g.dot(well.tangent) * well.tangent)).norm() *
+          ds;
       tension += weight * g.dot(well.tangent) * ds;
       s -= ds;
     }
@@ -109,7 +122,8 @@ TEST(TorqueInMotion, AStringThatTurnsAtConstantSpeedStaysAtRest) {
 }
 
 TEST(TorqueInMotion, ThePeakCoefficientWouldStartAJump) {
-  const auto scene = buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false", "Static/Friction=Peak"});
+  const auto scene =
+      buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false", "Static/Friction=Peak"});
   const auto stage = app::settle(scene);
   const auto motion = testing_::move(scene, app::fullModel(stage));
   EXPECT_GT((motion.back() - stage.state.displacement).cwiseAbs().maxCoeff(), 1e-3);

@@ -14,7 +14,8 @@ namespace {
 
 const std::vector<std::string> all = {"Generalized-alpha", "RK4", "RK4 adaptive"};
 
-/// A clamped shaft of `elements` spinning beam elements in a skew frame, so that all six dofs of a node are coupled.
+/// A clamped shaft of `elements` spinning beam elements in a skew frame, so that all six dofs of a
+/// node are coupled.
 model::SecondOrderModel shaft(int elements, double spin, double damping, double torque) {
   const auto section = beam::Section::hollow(0.05, 0.02, {7800, 2.1e11, 0.3});
   const double l = 0.5;
@@ -28,7 +29,8 @@ model::SecondOrderModel shaft(int elements, double spin, double damping, double 
     const beam::Matrix12 mass = beam::mass(section, l);
     const beam::Matrix12 m = R.transpose() * mass * R;
     const beam::Matrix12 c = R.transpose() * (spin * (G.transpose() - G) + damping * mass) * R;
-    const beam::Matrix12 k = R.transpose() * (beam::stiffness(section, l) + torque * beam::geometricTorque(l)) * R;
+    const beam::Matrix12 k =
+        R.transpose() * (beam::stiffness(section, l) + torque * beam::geometricTorque(l)) * R;
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j) {
         const int row = 6 * (e - 1) + i, column = 6 * (e - 1) + j;
@@ -42,12 +44,16 @@ model::SecondOrderModel shaft(int elements, double spin, double damping, double 
 /// Error of the samples against exp(A t), relative to the largest displacement.
 double errorAgainstExponential(const model::SecondOrderModel& model, const TransientOptions& o) {
   const int n = model.size();
-  // In the coordinates D q, D q'/w with D = sqrt(diag M), w = 1e4 rad/s the exponential is well scaled.
+  // In the coordinates D q, D q'/w with D = sqrt(diag M), w = 1e4 rad/s the exponential is well
+  // scaled.
   const double w = 1e4;
   const Vector D = Matrix(model.mass).diagonal().cwiseSqrt();
-  const Matrix M = D.cwiseInverse().asDiagonal() * Matrix(model.mass) * D.cwiseInverse().asDiagonal();
-  const Matrix K = D.cwiseInverse().asDiagonal() * Matrix(model.stiffnessAt(0)) * D.cwiseInverse().asDiagonal();
-  const Matrix C = D.cwiseInverse().asDiagonal() * Matrix(model.dampingAt(0)) * D.cwiseInverse().asDiagonal();
+  const Matrix M =
+      D.cwiseInverse().asDiagonal() * Matrix(model.mass) * D.cwiseInverse().asDiagonal();
+  const Matrix K =
+      D.cwiseInverse().asDiagonal() * Matrix(model.stiffnessAt(0)) * D.cwiseInverse().asDiagonal();
+  const Matrix C =
+      D.cwiseInverse().asDiagonal() * Matrix(model.dampingAt(0)) * D.cwiseInverse().asDiagonal();
   Matrix A = Matrix::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n) = w * Matrix::Identity(n, n);
   A.bottomLeftCorner(n, n) = -M.inverse() * K / w;
@@ -67,12 +73,15 @@ double errorAgainstExponential(const model::SecondOrderModel& model, const Trans
   return error / size;
 }
 
-/// The three softest shapes of the shaft as initial displacement: what an integrator at a sensible step resolves.
+/// The three softest shapes of the shaft as initial displacement: what an integrator at a sensible
+/// step resolves.
 void bend(model::SecondOrderModel& model) {
   const Matrix K(model.stiffness[0].matrix);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(0.5 * (K + K.transpose()), Matrix(model.mass));
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(0.5 * (K + K.transpose()),
+                                                               Matrix(model.mass));
   model.initialDisplacement =
-      1e-2 * (modes.eigenvectors().col(0) + 0.5 * modes.eigenvectors().col(1) - 0.2 * modes.eigenvectors().col(2));
+      1e-2 * (modes.eigenvectors().col(0) + 0.5 * modes.eigenvectors().col(1) -
+              0.2 * modes.eigenvectors().col(2));
 }
 
 TEST(LinearMotion, spinningTwistedShaftFollowsTheMatrixExponential) {
@@ -87,7 +96,8 @@ TEST(LinearMotion, spinningTwistedShaftFollowsTheMatrixExponential) {
   EXPECT_LT(errorAgainstExponential(model, o), 1e-4);
 }
 
-/// Without torque the start excites soft modes only, and steps of a sensible length show their order.
+/// Without torque the start excites soft modes only, and steps of a sensible length show their
+/// order.
 TEST(LinearMotion, shaftConvergesAtTheOrderOfTheMethod) {
   auto model = shaft(6, 300.0, 2.0, 0.0);
   bend(model);
@@ -101,7 +111,8 @@ TEST(LinearMotion, shaftConvergesAtTheOrderOfTheMethod) {
 }
 
 TEST(LinearMotion, chainFollowsItsModes) {
-  // omega_j = 2 sqrt(k/m) sin(j pi / (2 (n + 1))), shapes sin(i j pi / (n + 1)); stiffness-proportional damping.
+  // omega_j = 2 sqrt(k/m) sin(j pi / (2 (n + 1))), shapes sin(i j pi / (n + 1));
+  // stiffness-proportional damping.
   const int n = 30;
   const double m = 0.5, k = 2e3, c = 0.2;
   auto model = springChain(n, m, c, k);
@@ -109,7 +120,11 @@ TEST(LinearMotion, chainFollowsItsModes) {
   model.initialVelocity[20] = -0.3;
   for (const auto& integrator : all) {
     Keep samples;
-    auto o = options(integrator, 0.5, integrator == "RK4" ? 5e-4 : integrator == "Generalized-alpha" ? 1e-5 : 0, 0.05);
+    auto o = options(integrator, 0.5,
+                     integrator == "RK4"                 ? 5e-4
+                     : integrator == "Generalized-alpha" ? 1e-5
+                                                         : 0,
+                     0.05);
     if (integrator == "RK4 adaptive") o.own.set("Tolerance", 1e-6);
     integrate(model, o, samples);
     for (std::size_t s = 0; s < samples.time.size(); ++s) {
@@ -117,12 +132,14 @@ TEST(LinearMotion, chainFollowsItsModes) {
       Vector exact = Vector::Zero(n);
       for (int j = 1; j <= n; ++j) {
         Vector shape(n);
-        for (int i = 0; i < n; ++i) shape[i] = std::sqrt(2.0 / (n + 1)) * std::sin((i + 1) * j * M_PI / (n + 1));
+        for (int i = 0; i < n; ++i)
+          shape[i] = std::sqrt(2.0 / (n + 1)) * std::sin((i + 1) * j * M_PI / (n + 1));
         const double omega = 2 * std::sqrt(k / m) * std::sin(j * M_PI / (2.0 * (n + 1)));
         const double zeta = 0.5 * c / k * omega;
         const double wd = omega * std::sqrt(1 - zeta * zeta);
         const double a = shape.dot(model.initialDisplacement), b = shape.dot(model.initialVelocity);
-        exact += shape * std::exp(-zeta * omega * t) * (a * std::cos(wd * t) + (b + zeta * omega * a) / wd * std::sin(wd * t));
+        exact += shape * std::exp(-zeta * omega * t) *
+                 (a * std::cos(wd * t) + (b + zeta * omega * a) / wd * std::sin(wd * t));
       }
       EXPECT_LT((samples.q[s] - exact).cwiseAbs().maxCoeff(), 2e-5) << integrator << " at " << t;
     }
@@ -130,10 +147,11 @@ TEST(LinearMotion, chainFollowsItsModes) {
 }
 
 TEST(LinearMotion, gyroscopicRotorKeepsItsEnergyAndItsWhirl) {
-  // A disc on isotropic springs: I theta'' + Ip Omega J theta' + k theta = 0 turns at w = (+-g + sqrt(g^2 + 4 k/I))/2, g = Ip
-  // Omega/I.
+  // A disc on isotropic springs: I theta'' + Ip Omega J theta' + k theta = 0 turns at w = (+-g +
+  // sqrt(g^2 + 4 k/I))/2, g = Ip Omega/I.
   const double inertia = 0.4, g = 25.0, k = 90.0;
-  auto model = denseModel(inertia * Matrix::Identity(2, 2), Matrix(), k * Matrix::Identity(2, 2), 2);
+  auto model =
+      denseModel(inertia * Matrix::Identity(2, 2), Matrix(), k * Matrix::Identity(2, 2), 2);
   Matrix G(2, 2);
   G << 0, g * inertia, -g * inertia, 0;
   model.damping.push_back({"gyroscopic", G.sparseView(), 0});
@@ -151,7 +169,8 @@ TEST(LinearMotion, gyroscopicRotorKeepsItsEnergyAndItsWhirl) {
       const double t = samples.time[s];
       const std::complex<double> i(0, 1);
       const std::complex<double> z =
-          0.1 / (forward - backward) * (-backward * std::exp(i * forward * t) + forward * std::exp(i * backward * t));
+          0.1 / (forward - backward) *
+          (-backward * std::exp(i * forward * t) + forward * std::exp(i * backward * t));
       EXPECT_NEAR(samples.q[s][0], z.real(), 2e-3) << integrator << " at " << t;
       EXPECT_NEAR(samples.q[s][1], z.imag(), 2e-3) << integrator << " at " << t;
     }
@@ -162,19 +181,23 @@ TEST(LinearMotion, gyroscopicRotorKeepsItsEnergyAndItsWhirl) {
 }
 
 TEST(LinearMotion, harmonicForceSettlesToItsResponse) {
-  // After the transient has died: amplitude F / sqrt((k - m w^2)^2 + (c w)^2), phase atan2(c w, k - m w^2).
+  // After the transient has died: amplitude F / sqrt((k - m w^2)^2 + (c w)^2), phase atan2(c w, k -
+  // m w^2).
   const double m = 1, c = 8, k = 900, w = 25, F = 3;
   auto model = oscillator(m, c, k, 0, 0);
   const int law = model.lawIndex({"cos", [w](double t) { return std::cos(w * t); }});
   model.loads.push_back({"force", Vector::Constant(1, F), law});
-  const double amplitude = F / std::hypot(k - m * w * w, c * w), phase = std::atan2(c * w, k - m * w * w);
+  const double amplitude = F / std::hypot(k - m * w * w, c * w),
+               phase = std::atan2(c * w, k - m * w * w);
   for (const auto& integrator : all) {
     Keep samples;
     auto o = options(integrator, 6.0, integrator == "RK4 adaptive" ? 0 : 5e-4, 0.01);
     if (integrator == "RK4 adaptive") o.own.set("Tolerance", 1e-6);
     integrate(model, o, samples);
     for (std::size_t s = 500; s < samples.time.size(); ++s)
-      EXPECT_NEAR(samples.q[s][0], amplitude * std::cos(w * samples.time[s] - phase), 1e-3 * amplitude) << integrator;
+      EXPECT_NEAR(samples.q[s][0], amplitude * std::cos(w * samples.time[s] - phase),
+                  1e-3 * amplitude)
+          << integrator;
   }
 }
 
@@ -184,9 +207,12 @@ TEST(LinearMotion, fallingBodyIsExact) {
   model.initialVelocity[0] = 2.0;
   for (const auto& integrator : all) {
     Keep samples;
-    integrate(model, options(integrator, 1.0, integrator == "RK4 adaptive" ? 0 : 0.01, 0.1), samples);
+    integrate(model, options(integrator, 1.0, integrator == "RK4 adaptive" ? 0 : 0.01, 0.1),
+              samples);
     for (std::size_t s = 0; s < samples.time.size(); ++s)
-      EXPECT_NEAR(samples.q[s][0], 2 * samples.time[s] - 0.5 * 9.81 * samples.time[s] * samples.time[s], 1e-12) << integrator;
+      EXPECT_NEAR(samples.q[s][0],
+                  2 * samples.time[s] - 0.5 * 9.81 * samples.time[s] * samples.time[s], 1e-12)
+          << integrator;
   }
 }
 

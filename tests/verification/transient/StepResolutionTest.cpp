@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Steps that do not follow the motion end a run; those that do, and models at rest, pass.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -42,7 +41,8 @@ TEST(StepResolution, refusesStepsThatLoseTheVibration) {
     integrate(model, steps(5e-2, 20.0), sink);
     ADD_FAILURE() << "two steps a period were taken for a result";
   } catch (const ConvergenceError& error) {
-    EXPECT_NE(std::string(error.what()).find("do not follow the motion"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("do not follow the motion"), std::string::npos)
+        << error.what();
   }
   auto anyway = steps(5e-2, 20.0);
   anyway.own.set("Accept Coarse Steps", true);
@@ -72,7 +72,8 @@ TEST(StepResolution, passesWhatStandsStillOrCreeps) {
 }
 
 /// What a run with these steps says of them: the error it ends with, or else its warning.
-std::string saidOf(const model::SecondOrderModel& model, const TransientOptions& options, StepErrors* errors = nullptr) {
+std::string saidOf(const model::SecondOrderModel& model, const TransientOptions& options,
+                   StepErrors* errors = nullptr) {
   NoSamples sink;
   log::clearWarnings();
   try {
@@ -86,8 +87,8 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
   return "";
 }
 
-/// With r = 1 the scheme has d = 0 and b = 1/4, and A is the acceleration -w^2 q: e = h^2/12 (A_{n+1} - A_n), so R = (w h)^2 / 12. Runs of 300
-/// periods; the bounds of R are 1 % and 2.5 %.
+/// With r = 1 the scheme has d = 0 and b = 1/4, and A is the acceleration -w^2 q: e = h^2/12
+/// (A_{n+1} - A_n), so R = (w h)^2 / 12. Runs of 300 periods; the bounds of R are 1 % and 2.5 %.
 TEST(StepResolution, judgesVibrationByTheStepsOfAPeriod) {
   const double w = 10;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
@@ -104,15 +105,20 @@ TEST(StepResolution, judgesVibrationByTheStepsOfAPeriod) {
     const auto warning = said(r, true, &errors);
     EXPECT_NEAR(errors.local, r, 0.02 * r);
     EXPECT_EQ(warning.empty(), r < 0.01) << r << ": " << warning;
-    EXPECT_EQ(warning.find("do not follow") != std::string::npos, r > 0.025) << r << ": " << warning;
-    EXPECT_EQ(warning.find("hardly follow") != std::string::npos, r > 0.01 && r < 0.025) << r << ": " << warning;
-    EXPECT_EQ(said(r, false, nullptr), warning);  // the same sentence, as an error where steps are lost
+    EXPECT_EQ(warning.find("do not follow") != std::string::npos, r > 0.025)
+        << r << ": " << warning;
+    EXPECT_EQ(warning.find("hardly follow") != std::string::npos, r > 0.01 && r < 0.025)
+        << r << ": " << warning;
+    EXPECT_EQ(said(r, false, nullptr),
+              warning);  // the same sentence, as an error where steps are lost
   }
 }
 
-/// A mass on a spring of 5 Hz in steps of 14 ms, beside a wall: 1.7 % of what moves in a step, a warning (2.7 % with r = 0.2, an error).
+/// A mass on a spring of 5 Hz in steps of 14 ms, beside a wall: 1.7 % of what moves in a step, a
+/// warning (2.7 % with r = 0.2, an error).
 TEST(StepResolution, saysWhatMakesItWorse) {
-  const std::string loose = "Iterations that stop at a Transient/Generalized-alpha/Tolerance of 0.01 add to it";
+  const std::string loose =
+      "Iterations that stop at a Transient/Generalized-alpha/Tolerance of 0.01 add to it";
   const std::string impacts = "Spectral Radius of 0.2 or less";
   const auto said = [](double wall, double tolerance, double radius) {
     auto model = oscillator(5.0, 0.0, 5e3, 0.005, 0.3);
@@ -123,21 +129,25 @@ TEST(StepResolution, saysWhatMakesItWorse) {
     return saidOf(model, o);
   };
   for (const double tolerance : {1e-5, 1e-2})
-    for (const double wall : {0.0, 1e7, 1e9})  // contact frequencies of 20 and 200 rad per step: impacts
+    for (const double wall :
+         {0.0, 1e7, 1e9})  // contact frequencies of 20 and 200 rad per step: impacts
       for (const double radius : {0.8, 0.2}) {
         const auto text = said(wall, tolerance, radius);
-        EXPECT_NE(text.find("Choose a smaller Transient/Step"), std::string::npos) << "\"" << text << "\"";
+        EXPECT_NE(text.find("Choose a smaller Transient/Step"), std::string::npos)
+            << "\"" << text << "\"";
         EXPECT_EQ(text.find(loose) != std::string::npos, tolerance > 1e-5) << text;
         EXPECT_EQ(text.find(impacts) != std::string::npos, wall > 0 && radius > 0.2) << text;
       }
 }
 
-/// D of a kilometre hanging, its first two seconds, which is measured in contact: dyn beside 0.125 ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with
-/// steps of 1 ms. Other gravity (9.80 to 9.83 m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
+/// D of a kilometre hanging, its first two seconds, which is measured in contact: dyn beside 0.125
+/// ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with steps of 1 ms. Other gravity (9.80 to 9.83
+/// m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
 TEST(StepResolution, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
-    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/vertical_1000m.xml",
-                                      {"Transient/End Time=2", "Transient/Step=" + step, "Transient/Progress=false", "!Study"});
+    const auto scene = app::readScene(
+        std::string(TOOLJOINT_SOURCE_DIR) + "/xml/vertical_1000m.xml",
+        {"Transient/End Time=2", "Transient/Step=" + step, "Transient/Progress=false", "!Study"});
     const auto model = app::fullModel(app::settle(scene));
     NoSamples sink;
     log::clearWarnings();
@@ -145,7 +155,9 @@ TEST(StepResolution, warnsOfAStringThatIsHardlyFollowed) {
   };
   const auto warned = [] {
     const auto& lines = log::warnings();
-    return std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.find("hardly follow the motion") != std::string::npos; });
+    return std::any_of(lines.begin(), lines.end(), [](const auto& line) {
+      return line.find("hardly follow the motion") != std::string::npos;
+    });
   };
   const auto coarse = hang("10 ms");
   EXPECT_TRUE(warned());

@@ -11,9 +11,11 @@ namespace {
 
 using namespace testing_;
 
-const std::vector<std::string> common = {"Transient/End Time=0.5", "Transient/Progress=false", "Transient/Energy Ledger=false"};
+const std::vector<std::string> common = {"Transient/End Time=0.5", "Transient/Progress=false",
+                                         "Transient/Energy Ledger=false"};
 
-std::vector<Vector> motion(const model::SecondOrderModel& model, std::vector<std::string> overrides) {
+std::vector<Vector> motion(const model::SecondOrderModel& model,
+                           std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), common.begin(), common.end());
   return move(reference(overrides), model);
 }
@@ -30,13 +32,15 @@ TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
       for (const char* tolerance : {"1e-3", "1e-5"})
         found.push_back(motion(
             model, {"Transient/Integrator=SUNDIALS " + std::string(name),
-                    "Transient/SUNDIALS " + std::string(name) + "/Relative Tolerance=" + tolerance, "Transient/Step=1e-6"}));
+                    "Transient/SUNDIALS " + std::string(name) + "/Relative Tolerance=" + tolerance,
+                    "Transient/Step=1e-6"}));
   } catch (const DeckError& error) {
     if (std::string(error.what()).find("built without SUNDIALS") == std::string::npos) throw;
     GTEST_SKIP() << error.what();
   }
   for (std::size_t i = 0; i < found.size(); i += 2) {
-    // The tolerance is that of a step: the motion keeps within ten of them, and follows a smaller one.
+    // The tolerance is that of a step: the motion keeps within ten of them, and follows a smaller
+    // one.
     EXPECT_LT(largestError(found[i], exact), 1e-2);
     EXPECT_LT(largestError(found[i + 1], exact), 1e-4);
     EXPECT_LT(largestError(found[i + 1], exact), 0.3 * largestError(found[i], exact));
