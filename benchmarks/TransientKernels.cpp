@@ -10,9 +10,9 @@
 #include <numeric>
 
 #include "HelicalString.hpp"
-#include "linalg/LargePages.hpp"
-#include "transient/Explicit.hpp"
+#include "linalg/blocks/LargePages.hpp"
 #include "transient/Transient.hpp"
+#include "transient/schemes/Explicit.hpp"
 
 namespace {
 

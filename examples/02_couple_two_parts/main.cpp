@@ -18,8 +18,8 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "coupling/Assembler.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 
 namespace {

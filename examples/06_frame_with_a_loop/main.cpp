@@ -36,8 +36,8 @@
 #include "common/Parallel.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "reduction/InterfaceBasis.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "reduction/methods/InterfaceBasis.hpp"
 
 namespace {
 

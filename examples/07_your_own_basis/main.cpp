@@ -14,16 +14,16 @@
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
 #include "linalg/Deterministic.hpp"
-#include "reduction/ModalVectors.hpp"
+#include "reduction/vectors/ModalVectors.hpp"
 
 namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
-class RandomSubspace : public Basis {
+class RandomSubspace : public ReductionMethod {
  public:
   explicit RandomSubspace(int steps) : steps_(steps) {}
-  BasisResult build(const model::Substructure& part, const ModeRequest& request) const override {
+  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
     if (request.kind != ModeRequest::Kind::Count)
       throw DeckError("The basis \"Random Subspace\" needs a number of modes: give \"Modes\".");
     const Partition p = partition(part);
@@ -51,14 +51,14 @@ class RandomSubspace : public Basis {
  private:
   int steps_;
 };
-const bool registered = BasisRegistry::instance().add(
+const bool registered = MethodRegistry::instance().add(
     "Random Subspace",
     {"Constraint modes and a random subspace of the interior (Halko, Martinsson and Tropp 2011).",
      deck::ListSpec("Random Subspace", "")
          .integer("Steps", 2, deck::Range::atLeast(1),
                   "Inverse steps that draw the vectors towards low modes."),
      [](const Teuchos::ParameterList& list) {
-       return std::unique_ptr<Basis>(
+       return std::unique_ptr<ReductionMethod>(
            new RandomSubspace(list.isParameter("Steps") ? list.get<int>("Steps") : 2));
      }});
 

@@ -8,8 +8,8 @@
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
 #include "app/StudyPlan.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 
 namespace tooljoint::app {
@@ -24,7 +24,7 @@ void item(bool modelled, const std::string& what, const std::string& why) {
   log::info(line);
 }
 
-std::string families(const string_::SupportSettings& supports) {
+std::string families(const drillstring::SupportSettings& supports) {
   std::vector<std::string> names;
   if (supports.lateral) names.push_back("lateral");
   if (supports.axial) names.push_back("axial");
@@ -94,7 +94,7 @@ void listCoupling(const Scene& scene) {
                       : "no Coupling list: equal node numbers join the parts");
   if (!scene.coupling) return;
   std::vector<std::string> names;
-  for (const auto& part : string_::cutParts(scene.string, scene.partition))
+  for (const auto& part : drillstring::cutParts(scene.string, scene.partition))
     names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " +
                     std::to_string(part.lastElement + 2) + ")");
   log::info("  parts and their nodes: " + join(names, ", "));
@@ -104,7 +104,7 @@ void listWork(const Scene& scene) {
   log::info("computed:");
   item(true, "path and static state", std::to_string(scene.freeDofs()) + " dofs");
   if (scene.reduces()) {
-    const auto parts = string_::cutParts(scene.string, scene.partition);
+    const auto parts = drillstring::cutParts(scene.string, scene.partition);
     item(true, "reduction",
          std::to_string(parts.size()) + " parts (" + scene.partition.rule + "), retained nodes: " +
              scene.partition.retainedNodes + ", chosen when the static state is known");
@@ -143,16 +143,16 @@ void predictCost(const Scene& scene) {
   }
   const auto stage = settle(scene);
   log::info(describeStatic(stage));
-  const auto planned = plannedParts(scene, stage);
+  const auto resolved = resolvedParts(scene, stage);
   auto options = transient::readOptions(scene.list().sublist("Transient"));
   const auto probe = [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {
-    estimate::MotionEstimator estimator(planned.parts, synthesis, stage.state.displacement);
+    estimate::MotionEstimator estimator(resolved.parts, synthesis, stage.state.displacement);
     return estimate::watchMotion(estimator, synthesis.coupled.model, options, limit);
   };
-  const auto outcome = estimate::synthesise(planned.parts, scene.list().sublist("Reduction"), probe,
-                                            planned.options);
-  log::info(describeCost(fullStepCost(scene, stage),
-                         transient::stepCost(outcome.synthesis.coupled.model, options)));
+  const auto outcome = estimate::synthesise(resolved.parts, scene.list().sublist("Reduction"),
+                                            probe, resolved.options);
+  log::info(describeCost(fullCostModel(scene, stage),
+                         transient::costModel(outcome.synthesis.coupled.model, options)));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include "app/Commands.hpp"
 #include "app/PartsDeck.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "io/ResultsReader.hpp"
 #include "study/Metrics.hpp"
 

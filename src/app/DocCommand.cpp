@@ -4,12 +4,12 @@
 #include "common/Error.hpp"
 #include "deck/Manual.hpp"
 #include "deck/Template.hpp"
-#include "substructures/string/Components.hpp"
+#include "substructures/drillstring/Components.hpp"
 
 namespace tooljoint::app {
 
 std::string manual(const std::string& topic, const std::string& format) {
-  const std::vector<deck::ListSpec> roots{sceneSpec(), string_::libraryParameters()};
+  const std::vector<deck::ListSpec> roots{sceneSpec(), drillstring::libraryParameters()};
   if (deck::isUnitsTopic(topic))
     return format == "json" ? deck::unitsJson() : deck::unitsMarkdown();
   if (format == "json") return deck::manualJson(roots, topic) + "\n";
@@ -30,7 +30,8 @@ std::string deckTemplate(const std::string& kind) {
                                {"Drillstring/Assembly", "{10*pipe}"},
                                {"Loads/Gravity", "9.81"}};
   if (kind == "scene") return deck::templateXml(sceneSpec(), "my_scene", hanging);
-  if (kind == "components") return deck::templateXml(string_::libraryParameters(), "my_components");
+  if (kind == "components")
+    return deck::templateXml(drillstring::libraryParameters(), "my_components");
   throw UsageError("There is no template \"" + kind +
                    "\"; known are \"scene\" and \"components\".");
 }

@@ -6,7 +6,7 @@
 #include "app/Report.hpp"
 #include "app/Stages.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
+#include "common/report/Log.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "parts/ReducedPart.hpp"
 
@@ -73,7 +73,7 @@ void exportReduced(const RunOptions& options) {
   log::info(describeScene(scene));
   const auto stage = settle(scene);
   log::info(describeStatic(stage));
-  const auto planned = plannedParts(scene, stage);
+  const auto planned = resolvedParts(scene, stage);
   const auto outcome =
       estimate::synthesise(planned.parts, scene.list().sublist("Reduction"),
                            probe(scene,

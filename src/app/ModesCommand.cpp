@@ -5,7 +5,7 @@
 #include "app/Report.hpp"
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "common/Log.hpp"
+#include "common/report/Log.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 
 namespace tooljoint::app {
@@ -30,7 +30,7 @@ void modes(const RunOptions& options) {
   log::info(describeScene(scene));
   const auto stage = settle(scene);
   log::info(describeStatic(stage));
-  const auto planned = plannedParts(scene, stage);
+  const auto planned = resolvedParts(scene, stage);
   const auto whole = scene.coupling ? joinUnreduced(planned) : coupling::Coupling();
   const auto full = scene.coupling ? whole.model : fullModel(stage);
   const double t = timeOf(options, scene);

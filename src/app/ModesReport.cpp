@@ -8,15 +8,15 @@
 #include <filesystem>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
-#include "common/StageTimes.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "io/Csv.hpp"
-#include "linalg/EigenSolver.hpp"
-#include "reduction/Partition.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/part/Partition.hpp"
 
 namespace tooljoint::app {
 

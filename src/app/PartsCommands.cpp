@@ -6,8 +6,8 @@
 #include "app/PartsDeck.hpp"
 #include "app/Report.hpp"
 #include "app/StudyPlan.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::app {
 
@@ -39,7 +39,7 @@ void listParts(const PartsDeck& deck) {
   item(!deck.settings.joints.empty(), "joints",
        deck.settings.joints.empty() ? "no Joints in Parts" : join(deck.settings.joints, ", "));
   item(deck.list().isSublist("Coupling"), "coupling",
-       deck.list().isSublist("Coupling") ? coupling::describe(deck.plan) : "no Coupling list");
+       deck.list().isSublist("Coupling") ? coupling::describe(deck.input) : "no Coupling list");
   item(!deck.settings.loads.empty(), "loads",
        std::to_string(deck.settings.loads.size()) + " beside those of the files");
 }

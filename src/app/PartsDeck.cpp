@@ -11,9 +11,9 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
-#include "reduction/LoadVectors.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
+#include "reduction/vectors/LoadVectors.hpp"
 #include "study/StudyParameters.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
@@ -97,7 +97,7 @@ void crossCheck(const PartsDeck& deck) {
   if (deck.output.exportFormat != io::ExportFormat::None)
     exportedFiles(names, deck.output.exportFormat);
   for (const auto& fault :
-       reductionFaults(list, deck.plan.assembly, static_cast<int>(deck.settings.imported.size())))
+       reductionFaults(list, deck.input.assembly, static_cast<int>(deck.settings.imported.size())))
     add(fault.path, fault.sentence);
   requireNoFaults(faults);
 }
@@ -137,7 +137,7 @@ PartsDeck readPartsLists(const RunOptions& options) {
   const auto& list = out.list();
   locating(out.deck, [&] {
     out.settings = parts::readSettings(list.sublist("Parts"));
-    if (list.isSublist("Coupling")) out.plan = coupling::readCoupling(list.sublist("Coupling"));
+    if (list.isSublist("Coupling")) out.input = coupling::readCoupling(list.sublist("Coupling"));
     out.output = io::readOutput(listOrDefaults(list, io::parameters()));
     if (out.moves()) transient::readOptions(list.sublist("Transient"));
     if (out.reduces()) {
@@ -153,7 +153,7 @@ PartsDeck readPartsLists(const RunOptions& options) {
 
 void PartsDeck::build() {
   locating(deck, [&] {
-    scene = parts::buildScene(settings, plan,
+    scene = parts::buildScene(settings, input,
                               [&](const std::string& name) { return deck.resolve(name); });
     if (!reduces()) return;
     requireInput(*this);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/Commands.hpp"
-#include "coupling/CouplingParameters.hpp"
+#include "coupling/input/CouplingParameters.hpp"
 #include "deck/Deck.hpp"
 #include "estimate/MotionEstimate.hpp"
 #include "io/OutputParameters.hpp"
@@ -27,7 +27,7 @@ bool isPartsDeck(const RunOptions& options);
 struct PartsDeck {
   deck::Deck deck;
   parts::PartsSettings settings;
-  coupling::CouplingPlan plan;
+  coupling::CouplingInput input;
   io::OutputSettings output;
   parts::PartsScene scene;
 

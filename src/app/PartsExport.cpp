@@ -6,9 +6,9 @@
 #include <set>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "parts/ReducedPart.hpp"
 
 namespace tooljoint::app {

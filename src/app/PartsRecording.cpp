@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/ComponentAxes.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 
 namespace tooljoint::app {
 

@@ -12,11 +12,11 @@
 #include "app/RunFiles.hpp"
 #include "app/RunSupport.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "coupling/ComponentAxes.hpp"
+#include "common/report/Log.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 
 namespace tooljoint::app {

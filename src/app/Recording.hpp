@@ -14,7 +14,7 @@
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Xdmf.hpp"
-#include "linalg/GroupedRows.hpp"
+#include "linalg/blocks/GroupedRows.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::app {

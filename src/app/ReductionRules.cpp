@@ -5,8 +5,8 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "reduction/Basis.hpp"
 #include "reduction/Reduce.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
 #include "transient/TransientParameters.hpp"
 
 namespace tooljoint::app {
@@ -79,7 +79,7 @@ class Rules {
 
   /// What the basis is asked for, and cannot give.
   void basis() {
-    reduction::BasisTraits traits;
+    reduction::MethodTraits traits;
     try {
       traits = reduction::makeBasis(choice("Basis"), reduction())->traits();
     } catch (const DeckError&) {
@@ -99,13 +99,13 @@ class Rules {
                           "that residuals do "
                           "not tell the error. Take \"Rubin\", which has the same modes, or leave "
                           "the estimate out.");
-    if (estimatesMotion() && moves_ && traits.ownMass && (dual_ || traits.followers))
+    if (estimatesMotion() && moves_ && traits.ownMass && (dual_ || traits.dependent))
       add(estimate(),
           std::string("asks for the error of the motion, which is not estimated with ") +
               (dual_ ? "Coupling/Assembly \"Dual\""
                      : "coordinates that depend on others (\"Residual Coordinates\" = \"Tied\")") +
               ". Take \"Frequencies\", or another choice there.");
-    if (dual_ && traits.followers)
+    if (dual_ && traits.dependent)
       add("Coupling/Assembly", "is \"Dual\", but the basis " + name +
                                    " needs the inverse of the coupled mass, which is singular "
                                    "then. Take \"Primal\", or set "

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/Connections.hpp"
+#include "coupling/input/Connections.hpp"
 
 namespace Teuchos {
 class ParameterList;

@@ -67,7 +67,7 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
                 modes, reducedDofs, fullDofs, wall);
 }
 
-std::string describeCost(const transient::StepCost& full, const transient::StepCost& reduced) {
+std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced) {
   const double ratio = reduced.total() / full.total();
   std::string text = format(
       "cost        a step of the reduced model takes about %.2f of the work of one of the full "

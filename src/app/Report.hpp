@@ -11,7 +11,7 @@
 #include "app/Stages.hpp"
 #include "estimate/MotionEstimate.hpp"
 #include "reduction/ReducedSubstructure.hpp"
-#include "transient/StepCost.hpp"
+#include "transient/CostModel.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::app {
@@ -22,7 +22,7 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
                               int fullDofs, int reducedDofs, double wall);
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 /// Cost of a step of both models, and which is the cheaper one.
-std::string describeCost(const transient::StepCost& full, const transient::StepCost& reduced);
+std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
 std::string describeCoupling(const coupling::Coupling& coupled);
 std::string describeMotionError(const estimate::MotionEstimate& error);
 /// Integrator, steps and what was counted, two lines.

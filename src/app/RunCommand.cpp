@@ -13,10 +13,10 @@
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/report/Log.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "parts/ReducedPart.hpp"
 
@@ -65,13 +65,13 @@ class Run {
 
   void reduce() {
     const auto start = Clock::now();
-    auto planned = plannedParts(scene_, stage_);
-    parts_ = std::move(planned.parts);
+    auto resolved = resolvedParts(scene_, stage_);
+    parts_ = std::move(resolved.parts);
     const auto& list = scene_.list().sublist("Reduction");
     outcome_ = estimate::synthesise(
         parts_, list,
         [this](const auto& synthesis, const auto& limit) { return probe(synthesis, limit); },
-        planned.options);
+        resolved.options);
     const auto& reduced = outcome_.synthesis.parts;
     const int dofs = outcome_.synthesis.coupled.model.size();
     const double wall = since(start);
@@ -96,10 +96,10 @@ class Run {
   }
 
   void predictCost() {
-    const auto full = fullStepCost(scene_, stage_);
+    const auto full = fullCostModel(scene_, stage_);
     const auto reduced =
-        transient::stepCost(outcome_.synthesis.coupled.model,
-                            transient::readOptions(scene_.list().sublist("Transient")));
+        transient::costModel(outcome_.synthesis.coupled.model,
+                             transient::readOptions(scene_.list().sublist("Transient")));
     log::info(describeCost(full, reduced));
     files_->summary().set("reduction.cost_ratio", reduced.total() / full.total());
   }

@@ -7,11 +7,11 @@
 
 #include "app/ResultsWriter.hpp"
 #include "app/RunIdentity.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/report/Log.hpp"
 #include "io/ResultsReader.hpp"
 #include "io/TextFile.hpp"
 

@@ -14,9 +14,9 @@
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "study/StudyParameters.hpp"
-#include "substructures/string/ContactNodes.hpp"
-#include "substructures/string/DrillstringReader.hpp"
-#include "substructures/string/StringModel.hpp"
+#include "substructures/drillstring/ContactNodes.hpp"
+#include "substructures/drillstring/DrillstringReader.hpp"
+#include "substructures/drillstring/StringModel.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
 
@@ -28,8 +28,8 @@ deck::ListSpec sceneSpec() {
       "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
       "Drillstring may be left out, and what is left out is not modelled.");
   scene.requiredList(well::parameters());
-  scene.requiredList(string_::drillstringParameters());
-  scene.list(string_::supportParameters());
+  scene.requiredList(drillstring::drillstringParameters());
+  scene.list(drillstring::supportParameters());
   scene.list(mud::parameters());
   scene.list(contact::parameters());
   scene.list(loads::parameters());
@@ -37,7 +37,7 @@ deck::ListSpec sceneSpec() {
   scene.list(loads::dampingParameters());
   scene.list(path::parameters());
   scene.list(equilibrium::parameters());
-  scene.list(string_::partitionParameters());
+  scene.list(drillstring::partitionParameters());
   scene.list(coupling::parameters());
   scene.list(parts::parameters());
   scene.list(reduction::parameters());
@@ -101,12 +101,12 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
     faults.add("Coupling/Node Numbers",
                "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it "
                "at \"Shared\".");
-  const auto& plan = *scene.coupling;
+  const auto& input = *scene.coupling;
   if (scene.reduces()) {
     const auto& reduction = list.sublist("Reduction");
     const auto estimated = reduction.get<std::string>("Error Estimate");
-    const bool simple = plan.assembly == coupling::Assembly::Primal && plan.frames.empty() &&
-                        plan.constraints.empty() && plan.links.empty() && plan.hinges.empty();
+    const bool simple = input.assembly == coupling::Assembly::Primal && input.frames.empty() &&
+                        input.constraints.empty() && input.links.empty() && input.hinges.empty();
     if (!simple && (estimated == "Transient" || estimated == "Both" ||
                     reduction.isParameter("Motion Tolerance")))
       faults.add("Coupling",
@@ -140,7 +140,7 @@ void crossCheck(const Scene& scene, Faults& faults) {
   const auto assembly = scene.coupling ? scene.coupling->assembly : coupling::Assembly::Primal;
   std::vector<std::string> parts;
   if (scene.reduces() && faults.none())
-    for (const auto& part : string_::cutParts(scene.string, scene.partition))
+    for (const auto& part : drillstring::cutParts(scene.string, scene.partition))
       parts.push_back(part.name);
   if (scene.output.exportFormat != io::ExportFormat::None)
     faults.attempt([&] { exportedFiles(parts, scene.output.exportFormat); });
@@ -182,9 +182,9 @@ namespace {
 
 /// The parts of the string before they are made.
 std::vector<coupling::PartOutline> outlines(const Scene& scene) {
-  string_::requireKnownNodes(scene.string, scene.partition);
+  drillstring::requireKnownNodes(scene.string, scene.partition);
   std::vector<coupling::PartOutline> parts;
-  for (const auto& range : string_::cutParts(scene.string, scene.partition)) {
+  for (const auto& range : drillstring::cutParts(scene.string, scene.partition)) {
     parts.push_back({range.name, {}});
     for (int node = range.firstElement + 1; node <= range.lastElement + 2; ++node)
       parts.back().nodes.push_back(node);
@@ -194,13 +194,13 @@ std::vector<coupling::PartOutline> outlines(const Scene& scene) {
 
 /// The same for a basis: a node that two parts have is inner to none.
 std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
-  const auto ranges = string_::cutParts(scene.string, scene.partition);
+  const auto ranges = drillstring::cutParts(scene.string, scene.partition);
   std::vector<reduction::PartOutline> parts;
   for (std::size_t p = 0; p < ranges.size(); ++p) {
     reduction::PartOutline part{ranges[p].name, 0, false};
     for (int node = ranges[p].firstElement; node <= ranges[p].lastElement + 1; ++node) {
-      const auto first = scene.held.begin() + string_::kNodeDofs * node;
-      const auto free = static_cast<int>(std::count(first, first + string_::kNodeDofs, 0));
+      const auto first = scene.held.begin() + drillstring::kNodeDofs * node;
+      const auto free = static_cast<int>(std::count(first, first + drillstring::kNodeDofs, 0));
       const bool shared = (p > 0 && node == ranges[p].firstElement) ||
                           (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
       part.dofs += free;
@@ -219,22 +219,22 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   Faults faults(deck);
 
   std::optional<well::Well> well;
-  std::optional<string_::DrillString> string;
+  std::optional<drillstring::DrillString> string;
   faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
   if (well)
     faults.attempt(
-        [&] { string = string_::buildDrillString(string_::readDrillstring(deck), *well); });
+        [&] { string = drillstring::buildDrillString(drillstring::readDrillstring(deck), *well); });
   std::optional<mud::Mud> mud;
   std::optional<contact::ContactSettings> contact;
   loads::RotarySpeed rotary;
   loads::LoadsData loads;
   loads::RayleighDamping damping;
-  string_::SupportSettings supports;
+  drillstring::SupportSettings supports;
   path::PathOptions path;
   equilibrium::StaticOptions statics;
-  string_::PartitionRules partition;
+  drillstring::PartitionRules partition;
   io::OutputSettings output;
-  std::optional<coupling::CouplingPlan> coupling;
+  std::optional<coupling::CouplingInput> coupling;
   if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
   if (list.isSublist("Contact"))
     faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
@@ -244,7 +244,7 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   if (list.isSublist("Damping"))
     faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
   if (list.isSublist("Supports"))
-    faults.attempt([&] { supports = string_::readSupports(list.sublist("Supports")); });
+    faults.attempt([&] { supports = drillstring::readSupports(list.sublist("Supports")); });
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
   faults.attempt(
       [&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
@@ -257,8 +257,8 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   const bool explicitSteps =
       list.isSublist("Transient") && transient::isExplicit(list.sublist("Transient"));
   faults.attempt([&] {
-    partition =
-        string_::readPartition(listOrDefaults(list, string_::partitionParameters()), explicitSteps);
+    partition = drillstring::readPartition(listOrDefaults(list, drillstring::partitionParameters()),
+                                           explicitSteps);
   });
   faults.raise();
 
@@ -267,17 +267,18 @@ Scene readScene(const std::string& file, const std::vector<std::string>& overrid
   scene.coupling = coupling;
   if (coupling)
     faults.attempt(
-        [&] { coupling::checkNames(*coupling, outlines(scene), string_::componentNames()); });
+        [&] { coupling::checkNames(*coupling, outlines(scene), drillstring::componentNames()); });
   faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
   faults.raise();
   if (contact)
-    faults.attempt(
-        [&] { scene.contactPoints = string_::contactPoints(*contact, scene.string, scene.held); });
+    faults.attempt([&] {
+      scene.contactPoints = drillstring::contactPoints(*contact, scene.string, scene.held);
+    });
   faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
   if (scene.reduces()) {
     faults.attempt([&] {
-      string_::requireKnownNodes(scene.string, partition);
-      const auto parts = string_::cutParts(scene.string, partition);
+      drillstring::requireKnownNodes(scene.string, partition);
+      const auto parts = drillstring::cutParts(scene.string, partition);
       const auto options =
           reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
       reduction::makeBasis(options.basis, list.sublist("Reduction"))

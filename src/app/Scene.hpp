@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "coupling/CouplingParameters.hpp"
+#include "coupling/input/CouplingParameters.hpp"
 #include "deck/Deck.hpp"
 #include "io/OutputParameters.hpp"
 #include "substructures/contact/ContactParameters.hpp"
+#include "substructures/drillstring/DrillString.hpp"
+#include "substructures/drillstring/Partition.hpp"
+#include "substructures/drillstring/Supports.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 #include "substructures/loads/Loads.hpp"
 #include "substructures/loads/RotarySpeed.hpp"
 #include "substructures/mud/Mud.hpp"
 #include "substructures/path/Path.hpp"
-#include "substructures/string/DrillString.hpp"
-#include "substructures/string/Partition.hpp"
-#include "substructures/string/Supports.hpp"
 #include "substructures/well/Well.hpp"
 
 namespace tooljoint::app {
@@ -30,8 +30,8 @@ deck::ListSpec sceneSpec();
 struct Scene {
   deck::Deck deck;
   well::Well well;
-  string_::DrillString string;
-  string_::SupportSettings supports;
+  drillstring::DrillString string;
+  drillstring::SupportSettings supports;
   std::vector<char> held;  ///< 6 per node
   std::optional<mud::Mud> mud;
   std::optional<contact::ContactSettings> contact;
@@ -41,9 +41,9 @@ struct Scene {
   loads::RayleighDamping damping;
   path::PathOptions path;
   equilibrium::StaticOptions statics;
-  string_::PartitionRules partition;
+  drillstring::PartitionRules partition;
   io::OutputSettings output;
-  std::optional<coupling::CouplingPlan> coupling =
+  std::optional<coupling::CouplingInput> coupling =
       std::nullopt;  ///< null: equal node numbers alone join the parts
 
   const Teuchos::ParameterList& list() const { return deck.list(); }

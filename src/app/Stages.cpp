@@ -8,10 +8,10 @@
 
 #include "app/NoxSolver.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "substructures/string/EquationBuilder.hpp"
+#include "common/report/Log.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
 
 namespace tooljoint::app {
 
@@ -53,7 +53,7 @@ path::PathState bend(const Scene& scene) {
 
 /// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
 equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
-                                     const string_::StringModel& equations,
+                                     const drillstring::StringModel& equations,
                                      const StaticFriction& friction) {
   equilibrium::StaticInput input;
   input.nodes = equations.nodes;
@@ -78,7 +78,7 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
         section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
     input.elements.push_back(element);
   }
-  input.load = Vector::Zero(string_::kNodeDofs * equations.nodes);
+  input.load = Vector::Zero(drillstring::kNodeDofs * equations.nodes);
   for (const auto& load : equations.loads) {
     if (load.law != 0) continue;
     if (load.name == kPathReaction)
@@ -95,8 +95,8 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
 
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
 /// can touch, is singular. Throws ModelError naming the dof that moves most.
-void requireHeld(const Scene& scene, const string_::StringModel& equations) {
-  const auto model = string_::assemble(equations);
+void requireHeld(const Scene& scene, const drillstring::StringModel& equations) {
+  const auto model = drillstring::assemble(equations);
   Triplets walls;
   for (int i = 0; i < scene.contactPoints.size(); ++i)
     for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
@@ -132,7 +132,8 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
   const auto motion =
       std::find_if(std::begin(freeMotions), std::end(freeMotions),
                    [&](const FreeMotion& one) { return one.component == free.front(); });
-  const std::string dof = string_::componentNames()[static_cast<std::size_t>(motion->component)];
+  const std::string dof =
+      drillstring::componentNames()[static_cast<std::size_t>(motion->component)];
   throw ModelError("The string floats: " + dof + " is free at all of its " +
                    std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
                    ", which walls and bending cannot hold. Hold " + dof +
@@ -147,7 +148,7 @@ std::vector<int> freeDirections(const Scene& scene) {
     bool held = false;
     for (int node = 0; node < scene.string.nodeCount(); ++node)
       held = held ||
-             scene.held[static_cast<std::size_t>(string_::kNodeDofs * node + motion.component)];
+             scene.held[static_cast<std::size_t>(drillstring::kNodeDofs * node + motion.component)];
     if (!held) free.push_back(motion.component);
   }
   return free;
@@ -159,8 +160,8 @@ StaticStage solveStatic(const Scene& scene) {
   stage.friction = staticFriction(scene);
   stage.path = bend(scene);
   const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
-  stage.equations = string_::buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
-                                             scene.rotary, scene.loads, scene.damping});
+  stage.equations = drillstring::buildEquations({scene.string, scene.well, stage.path, scene.held,
+                                                 mud, scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, stage.equations);
   const auto input = staticInput(scene, stage.path, stage.equations, stage.friction);
   try {
@@ -170,8 +171,8 @@ StaticStage solveStatic(const Scene& scene) {
     explainFailure(scene, error);
     throw;
   }
-  string_::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement,
-                     scene.damping);
+  drillstring::linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement,
+                         scene.damping);
   if (scene.contactPoints.size() > 0) {
     const auto rotary = scene.rotary;
     stage.equations.contact.law = scene.contact->law->inMotion(
@@ -195,7 +196,7 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
                             formatNumber(std::round(state.torqueScale)) + " N m. ";
   const bool round = std::all_of(
       scene.string.elements.begin(), scene.string.elements.end(),
-      [](const string_::Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
+      [](const drillstring::Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
   if (scene.path.prestress == path::Prestress::AxialAndTorque)
     log::warn(found +
               "The pre-stress \"Axial and torque\" resists a spin about the curved axis; "
@@ -233,13 +234,13 @@ void warnOfPrestress(const Scene& scene) {
 }
 
 model::SecondOrderModel fullModel(const StaticStage& stage) {
-  return string_::assemble(stage.equations);
+  return drillstring::assemble(stage.equations);
 }
 
 namespace {
 
-string_::NodeState nodeState(const Scene& scene, const StaticStage& stage) {
-  string_::NodeState nodes;
+drillstring::NodeState nodeState(const Scene& scene, const StaticStage& stage) {
+  drillstring::NodeState nodes;
   const auto count = static_cast<std::size_t>(scene.string.nodeCount());
   nodes.gap.assign(count, std::numeric_limits<double>::infinity());
   nodes.candidate.assign(count, 0);
@@ -249,7 +250,7 @@ string_::NodeState nodeState(const Scene& scene, const StaticStage& stage) {
   }
   std::set<int> loaded;
   for (const auto& load : loads::pointLoads(scene.loads, scene.rotary, scene.string.depths())) {
-    const int dof = string_::kNodeDofs * (load.node - 1) + load.component;
+    const int dof = drillstring::kNodeDofs * (load.node - 1) + load.component;
     if (load.value != 0.0 && !scene.held[static_cast<std::size_t>(dof)]) loaded.insert(dof);
   }
   nodes.loadedDofs.assign(loaded.begin(), loaded.end());
@@ -260,7 +261,8 @@ string_::NodeState nodeState(const Scene& scene, const StaticStage& stage) {
 
 std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage) {
   if (!scene.partition.contactAtRetainedOnly) return stage.equations.contact.nodes;
-  const auto chosen = string_::chosenNodes(scene.string, scene.partition, nodeState(scene, stage));
+  const auto chosen =
+      drillstring::chosenNodes(scene.string, scene.partition, nodeState(scene, stage));
   std::vector<int> nodes;
   std::set_intersection(chosen.begin(), chosen.end(), stage.equations.contact.nodes.begin(),
                         stage.equations.contact.nodes.end(), std::back_inserter(nodes));
@@ -269,33 +271,33 @@ std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage) {
 
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage) {
   const auto retained =
-      string_::retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
+      drillstring::retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
   const auto touching = contactNodes(scene, stage);
   std::vector<model::Substructure> parts;
-  for (const auto& range : string_::cutParts(scene.string, scene.partition))
-    parts.push_back(string_::assemblePart(stage.equations, range, retained, &touching));
+  for (const auto& range : drillstring::cutParts(scene.string, scene.partition))
+    parts.push_back(drillstring::assemblePart(stage.equations, range, retained, &touching));
   return parts;
 }
 
-coupling::PlannedCoupling plannedParts(const Scene& scene, const StaticStage& stage) {
+coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage) {
   auto parts = cut(scene, stage);
-  if (scene.coupling) return coupling::plan(parts, *scene.coupling);
+  if (scene.coupling) return coupling::resolve(parts, *scene.coupling);
   return {std::move(parts), {}};
 }
 
-coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned) {
-  auto options = planned.options;
+coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved) {
+  auto options = resolved.options;
   options.assembly = coupling::Assembly::Primal;
-  return coupling::coupleWithPositions(planned.parts, options);
+  return coupling::coupleWithPositions(resolved.parts, options);
 }
 
-transient::StepCost fullStepCost(const Scene& scene, const StaticStage& stage) {
-  return transient::stepCost(fullModel(scene, stage),
-                             transient::readOptions(scene.list().sublist("Transient")));
+transient::CostModel fullCostModel(const Scene& scene, const StaticStage& stage) {
+  return transient::costModel(fullModel(scene, stage),
+                              transient::readOptions(scene.list().sublist("Transient")));
 }
 
 model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage) {
-  return scene.coupling ? joinUnreduced(plannedParts(scene, stage)).model : fullModel(stage);
+  return scene.coupling ? joinUnreduced(resolvedParts(scene, stage)).model : fullModel(stage);
 }
 
 }  // namespace tooljoint::app

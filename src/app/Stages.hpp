@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "app/Scene.hpp"
-#include "coupling/Assembler.hpp"
-#include "coupling/PlannedCoupling.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/ResolvedCoupling.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
 #include "reduction/ReducedSubstructure.hpp"
+#include "substructures/drillstring/StringModel.hpp"
 #include "substructures/equilibrium/StaticState.hpp"
 #include "substructures/path/PathState.hpp"
-#include "substructures/string/StringModel.hpp"
-#include "transient/StepCost.hpp"
+#include "transient/CostModel.hpp"
 
 namespace tooljoint::app {
 
@@ -34,7 +34,7 @@ StaticFriction staticFriction(const Scene& scene);
 /// The string at rest in its well, and its equations of motion about that state.
 struct StaticStage {
   path::PathState path;
-  string_::StringModel equations;
+  drillstring::StringModel equations;
   equilibrium::StaticState state;
   StaticFriction friction;
 };
@@ -66,12 +66,12 @@ model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage);
 std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
 
 /// These parts as the list Coupling wants them, and what joins them.
-coupling::PlannedCoupling plannedParts(const Scene& scene, const StaticStage& stage);
+coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage);
 /// Unreduced parts joined, in primal assembly.
-coupling::Coupling joinUnreduced(const coupling::PlannedCoupling& planned);
+coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved);
 
 /// What a step of the deck's transient costs with the full model.
-transient::StepCost fullStepCost(const Scene& scene, const StaticStage& stage);
+transient::CostModel fullCostModel(const Scene& scene, const StaticStage& stage);
 
 /// Nodes (0-based, increasing) where contact is evaluated in the reduced model.
 std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage);

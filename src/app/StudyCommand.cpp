@@ -12,11 +12,11 @@
 #include "app/StudyProgress.hpp"
 #include "app/StudyRunner.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/report/Log.hpp"
 #include "study/RowStore.hpp"
 
 namespace tooljoint::app {

@@ -90,7 +90,7 @@ class PartsStudy : public StudyScene {
   }
 
   coupling::Coupling full() const override { return parts_->whole; }
-  coupling::PlannedCoupling parts() const override {
+  coupling::ResolvedCoupling parts() const override {
     return {parts_->deck.scene.parts, parts_->deck.scene.coupling};
   }
   Vector rest() const override { return parts_->rest; }

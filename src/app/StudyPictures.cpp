@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 
 #include "app/StudyFiles.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
+#include "common/report/Log.hpp"
 
 extern char** environ;  // NOLINT: POSIX names it so
 

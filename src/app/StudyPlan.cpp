@@ -7,7 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "deck/FileName.hpp"
+#include "deck/reading/FileName.hpp"
 #include "io/TextFile.hpp"
 #include "study/RowStore.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::app {
 

@@ -19,8 +19,8 @@ namespace tooljoint::app {
 /// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads,
 /// summed over the ranks, and wall seconds.
 struct PreparedModel {
-  coupling::Coupling full;            ///< of a full run
-  coupling::PlannedCoupling planned;  ///< of a reduced one
+  coupling::Coupling full;             ///< of a full run
+  coupling::ResolvedCoupling planned;  ///< of a reduced one
   estimate::Outcome outcome;
   bool reduced = false;
   std::string basis;

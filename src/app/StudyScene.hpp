@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/Commands.hpp"
-#include "coupling/Assembler.hpp"
-#include "coupling/PlannedCoupling.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/ResolvedCoupling.hpp"
 #include "deck/Deck.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Summary.hpp"
@@ -54,7 +54,7 @@ class StudyScene {
   /// The full model; maps of its parts where it was coupled from them.
   virtual coupling::Coupling full() const = 0;
   /// The parts that are reduced, and what joins them.
-  virtual coupling::PlannedCoupling parts() const = 0;
+  virtual coupling::ResolvedCoupling parts() const = 0;
   /// Displacements at rest, rows of the recovery.
   virtual Vector rest() const = 0;
   virtual Measures measures() const = 0;

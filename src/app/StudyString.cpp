@@ -61,13 +61,13 @@ class StringStudy : public StudyScene {
   }
 
   coupling::Coupling full() const override {
-    if (scene_.coupling) return joinUnreduced(plannedParts(scene_, *stage_));
+    if (scene_.coupling) return joinUnreduced(resolvedParts(scene_, *stage_));
     coupling::Coupling whole;
     whole.model = fullModel(*stage_);
     return whole;
   }
 
-  coupling::PlannedCoupling parts() const override { return plannedParts(scene_, *stage_); }
+  coupling::ResolvedCoupling parts() const override { return resolvedParts(scene_, *stage_); }
   Vector rest() const override { return stage_->state.displacement; }
 
   Measures measures() const override {
@@ -82,7 +82,7 @@ class StringStudy : public StudyScene {
       const auto i = static_cast<std::size_t>(p);
       m.clearance[static_cast<std::size_t>(points.node[i] - 1)] = points.clearance[i];
     }
-    m.speedRow = string_::kNodeDofs * count - 1;  // theta_z of the last node
+    m.speedRow = drillstring::kNodeDofs * count - 1;  // theta_z of the last node
     const auto rotary = scene_.rotary;
     m.turning = [rotary](double t) { return rotary.speed(t); };
     return m;

@@ -18,7 +18,7 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
-#include "linalg/LargePages.hpp"
+#include "linalg/blocks/LargePages.hpp"
 
 namespace {
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "common/StageTimes.hpp"
-#include "linalg/EigenChecks.hpp"
-#include "linalg/SemidefiniteModes.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "model/Friction.hpp"
-#include "reduction/Partition.hpp"
+#include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {
 

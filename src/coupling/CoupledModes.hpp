@@ -5,8 +5,8 @@
 
 #include <complex>
 
-#include "coupling/Assembler.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::coupling {
 

@@ -5,17 +5,17 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "coupling/Following.hpp"
-#include "coupling/InterfaceReduction.hpp"
+#include "coupling/assembly/DependentCoordinates.hpp"
+#include "coupling/interface/InterfaceReduction.hpp"
 
 namespace tooljoint::coupling {
 
 namespace {
 
 /// Couples reduced parts and lets the basis improve them.
-Synthesis join(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
-               const reduction::ReductionOptions& options, CouplingOptions coupling,
-               std::vector<reduction::ReducedSubstructure> reduced) {
+Synthesis join(const std::vector<model::Substructure>& parts,
+               const reduction::ReductionMethod& basis, const reduction::ReductionOptions& options,
+               CouplingOptions coupling, std::vector<reduction::ReducedSubstructure> reduced) {
   Synthesis result;
   result.parts = std::move(reduced);
   for (const auto& part : result.parts)
@@ -23,19 +23,20 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
   result.coupled = coupleWithPositions(result.parts, coupling);
   constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {
-    std::vector<reduction::BasisResult> bases;
+    std::vector<reduction::Basis> bases;
     for (const auto& part : result.parts) {
       bases.push_back(*part.basis);
       bases.back().rows = part.basisRows();
     }
     bool improved = false;
     parallel::agree([&] {
-      improved = basis.improve(result.coupled.model, result.coupled.positions, parts, bases);
+      improved = basis.augment(result.coupled.model, result.coupled.positions, parts, bases);
     });
     if (!improved) {
       parallel::agree([&] {
-        follow(result.coupled,
-               basis.follow(result.coupled.model, result.coupled.maps, parts, bases));
+        condenseDependent(
+            result.coupled,
+            basis.condenseDependent(result.coupled.model, result.coupled.maps, parts, bases));
       });
       if (options.interface)
         parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
@@ -53,12 +54,14 @@ Synthesis join(const std::vector<model::Substructure>& parts, const reduction::B
 
 }  // namespace
 
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, const CouplingOptions& coupling) {
   return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options));
 }
 
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
                      const CouplingOptions& coupling) {
   return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options, cache));

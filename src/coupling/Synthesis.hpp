@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "coupling/Assembler.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "reduction/Reduce.hpp"
 
 namespace tooljoint::coupling {
@@ -17,15 +17,17 @@ struct Synthesis {
   Coupling coupled;
 };
 
-/// reduceAll, couple, then Basis::improve until it has nothing to improve (at most ten rounds, else
+/// reduceAll, couple, then ReductionMethod::augment until nothing changes (at most ten rounds, else
 /// ConvergenceError), then the interface reduction of the options. Bases with interface forces as
 /// coordinates are assembled dual whatever `coupling` says. Collective.
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options,
                      const CouplingOptions& coupling = {});
 
 /// The same in rounds over the same parts, which share what they have reduced.
-Synthesis synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
                      const CouplingOptions& coupling = {});
 

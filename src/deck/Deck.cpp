@@ -10,10 +10,10 @@
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
-#include "deck/FileName.hpp"
-#include "deck/Overrides.hpp"
-#include "deck/Validator.hpp"
-#include "deck/XmlReader.hpp"
+#include "deck/reading/FileName.hpp"
+#include "deck/reading/Overrides.hpp"
+#include "deck/reading/Validator.hpp"
+#include "deck/reading/XmlReader.hpp"
 
 namespace tooljoint::deck {
 

@@ -9,7 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"
-#include "deck/Units.hpp"
+#include "deck/reading/Units.hpp"
 
 namespace tooljoint::deck {
 namespace {

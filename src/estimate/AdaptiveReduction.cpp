@@ -62,7 +62,7 @@ double entries(const model::Substructure& part) {
 /// The rounds of a tolerance.
 class Rounds {
  public:
-  Rounds(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+  Rounds(const std::vector<model::Substructure>& parts, const reduction::ReductionMethod& basis,
          const reduction::ReductionOptions& options, const EstimateOptions& estimates,
          const MotionProbe& probe, const coupling::CouplingOptions& coupling)
       : parts_(parts),
@@ -182,7 +182,7 @@ class Rounds {
   }
 
   const std::vector<model::Substructure>& parts_;
-  const reduction::Basis& basis_;
+  const reduction::ReductionMethod& basis_;
   const reduction::ModeRule rule_;
   reduction::ReductionOptions options_;
   const EstimateOptions estimates_;
@@ -229,7 +229,8 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
   return options;
 }
 
-Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Outcome synthesise(const std::vector<model::Substructure>& parts,
+                   const reduction::ReductionMethod& basis,
                    const reduction::ReductionOptions& options, const EstimateOptions& estimates,
                    const MotionProbe& probe, const coupling::CouplingOptions& coupling) {
   Outcome outcome;

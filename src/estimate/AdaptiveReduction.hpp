@@ -60,7 +60,8 @@ using MotionProbe = std::function<MotionEstimate(const coupling::Synthesis&, con
 /// whole (reduction::wholePart): it is exact, and cheaper to move. The motion of a model of whole
 /// parts is not looked at: it is the full one. The same on every rank; collective. ConvergenceError
 /// when the tolerance is not met with all modes.
-Outcome synthesise(const std::vector<model::Substructure>& parts, const reduction::Basis& basis,
+Outcome synthesise(const std::vector<model::Substructure>& parts,
+                   const reduction::ReductionMethod& basis,
                    const reduction::ReductionOptions& options, const EstimateOptions& estimates,
                    const MotionProbe& probe = {}, const coupling::CouplingOptions& coupling = {});
 /// The same from the deck list "Reduction".

@@ -11,8 +11,8 @@
 #include "coupling/CoupledModes.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
-#include "linalg/EigenSolver.hpp"
-#include "reduction/Distribution.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/project/Distribution.hpp"
 
 namespace tooljoint::estimate {
 
@@ -30,7 +30,7 @@ struct Share {
 };
 constexpr Eigen::Index numbers = sizeof(Share) / sizeof(double);
 
-std::vector<Share> shares(const model::Substructure& part, const reduction::BasisResult& basis,
+std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
                           const Matrix& shapes, const Vector& eigenvalues) {
   const Sparse K = coupling::undampedStiffness(part.model);
   const ResidualFlexibility flexibility(part, basis, K);

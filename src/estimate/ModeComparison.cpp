@@ -13,7 +13,7 @@
 #include "estimate/FrequencyEstimate.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
-#include "linalg/EigenChecks.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
 
 namespace tooljoint::estimate {
 

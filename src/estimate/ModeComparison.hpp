@@ -10,7 +10,7 @@
 
 #include "coupling/Synthesis.hpp"
 #include "estimate/ModeMatching.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::estimate {
 

@@ -10,8 +10,8 @@
 #include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "estimate/PartResidual.hpp"
-#include "linalg/BlockFactor.hpp"
-#include "transient/CompiledModel.hpp"
+#include "linalg/blocks/BlockFactor.hpp"
+#include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::estimate {
 
@@ -55,7 +55,7 @@ struct MotionEstimator::Impl {
         mass(compiled.pattern()),
         step(compiled.pattern()) {
     requireRitz(synthesis_);
-    if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.followers > 0 ||
+    if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.dependent > 0 ||
         !synthesis_.coupled.multipliers.empty())
       throw ModelError(
           "The error of the motion is estimated only where the coordinates of the parts are those "

@@ -5,13 +5,12 @@
 #include <limits>
 
 #include "common/Error.hpp"
-#include "reduction/ModalVectors.hpp"
+#include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::estimate {
 
 ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
-                                         const reduction::BasisResult& basis,
-                                         const Sparse& stiffness)
+                                         const reduction::Basis& basis, const Sparse& stiffness)
     : interior_(basis.partition.interior) {
   const int size = static_cast<int>(interior_.size());
   std::vector<int> columns;

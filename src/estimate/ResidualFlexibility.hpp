@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/Substructure.hpp"
-#include "reduction/Basis.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
 
 namespace tooljoint::estimate {
 
@@ -22,7 +22,7 @@ class ResidualFlexibility {
  public:
   /// \param stiffness of the part, dofs x dofs; regular on the interior
   /// Throws ModelError naming the part when its interior is a mechanism.
-  ResidualFlexibility(const model::Substructure& part, const reduction::BasisResult& basis,
+  ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
                       const Sparse& stiffness);
 
   /// Positions in the part of the rows of all vectors here.

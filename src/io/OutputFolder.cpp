@@ -13,9 +13,9 @@
 #include <unistd.h>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
+#include "common/report/Log.hpp"
 #include "io/Summary.hpp"
 #include "io/TextFile.hpp"
 

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "common/Error.hpp"
-#include "linalg/EigenChecks.hpp"
-#include "linalg/EigenSolver.hpp"
 #include "linalg/Scientific.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
 

@@ -5,7 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "coupling/Congruence.hpp"
+#include "coupling/assembly/Congruence.hpp"
 
 namespace tooljoint::parts {
 

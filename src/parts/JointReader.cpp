@@ -92,7 +92,7 @@ ReadJoint JointReader::read(const std::string& text) const {
   const auto& names = parts_.front().part.model.componentNames;
   ReadJoint out;
   for (std::size_t k = 0; k < sides[0].nodes.size(); ++k) {
-    coupling::JointPlan joint;
+    coupling::JointInput joint;
     joint.name = text;
     joint.path = where_;
     std::set<int> common = sides[0].joined[k];
@@ -123,7 +123,7 @@ ReadJoint JointReader::read(const std::string& text) const {
                      std::to_string(sides[1].nodes[k]) + " of " + inQuotes(joint.nodes[1].part) +
                      " have no free component in common.");
     for (const auto& one : sides) {
-      coupling::ReleasePlan release;
+      coupling::ReleaseInput release;
       release.name = text;
       release.path = where_;
       release.node = {parts_[static_cast<std::size_t>(one.part)].part.name, one.nodes[k]};

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/CouplingParameters.hpp"
+#include "coupling/input/CouplingParameters.hpp"
 #include "parts/PartFile.hpp"
 
 namespace tooljoint::parts {
 
 /// What one text joins.
 struct ReadJoint {
-  std::vector<coupling::JointPlan> joints;  ///< node by node
-  std::vector<coupling::ReleasePlan>
+  std::vector<coupling::JointInput> joints;  ///< node by node
+  std::vector<coupling::ReleaseInput>
       releases;           ///< components that parts have at a joined node, but not in a joined set
   std::set<int> partial;  ///< parts with such components
 };

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "common/Error.hpp"
-#include "coupling/ComponentAxes.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 #include "parts/TimeLaw.hpp"
 
 namespace tooljoint::parts {

@@ -6,7 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "coupling/PlannedCoupling.hpp"
+#include "coupling/input/ResolvedCoupling.hpp"
 #include "parts/ContentEdits.hpp"
 #include "parts/JointReader.hpp"
 #include "parts/RestState.hpp"
@@ -19,7 +19,7 @@ using model::DofLabel;
 
 class Builder {
  public:
-  Builder(const PartsSettings& settings, const coupling::CouplingPlan& given,
+  Builder(const PartsSettings& settings, const coupling::CouplingInput& given,
           const std::function<std::string(const std::string&)>& resolve)
       : settings_(settings), plan_(given), resolve_(resolve) {}
 
@@ -32,9 +32,9 @@ class Builder {
     raise();
     join();
     raise();
-    auto planned = coupling::plan(plain(), plan_);
-    scene_.parts = std::move(planned.parts);
-    scene_.coupling = std::move(planned.options);
+    auto resolved = coupling::resolve(plain(), plan_);
+    scene_.parts = std::move(resolved.parts);
+    scene_.coupling = std::move(resolved.options);
     nameNodes();
     return std::move(scene_);
   }
@@ -221,7 +221,7 @@ class Builder {
       part.interface = joined;
       part.retained.assign(kept.begin(), kept.end());
       if (imported()[p].turned) {
-        coupling::FramePlan frame;
+        coupling::FrameInput frame;
         frame.name = imported()[p].name;
         frame.path = imported()[p].where + "/Rotation Angle";
         frame.frame.part = imported()[p].name;
@@ -252,7 +252,7 @@ class Builder {
   }
 
   const PartsSettings& settings_;
-  coupling::CouplingPlan plan_;
+  coupling::CouplingInput plan_;
   const std::function<std::string(const std::string&)>& resolve_;
   PartsScene scene_;
   std::vector<std::string> faults_;
@@ -268,7 +268,7 @@ int PartsScene::dofs() const {
   return sum;
 }
 
-PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given,
+PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInput& given,
                       const std::function<std::string(const std::string&)>& resolve) {
   return Builder(settings, given, resolve).build();
 }

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/Assembler.hpp"
-#include "coupling/CouplingParameters.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/CouplingParameters.hpp"
 #include "model/NonlinearSolve.hpp"
 #include "parts/PartFile.hpp"
 #include "parts/PartsParameters.hpp"
@@ -39,7 +39,7 @@ struct PartsScene {
 /// without it \param resolve file name of the deck -> path DeckError naming the place in the deck,
 /// the part and the dof, all faults of one kind together. ModelError as in coupling::plan.
 /// Collective.
-PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingPlan& given,
+PartsScene buildScene(const PartsSettings& settings, const coupling::CouplingInput& given,
                       const std::function<std::string(const std::string&)>& resolve);
 
 /// The state the motion starts from, in coordinates of the coupled unreduced parts: that of the

@@ -5,7 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 
 namespace tooljoint::parts {
 

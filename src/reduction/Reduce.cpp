@@ -7,19 +7,19 @@
 #include <memory>
 #include <numeric>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
-#include "common/StageTimes.hpp"
-#include "linalg/EigenChecks.hpp"
-#include "reduction/BasisChecks.hpp"
-#include "reduction/Distribution.hpp"
-#include "reduction/InterfaceCriteria.hpp"
-#include "reduction/Projection.hpp"
-#include "reduction/ReducedModels.hpp"
-#include "reduction/Twins.hpp"
-#include "reduction/WholePart.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "reduction/methods/WholePart.hpp"
+#include "reduction/project/BasisChecks.hpp"
+#include "reduction/project/Distribution.hpp"
+#include "reduction/project/IdenticalParts.hpp"
+#include "reduction/project/Projection.hpp"
+#include "reduction/project/ReducedModels.hpp"
+#include "reduction/selection/InterfaceCriteria.hpp"
 
 namespace tooljoint::reduction {
 
@@ -30,7 +30,7 @@ constexpr double twoPi = 6.28318530717958647692;
 constexpr int firstCandidates = 12;
 
 /// Modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
-int buckledModes(const model::Substructure& part, const BasisResult& basis) {
+int buckledModes(const model::Substructure& part, const Basis& basis) {
   const auto modes = basis.eigenvalues.size();
   if ((basis.eigenvalues.array() < 0).count() == 0) return 0;
   const Eigen::Index first = basis.vectors.cols() - basis.forces() - modes;
@@ -46,7 +46,7 @@ int buckledModes(const model::Substructure& part, const BasisResult& basis) {
   return buckled;
 }
 
-ReducedCore makeCore(const model::Substructure& part, const BasisResult& basis,
+ReducedCore makeCore(const model::Substructure& part, const Basis& basis,
                      const ReductionOptions& options) {
   ReducedCore core;
   core.basis = basis;
@@ -138,18 +138,19 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
 }
 
 /// First part with the same matrices and the same request.
-std::vector<int> twins(const std::vector<int>& classes, const std::vector<ModeRequest>& requests) {
-  std::vector<int> twin(classes.size());
+std::vector<int> identicalParts(const std::vector<int>& classes,
+                                const std::vector<ModeRequest>& requests) {
+  std::vector<int> representative(classes.size());
   std::map<int, std::vector<int>> firsts;  // of each class, one for each request
   for (std::size_t p = 0; p < classes.size(); ++p) {
     auto& candidates = firsts[classes[p]];
     const auto found = std::find_if(candidates.begin(), candidates.end(), [&](int q) {
       return requests[static_cast<std::size_t>(q)] == requests[p];
     });
-    twin[p] = found != candidates.end() ? *found : static_cast<int>(p);
-    if (found == candidates.end()) candidates.push_back(twin[p]);
+    representative[p] = found != candidates.end() ? *found : static_cast<int>(p);
+    if (found == candidates.end()) candidates.push_back(representative[p]);
   }
-  return twin;
+  return representative;
 }
 
 /// checkPart for the first of identical parts; of the others what may differ from it.
@@ -172,7 +173,7 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
 /// The reduction of a list of parts by the ranks of MPI_COMM_WORLD.
 class Team {
  public:
-  Team(const std::vector<model::Substructure>& parts, const Basis& basis,
+  Team(const std::vector<model::Substructure>& parts, const ReductionMethod& basis,
        const ReductionOptions& options, ReductionCache& cache)
       : parts_(parts),
         basis_(basis),
@@ -181,13 +182,13 @@ class Team {
         requests_(initialRequests(parts, options)),
         cores_(parts.size()) {
     if (cache_.classes.empty()) {
-      cache_.classes = findTwins(parts_, std::vector<ModeRequest>(parts_.size()));
+      cache_.classes = findIdenticalParts(parts_, std::vector<ModeRequest>(parts_.size()));
       checkParts(parts_, cache_.classes);
       if (options_.loadVectors.any())
         cache_.classes = sameLoads(parts_, cache_.classes, options_.loadVectors);
       if (basis_.namesParts()) std::iota(cache_.classes.begin(), cache_.classes.end(), 0);
     }
-    twin_ = twins(cache_.classes, requests_);
+    representative_ = identicalParts(cache_.classes, requests_);
     recall();
     std::vector<int> weights;
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -225,7 +226,7 @@ class Team {
     parallel::agree([&] {
       reduced.reserve(parts_.size());
       for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const auto t = static_cast<std::size_t>(twin_[p]);
+        const auto t = static_cast<std::size_t>(representative_[p]);
         auto& identical = models.try_emplace(t, parts_[t], cores_[t], options_).first->second;
         identical.make(parts_[p], static_cast<int>(p), reduced.emplace_back());
       }
@@ -234,7 +235,7 @@ class Team {
   }
 
  private:
-  bool first(std::size_t p) const { return twin_[p] == static_cast<int>(p); }
+  bool first(std::size_t p) const { return representative_[p] == static_cast<int>(p); }
   /// To be reduced now.
   bool open(std::size_t p) const { return first(p) && !cores_[p]; }
 
@@ -308,7 +309,7 @@ class Team {
       std::vector<bool> complete(parts_.size());
       std::vector<int> built(parts_.size());
       for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const auto t = static_cast<std::size_t>(twin_[p]);
+        const auto t = static_cast<std::size_t>(representative_[p]);
         spectra[p] = first(p) ? bases_[p].candidates : spectra[t];
         int state[2] = {bases_[t].complete ? 1 : 0,
                         bases_[t].removable ? bases_[t].modes()
@@ -326,7 +327,7 @@ class Team {
       std::vector<char> again(parts_.size(), 0);
       bool enough = true;
       for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const auto t = static_cast<std::size_t>(twin_[p]);
+        const auto t = static_cast<std::size_t>(representative_[p]);
         counts[t] = counts[p] < 0 || counts[t] < 0 ? -1 : std::max(counts[t], counts[p]);
         if (counts[p] < 0 || counts[p] > built[p]) {
           again[t] = 1;
@@ -365,19 +366,20 @@ class Team {
   }
 
   const std::vector<model::Substructure>& parts_;
-  const Basis& basis_;
+  const ReductionMethod& basis_;
   const ReductionOptions& options_;
   ReductionCache& cache_;
   std::vector<ModeRequest> requests_;
-  std::vector<int> twin_;   ///< first identical part
-  std::vector<int> owner_;  ///< rank, -1 for parts taken over from a twin or an earlier round
-  std::map<std::size_t, BasisResult> bases_;  ///< of the parts this rank owns
+  std::vector<int> representative_;  ///< first identical part
+  std::vector<int>
+      owner_;  ///< rank, -1 for parts taken over from a representative or an earlier round
+  std::map<std::size_t, Basis> bases_;  ///< of the parts this rank owns
   std::vector<std::shared_ptr<const ReducedCore>> cores_;
 };
 
 }  // namespace
 
-ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis,
+ReducedSubstructure reduce(const model::Substructure& part, const Basis& basis,
                            const ReductionOptions& options, int index) {
   ReducedSubstructure reduced;
   ReducedModels(part, std::make_shared<const ReducedCore>(makeCore(part, basis, options)), options)
@@ -395,15 +397,16 @@ std::vector<BasisRow> ReducedSubstructure::basisRows() const {
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
-                                           const Basis& basis, const ReductionOptions& options) {
+                                           const ReductionMethod& basis,
+                                           const ReductionOptions& options) {
   ReductionCache none;
   none.remembers = false;
   return Team(parts, basis, options, none).run();
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
-                                           const Basis& basis, const ReductionOptions& options,
-                                           ReductionCache& cache) {
+                                           const ReductionMethod& basis,
+                                           const ReductionOptions& options, ReductionCache& cache) {
   return Team(parts, basis, options, cache).run();
 }
 

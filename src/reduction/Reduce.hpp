@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "model/Substructure.hpp"
-#include "reduction/LoadVectors.hpp"
-#include "reduction/ModeChoice.hpp"
 #include "reduction/ReducedSubstructure.hpp"
+#include "reduction/selection/ModeChoice.hpp"
+#include "reduction/vectors/LoadVectors.hpp"
 
 namespace Teuchos {
 class ParameterList;
@@ -49,27 +49,29 @@ struct ReductionOptions {
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.
-std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::ParameterList& reduction);
+std::unique_ptr<ReductionMethod> makeBasis(const std::string& name,
+                                           const Teuchos::ParameterList& reduction);
 
 /// Projects `part` on `basis`: M, C_i, K_i, loads, point rows, recovery and initial state. Matrices
 /// are projected full, unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that
 /// are constant in time become one term, every other one stays a term with its own law. `index`
 /// numbers the part in the labels of its modes.
-ReducedSubstructure reduce(const model::Substructure& part, const BasisResult& basis,
+ReducedSubstructure reduce(const model::Substructure& part, const Basis& basis,
                            const ReductionOptions& options, int index);
 
 /// Reduces all parts. Every rank passes the same parts and gets the same result; each part is
-/// reduced by one rank and sent to the others. Parts that are identical (findTwins) are reduced
-/// once. Collective over MPI_COMM_WORLD. An error on one rank is thrown on all. Throws ModelError,
-/// ConvergenceError.
+/// reduced by one rank and sent to the others. Parts that are identical (findIdenticalParts) are
+/// reduced once. Collective over MPI_COMM_WORLD. An error on one rank is thrown on all. Throws
+/// ModelError, ConvergenceError.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
-                                           const Basis& basis, const ReductionOptions& options);
+                                           const ReductionMethod& basis,
+                                           const ReductionOptions& options);
 
 /// What rounds of reduction of the same parts share: which parts are identical, and every part
 /// reduced so far by its number of modes. The same on every rank.
 struct ReductionCache {
   bool remembers = true;
-  std::vector<int> classes;  ///< findTwins; empty before the first round
+  std::vector<int> classes;  ///< findIdenticalParts; empty before the first round
   std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>>
       cores;  ///< by class and number of modes asked for
 };
@@ -77,8 +79,8 @@ struct ReductionCache {
 /// The same with what earlier rounds have reduced: only parts whose number of modes is new are.
 /// Needs ModeRule::Kind::PerPart.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
-                                           const Basis& basis, const ReductionOptions& options,
-                                           ReductionCache& cache);
+                                           const ReductionMethod& basis,
+                                           const ReductionOptions& options, ReductionCache& cache);
 
 /// The same from a deck list.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,

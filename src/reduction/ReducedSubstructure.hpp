@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/SecondOrderModel.hpp"
-#include "reduction/Basis.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 
@@ -37,7 +37,7 @@ struct ReducedSubstructure {
   int retained = 0;   ///< the next `retained` ones are physical dofs of this part alone
   int modes = 0;      ///< the last `modes` ones are modal
   Vector offset;      ///< D at q = 0, dofs of the part: the static state, or zero
-  std::shared_ptr<const BasisResult>
+  std::shared_ptr<const Basis>
       basis;  ///< one for all identical parts; its rows stand in the report
   BasisReport report;
   std::optional<Boundary> boundary;  ///< only where the basis does not have the interface dofs as

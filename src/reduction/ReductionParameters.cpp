@@ -8,9 +8,9 @@
 
 #include "common/Text.hpp"
 #include "deck/Variants.hpp"
-#include "linalg/EigenSolver.hpp"
-#include "reduction/InterfaceBasis.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
+#include "reduction/methods/InterfaceBasis.hpp"
 
 namespace tooljoint::reduction {
 
@@ -84,7 +84,7 @@ deck::ListSpec parameters() {
                       "\"Cut-off Frequency\", \"All Modes\", \"Effective Interface "
                       "Mass\", \"Interface Moment\", or a tolerance; none of them cuts a close "
                       "pair of modes: the number is rounded up.");
-  deck::declareVariants<Basis, const Teuchos::ParameterList&>(
+  deck::declareVariants<ReductionMethod, const Teuchos::ParameterList&>(
       list, "Basis", std::string("Craig-Bampton"), "Family of the reduction basis.");
   list.integer("Modes", deck::Optional{}, Range::atLeast(0),
                "Number of modes of every substructure; 0 is static condensation.");
@@ -175,10 +175,11 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
   return options;
 }
 
-std::unique_ptr<Basis> makeBasis(const std::string& name, const Teuchos::ParameterList& reduction) {
+std::unique_ptr<ReductionMethod> makeBasis(const std::string& name,
+                                           const Teuchos::ParameterList& reduction) {
   const Teuchos::ParameterList none;
-  return BasisRegistry::instance().make(name,
-                                        reduction.isSublist(name) ? reduction.sublist(name) : none);
+  return MethodRegistry::instance().make(
+      name, reduction.isSublist(name) ? reduction.sublist(name) : none);
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,

@@ -13,8 +13,8 @@
 #include <optional>
 
 #include "common/Error.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "linalg/FunctionOperator.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/FunctionOperator.hpp"
 #include "model/NonlinearProblem.hpp"
 #include "statics/NewtonSolver.hpp"
 

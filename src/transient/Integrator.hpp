@@ -10,7 +10,7 @@
 
 #include "common/Types.hpp"
 #include "deck/Registry.hpp"
-#include "transient/CompiledModel.hpp"
+#include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::transient {
 
@@ -47,7 +47,7 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
-/// How well fixed steps follow the motion, as parts of 1 (StepResolution.hpp); 0 where it is not
+/// How well fixed steps follow the motion, as parts of 1 (StepAccuracy.hpp); 0 where it is not
 /// known.
 struct StepErrors {
   double local = 0;    ///< R

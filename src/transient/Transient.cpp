@@ -7,12 +7,12 @@
 #include <ctime>
 #include <sstream>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
-#include "common/Log.hpp"
-#include "common/Progress.hpp"
 #include "common/Version.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/Progress.hpp"
 #include "transient/ModelIdentity.hpp"
 
 namespace tooljoint::transient {

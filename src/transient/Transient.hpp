@@ -13,9 +13,9 @@
 #include "common/Types.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/Checkpoint.hpp"
-#include "transient/EnergyLedger.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/TransientParameters.hpp"
+#include "transient/accuracy/EnergyLedger.hpp"
 
 namespace tooljoint::transient {
 

@@ -20,7 +20,7 @@
 #include <cmath>
 #include <utility>
 
-#include "common/Census.hpp"
+#include "common/report/EvaluationCounters.hpp"
 #include "model/Friction.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "substructures/contact/FrictionCurve.hpp"

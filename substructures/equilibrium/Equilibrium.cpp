@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "common/Error.hpp"
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {

@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::loads {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Text.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::mud {
 namespace {

@@ -6,7 +6,7 @@
 #include "common/DelimitedText.hpp"
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
-#include "deck/Units.hpp"
+#include "deck/reading/Units.hpp"
 #include "substructures/well/ArcChain.hpp"
 
 namespace tooljoint::well {

@@ -28,7 +28,7 @@ struct Family {
                                       : ", " + parameter + " " +
                                             (text.empty() ? (flag ? "true" : "false") : text));
   }
-  std::unique_ptr<reduction::Basis> make() const {
+  std::unique_ptr<reduction::ReductionMethod> make() const {
     Teuchos::ParameterList list;
     auto& own = list.sublist(basis);
     if (!parameter.empty() && text.empty()) own.set(parameter, flag);

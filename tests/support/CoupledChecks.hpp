@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "coupling/Synthesis.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace tooljoint::checks {

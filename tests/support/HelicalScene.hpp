@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "substructures/contact/ContactParameters.hpp"
+#include "substructures/drillstring/ContactNodes.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/Mesh.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 #include "substructures/mud/Mud.hpp"
 #include "substructures/path/Path.hpp"
-#include "substructures/string/ContactNodes.hpp"
-#include "substructures/string/EquationBuilder.hpp"
-#include "substructures/string/Mesh.hpp"
 
 namespace tooljoint::testing_ {
 
@@ -24,14 +24,14 @@ class HelicalScene {
       : well_(std::shared_ptr<const well::Trajectory>(
                   well::helix(85.1, 0.5 * std::acos(-1.0), 170.2)),
               0.108),
-        string_(string_::buildDrillString(library(), assembly(), well_)) {}
+        drillstring(drillstring::buildDrillString(library(), assembly(), well_)) {}
 
-  const string_::DrillString& string() const { return string_; }
+  const drillstring::DrillString& string() const { return drillstring; }
   const well::Well& well() const { return well_; }
 
   path::PathInput pathInput() const {
     path::PathInput input;
-    for (const auto& element : string_.elements) {
+    for (const auto& element : drillstring.elements) {
       input.sections.push_back(element.section);
       input.lengths.push_back(element.length);
     }
@@ -42,7 +42,7 @@ class HelicalScene {
   /// Static problem about a path state.
   equilibrium::StaticInput staticInput(const path::PathState& path, double lambda = 7e11) const {
     equilibrium::StaticInput input;
-    input.nodes = string_.nodeCount();
+    input.nodes = drillstring.nodeCount();
     input.held.assign(static_cast<std::size_t>(6 * input.nodes), 0);
     for (const int dof : {0, 1, 2, 5, 6 * input.nodes - 6, 6 * input.nodes - 5})
       input.held[static_cast<std::size_t>(dof)] = 1;
@@ -53,14 +53,14 @@ class HelicalScene {
     loads.gravity = 9.81;
     loads.weightOnBit = 1e4;
     loads.torqueOnBit = 5e3;
-    const auto equations =
-        string_::buildEquations({string_, well_, path, input.held, &fluid, rotary, loads, damping});
+    const auto equations = drillstring::buildEquations(
+        {drillstring, well_, path, input.held, &fluid, rotary, loads, damping});
     input.load = Vector::Zero(6 * input.nodes);
     for (const auto& load : equations.loads)
       if (load.name != "path reaction") input.load += load.vector;
     input.pathReaction = Eigen::Map<const Vector>(path.reaction.data(), path.reaction.size());
-    for (std::size_t e = 0; e < string_.elements.size(); ++e) {
-      const auto& element = string_.elements[e];
+    for (std::size_t e = 0; e < drillstring.elements.size(); ++e) {
+      const auto& element = drillstring.elements[e];
       beam::Matrix12 stiffness = beam::Matrix12::Zero();
       for (const auto& term : equations.stiffness) stiffness += term.matrices[e];
       input.elements.push_back(
@@ -74,15 +74,16 @@ class HelicalScene {
   }
 
  private:
-  static string_::ComponentLibrary library() {
+  static drillstring::ComponentLibrary library() {
     const beam::Material steel{7900.0, 2.03e11, 0.3};
     const auto body = beam::Section::hollow(0.0635, 0.054, steel);
     const auto joint = beam::Section::hollow(0.081, 0.048, steel);
     const auto heavy = beam::Section::hollow(0.0795, 0.0355, steel);
-    string_::ComponentLibrary out;
-    const auto add = [&out](const std::string& name,
-                            const std::vector<string_::Segment>& segments) -> string_::Component& {
-      string_::Component& component = out[name];
+    drillstring::ComponentLibrary out;
+    const auto add =
+        [&out](const std::string& name,
+               const std::vector<drillstring::Segment>& segments) -> drillstring::Component& {
+      drillstring::Component& component = out[name];
       component.name = component.where = name;
       component.segments = segments;
       return component;
@@ -91,17 +92,17 @@ class HelicalScene {
     add("upset", {{0.2, 1, body}});
     add("joint half", {{0.3, 1, joint}});
     add("collar", {{10.0, 10, heavy}});
-    string_::Component& stabiliser = add("stabiliser", {{5.0, 4, heavy}});
+    drillstring::Component& stabiliser = add("stabiliser", {{5.0, 4, heavy}});
     stabiliser.gaugePosition = 2.5;
     stabiliser.gaugeRadius = 0.108;
-    string_::Component& bit = add("bit", {{0.5, 1, heavy}});
+    drillstring::Component& bit = add("bit", {{0.5, 1, heavy}});
     bit.gaugePosition = 0.5;
     bit.gaugeRadius = 0.108;
     return out;
   }
 
-  static std::vector<string_::AssemblyEntry> assembly() {
-    std::vector<string_::AssemblyEntry> out;
+  static std::vector<drillstring::AssemblyEntry> assembly() {
+    std::vector<drillstring::AssemblyEntry> out;
     for (int i = 0; i < 5; ++i)
       for (const auto& [count, name] :
            {std::pair{1, "body"}, {1, "upset"}, {2, "joint half"}, {1, "upset"}})
@@ -139,11 +140,11 @@ class HelicalScene {
     settings.values.lambdaK = settings.values.lambdaC = lambda;
     settings.values.muStatic = 0.2;
     settings.values.muDynamic = 0.1;
-    return string_::contactPoints(settings, string_, held);
+    return drillstring::contactPoints(settings, drillstring, held);
   }
 
   well::Well well_;
-  string_::DrillString string_;
+  drillstring::DrillString drillstring;
 };
 
 }  // namespace tooljoint::testing_

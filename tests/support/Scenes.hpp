@@ -8,7 +8,7 @@
 
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "coupling/Assembler.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "reduction/Reduce.hpp"
 #include "transient/Transient.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/Connections.hpp"
+#include "coupling/input/Connections.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace tooljoint::samples {

@@ -7,8 +7,8 @@
 
 #include "common/Parallel.hpp"
 #include "coupling/CoupledModes.hpp"
-#include "coupling/InterfaceReduction.hpp"
 #include "coupling/Synthesis.hpp"
+#include "coupling/interface/InterfaceReduction.hpp"
 #include "tests/support/SpaceFrame.hpp"
 
 namespace {

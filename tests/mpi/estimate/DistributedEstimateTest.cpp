@@ -6,12 +6,12 @@
 
 #include "app/Scene.hpp"
 #include "app/Stages.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
-#include "coupling/Assembler.hpp"
+#include "common/report/Log.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "estimate/AdaptiveReduction.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {

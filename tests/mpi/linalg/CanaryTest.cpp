@@ -12,9 +12,9 @@
 #include "../../unit/statics/Problems.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "linalg/EigenSolver.hpp"
-#include "linalg/Krylov.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/Krylov.hpp"
 #include "statics/NewtonSolver.hpp"
 
 namespace tooljoint::linalg {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
-#include "coupling/Assembler.hpp"
+#include "common/report/Log.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -38,7 +38,8 @@ std::vector<model::Substructure> frame() {
 /// What one rank gets without any other.
 std::vector<ReducedSubstructure> alone(const std::vector<model::Substructure>& parts,
                                        const std::vector<ReducedSubstructure>& like,
-                                       const Basis& basis, const ReductionOptions& chosen) {
+                                       const ReductionMethod& basis,
+                                       const ReductionOptions& chosen) {
   std::vector<ReducedSubstructure> reduced;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     ModeRequest request;

@@ -5,12 +5,12 @@
 #include <csignal>
 #include <gtest/gtest.h>
 
-#include "common/Census.hpp"
 #include "common/Interrupt.hpp"
-#include "common/Log.hpp"
 #include "common/Parallel.hpp"
-#include "common/Progress.hpp"
 #include "common/Version.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/Progress.hpp"
 
 using namespace tooljoint;
 
@@ -102,21 +102,21 @@ TEST(Interrupt, ASignalSetsTheFlag) {
   std::signal(SIGINT, beforeInt);
 }
 
-TEST(Census, CountsByName) {
-  resetCensus();
+TEST(EvaluationCounters, CountsByName) {
+  resetEvaluationCounters();
   EXPECT_EQ(counted("mud matrices"), 0);
   count("mud matrices");
   count("mud matrices", 4);
   long& evaluations = counter("contact evaluations");
   ++evaluations;
   EXPECT_EQ(counted("mud matrices"), 5);
-  EXPECT_EQ(census(),
+  EXPECT_EQ(evaluationCounters(),
             (std::map<std::string, long>{{"contact evaluations", 1}, {"mud matrices", 5}}));
-  resetCensus();
-  EXPECT_TRUE(census().empty());
+  resetEvaluationCounters();
+  EXPECT_TRUE(evaluationCounters().empty());
   ++evaluations;
   EXPECT_EQ(counted("contact evaluations"), 1);
-  resetCensus();
+  resetEvaluationCounters();
 }
 
 TEST(Version, NamesEverythingARunStandsOn) {

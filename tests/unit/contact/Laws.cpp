@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "common/Census.hpp"
+#include "common/report/EvaluationCounters.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
 using namespace tooljoint;
@@ -123,7 +123,7 @@ TEST(Friction, OmittedAtPointsWithoutItAndCounted) {
   const double r = rough.clearance + 1e-4;
   const std::vector<double> d = {r, 0.0, 0.0, r, 0.0, 0.0}, v(6, 0.0);
 
-  resetCensus();
+  resetEvaluationCounters();
   const auto none = law("Clamped")->inMotion(batch({slippery, slippery}), [](double) -> double {
     throw std::logic_error("speed asked for");
   });

@@ -2,7 +2,7 @@
 /// \file
 /// The generic assembler: labels, laws, loads, points, recovery, states, and the sentences for
 /// parts that do not fit.
-#include "coupling/Assembler.hpp"
+#include "coupling/assembly/Assembler.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>

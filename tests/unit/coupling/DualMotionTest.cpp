@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "coupling/Assembler.hpp"
-#include "coupling/PointLaws.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/PointLaws.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SpaceFrame.hpp"
 #include "transient/Transient.hpp"

@@ -2,7 +2,7 @@
 /// \file
 /// Characteristic constraint modes: against the statically condensed frame computed densely, static
 /// answers, dofs that stay, and the sentences for what cannot be reduced.
-#include "coupling/InterfaceReduction.hpp"
+#include "coupling/interface/InterfaceReduction.hpp"
 
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
@@ -13,7 +13,7 @@
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "tests/support/ListDefaults.hpp"
 #include "tests/support/SpaceFrame.hpp"

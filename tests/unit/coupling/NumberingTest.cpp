@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Cuthill-McKee numbering.
-#include "coupling/Numbering.hpp"
+#include "coupling/assembly/Numbering.hpp"
 
 #include <algorithm>
 #include <cstdlib>

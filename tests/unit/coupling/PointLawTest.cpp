@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-#include "coupling/PointLaws.hpp"
+#include "coupling/input/PointLaws.hpp"
 
 namespace {
 

@@ -15,22 +15,22 @@ namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::coupling;
-using reduction::BasisResult;
+using reduction::Basis;
 
 /// Craig-Bampton that throws away one mode of every part per round until `least` are left (or never
 /// stops).
-class Shrinking : public reduction::Basis {
+class Shrinking : public reduction::ReductionMethod {
  public:
   explicit Shrinking(int least)
       : least_(least), base_(reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList())) {}
-  BasisResult build(const model::Substructure& part,
-                    const reduction::ModeRequest& request) const override {
+  Basis build(const model::Substructure& part,
+              const reduction::ModeRequest& request) const override {
     return base_->build(part, request);
   }
-  bool improve(const model::SecondOrderModel& coupled,
+  bool augment(const model::SecondOrderModel& coupled,
                const std::vector<std::vector<int>>& positions,
                const std::vector<model::Substructure>& parts,
-               std::vector<BasisResult>& bases) const override {
+               std::vector<Basis>& bases) const override {
     EXPECT_EQ(positions.size(), parts.size());
     int columns = 0;
     for (const auto& position : positions)
@@ -39,7 +39,7 @@ class Shrinking : public reduction::Basis {
     bool changed = least_ < 0;
     for (auto& basis : bases)
       if (basis.modes() > least_ && basis.modes() > 0) {
-        reduction::truncate(basis, basis.modes() - 1, "dropped by improve()");
+        reduction::truncate(basis, basis.modes() - 1, "dropped by augment()");
         changed = true;
       }
     return changed;
@@ -47,7 +47,7 @@ class Shrinking : public reduction::Basis {
 
  private:
   int least_;
-  std::unique_ptr<reduction::Basis> base_;
+  std::unique_ptr<reduction::ReductionMethod> base_;
 };
 
 reduction::ReductionOptions sixModes() {
@@ -72,7 +72,7 @@ TEST(Synthesis, CouplesAgainAfterEveryImprovement) {
   const Synthesis synthesis = synthesise(parts, Shrinking(2), sixModes());
   for (const auto& part : synthesis.parts) {
     EXPECT_EQ(part.modes, 2);
-    EXPECT_NE(part.report.table().find("dropped by improve()"), std::string::npos);
+    EXPECT_NE(part.report.table().find("dropped by augment()"), std::string::npos);
   }
   EXPECT_EQ(synthesis.coupled.model.size(), 6 + 4 * 2);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/FileName.hpp"
+#include "deck/reading/FileName.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 
 #include "SmallScene.hpp"
 #include "deck/Template.hpp"
-#include "deck/Units.hpp"
 #include "deck/Variants.hpp"
+#include "deck/reading/Units.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::deck;

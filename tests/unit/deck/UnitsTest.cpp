@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/Units.hpp"
+#include "deck/reading/Units.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

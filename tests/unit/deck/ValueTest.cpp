@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "deck/Value.hpp"
+#include "deck/reading/Value.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "coupling/Assembler.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "transient/Transient.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace tooljoint;
 
-std::unique_ptr<reduction::Basis> craigBampton() {
+std::unique_ptr<reduction::ReductionMethod> craigBampton() {
   return reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList());
 }
 
@@ -80,7 +80,7 @@ TEST(FrequencyTolerance, OnlyWhatChangesIsReducedAgain) {
     if (p < 5) ends.push_back(13 + 12 * p);
     samples::classify(parts.back(), ends);
   }
-  resetCensus();
+  resetEvaluationCounters();
   const auto outcome = estimate::synthesise(parts, *craigBampton(), tolerance(1e-5), lowest(12));
   // Three different bars (first, inner, last), each at most once for a number of modes.
   EXPECT_GT(outcome.rounds.size(), 1u);

@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
-#include "coupling/Assembler.hpp"
 #include "coupling/CoupledModes.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "coupling/Assembler.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {

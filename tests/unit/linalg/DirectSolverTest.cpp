@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

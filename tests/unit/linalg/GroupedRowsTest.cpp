@@ -2,7 +2,7 @@
 /// \file
 /// Grouped rows against the sparse product: shared columns, scattered rows, single entries, empty
 /// rows, nothing at all.
-#include "linalg/GroupedRows.hpp"
+#include "linalg/blocks/GroupedRows.hpp"
 
 #include <gtest/gtest.h>
 #include <random>

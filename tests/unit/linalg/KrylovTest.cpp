@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/Krylov.hpp"
+#include "linalg/trilinos/Krylov.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/LargePages.hpp"
+#include "linalg/blocks/LargePages.hpp"
 
 #include <gtest/gtest.h>
 #if defined(__GLIBC__)

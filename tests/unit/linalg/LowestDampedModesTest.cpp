@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/Error.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace {
 

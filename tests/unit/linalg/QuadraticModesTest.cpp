@@ -4,7 +4,7 @@
 
 #include "Models.hpp"
 #include "common/Error.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace tooljoint::linalg {
 namespace {

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
-#include "common/Log.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/Log.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
@@ -89,7 +89,7 @@ TEST(Unbalance, AllShareTwoLawsWhateverTheirPhase) {
 
 TEST(Unbalance, WithoutRotationIsLeftOutWithAWarning) {
   log::clearWarnings();
-  resetCensus();
+  resetEvaluationCounters();
   EXPECT_TRUE(pointLoads(unbalanced(0.5, 0.0), RotarySpeed(), depths).empty());
   ASSERT_EQ(log::warnings().size(), 1U);
   EXPECT_NE(log::warnings()[0].find("nothing turns"), std::string::npos);
@@ -97,7 +97,7 @@ TEST(Unbalance, WithoutRotationIsLeftOutWithAWarning) {
   pointLoads(unbalanced(0.5, 0.0), turning(), depths);
   EXPECT_EQ(counted("unbalance loads"), 1);
   log::clearWarnings();
-  resetCensus();
+  resetEvaluationCounters();
 }
 
 // -------------------------------------------------------------------------------------------------

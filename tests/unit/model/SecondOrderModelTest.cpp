@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "coupling/PointLaws.hpp"
+#include "coupling/input/PointLaws.hpp"
 
 namespace {
 

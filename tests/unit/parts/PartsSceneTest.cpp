@@ -10,7 +10,7 @@
 
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 #include "parts/TimeLaw.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"
@@ -76,7 +76,7 @@ ImportedPart imported(const std::string& name, const std::string& file,
   return part;
 }
 
-PartsScene build(const PartsSettings& settings, const coupling::CouplingPlan& plan = {}) {
+PartsScene build(const PartsSettings& settings, const coupling::CouplingInput& plan = {}) {
   return buildScene(settings, plan, [](const std::string& name) { return name; });
 }
 
@@ -178,9 +178,9 @@ TEST(PartsScene, ConnectionsNamePartsAndTheirOwnNodes) {
   PartsSettings settings;
   const auto file = files.bar("bar", 1);
   settings.imported = {imported("a", file, {"left"}), imported("b", file, {"right"})};
-  coupling::CouplingPlan plan;
+  coupling::CouplingInput plan;
   plan.ownNumbers = true;
-  coupling::PointPlan spring;
+  coupling::PointInput spring;
   spring.name = spring.path = "spring";
   spring.first = {"a", 2};
   spring.second = coupling::PartNode{"b", 1};

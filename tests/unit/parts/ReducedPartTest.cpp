@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "coupling/Assembler.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "coupling/assembly/Assembler.hpp"
 #include "parts/PartFile.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"

@@ -14,7 +14,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-BasisResult build(const model::Substructure& part, const ModeRequest& request, double time = 0.5) {
+Basis build(const model::Substructure& part, const ModeRequest& request, double time = 0.5) {
   Teuchos::ParameterList list("Reduction");
   list.sublist("Complex Craig-Bampton").set("Time", time);
   return makeBasis("Complex Craig-Bampton", list)->build(part, request);

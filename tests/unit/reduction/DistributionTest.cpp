@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Owners, twins, and the journey of a reduced part as bytes.
-#include "reduction/Distribution.hpp"
+#include "reduction/project/Distribution.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
-#include "common/Census.hpp"
 #include "common/Error.hpp"
+#include "common/report/EvaluationCounters.hpp"
 #include "reduction/Reduce.hpp"
-#include "reduction/Twins.hpp"
+#include "reduction/project/IdenticalParts.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -24,7 +24,7 @@ ReductionOptions perPart(int count) {
   return options;
 }
 
-std::unique_ptr<Basis> craigBampton() {
+std::unique_ptr<ReductionMethod> craigBampton() {
   return makeBasis("Craig-Bampton", Teuchos::ParameterList());
 }
 
@@ -51,29 +51,31 @@ TEST(FindTwins, FindsIdenticalPartsWhateverTheirLabelsAndLoads) {
   auto parts = pipes(5);
   parts[2].model.loads.push_back({"weight", Vector::Ones(9), 0});
   std::vector<ModeRequest> requests(5);
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
       << "the ends have another interface";
   requests[3].kind = ModeRequest::Kind::Count;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
       << "another number of modes";
   requests[3] = requests[1];
   parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-10;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 1, 1, 4}))
       << "rounding of its length";
   parts[3].model.stiffness.own()[0].matrix.coeffRef(4, 4) *= 1 + 1e-8;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4})) << "another stiffness";
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
+      << "another stiffness";
   parts[2].model.stiffness.push_back({"geometric", 1e-14 * parts[2].model.stiffness[0].matrix, 0});
   parts[1].model.stiffness.push_back({"geometric", 3e-14 * parts[1].model.stiffness[0].matrix, 0});
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 1, 3, 4}))
       << "a force that is rounding";
   parts[1].model.stiffness.own()[1].matrix *= 1e6;
-  EXPECT_EQ(findTwins(parts, requests), (std::vector<int>{0, 1, 2, 3, 4})) << "another force";
+  EXPECT_EQ(findIdenticalParts(parts, requests), (std::vector<int>{0, 1, 2, 3, 4}))
+      << "another force";
 }
 
 TEST(FindTwins, IdenticalPartsAreReducedOnce) {
   auto parts = pipes(6);
   parts[3].model.loads.push_back({"weight", Vector::Ones(9), 0});
-  resetCensus();
+  resetEvaluationCounters();
   const auto twins = reduceAll(parts, *craigBampton(), perPart(3));
   EXPECT_EQ(counted("parts reduced"), 3);
   EXPECT_EQ(twins[3].report.sharedWith, "pipe 2");

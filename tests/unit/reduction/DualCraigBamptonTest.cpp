@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 #include "tests/support/BasisFamilies.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "transient/Transient.hpp"

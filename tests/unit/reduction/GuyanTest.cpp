@@ -7,10 +7,10 @@
 #include <ctime>
 #include <gtest/gtest.h>
 
-#include "coupling/Assembler.hpp"
-#include "linalg/EigenSolver.hpp"
-#include "reduction/MasterDofs.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
+#include "reduction/part/MasterDofs.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-std::unique_ptr<Basis> guyan(const std::string& masters = "Automatic") {
+std::unique_ptr<ReductionMethod> guyan(const std::string& masters = "Automatic") {
   Teuchos::ParameterList list;
   list.sublist("Guyan").set("Masters", masters);
   return makeBasis("Guyan", list);

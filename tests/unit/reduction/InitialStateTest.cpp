@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Keep static against least squares.
-#include "reduction/InitialState.hpp"
+#include "reduction/vectors/InitialState.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
-#include "linalg/DirectSolver.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-BasisResult basisOf(const model::Substructure& part, int modes) {
+Basis basisOf(const model::Substructure& part, int modes) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = modes;
@@ -48,7 +48,7 @@ TEST(FitState, ZeroStaysExactlyZero) {
 
 TEST(FitState, IsTheLeastSquaresSolution) {
   const auto part = hangingBar();
-  const BasisResult basis = basisOf(part, 4);
+  const Basis basis = basisOf(part, 4);
   const Vector x = Vector::LinSpaced(12, 1, 3).array().square();
   const Vector q = fitState(basis, x);
   EXPECT_EQ(q[0], x[11]) << "q_C = D_C";
@@ -112,7 +112,7 @@ TEST(KeepStatic, StiffnessThatVariesInTimePullsTowardsZeroNotTowardsTheReference
 
 TEST(InitialVelocity, IsProjectedLikeTheDisplacement) {
   auto part = hangingBar();
-  const BasisResult basis = basisOf(part, 3);
+  const Basis basis = basisOf(part, 3);
   Vector q = Vector::LinSpaced(4, 1, 4);
   part.model.initialVelocity = basis.vectors * q;
   EXPECT_LT(

@@ -2,7 +2,7 @@
 /// \file
 /// Modes chosen by what the neighbours of a part feel: closed forms of a bar, choice by share, and
 /// what cannot be chosen.
-#include "reduction/InterfaceCriteria.hpp"
+#include "reduction/selection/InterfaceCriteria.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-BasisResult craigBampton(const model::Substructure& part, int modes) {
+Basis craigBampton(const model::Substructure& part, int modes) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = modes;

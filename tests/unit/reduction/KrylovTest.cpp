@@ -15,8 +15,8 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-BasisResult build(const model::Substructure& part, int modes,
-                  const std::function<void(Teuchos::ParameterList&)>& set = {}) {
+Basis build(const model::Substructure& part, int modes,
+            const std::function<void(Teuchos::ParameterList&)>& set = {}) {
   Teuchos::ParameterList list("Reduction");
   if (set) set(list.sublist("Krylov"));
   ModeRequest request;

@@ -165,7 +165,7 @@ TEST(LoadVectors, FloatingPiecesAreBalancedByTheirInertia) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = 1;
-  BasisResult basis =
+  Basis basis =
       makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"))->build(part, request);
   addLoadVectors(part, loadsOnly(), basis);
   ASSERT_EQ(basis.modes(), 2);

@@ -9,7 +9,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "io/MatrixMarket.hpp"
 #include "linalg/Deterministic.hpp"
-#include "reduction/Basis.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -100,7 +100,7 @@ TEST(MasslessInteriorModes, FiniteOnesAreComplete) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reduction, MasslessInterior,
-                         testing::ValuesIn(reduction::BasisRegistry::instance().names()),
+                         testing::ValuesIn(reduction::MethodRegistry::instance().names()),
                          [](const auto& basis) {
                            std::string name;
                            for (const char c : basis.param)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// How many modes are kept.
-#include "reduction/ModeChoice.hpp"
+#include "reduction/selection/ModeChoice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Sorting the dofs of a part, and the sentences for what cannot be sorted.
-#include "reduction/Partition.hpp"
+#include "reduction/part/Partition.hpp"
 
 #include <gtest/gtest.h>
 

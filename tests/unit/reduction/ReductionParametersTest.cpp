@@ -46,7 +46,7 @@ TEST(ReductionParameters, AreDescribed) {
   for (const auto& parameter : spec.parameters())
     EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
   ASSERT_NE(spec.findParameter("Basis"), nullptr);
-  EXPECT_EQ(spec.findParameter("Basis")->choices, BasisRegistry::instance().names());
+  EXPECT_EQ(spec.findParameter("Basis")->choices, MethodRegistry::instance().names());
   EXPECT_EQ(spec.findParameter("Cut-off Frequency")->unit, "Hz");
   ASSERT_NE(spec.findList("Anasazi"), nullptr);
   EXPECT_TRUE(spec.findList("Anasazi")->passesThrough());

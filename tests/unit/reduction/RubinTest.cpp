@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "reduction/FreeInterfaceModes.hpp"
+#include "reduction/vectors/FreeInterfaceModes.hpp"
 #include "tests/support/BasisFamilies.hpp"
 
 namespace {
@@ -22,7 +22,7 @@ ModeRequest modes(int count) {
   return request;
 }
 
-std::unique_ptr<Basis> rubin() { return makeBasis("Rubin", Teuchos::ParameterList()); }
+std::unique_ptr<ReductionMethod> rubin() { return makeBasis("Rubin", Teuchos::ParameterList()); }
 
 /// [Phi Psi] by the textbook: all modes, A = 1 - Phi_r Phi_r' M, G with the rigid-body motions
 /// grounded, residual flexibility by differences.
@@ -64,7 +64,7 @@ TEST(Rubin, SpansFreeModesAndResidualAttachmentModes) {
        {0u, 2u, 3u}) {  // clamped, floating between two parts, floating at the end
     const auto& part = frame[p];
     for (const int count : {4, 7}) {
-      const BasisResult basis = rubin()->build(part, modes(count));
+      const Basis basis = rubin()->build(part, modes(count));
       const Matrix M = part.model.mass, expected = textbookSpace(part, basis.partition.kept, count);
       ASSERT_EQ(basis.vectors.cols(), expected.cols());
       EXPECT_LT(missing(expected, Matrix(basis.vectors), M), 1e-7) << part.name;

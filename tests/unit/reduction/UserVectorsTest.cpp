@@ -22,7 +22,7 @@ using namespace tooljoint::reduction;
 
 using Change = std::function<void(Teuchos::ParameterList&)>;
 
-std::unique_ptr<Basis> basisOf(const std::string& file, const Change& change = {}) {
+std::unique_ptr<ReductionMethod> basisOf(const std::string& file, const Change& change = {}) {
   Teuchos::ParameterList list("Reduction");
   list.sublist("User Vectors").set("File", file);
   if (change) change(list.sublist("User Vectors"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A part that is kept whole beside parts that are reduced: exact, sparse, with any basis.
-#include "reduction/WholePart.hpp"
+#include "reduction/methods/WholePart.hpp"
 
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>

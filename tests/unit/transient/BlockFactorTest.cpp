@@ -2,7 +2,7 @@
 /// \file
 /// Blocks, products and factors against dense algebra, on chains, loops, stars, arrows and anything
 /// else.
-#include "linalg/BlockFactor.hpp"
+#include "linalg/blocks/BlockFactor.hpp"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

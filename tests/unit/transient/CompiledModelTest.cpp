@@ -2,7 +2,7 @@
 /// \file
 /// The compiled model says what the model says: laws, products, loads, point forces and their
 /// tangents.
-#include "transient/CompiledModel.hpp"
+#include "transient/compiled/CompiledModel.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "Models.hpp"
 #include "common/Error.hpp"
-#include "linalg/BlockFactor.hpp"
+#include "linalg/blocks/BlockFactor.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::transient::testing {

@@ -2,7 +2,7 @@
 /// \file
 /// Steps of Generalized-alpha that follow their error: what they promise, where they are short,
 /// what they refuse.
-#include "transient/StepControl.hpp"
+#include "transient/accuracy/StepControl.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>

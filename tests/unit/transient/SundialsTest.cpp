@@ -7,7 +7,7 @@
 
 #include "Models.hpp"
 #include "common/Error.hpp"
-#include "transient/FirstOrderForm.hpp"
+#include "transient/schemes/FirstOrderForm.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {

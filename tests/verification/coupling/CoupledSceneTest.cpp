@@ -9,7 +9,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
 #include "estimate/ModeComparison.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace {
 
@@ -26,10 +26,10 @@ TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
   const auto scene = sceneWith({"!Reduction/Modes", "Reduction/All Modes=true",
                                 std::string("Coupling/Assembly=") + GetParam()});
   const auto stage = app::settle(scene);
-  const auto planned = app::plannedParts(scene, stage);
-  const auto whole = app::joinUnreduced(planned);
+  const auto resolved = app::resolvedParts(scene, stage);
+  const auto whole = app::joinUnreduced(resolved);
   const auto reduced =
-      coupling::synthesise(planned.parts, scene.list().sublist("Reduction"), planned.options);
+      coupling::synthesise(resolved.parts, scene.list().sublist("Reduction"), resolved.options);
   EXPECT_EQ(reduced.coupled.multipliers.empty(), std::string(GetParam()) == "Primal");
   const int count = 40;
   const Vector exact = coupling::lowestModes(whole.model, whole.model.size()).values,
@@ -40,7 +40,7 @@ TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
         << "mode " << i + 1;
   // and the shapes, by way of both models' maps
   for (const auto& mode :
-       estimate::compareModes(whole.model, planned.parts, reduced, 12, whole.maps))
+       estimate::compareModes(whole.model, resolved.parts, reduced, 12, whole.maps))
     EXPECT_GT(mode.mac, 1 - 1e-6);
 }
 

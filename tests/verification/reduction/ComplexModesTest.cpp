@@ -101,7 +101,7 @@ TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = 8;
-  const BasisResult basis = makeBasis("Complex Craig-Bampton", list)->build(part, request);
+  const Basis basis = makeBasis("Complex Craig-Bampton", list)->build(part, request);
   const Partition& p = basis.partition;
   std::vector<int> modal;
   for (int k = 0; k < basis.modes(); ++k) modal.push_back(static_cast<int>(p.kept.size()) + k);

@@ -8,9 +8,9 @@
 #include <complex>
 #include <gtest/gtest.h>
 
-#include "coupling/Assembler.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "common/Error.hpp"
-#include "coupling/Assembler.hpp"
-#include "linalg/DirectSolver.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/BasisFamilies.hpp"
 #include "tests/support/SpaceFrame.hpp"
 

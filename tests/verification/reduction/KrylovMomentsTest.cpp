@@ -64,7 +64,7 @@ Pair series(const model::Substructure& part, int modes, double hertz, bool dampe
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = modes;
-  const BasisResult basis = makeBasis("Krylov", list)->build(part, request);
+  const Basis basis = makeBasis("Krylov", list)->build(part, request);
   EXPECT_EQ(basis.modes(), modes);
   const Sparse& Phi = basis.vectors;
   const double s0 = twoPi * hertz;
@@ -154,7 +154,7 @@ double feltError(const std::string& basisName, double hertz) {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = 12;
-  const BasisResult basis = makeBasis(basisName, list)->build(part, request);
+  const Basis basis = makeBasis(basisName, list)->build(part, request);
   const double omega = twoPi * hertz;
   const Sparse Z = constantStiffness(part.model) - omega * omega * part.model.mass;
   const auto felt = [](const Matrix& A, Eigen::Index kept) {

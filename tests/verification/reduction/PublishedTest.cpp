@@ -5,8 +5,8 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
-#include "coupling/Assembler.hpp"
-#include "linalg/EigenSolver.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 #include "substructures/beam/Element.hpp"
 #include "tests/support/SampleParts.hpp"

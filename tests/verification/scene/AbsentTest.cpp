@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-#include "common/Census.hpp"
+#include "common/report/EvaluationCounters.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace {
@@ -17,7 +17,7 @@ model::SecondOrderModel without(std::vector<std::string> overrides) {
   for (const char* override :
        {"!Reduction", "!Substructures", "Transient/End Time=0.02", "Transient/Progress=false"})
     overrides.emplace_back(override);
-  resetCensus();
+  resetEvaluationCounters();
   const auto scene = testing_::reference(overrides);
   auto model = app::fullModel(app::settle(scene));
   testing_::move(scene, model);

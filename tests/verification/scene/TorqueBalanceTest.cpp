@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
+#include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace {

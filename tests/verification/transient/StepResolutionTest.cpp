@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/Error.hpp"
-#include "common/Log.hpp"
+#include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
 #include "tests/unit/transient/Models.hpp"
 
@@ -31,7 +31,7 @@ TransientOptions steps(double h, double end) {
 }
 
 /// 10 Hz: 100 steps a period, 20, 2.
-TEST(StepResolution, refusesStepsThatLoseTheVibration) {
+TEST(StepAccuracy, refusesStepsThatLoseTheVibration) {
   const double w = 2 * 3.14159265358979 * 10;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
   NoSamples sink;
@@ -50,7 +50,7 @@ TEST(StepResolution, refusesStepsThatLoseTheVibration) {
 }
 
 /// Too short for steps to be taken twice: nothing is said of what was not measured.
-TEST(StepResolution, refusesShortRunsByTheLocalErrorAlone) {
+TEST(StepAccuracy, refusesShortRunsByTheLocalErrorAlone) {
   const double w = 2 * 3.14159265358979 * 10;
   NoSamples sink;
   try {
@@ -64,7 +64,7 @@ TEST(StepResolution, refusesShortRunsByTheLocalErrorAlone) {
 }
 
 /// What is damped out long before a step ends does not move any more.
-TEST(StepResolution, passesWhatStandsStillOrCreeps) {
+TEST(StepAccuracy, passesWhatStandsStillOrCreeps) {
   NoSamples sink;
   EXPECT_NO_THROW(integrate(oscillator(1.0, 0.0, 1e8, 0.0, 0.0), steps(5e-2, 20.0), sink));
   auto creeping = oscillator(1e-6, 1e3, 1e3, 1e-3, -1e-3);
@@ -89,7 +89,7 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
 
 /// With r = 1 the scheme has d = 0 and b = 1/4, and A is the acceleration -w^2 q: e = h^2/12
 /// (A_{n+1} - A_n), so R = (w h)^2 / 12. Runs of 300 periods; the bounds of R are 1 % and 2.5 %.
-TEST(StepResolution, judgesVibrationByTheStepsOfAPeriod) {
+TEST(StepAccuracy, judgesVibrationByTheStepsOfAPeriod) {
   const double w = 10;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
   const auto said = [&](double r, bool accept, StepErrors* errors) {
@@ -116,7 +116,7 @@ TEST(StepResolution, judgesVibrationByTheStepsOfAPeriod) {
 
 /// A mass on a spring of 5 Hz in steps of 14 ms, beside a wall: 1.7 % of what moves in a step, a
 /// warning (2.7 % with r = 0.2, an error).
-TEST(StepResolution, saysWhatMakesItWorse) {
+TEST(StepAccuracy, saysWhatMakesItWorse) {
   const std::string loose =
       "Iterations that stop at a Transient/Generalized-alpha/Tolerance of 0.01 add to it";
   const std::string impacts = "Spectral Radius of 0.2 or less";
@@ -143,7 +143,7 @@ TEST(StepResolution, saysWhatMakesItWorse) {
 /// D of a kilometre hanging, its first two seconds, which is measured in contact: dyn beside 0.125
 /// ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with steps of 1 ms. Other gravity (9.80 to 9.83
 /// m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
-TEST(StepResolution, warnsOfAStringThatIsHardlyFollowed) {
+TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
     const auto scene = app::readScene(
         std::string(TOOLJOINT_SOURCE_DIR) + "/xml/vertical_1000m.xml",

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Counts what a run has built and evaluated on this rank, so that tests can assert that what a
+/// deck does not ask for is neither built nor evaluated. Names in use: "mud matrices", "contact
+/// evaluations", "friction evaluations", "gyroscopic matrices", "geometric stiffness", "unbalance
+/// loads", "modes computed", "factorisations", "parts reduced".
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace tooljoint {
+
+/// Add `n` to the counter `what`.
+void count(const std::string& what, long n = 1);
+
+/// The counter itself, for loops that count often: the reference stays valid, also across
+/// resetEvaluationCounters().
+long& counter(const std::string& what);
+
+/// Value of a counter; 0 for one that was never counted.
+long counted(const std::string& what);
+
+/// All counters that are not zero, by name.
+std::map<std::string, long> evaluationCounters();
+
+/// Set every counter to zero.
+void resetEvaluationCounters();
+
+}  // namespace tooljoint

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/assembly/AlignedParts.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "coupling/assembly/Congruence.hpp"
+#include "coupling/input/ComponentAxes.hpp"
+#include "reduction/part/Partition.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using model::DofLabel;
+using model::SecondOrderModel;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A with `more` zero rows and columns.
+Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {
+  Sparse out = A;
+  out.conservativeResize(rows, columns);
+  return out;
+}
+
+/// Puts the interface dofs of a part that has them not as coordinates behind its coordinates.
+void appendBoundary(const reduction::Boundary& boundary, AlignedPart& alignedPart) {
+  auto m = std::make_shared<SecondOrderModel>(*alignedPart.model);
+  const Eigen::Index n = m->size(), all = n + static_cast<Eigen::Index>(boundary.dofs.size());
+  if (boundary.rows.rows() != all - n || boundary.rows.cols() != n ||
+      boundary.offset.size() != all - n || boundary.forces < 0 ||
+      (boundary.forces > 0 && boundary.forces != all - n))
+    throw ModelError("Part \"" + alignedPart.name +
+                     "\": the rows of its interface do not match its " + std::to_string(all - n) +
+                     " interface dofs and " + std::to_string(n) + " coordinates.");
+  changeEachMatrix(*m, [&](model::SharedSparse& A) { A = extended(A, all, all); });
+  for (auto& load : m->loads) load.vector.conservativeResizeLike(Vector::Zero(all));
+  for (auto& set : m->points) set.rows = extended(set.rows, set.rows.rows(), all);
+  m->recovery = extended(m->recovery, m->recovery.rows(), all);
+  m->initialDisplacement.conservativeResize(all);
+  m->initialDisplacement.tail(all - n) = boundary.rows * m->initialDisplacement.head(n);
+  m->initialVelocity.conservativeResize(all);
+  m->initialVelocity.tail(all - n) = boundary.rows * m->initialVelocity.head(n);
+  for (Eigen::Index i = n; i < all; ++i) alignedPart.interface.push_back(static_cast<int>(i));
+  m->dofs.insert(m->dofs.end(), boundary.dofs.begin(), boundary.dofs.end());
+  alignedPart.boundaryRows = boundary.rows;
+  alignedPart.offset.conservativeResize(all);
+  alignedPart.offset.tail(all - n) = boundary.offset;
+  alignedPart.forces = boundary.forces;
+  alignedPart.staticForces = boundary.staticForces;
+  alignedPart.own = m;
+  alignedPart.model = m.get();
+}
+
+}  // namespace
+
+std::vector<AlignedPart> alignParts(const std::vector<reduction::ReducedSubstructure>& parts) {
+  std::vector<AlignedPart> alignedParts;
+  for (const auto& part : parts) {
+    AlignedPart alignedPart;
+    alignedPart.name = part.name;
+    alignedPart.model = &part.model;
+    alignedPart.reduced = true;
+    alignedPart.coordinates = part.model.size();
+    alignedPart.offset = Vector::Zero(part.model.size());
+    const auto& kept = part.boundary ? part.basis->partition.retained : part.basis->partition.kept;
+    for (int i = 0; i < part.interface + part.retained; ++i) {
+      (i < part.interface ? alignedPart.interface : alignedPart.retained).push_back(i);
+      if (part.offset.size() > 0) alignedPart.offset[i] = part.offset[kept[at(i)]];
+    }
+    if (part.boundary) appendBoundary(*part.boundary, alignedPart);
+    alignedParts.push_back(std::move(alignedPart));
+  }
+  return alignedParts;
+}
+
+std::vector<AlignedPart> alignParts(const std::vector<model::Substructure>& parts) {
+  std::vector<AlignedPart> alignedParts;
+  for (const auto& part : parts) {
+    reduction::checkPart(part);
+    AlignedPart alignedPart;
+    alignedPart.name = part.name;
+    alignedPart.model = &part.model;
+    alignedPart.coordinates = part.model.size();
+    alignedPart.interface = part.interface;
+    alignedPart.retained = part.retained;
+    alignedPart.offset = Vector::Zero(part.model.size());
+    alignedParts.push_back(std::move(alignedPart));
+  }
+  return alignedParts;
+}
+
+void alignComponents(std::vector<AlignedPart>& alignedParts) {
+  const auto first = alignedParts.front().model->componentNames;
+  for (auto& alignedPart : alignedParts) {
+    const auto& names = alignedPart.model->componentNames;
+    if (names == first) continue;
+    if (names.size() != first.size() ||
+        !std::is_permutation(names.begin(), names.end(), first.begin()))
+      throw ModelError("Parts \"" + alignedParts.front().name + "\" and \"" + alignedPart.name +
+                       "\" do not speak of the same dofs: the components of a node are " +
+                       quotedList(first) + " in the first and " + quotedList(names) +
+                       " in the second.");
+    auto m = std::make_shared<SecondOrderModel>(*alignedPart.model);
+    const int width = static_cast<int>(first.size());
+    std::vector<int> to;  // of each component of the part
+    for (const auto& name : names)
+      to.push_back(static_cast<int>(std::find(first.begin(), first.end(), name) - first.begin()));
+    for (auto& label : m->dofs)
+      if (label.kind == DofLabel::Kind::Physical) label.component = to[at(label.component)];
+    Triplets rows, order;
+    Vector offset(m->recoveryOffset.size());
+    for (int i = 0; i < m->recovery.rows(); ++i) {
+      const int row = i / width * width + to[at(i % width)];
+      offset[row] = m->recoveryOffset[i];
+      order.emplace_back(row, i, 1.0);
+      for (model::SharedSparse::InnerIterator it(m->recovery, i); it; ++it)
+        rows.emplace_back(row, static_cast<int>(it.col()), it.value());
+    }
+    m->recovery.setFromTriplets(rows.begin(), rows.end());
+    m->recoveryOffset = offset;
+    alignedPart.recoveryTurn = Sparse(m->recovery.rows(), m->recovery.rows());
+    alignedPart.recoveryTurn.setFromTriplets(order.begin(), order.end());
+    m->componentNames = first;
+    alignedPart.own = m;
+    alignedPart.model = m.get();
+  }
+}
+
+namespace {
+
+/// The frames of one part by node.
+class PartFrames {
+ public:
+  void set(const Frame& frame) {
+    if (frame.node == 0) {
+      nodes_.clear();
+      everywhere_ = frame.axes;
+      any_ = true;
+    } else {
+      nodes_[frame.node] = frame.axes;
+    }
+  }
+  bool empty() const { return !any_ && nodes_.empty(); }
+  const std::map<std::int64_t, Matrix3>& nodes() const { return nodes_; }
+  /// Null where the node has none.
+  const Matrix3* of(std::int64_t node) const {
+    const auto it = nodes_.find(node);
+    return it != nodes_.end() ? &it->second : any_ ? &everywhere_ : nullptr;
+  }
+
+ private:
+  std::map<std::int64_t, Matrix3> nodes_;
+  Matrix3 everywhere_ = Matrix3::Identity();
+  bool any_ = false;
+};
+
+void checkRotation(const Frame& frame) {
+  const double defect =
+      (frame.axes.transpose() * frame.axes - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  const std::string who =
+      "The frame of " +
+      (frame.node == 0 ? std::string("all nodes") : "node " + std::to_string(frame.node)) +
+      " of part \"" + frame.part + "\"";
+  if (!(defect <= 1e-8))
+    throw ModelError(who + " is no rotation: its axes are not orthonormal, |axes' axes - 1| = " +
+                     formatNumber(defect) +
+                     ". Give three unit vectors at right angles, as columns.");
+  if (frame.axes.determinant() < 0)
+    throw ModelError(
+        who + " is no rotation: its axes are left-handed. Turn one of them round, or swap two.");
+}
+
+/// Turns one part.
+class Turning {
+ public:
+  Turning(AlignedPart& alignedPart, const PartFrames& frames)
+      : alignedPart_(alignedPart),
+        frames_(frames),
+        axes_(componentAxes(alignedPart.model->componentNames)) {}
+
+  void run() {
+    checkNodes();
+    auto m = std::make_shared<SecondOrderModel>(*alignedPart_.model);
+    const Sparse T = dofTurn();
+    const Sparse back = T.transpose();
+    turnRecovery(*m);
+    substitute(*m, {T, Vector::Zero(T.rows()), m->dofs, back * m->initialDisplacement,
+                    back * m->initialVelocity});
+    alignedPart_.offset = back * alignedPart_.offset;
+    const Eigen::Index n = alignedPart_.coordinates, more = T.rows() - n;
+    if (more > 0)
+      alignedPart_.boundaryRows =
+          Sparse(Sparse(back.bottomRightCorner(more, more)) * alignedPart_.boundaryRows) *
+          Sparse(T.topLeftCorner(n, n));
+    alignedPart_.turn = T;
+    alignedPart_.own = m;
+    alignedPart_.model = m.get();
+  }
+
+ private:
+  void checkNodes() const {
+    for (const auto& [node, axes] : frames_.nodes()) {
+      bool known = std::find(alignedPart_.model->recoveryNodes.begin(),
+                             alignedPart_.model->recoveryNodes.end(),
+                             node) != alignedPart_.model->recoveryNodes.end();
+      for (const auto& label : alignedPart_.model->dofs)
+        known = known || (label.kind == DofLabel::Kind::Physical && label.entity == node);
+      if (!known)
+        throw ModelError("A frame is given for node " + std::to_string(node) + " of part \"" +
+                         alignedPart_.name + "\", but the part has no such node.");
+    }
+  }
+
+  /// q of the part = T * turned coordinates: blocks axes' for the vectors of each node.
+  Sparse dofTurn() {
+    const auto& dofs = alignedPart_.model->dofs;
+    std::map<std::int64_t, std::map<int, int>> nodes;  // node -> component -> position
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      if (dofs[i].kind == DofLabel::Kind::Physical)
+        nodes[dofs[i].entity][dofs[i].component] = static_cast<int>(i);
+    Triplets entries;
+    std::vector<char> turned(dofs.size(), 0);
+    for (const auto& [node, positions] : nodes)
+      if (const Matrix3* axes = frames_.of(node))
+        for (const auto& vector : {axes_.translation, axes_.rotation})
+          turnVector(node, positions, vector, *axes, entries, turned);
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      if (!turned[i]) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+    Sparse T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
+    T.setFromTriplets(entries.begin(), entries.end());
+    return T;
+  }
+
+  /// One of the two vectors of a node: the components the names have, among those the dofs the part
+  /// has.
+  void turnVector(std::int64_t node, const std::map<int, int>& positions,
+                  const std::array<int, 3>& vector, const Matrix3& axes, Triplets& entries,
+                  std::vector<char>& turned) {
+    std::vector<int> have;  // axes
+    for (int a = 0; a < 3; ++a)
+      if (vector[at(a)] >= 0 && positions.count(vector[at(a)]) > 0) have.push_back(a);
+    if (have.empty()) return;
+    Matrix R(have.size(), have.size());
+    for (std::size_t i = 0; i < have.size(); ++i)
+      for (std::size_t j = 0; j < have.size(); ++j)
+        R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = axes(have[j], have[i]);
+    const auto position = [&](std::size_t i) { return positions.at(vector[at(have[i])]); };
+    if ((R * R.transpose() - Matrix::Identity(R.rows(), R.cols())).cwiseAbs().maxCoeff() > 1e-8) {
+      refusePartial(node, positions, vector, have);
+      for (std::size_t i = 0; i < have.size(); ++i)
+        alignedPart_.unturned.insert(alignedPart_.model->dofs[at(position(i))]);
+      return;
+    }
+    for (std::size_t i = 0; i < have.size(); ++i) {
+      turned[at(position(i))] = 1;
+      for (std::size_t j = 0; j < have.size(); ++j) {
+        const double value = R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (value != 0.0) entries.emplace_back(position(i), position(j), value);
+      }
+    }
+  }
+
+  /// A frame mixes dofs of an interface with ones the part does not have.
+  void refusePartial(std::int64_t node, const std::map<int, int>& positions,
+                     const std::array<int, 3>& vector, const std::vector<int>& have) const {
+    const auto& names = alignedPart_.model->componentNames;
+    std::vector<std::string> missing;
+    for (int a = 0; a < 3; ++a)
+      if (std::find(have.begin(), have.end(), a) == have.end())
+        missing.push_back(vector[at(a)] >= 0 ? names[at(vector[at(a)])]
+                                             : "component along axis " + std::to_string(a + 1));
+    for (int a : have) {
+      const int position = positions.at(vector[at(a)]);
+      if (std::find(alignedPart_.interface.begin(), alignedPart_.interface.end(), position) ==
+          alignedPart_.interface.end())
+        continue;
+      throw ModelError("The frame of node " + std::to_string(node) + " of part \"" +
+                       alignedPart_.name + "\" mixes " + names[at(vector[at(a)])] + " with " +
+                       quotedList(missing) +
+                       ", which the part does not have there as an interface or retained dof. Make "
+                       "all of them interface dofs, or give a "
+                       "frame that turns only among those it has.");
+    }
+  }
+
+  /// Rows of the recovery of a node, component by component, into the common frame.
+  void turnRecovery(SecondOrderModel& m) {
+    const int width = static_cast<int>(m.componentNames.size());
+    if (m.recovery.rows() != static_cast<Eigen::Index>(m.recoveryNodes.size()) * width) return;
+    Triplets entries;
+    for (std::size_t n = 0; n < m.recoveryNodes.size(); ++n) {
+      const int first = static_cast<int>(n) * width;
+      const Matrix3* axes = frames_.of(m.recoveryNodes[n]);
+      std::vector<char> done(at(width), 0);
+      for (const auto& vector : {axes_.translation, axes_.rotation})
+        for (int a = 0; axes != nullptr && a < 3; ++a) {
+          if (vector[at(a)] < 0) continue;
+          done[at(vector[at(a)])] = 1;
+          for (int b = 0; b < 3; ++b)
+            if (vector[at(b)] >= 0 && (*axes)(a, b) != 0.0)
+              entries.emplace_back(first + vector[at(a)], first + vector[at(b)], (*axes)(a, b));
+        }
+      for (int c = 0; c < width; ++c)
+        if (!done[at(c)]) entries.emplace_back(first + c, first + c, 1.0);
+    }
+    Sparse R(m.recovery.rows(), m.recovery.rows());
+    R.setFromTriplets(entries.begin(), entries.end());
+    m.recovery = R * m.recovery;
+    m.recoveryOffset = R * m.recoveryOffset;
+    alignedPart_.recoveryTurn =
+        alignedPart_.recoveryTurn.size() > 0 ? Sparse(R * alignedPart_.recoveryTurn) : R;
+  }
+
+  AlignedPart& alignedPart_;
+  const PartFrames& frames_;
+  ComponentAxes axes_;
+};
+
+}  // namespace
+
+void turn(std::vector<AlignedPart>& alignedParts, const std::vector<Frame>& frames) {
+  std::map<std::string, PartFrames> byPart;
+  std::vector<std::string> names;
+  for (const auto& alignedPart : alignedParts) names.push_back(alignedPart.name);
+  for (const auto& frame : frames) {
+    if (std::find(names.begin(), names.end(), frame.part) == names.end()) {
+      const auto meant = closest(frame.part, names);
+      throw ModelError("A frame names part \"" + frame.part + "\", but there is no such part." +
+                       (meant.empty() ? "" : " Did you mean \"" + meant + "\"?"));
+    }
+    checkRotation(frame);
+    byPart[frame.part].set(frame);
+  }
+  for (auto& alignedPart : alignedParts) {
+    const auto it = byPart.find(alignedPart.name);
+    if (it != byPart.end() && !it->second.empty()) Turning(alignedPart, it->second).run();
+  }
+}
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Joins parts into one model by equal labels of their interface dofs and by constraints. Knows
+/// nothing of where the parts came from: any graph of parts (chain, branch, loop) couples.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/input/Connections.hpp"
+#include "model/Substructure.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+
+namespace tooljoint::coupling {
+
+/// A force that joins parts (dual assembly), in two coordinates of the coupled model.
+struct Multiplier {
+  int first = 0;
+  int second = 0;
+  std::string part;     ///< the part it acts on
+  model::DofLabel dof;  ///< the dof of that part it acts on, in the common frame
+  double scale = 1;
+  /// Force [N, N m] by the rest of the model on that dof, for coordinates z.
+  double force(const Vector& z) const { return scale * (z[first] + z[second]); }
+};
+
+/// A coupled model and where the coordinates of the parts went: q_p = maps[p] z + offsets[p].
+struct Coupling {
+  model::SecondOrderModel model;
+  std::vector<std::vector<int>> positions;  ///< positions[p][i]: dof of the coupled model that is
+                                            ///< coordinate i of part p; -1 where it is not just one
+  std::vector<Sparse> maps;           ///< coordinates of part p (in its own frames) x coupled dofs
+  std::vector<Vector> offsets;        ///< zero unless a constraint has a value
+  std::vector<Sparse> recoveryTurns;  ///< recovery rows of part p in the common frame =
+                                      ///< recoveryTurns[p] * its own; empty: the same
+  std::vector<Multiplier> multipliers;  ///< dual assembly
+  std::vector<std::string> remarks;     ///< constraints that say nothing new, for instance
+  std::vector<int> interface;  ///< coupled dofs that join parts: joined physical ones, or the modes
+                               ///< they were reduced to, increasing
+  int joinedDofs =
+      0;  ///< how many of `interface` there are, or were replaced by an interface reduction
+  int dependent = 0;        ///< coordinates that follow the others
+  int interfaceModes = -1;  ///< modes of the interfaces; -1: their dofs are not reduced
+
+  /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).
+  Matrix local(int p, const Matrix& z) const { return maps[static_cast<std::size_t>(p)] * z; }
+  /// Every coordinate of every part is one coupled dof: `positions` says all.
+  bool boolean() const;
+};
+
+/// M, C_i, K_i and loads of all parts in z: A' = sum_p L_p' A_p L_p. Terms of one name and one law
+/// become one term, laws are merged by name, every part keeps its own point sets, recovery rows of
+/// a node that several parts have are taken from the first. Dofs are numbered by a Cuthill-McKee
+/// walk over nodes and modes, so a chain is narrow.
+///
+/// Primal: L = null space of the constraints by sparse elimination, interface dofs first; for equal
+/// labels alone L_p is Boolean. Dual (C. Farhat and F.-X. Roux 1991; D. J. Rixen 2004): with
+/// constraints B q = g, the stationary point of the Lagrangian with multipliers, forces on the dof
+/// each constraint is solved for. Each is split in two (as in Code_Aster, R3.03.01), so that no row
+/// is without a diagonal:
+///
+///     [M . .; . . .; . . .] z'' + [C . .; . . .; . . .] z' + [K -B' -B'; -B -S S; -B S -S] z = [F;
+///     -g; -g],   z = (q, lambda_1, lambda_2)
+///
+/// which means B q = g and lambda_1 = lambda_2, half of the force each, S its stiffness at that
+/// dof. Multipliers carry the node number of that dof, so that block solvers keep them together.
+/// The start has the multipliers that belong to it. Parts with reduction::Boundary have interface
+/// displacements that are no coordinates, u_b = B_p q_p; where their coordinates hold interface
+/// forces (dual Craig-Bampton), these become the multipliers.
+///
+/// Throws ModelError, naming parts and dofs: labels that join nothing, stand twice in a part or
+/// mean an inner dof of another part, different component names, reference or initial states that
+/// differ at a shared dof by more than 1e-9 of the largest, recovery rows of a node that disagree;
+/// a connection with an unknown part, node or component, or with an inner dof of a reduced part;
+/// constraints that contradict each other; a translation tied to a rotation; a frame that is not a
+/// rotation.
+Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts,
+                             const CouplingOptions& options = {});
+Coupling coupleWithPositions(const std::vector<model::Substructure>& parts,
+                             const CouplingOptions& options = {});
+
+model::SecondOrderModel couple(const std::vector<reduction::ReducedSubstructure>& parts,
+                               const CouplingOptions& options = {});
+/// Unreduced parts: the full model put together again.
+model::SecondOrderModel couple(const std::vector<model::Substructure>& parts,
+                               const CouplingOptions& options = {});
+
+/// max |i - j| over the entries of mass, damping and stiffness.
+int halfBandwidth(const model::SecondOrderModel& model);
+
+}  // namespace tooljoint::coupling

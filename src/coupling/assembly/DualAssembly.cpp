@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/assembly/DualAssembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "coupling/assembly/Congruence.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using model::DofLabel;
+using model::SecondOrderModel;
+
+const char* const joiningForces = "joining forces";
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Builder {
+ public:
+  Builder(const std::vector<AlignedPart>& alignedParts, const Labelled& labelled,
+          const Elimination& constraints)
+      : alignedParts_(alignedParts),
+        labelled_(labelled),
+        solved_(constraints.solved),
+        all_(static_cast<int>(labelled.model.dofs.size())) {}
+
+  DualModel run() {
+    out_.model = labelled_.model;
+    findOwners();
+    dropInterfacesThatAreNoCoordinates();
+    addForces();
+    putForcesInPlace();
+    returnImbalance();
+    startConsistently();
+    return std::move(out_);
+  }
+
+ private:
+  int constraints() const { return static_cast<int>(solved_.size()); }
+  int count() const { return 2 * constraints(); }
+
+  void findOwners() {
+    owner_.assign(at(all_), -1);
+    virtual_.assign(at(all_), -1);
+    for (std::size_t p = 0; p < alignedParts_.size(); ++p)
+      for (std::size_t i = 0; i < labelled_.columns[p].size(); ++i) {
+        const int y = labelled_.columns[p][i];
+        if (owner_[at(y)] < 0) owner_[at(y)] = static_cast<int>(p);
+        if (static_cast<int>(i) >= alignedParts_[p].coordinates)
+          virtual_[at(y)] = static_cast<int>(i) - alignedParts_[p].coordinates;
+      }
+  }
+
+  /// y = S (x, lambda): interface displacements that are no coordinates are rows of their part, u_b
+  /// = B_p q_p.
+  void dropInterfacesThatAreNoCoordinates() {
+    std::vector<int> column(at(all_), -1);
+    for (int y = 0; y < all_; ++y)
+      if (virtual_[at(y)] < 0) column[at(y)] = coordinates_++;
+    const int size = coordinates_ + count();
+    Triplets entries;
+    Substitution s;
+    s.initialDisplacement = Vector::Zero(size);
+    s.initialVelocity = Vector::Zero(size);
+    for (int y = 0; y < all_; ++y) {
+      if (virtual_[at(y)] >= 0) {
+        const auto& from = labelled_.columns[at(owner_[at(y)])];
+        for (Sparse::InnerIterator it(alignedParts_[at(owner_[at(y)])].boundaryRows,
+                                      virtual_[at(y)]);
+             it; ++it)
+          entries.emplace_back(y, column[at(from[at(static_cast<int>(it.col()))])], it.value());
+        continue;
+      }
+      entries.emplace_back(y, column[at(y)], 1.0);
+      s.dofs.push_back(labelled_.model.dofs[at(y)]);
+      s.initialDisplacement[column[at(y)]] = labelled_.model.initialDisplacement[y];
+      s.initialVelocity[column[at(y)]] = labelled_.model.initialVelocity[y];
+    }
+    for (const auto& solved : solved_)
+      for (const std::int8_t which : {1, 2}) s.dofs.push_back(labelOf(solved.unknown, which));
+    s.map = Sparse(all_, size);
+    s.map.setFromTriplets(entries.begin(), entries.end());
+    s.offset = Vector::Zero(all_);
+    substitute(out_.model, s);
+    out_.map = s.map;
+    column_ = std::move(column);
+  }
+
+  /// A multiplier stands with the node of its dof, or with the modes of a part whose interface is
+  /// no coordinate.
+  DofLabel labelOf(int unknown, std::int8_t which) const {
+    const DofLabel& label = labelled_.model.dofs[at(unknown)];
+    if (virtual_[at(unknown)] >= 0)
+      return DofLabel::modal(owner_[at(unknown)], virtual_[at(unknown)]).joiningForce(which);
+    return label.joiningForce(which);
+  }
+
+  /// Constraints as rows over all unknowns of `labelled`, y[unknown] - rest = value, twice and
+  /// times the stiffness S of that dof, so that the multipliers are displacements of sorts:
+  ///
+  ///     K -> [K -S B' -S B'; -S B -S S; -S B S -S],   F -> [F; -S g; -S g]
+  void addForces() {
+    const Vector stiffness = diagonalStiffness();
+    Triplets rows, entries;
+    Vector values(count());
+    for (int k = 0; k < constraints(); ++k) {
+      const SolvedRow& solved = solved_[at(k)];
+      const double scale = scaleOf(solved, stiffness);
+      const int first = coordinates_ + 2 * k;
+      for (int row : {2 * k, 2 * k + 1}) {
+        rows.emplace_back(row, solved.unknown, scale);
+        for (const auto& [other, factor] : solved.rest)
+          rows.emplace_back(row, other, -scale * factor);
+        values[row] = scale * solved.value;
+        entries.emplace_back(coordinates_ + row, coordinates_ + row, -scale);
+      }
+      entries.emplace_back(first, first + 1, scale);
+      entries.emplace_back(first + 1, first, scale);
+      out_.multipliers.push_back({first, first + 1,
+                                  alignedParts_[at(owner_[at(solved.unknown)])].name,
+                                  labelled_.model.dofs[at(solved.unknown)], scale});
+    }
+    labelRows_ = Sparse(count(), all_);
+    labelRows_.setFromTriplets(rows.begin(), rows.end());
+    const Sparse B = labelRows_ * out_.map;
+    for (int k = 0; k < B.outerSize(); ++k)
+      for (Sparse::InnerIterator it(B, k); it; ++it) {
+        if (it.value() == 0.0) continue;
+        entries.emplace_back(coordinates_ + k, static_cast<int>(it.col()), -it.value());
+        entries.emplace_back(static_cast<int>(it.col()), coordinates_ + k, -it.value());
+      }
+    const int size = coordinates_ + count();
+    Sparse joining(size, size);
+    joining.setFromTriplets(entries.begin(), entries.end());
+    if (count() > 0) out_.model.stiffness.push_back({joiningForces, joining, 0});
+    if (!values.isZero(0.0)) {
+      Vector load = Vector::Zero(size);
+      load.tail(count()) = -values;
+      out_.model.loads.push_back({"constraint values", load, 0});
+    }
+  }
+
+  /// Of the parts; constant terms.
+  Vector diagonalStiffness() const {
+    Vector diagonal = Vector::Zero(out_.model.mass.rows());
+    for (const auto& term : out_.model.stiffness)
+      if (out_.model.laws[at(term.law)].name == "1" && term.name != joiningForces)
+        diagonal += term.matrix.diagonal();
+    return diagonal;
+  }
+
+  double scaleOf(const SolvedRow& solved, const Vector& stiffness) const {
+    double size = stiffnessOf(solved.unknown, stiffness);
+    for (const auto& [other, factor] : solved.rest)
+      if (size == 0.0) size = stiffnessOf(other, stiffness);
+    return size > 0.0 ? size : 1.0;
+  }
+
+  /// Of one dof; of an interface dof that is no coordinate, what it takes at least to move it by
+  /// its coordinates: forces, and modes that are not rigid-body motion (with rounding for
+  /// stiffness).
+  double stiffnessOf(int unknown, const Vector& stiffness) const {
+    if (virtual_[at(unknown)] < 0) return std::abs(stiffness[column_[at(unknown)]]);
+    const AlignedPart& alignedPart = alignedParts_[at(owner_[at(unknown)])];
+    const auto& from = labelled_.columns[at(owner_[at(unknown)])];
+    const auto place = [&](int i) { return static_cast<Eigen::Index>(column_[at(from[at(i)])]); };
+    const int modes = alignedPart.coordinates - alignedPart.forces;
+    double largest = 0, flexibility = 0;
+    for (int i = 0; i < modes; ++i) largest = std::max(largest, std::abs(stiffness[place(i)]));
+    for (int i = alignedPart.coordinates - 1; i >= 0; --i) {
+      if (i == modes - 1 && flexibility > 0.0) break;  // the residual flexibility says it
+      const double own = std::abs(stiffness[place(i)]), row = out_.map.coeff(unknown, place(i));
+      if (own > (i < modes ? 1e-8 * largest : 0.0))
+        flexibility = std::max(flexibility, row * row / own);
+    }
+    return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
+  }
+
+  /// Coordinates that are interface forces of a part are what the multipliers make them: g = T C'
+  /// lambda, T from the common frame to the part's.
+  void putForcesInPlace() {
+    std::vector<char> replaced(at(coordinates_ + count()), 0);
+    Triplets entries;
+    for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
+      const AlignedPart& alignedPart = alignedParts_[p];
+      if (alignedPart.forces == 0) continue;
+      const int n = alignedPart.coordinates, first = n - alignedPart.forces;
+      Sparse toCommon(alignedPart.forces, all_);
+      Triplets rows;
+      for (int j = 0; j < alignedPart.forces; ++j)
+        for (int i = 0; i < alignedPart.forces; ++i) {
+          const double value = alignedPart.turn.rows() > 0 ? alignedPart.turn.coeff(n + j, n + i)
+                               : i == j                    ? 1.0
+                                                           : 0.0;
+          if (value != 0.0) rows.emplace_back(j, labelled_.columns[p][at(n + i)], value);
+        }
+      toCommon.setFromTriplets(rows.begin(), rows.end());
+      const Sparse C = labelRows_.transpose();
+      const Sparse g = toCommon * C;  // forces x multipliers
+      for (int j = 0; j < alignedPart.forces; ++j) {
+        const int x = column_[at(labelled_.columns[p][at(first + j)])];
+        replaced[at(x)] = 1;
+        for (Sparse::InnerIterator it(g, j); it; ++it)
+          entries.emplace_back(x, coordinates_ + static_cast<int>(it.col()), it.value());
+      }
+    }
+    if (std::find(replaced.begin(), replaced.end(), 1) == replaced.end()) return;
+    Substitution s;
+    int next = 0;
+    std::vector<int> to(replaced.size(), -1);
+    for (std::size_t x = 0; x < replaced.size(); ++x)
+      if (!replaced[x]) {
+        to[x] = next++;
+        s.dofs.push_back(out_.model.dofs[x]);
+      }
+    for (auto& entry : entries) entry = Triplet(entry.row(), to[at(entry.col())], entry.value());
+    s.initialDisplacement.resize(next);
+    s.initialVelocity.resize(next);
+    for (std::size_t x = 0; x < replaced.size(); ++x)
+      if (!replaced[x]) {
+        entries.emplace_back(static_cast<int>(x), to[x], 1.0);
+        s.initialDisplacement[to[x]] = out_.model.initialDisplacement[static_cast<Eigen::Index>(x)];
+        s.initialVelocity[to[x]] = out_.model.initialVelocity[static_cast<Eigen::Index>(x)];
+      }
+    s.map = Sparse(static_cast<Eigen::Index>(replaced.size()), next);
+    s.map.setFromTriplets(entries.begin(), entries.end());
+    s.offset = Vector::Zero(static_cast<Eigen::Index>(replaced.size()));
+    substitute(out_.model, s);
+    out_.map = Sparse(out_.map * s.map);
+    for (auto& multiplier : out_.multipliers) {
+      multiplier.first = to[at(multiplier.first)];
+      multiplier.second = to[at(multiplier.second)];
+    }
+  }
+
+  /// Forces of the static state load the parts (reduction::Boundary). What they leave where parts
+  /// meet is no force between parts but what the static state lacks to equilibrium, and is taken
+  /// back.
+  void returnImbalance() {
+    Vector total = Vector::Zero(all_);
+    for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
+      const AlignedPart& alignedPart = alignedParts_[p];
+      const int n = alignedPart.coordinates;
+      for (int j = 0; j < alignedPart.staticForces.size(); ++j) {
+        for (int i = 0; i < alignedPart.forces; ++i)
+          total[labelled_.columns[p][at(n + i)]] +=
+              (alignedPart.turn.rows() > 0 ? alignedPart.turn.coeff(n + j, n + i)
+               : i == j                    ? 1.0
+                                           : 0.0) *
+              alignedPart.staticForces[j];
+      }
+    }
+    for (const auto& solved : solved_) {
+      for (const auto& [other, factor] : solved.rest)
+        total[other] += factor * total[solved.unknown];
+      total[solved.unknown] = 0;
+    }
+    if (total.isZero(0.0)) return;
+    const Vector load = -(out_.map.transpose() * total);
+    out_.model.loads.push_back({"reference state: imbalance where parts meet", load,
+                                out_.model.lawIndex(model::ScalarLaw::one())});
+  }
+
+  /// Multipliers that nothing but constraints determines, at t = 0 (J: what addForces() has added):
+  ///
+  ///     [M . ; . .] (a, lambda) + J (a, lambda) = (F + R'f - C v - K q, 0)
+  ///
+  /// Coordinates without mass get that of the fastest diagonal frequency of the others, which
+  /// hardly matters to the forces.
+  void startConsistently() {
+    SecondOrderModel& m = out_.model;
+    const Eigen::Index n = m.mass.rows();
+    const Vector mass = m.mass.diagonal(), stiffness = diagonalStiffness();
+    std::vector<char> bare(static_cast<std::size_t>(n), 0);
+    for (const auto& multiplier : out_.multipliers)
+      for (int i : {multiplier.first, multiplier.second})
+        bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0;
+    Vector r = m.loadAt(0.0) + m.pointForce(0.0, m.initialDisplacement, m.initialVelocity) -
+               m.dampingAt(0.0) * m.initialVelocity - m.stiffnessAt(0.0) * m.initialDisplacement;
+    double fastest = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (bare[static_cast<std::size_t>(i)]) r[i] = 0.0;
+      if (mass[i] > 0) fastest = std::max(fastest, std::abs(stiffness[i]) / mass[i]);
+    }
+    if (r.isZero(0.0) || std::find(bare.begin(), bare.end(), 1) == bare.end()) return;
+    Triplets entries;
+    for (int i = 0; i < n; ++i) {
+      for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it)
+        entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      if (mass[i] == 0.0 && !bare[at(i)])
+        entries.emplace_back(
+            i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
+    }
+    for (const auto& term : m.stiffness) {
+      if (term.name != joiningForces) continue;
+      for (int i = 0; i < n; ++i)
+        for (model::SharedSparse::InnerIterator it(term.matrix, i); it; ++it)
+          if (bare[at(i)] != 0 || bare[at(static_cast<int>(it.col()))] != 0)
+            entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+    }
+    Sparse saddle(n, n);
+    saddle.setFromTriplets(entries.begin(), entries.end());
+    const linalg::DirectSolver solver(
+        saddle, [&](int i) { return model::describe(m.dofs[at(i)], m.componentNames); });
+    const Vector x = solver.solve(r);
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (bare[static_cast<std::size_t>(i)]) m.initialDisplacement[i] = x[i];
+  }
+
+  const std::vector<AlignedPart>& alignedParts_;
+  const Labelled& labelled_;
+  const std::vector<SolvedRow>& solved_;
+  const int all_;             ///< coordinates of `labelled`
+  int coordinates_ = 0;       ///< of the model without multipliers
+  std::vector<int> owner_;    ///< per coordinate of `labelled`: its (first) part
+  std::vector<int> virtual_;  ///< row of its part's boundaryRows, -1 for a coordinate
+  std::vector<int> column_;   ///< place among the coordinates
+  Sparse labelRows_;          ///< scaled constraints over `labelled`
+  DualModel out_;
+};
+
+}  // namespace
+
+DualModel addMultipliers(const std::vector<AlignedPart>& alignedParts, const Labelled& labelled,
+                         const Elimination& constraints) {
+  return Builder(alignedParts, labelled, constraints).run();
+}
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/assembly/LabelAssembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "coupling/assembly/Congruence.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using model::DofLabel;
+using model::SecondOrderModel;
+
+/// States and recovery rows of shared dofs may differ by this, relative to the largest value.
+constexpr double agreement = 1e-9;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Labeller {
+ public:
+  Labeller(const std::vector<AlignedPart>& alignedParts, const LabelRules& rules)
+      : alignedParts_(alignedParts), rules_(rules) {}
+
+  Labelled run() {
+    out_.model.componentNames = part(0).componentNames;
+    findJoints();
+    numberDofs();
+    assembleMatrices();
+    assembleLoads();
+    for (int p = 0; p < parts(); ++p)
+      for (const auto& set : part(p).points) {
+        out_.model.points.push_back(set);
+        out_.model.points.back().rows = moveColumns(set.rows, out_.columns[at(p)], size());
+      }
+    assembleStates();
+    assembleRecovery();
+    return std::move(out_);
+  }
+
+ private:
+  const std::string& name(int p) const { return alignedParts_[at(p)].name; }
+  const SecondOrderModel& part(int p) const { return *alignedParts_[at(p)].model; }
+  int parts() const { return static_cast<int>(alignedParts_.size()); }
+  int size() const { return static_cast<int>(out_.model.dofs.size()); }
+  std::string describe(const DofLabel& label) const {
+    return model::describe(label, out_.model.componentNames);
+  }
+  bool released(int p, int i) const { return rules_.released.count({p, i}) > 0; }
+
+  /// Interface dofs by label, and that inner dofs are nobody else's.
+  void findJoints() {
+    std::map<DofLabel, std::vector<DofPosition>> shared;
+    std::map<DofLabel, DofPosition> inner;
+    for (int p = 0; p < parts(); ++p) {
+      std::vector<char> open(at(part(p).size()), 0);
+      for (int i : alignedParts_[at(p)].interface) open[at(i)] = 1;
+      std::map<DofLabel, int> own;
+      for (int i = 0; i < part(p).size(); ++i) {
+        const DofLabel label = labelOf(p, i);
+        if (!own.emplace(label, i).second)
+          throw ModelError("Part \"" + name(p) + "\" has " + describe(label) +
+                           " twice; every dof of a part needs a label of its own.");
+        if (open[at(i)]) {
+          shared[label].push_back({p, i});
+        } else if (const auto [it, fresh] = inner.emplace(label, DofPosition{p, i}); !fresh) {
+          throw ModelError("Parts \"" + name(it->second.part) + "\" and \"" + name(p) +
+                           "\" both have " + describe(label) +
+                           ", but as an inner dof, which nothing can be joined to. Declare it an "
+                           "interface dof of both parts.");
+        }
+      }
+    }
+    for (const auto& [label, places] : shared) {
+      if (const auto it = inner.find(label); it != inner.end())
+        throw ModelError(describe(label) + " is an interface dof of part \"" +
+                         name(places.front().part) + "\" but an inner dof of part \"" +
+                         name(it->second.part) + "\". Declare it an interface dof of both parts.");
+      const DofPosition& first = places.front();
+      if (places.size() < 2 && rules_.attached.count({first.part, first.dof}) == 0 &&
+          !released(first.part, first.dof))
+        throw ModelError("The interface dof " + describe(label) + " of part \"" + name(first.part) +
+                         "\" joins nothing: no other part has it. Check the labels, or take it out "
+                         "of the interface.");
+      Joint joint{label, {}};
+      for (const auto& place : places)
+        if (!released(place.part, place.dof)) joint.places.push_back(place);
+      if (joint.places.size() > 1) out_.joints.push_back(joint);
+      if (places.size() > 1)
+        for (const auto& place : places)
+          if (rules_.apart || released(place.part, place.dof)) own_.insert({place.part, place.dof});
+    }
+  }
+
+  DofLabel labelOf(int p, int i) const {
+    const DofLabel& label = part(p).dofs[at(i)];
+    return label.kind == DofLabel::Kind::Modal ? DofLabel::modal(p, label.component) : label;
+  }
+
+  /// Gives every dof of every part a coordinate; joined ones get the same. Modes are renumbered by
+  /// part.
+  void numberDofs() {
+    out_.columns.resize(at(parts()));
+    std::map<DofLabel, int> numberOf;
+    for (int p = 0; p < parts(); ++p)
+      for (int i = 0; i < part(p).size(); ++i) {
+        const DofLabel label = own_.count({p, i}) > 0 ? labelOf(p, i).of(p) : labelOf(p, i);
+        const auto [it, fresh] = numberOf.emplace(label, size());
+        if (fresh) out_.model.dofs.push_back(label);
+        out_.columns[at(p)].push_back(it->second);
+      }
+    stands_.resize(out_.model.dofs.size());
+    for (int i = 0; i < size(); ++i) stands_[at(i)] = i;
+    for (const auto& joint : out_.joints)
+      for (const auto& place : joint.places)
+        stands_[at(column(place))] = column(joint.places.front());
+  }
+
+  int column(const DofPosition& place) const { return out_.columns[at(place.part)][at(place.dof)]; }
+
+  /// L_p' A L_p as entries.
+  void scatter(int p, const Sparse& A, Triplets& entries) const {
+    const auto& to = out_.columns[at(p)];
+    for (int i = 0; i < A.outerSize(); ++i)
+      for (Sparse::InnerIterator it(A, i); it; ++it)
+        if (it.value() != 0.0)
+          entries.emplace_back(to[at(i)], to[at(static_cast<int>(it.col()))], it.value());
+  }
+
+  Sparse square(const Triplets& entries) const {
+    Sparse A(size(), size());
+    A.setFromTriplets(entries.begin(), entries.end());
+    A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
+    return A;
+  }
+
+  /// Law of a part as an index of the coupled model.
+  int mergedLaw(int p, int law) { return out_.model.lawIndex(part(p).laws[at(law)]); }
+
+  std::vector<model::MatrixTerm> mergeTerms(
+      model::SharedList<model::MatrixTerm> SecondOrderModel::*terms) {
+    std::vector<model::MatrixTerm> merged;
+    std::vector<Triplets> entries;
+    for (int p = 0; p < parts(); ++p)
+      for (const auto& term : part(p).*terms) {
+        const int law = mergedLaw(p, term.law);
+        std::size_t k = 0;
+        while (k < merged.size() && (merged[k].name != term.name || merged[k].law != law)) ++k;
+        if (k == merged.size()) {
+          merged.push_back({term.name, Sparse(), law});
+          entries.emplace_back();
+        }
+        scatter(p, term.matrix, entries[k]);
+      }
+    for (std::size_t k = 0; k < merged.size(); ++k) merged[k].matrix = square(entries[k]);
+    return merged;
+  }
+
+  void assembleMatrices() {
+    Triplets entries;
+    for (int p = 0; p < parts(); ++p) scatter(p, part(p).mass, entries);
+    out_.model.mass = square(entries);
+    out_.model.damping = mergeTerms(&SecondOrderModel::damping);
+    out_.model.stiffness = mergeTerms(&SecondOrderModel::stiffness);
+  }
+
+  void assembleLoads() {
+    auto& loads = out_.model.loads;
+    for (int p = 0; p < parts(); ++p)
+      for (const auto& load : part(p).loads) {
+        const int law = mergedLaw(p, load.law);
+        auto it = std::find_if(loads.begin(), loads.end(), [&](const model::LoadTerm& other) {
+          return other.name == load.name && other.law == law;
+        });
+        if (it == loads.end()) it = loads.insert(it, {load.name, Vector::Zero(size()), law});
+        for (int i = 0; i < part(p).size(); ++i)
+          it->vector[out_.columns[at(p)][at(i)]] += load.vector[i];
+      }
+  }
+
+  /// Puts the values of all parts together; those of joined dofs must agree.
+  template <class ValuesOf>
+  Vector gather(const ValuesOf& valuesOf, const std::string& what,
+                const std::string& advice) const {
+    Vector all = Vector::Zero(size());
+    std::vector<int> from(at(size()), -1);  // of the dof that stands for the joint
+    double largest = 0;
+    for (int p = 0; p < parts(); ++p)
+      largest = std::max(largest, part(p).size() > 0 ? valuesOf(p).cwiseAbs().maxCoeff() : 0.0);
+    for (int p = 0; p < parts(); ++p) {
+      const Vector& values = valuesOf(p);
+      for (int i = 0; i < part(p).size(); ++i) {
+        const int dof = out_.columns[at(p)][at(i)], joint = stands_[at(dof)];
+        int& first = from[at(joint)];
+        if (first < 0) {
+          first = p;
+          all[joint] = values[i];
+        } else if (std::abs(all[joint] - values[i]) > agreement * largest) {
+          throw ModelError("The " + what + " of " + describe(part(p).dofs[at(i)]) + " is " +
+                           formatNumber(all[joint]) + " in part \"" + name(first) + "\" and " +
+                           formatNumber(values[i]) + " in part \"" + name(p) + "\". " + advice);
+        }
+        all[dof] = all[joint];
+      }
+    }
+    return all;
+  }
+
+  void assembleStates() {
+    gather([this](int p) -> const Vector& { return alignedParts_[at(p)].offset; },
+           "reference state", "Parts that meet must be reduced about one state.");
+    const std::string advice = "Parts that meet must start from one state.";
+    out_.model.initialDisplacement =
+        gather([this](int p) -> const Vector& { return part(p).initialDisplacement; },
+               "initial displacement", advice);
+    out_.model.initialVelocity =
+        gather([this](int p) -> const Vector& { return part(p).initialVelocity; },
+               "initial velocity", advice);
+  }
+
+  /// Output rows of a node in one part.
+  struct NodeRows {
+    int part;
+    int firstRow;
+  };
+
+  void assembleRecovery() {
+    const int components = static_cast<int>(out_.model.componentNames.size());
+    std::map<std::int64_t, NodeRows> nodes;
+    std::vector<Sparse> rows;
+    for (int p = 0; p < parts(); ++p) {
+      const SecondOrderModel& m = part(p);
+      const auto expected = static_cast<Eigen::Index>(m.recoveryNodes.size()) * components;
+      if (expected > 0 && (m.recovery.rows() != expected || m.recovery.cols() != m.size() ||
+                           m.recoveryOffset.size() != expected))
+        throw ModelError("Part \"" + name(p) + "\": its recovery rows do not match its " +
+                         std::to_string(m.recoveryNodes.size()) + " output nodes with " +
+                         std::to_string(components) + " components each.");
+      rows.push_back(expected > 0 ? moveColumns(m.recovery, out_.columns[at(p)], size())
+                                  : Sparse(0, size()));
+      for (std::size_t n = 0; n < m.recoveryNodes.size(); ++n) {
+        const NodeRows here{p, static_cast<int>(n) * components};
+        const auto [it, fresh] = nodes.emplace(m.recoveryNodes[n], here);
+        if (!fresh) compareRows(rows, it->second, here, it->first, components);
+      }
+    }
+    Triplets entries;
+    out_.model.recoveryOffset.resize(static_cast<Eigen::Index>(nodes.size()) * components);
+    int row = 0;
+    for (const auto& [node, where] : nodes) {
+      out_.model.recoveryNodes.push_back(node);
+      for (int c = 0; c < components; ++c, ++row) {
+        out_.model.recoveryOffset[row] = part(where.part).recoveryOffset[where.firstRow + c];
+        for (Sparse::InnerIterator it(rows[at(where.part)], where.firstRow + c); it; ++it)
+          entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+      }
+    }
+    out_.model.recovery = Sparse(row, size());
+    out_.model.recovery.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  /// Whether the dof of a node is released in one of the parts, so that its motion differs.
+  bool free(std::int64_t node, int component, int a, int b) const {
+    for (const auto& [p, i] : rules_.released)
+      if ((p == a || p == b) && part(p).dofs[at(i)] == DofLabel::physical(node, component))
+        return true;
+    return false;
+  }
+
+  /// A row in the dofs that stand for joints.
+  Eigen::SparseVector<double> standing(const Sparse& rows, int row) const {
+    Eigen::SparseVector<double> out(size());
+    for (Sparse::InnerIterator it(rows, row); it; ++it)
+      out.coeffRef(stands_[at(static_cast<int>(it.col()))]) += it.value();
+    return out;
+  }
+
+  void compareRows(const std::vector<Sparse>& rows, const NodeRows& a, const NodeRows& b,
+                   std::int64_t node, int components) const {
+    if (alignedParts_[at(a.part)].boundaryRows.rows() > 0 ||
+        alignedParts_[at(b.part)].boundaryRows.rows() > 0)
+      return;
+    for (int c = 0; c < components; ++c) {
+      if (free(node, c, a.part, b.part)) continue;
+      const auto left = standing(rows[at(a.part)], a.firstRow + c);
+      const auto right = standing(rows[at(b.part)], b.firstRow + c);
+      const double leftOffset = part(a.part).recoveryOffset[a.firstRow + c];
+      const double rightOffset = part(b.part).recoveryOffset[b.firstRow + c];
+      const double scale = std::max({1.0, left.norm(), right.norm()});
+      const double offsetScale = std::max({std::abs(leftOffset), std::abs(rightOffset),
+                                           part(a.part).recoveryOffset.cwiseAbs().maxCoeff()});
+      const Eigen::SparseVector<double> difference = left - right;
+      if (difference.norm() > agreement * scale ||
+          std::abs(leftOffset - rightOffset) > agreement * offsetScale)
+        throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) +
+                         " is recovered differently by part \"" + name(a.part) + "\" and part \"" +
+                         name(b.part) +
+                         "\". A node that two parts share must be joined in every dof, or "
+                         "recovered by one of them only.");
+    }
+  }
+
+  const std::vector<AlignedPart>& alignedParts_;
+  const LabelRules& rules_;
+  std::set<std::pair<int, int>> own_;  ///< (part, dof): one of several of its label, and by itself
+  std::vector<int> stands_;  ///< per coordinate: the first of those it is or will be joined to
+  Labelled out_;
+};
+
+}  // namespace
+
+Labelled joinByLabels(const std::vector<AlignedPart>& alignedParts, const LabelRules& rules) {
+  return Labeller(alignedParts, rules).run();
+}
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What joins parts beyond equal labels: frames, dofs left free, linear constraints, point laws
+/// between parts. All of it is said in nodes, components and names of parts, and in the common
+/// frame where a node has a frame of its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "model/Substructure.hpp"
+
+namespace tooljoint::coupling {
+
+/// A node of a part.
+struct PartNode {
+  std::string part;  ///< name of the part; empty: any part that has the node
+  std::int64_t node = 0;
+};
+
+/// A dof of a part, which must be an interface or a retained dof of it when the part is reduced.
+struct PartDof {
+  std::string part;  ///< name of the part; empty: the parts that have it share it
+  std::int64_t node = 0;
+  std::string component;  ///< one of the model's componentNames
+};
+
+/// factor * displacement of the dof, in the common frame.
+struct Term {
+  PartDof dof;
+  double factor = 1;
+};
+
+/// sum_k factor_k d_k = value. [value: m, rad, or what the factors make of it]
+struct Constraint {
+  std::string name;  ///< for messages; empty: "constraint 3"
+  std::vector<Term> terms;
+  double value = 0;
+  bool sameKind = false;  ///< the terms must be all translations or all rotations (tie() sets it)
+};
+
+/// The triad in which a part gives the dofs of a node: columns are its axes in the common frame,
+/// d_common = axes d_part, for the three translations and the three rotations alike; in a plane (u,
+/// v, theta) a turn about the third axis. All of the turned components of the node must be dofs of
+/// the part that others can see (interface or retained), or none of them.
+struct Frame {
+  std::string part;
+  std::int64_t node = 0;  ///< 0: all nodes of the part (a later entry for a node replaces it)
+  Matrix3 axes = Matrix3::Identity();
+};
+
+/// A point law on dofs of any parts: coordinate r of the law is offset_r + sum_k factor_k d_k.
+struct Connector {
+  std::string name;                            ///< of the point set
+  std::shared_ptr<const model::PointLaw> law;  ///< src/coupling/input/PointLaws.hpp, or any other
+  std::vector<std::vector<Term>> rows;         ///< size() * width() of the law, point by point
+  Vector offset;                               ///< likewise; zero if empty
+};
+
+/// Everything that joins parts apart from labels.
+struct Connections {
+  std::vector<Frame> frames;
+  std::vector<PartDof> released;  ///< dofs that are not joined although their labels are equal
+                                  ///< (hinges, slides); without a part: free in every part
+  std::vector<Constraint> constraints;
+  std::vector<Connector> connectors;
+  bool empty() const {
+    return frames.empty() && released.empty() && constraints.empty() && connectors.empty();
+  }
+};
+
+/// How constraints and equal labels are enforced.
+enum class Assembly {
+  Primal,  ///< coordinates are eliminated: q = L z
+  Dual,  ///< every part keeps its coordinates; Lagrange multipliers, the forces between parts, are
+         ///< coordinates without mass
+};
+
+struct CouplingOptions {
+  Assembly assembly = Assembly::Primal;
+  Connections connections;
+};
+
+// Makers of connections. Component names are looked up by meaning: "u" "v" "w" (or "x", "ux", "u_x"
+// ...) are translations, "theta_x" "theta_y" "theta_z" (or "rx", "phi_x" ...) rotations; "theta"
+// alone is the rotation in the plane. ModelError when a needed one does not exist.
+
+/// a = b.
+Constraint tie(const PartDof& a, const PartDof& b);
+/// `to` moves as if it were rigidly fixed to `from`: u_to = u_from + theta_from x arm, theta_to =
+/// theta_from. One constraint per component the names have. \param arm from `from` to `to`, in the
+/// common frame [m]
+std::vector<Constraint> rigidLink(const PartNode& from, const PartNode& to, const Vector3& arm,
+                                  const model::ComponentNames& names);
+/// The nodes share their translations and the rotations across the axis; about the axis (any
+/// length) they turn freely. The nodes must not be joined by their labels: give them different
+/// numbers, or release the dofs.
+std::vector<Constraint> hinge(const PartNode& a, const PartNode& b, const Vector3& axis,
+                              const model::ComponentNames& names);
+/// b's displacement minus a's along `direction` (normalised) in the common frame, as a row of a
+/// connector. Components that the names lack are left out.
+std::vector<Term> separation(const PartNode& a, const PartNode& b, const Vector3& direction,
+                             const model::ComponentNames& names);
+
+/// Parts that number their nodes for themselves, as files do: gives every node a number of its own,
+/// (p + 1) 10^k + node for part p (0-based) with the smallest k that has room, and one number, that
+/// of the first, to the nodes of each joint, so that they are joined by their labels. Renames dofs,
+/// recovery nodes and points. `interface` is taken as given, and extended by the dofs of the
+/// joints. ModelError: a joint names a part or node that does not exist, or two nodes of one part.
+std::vector<model::Substructure> numberTogether(const std::vector<model::Substructure>& parts,
+                                                const std::vector<std::vector<PartNode>>& joints);
+
+}  // namespace tooljoint::coupling

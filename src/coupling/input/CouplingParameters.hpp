@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The deck list `Coupling`: how parts are joined beyond equal labels. Read without any part, then
+/// turned into connections when the parts are there, wherever they came from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/input/Connections.hpp"
+#include "coupling/input/PointLaws.hpp"
+#include "deck/ListSpec.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::coupling {
+
+/// An entry of one of the lists: its name, and its path in the deck for messages.
+struct InputEntry {
+  std::string name;
+  std::string path;
+};
+
+struct JointInput : InputEntry {
+  std::vector<PartNode> nodes;
+};
+struct FrameInput : InputEntry {
+  Frame frame;
+};
+struct ReleaseInput : InputEntry {
+  PartNode node;
+  std::vector<std::string> components;
+};
+struct ConstraintInput : InputEntry {
+  Constraint constraint;
+};
+struct LinkInput : InputEntry {
+  PartNode from, to;
+  Vector3 arm = Vector3::Zero();
+};
+struct HingeInput : InputEntry {
+  PartNode first, second;
+  Vector3 axis = Vector3::UnitZ();
+};
+/// A point law of width 1, or of width 1 + tangents for a stop with friction.
+struct PointInput : InputEntry {
+  PartNode first;
+  std::optional<PartNode> second;  ///< none: the ground
+  std::optional<Vector3> direction;
+  std::string component;  ///< instead of a direction
+  std::shared_ptr<const model::PointLaw> law;
+  std::optional<StopParameters> sliding;  ///< friction of a stop: the law is made when it is known
+                                          ///< how many tangents there are
+};
+
+struct CouplingInput {
+  Assembly assembly = Assembly::Primal;
+  bool ownNumbers = false;  ///< every part numbers its nodes for itself, and joints join them
+  bool keepStaticForces = true;
+  std::vector<JointInput> joints;
+  std::vector<FrameInput> frames;
+  std::vector<ReleaseInput> releases;
+  std::vector<ConstraintInput> constraints;
+  std::vector<LinkInput> links;
+  std::vector<HingeInput> hinges;
+  std::vector<PointInput> points;
+};
+
+/// Description of the list `Coupling`.
+deck::ListSpec parameters();
+
+/// Throws DeckError: a node that is not written PART:NODE, not exactly one of Direction and
+/// Component, axes that are not perpendicular, factors that are not as many as terms, joints of
+/// parts whose numbers are shared.
+CouplingInput readCoupling(const Teuchos::ParameterList& list);
+
+/// What is known of a part before it is made.
+struct PartOutline {
+  std::string name;
+  std::vector<std::int64_t> nodes;  ///< empty: not known yet
+};
+/// Throws DeckError, one line each, for parts, nodes and components that the plan names and that do
+/// not exist, with path and suggestion.
+void checkNames(const CouplingInput& input, const std::vector<PartOutline>& parts,
+                const model::ComponentNames& names);
+
+/// "4 springs, 1 hinge": for people.
+std::string describe(const CouplingInput& input);
+
+}  // namespace tooljoint::coupling

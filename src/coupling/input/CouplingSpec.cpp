@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of the list Coupling.
+#include "coupling/input/ComponentAxes.hpp"
+#include "coupling/input/CouplingParameters.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using deck::Range;
+
+deck::ListSpec jointSpec() {
+  deck::ListSpec entry("Joint", "Nodes in one place; the name is free.");
+  entry.textArray("Nodes", deck::Required{}, {}, "Nodes that become one, written PART:NODE.");
+  return deck::ListSpec("Joints",
+                        "Nodes of parts that number theirs for themselves (Node Numbers = Own), "
+                        "joined in all their components.")
+      .namedLists(entry);
+}
+
+deck::ListSpec frameSpec() {
+  deck::ListSpec entry("Frame", "Axes of one part, or of one node of it; the name is free.");
+  entry.text("Part", deck::Required{}, "Name of the part.")
+      .integer("Node", deck::Optional{}, Range::atLeast(1),
+               "Node whose dofs are in these axes; without it, all nodes of the part.")
+      .realArray("Axis 1", "", deck::Required{}, Range::any(),
+                 "First axis of the part in the common frame, three numbers of any length.")
+      .realArray("Axis 2", "", deck::Required{}, Range::any(),
+                 "Second axis, perpendicular to the first; the third makes them right-handed.");
+  return deck::ListSpec("Frames",
+                        "Parts that have their dofs in axes of their own; connections and joints "
+                        "are meant in the common frame.")
+      .namedLists(entry);
+}
+
+deck::ListSpec releaseSpec() {
+  deck::ListSpec entry("Release",
+                       "A node of a part that is not joined in some components; the name is free.");
+  entry
+      .text("Node", deck::Required{},
+            "Node, PART:NODE, or NODE alone: free in every part that has it.")
+      .text("Components", deck::Required{},
+            "Components that are not joined there, separated by blanks.");
+  return deck::ListSpec("Releases",
+                        "Dofs that are not joined although their labels are equal: slides, hinges.")
+      .namedLists(entry);
+}
+
+deck::ListSpec constraintSpec() {
+  deck::ListSpec entry(
+      "Constraint",
+      "One linear equation between dofs, measured from the reference states; the name is free.");
+  entry.textArray("Terms", deck::Required{}, {}, "Dofs, written PART:NODE:COMPONENT.")
+      .realArray("Factors", "", deck::Required{}, Range::any(), "Factor of each term.")
+      .real("Value", "", 0.0, Range::any(),
+            "What the sum of the terms times their factors is held at.");
+  return deck::ListSpec("Constraints", "Multipoint constraints.").namedLists(entry);
+}
+
+deck::ListSpec linkSpec() {
+  deck::ListSpec entry(
+      "Link", "A node that moves as if it were rigidly fixed to another; the name is free.");
+  entry.text("From", deck::Required{}, "Node that leads, PART:NODE.")
+      .text("To", deck::Required{}, "Node that follows, PART:NODE.")
+      .realArray("Arm", "m", deck::Required{}, Range::any(),
+                 "From the first to the second node in the common frame, three numbers.");
+  return deck::ListSpec("Rigid Links", "Rigid arms between nodes.").namedLists(entry);
+}
+
+deck::ListSpec hingeSpec() {
+  deck::ListSpec entry(
+      "Hinge",
+      "Two nodes that share everything but the rotation about one axis; the name is free.");
+  entry.text("First", deck::Required{}, "Node, PART:NODE.")
+      .text("Second", deck::Required{},
+            "Node, PART:NODE; of the same number, its dofs are released first.")
+      .realArray("Axis", "", deck::Required{}, Range::any(),
+                 "Axis in the common frame, three numbers of any length.");
+  return deck::ListSpec("Hinges", "Hinges between parts.").namedLists(entry);
+}
+
+/// Where a point law acts.
+deck::ListSpec& ends(deck::ListSpec& entry) {
+  return entry.text("First", deck::Required{}, "Node, PART:NODE.")
+      .text("Second", deck::Optional{},
+            "Node, PART:NODE; without it the ground, and the separation is the displacement of "
+            "First.")
+      .realArray("Direction", "", deck::Optional{}, Range::any(),
+                 "Direction of the separation (Second minus First) in the common frame, three "
+                 "numbers of any length; this or Component.")
+      .text("Component", deck::Optional{},
+            "Component whose difference is the separation, a rotation for instance; this or "
+            "Direction.");
+}
+
+deck::ListSpec springSpec() {
+  deck::ListSpec entry("Spring", "A spring with a dashpot beside it; the name is free.");
+  ends(entry)
+      .real("Stiffness", "N/m or N m/rad", 0.0, Range::nonNegative(),
+            "Stiffness, along a translation or about a rotation.")
+      .unitBy("Component", unitByKind("N/m", "N m/rad", "N/m"))
+      .real("Cubic Stiffness", "N/m3 or N m/rad3", 0.0, Range::nonNegative(),
+            "Factor of the cube of the separation.")
+      .unitBy("Component", unitByKind("N/m3", "N m/rad3", "N/m3"))
+      .real("Damping", "N s/m or N m s/rad", 0.0, Range::nonNegative(),
+            "Damping, along a translation or about a rotation.")
+      .unitBy("Component", unitByKind("N s/m", "N m s/rad", "N s/m"));
+  return deck::ListSpec("Springs", "Springs and dashpots between parts or to the ground.")
+      .namedLists(entry);
+}
+
+deck::ListSpec stopSpec() {
+  deck::ListSpec entry(
+      "Stop", "A stop that is met when the separation falls to minus the gap; the name is free.");
+  ends(entry)
+      .real("Gap", "m", 0.0, Range::any(),
+            "Separation left in the reference state; negative: pressed together.")
+      .real("Stiffness", "N/m", deck::Required{}, Range::positive(), "Contact stiffness.")
+      .real("Damping", "s/m", 0.0, Range::nonNegative(),
+            "Damping factor of Hunt and Crossley (1975).")
+      .real("Smoothing", "m", 0.0, Range::nonNegative(),
+            "Half width of the quadratic transition at touch.")
+      .real("Friction", "", 0.0, Range::nonNegative(),
+            "Coulomb friction coefficient across the direction; 0: none. Needs a Direction.")
+      .real("Slip Velocity", "m/s", 1e-3, Range::positive(),
+            "Regularisation velocity of the friction.");
+  return deck::ListSpec("Stops", "One-sided contacts between parts or with the ground.")
+      .namedLists(entry);
+}
+
+deck::ListSpec sliderSpec() {
+  deck::ListSpec entry("Slider", "Coulomb friction of constant size; the name is free.");
+  ends(entry)
+      .real("Force", "N or N m", deck::Required{}, Range::positive(),
+            "Sliding force, or moment about a rotation.")
+      .unitBy("Component", unitByKind("N", "N m", "N"))
+      .real("Slip Velocity", "m/s", 1e-3, Range::positive(), "Regularisation velocity.");
+  return deck::ListSpec("Sliders", "Dry friction between parts or to the ground.")
+      .namedLists(entry);
+}
+
+}  // namespace
+
+deck::ListSpec parameters() {
+  deck::ListSpec list("Coupling",
+                      "What joins parts beyond equal node numbers. Displacements are measured from "
+                      "the reference (static) states of the parts. A node "
+                      "is written PART:NODE with the name of the part, as tooljoint check lists "
+                      "them, or NODE alone where all parts that have it are joined.");
+  list.choice("Assembly", std::string("Primal"), {"Primal", "Dual"},
+              "Primal: joined dofs become one coordinate. Dual: every reduced part keeps its own, "
+              "and Lagrange multipliers, the forces between parts, join them; needs an "
+              "implicit integrator. The full model is always primal.");
+  list.choice("Node Numbers", std::string("Shared"), {"Shared", "Own"},
+              "Shared: equal numbers are one node, wherever they stand. Own: every part numbers "
+              "its nodes for itself, and only Joints join them.");
+  list.boolean(
+      "Keep Static Forces", true,
+      "Released dofs keep the force they carry in the static state as a constant load on both "
+      "sides, so that the model stays at rest there; otherwise it starts with a jump.");
+  for (auto& sublist : {jointSpec(), frameSpec(), releaseSpec(), constraintSpec(), linkSpec(),
+                        hingeSpec(), springSpec(), stopSpec(), sliderSpec()})
+    list.list(sublist);
+  return list;
+}
+
+}  // namespace tooljoint::coupling

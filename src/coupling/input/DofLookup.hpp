@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Looks up the dofs that connections name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/assembly/AlignedParts.hpp"
+#include "coupling/input/Connections.hpp"
+
+namespace tooljoint::coupling {
+
+/// A coordinate of an aligned part.
+struct DofPosition {
+  int part = 0;
+  int dof = 0;
+};
+
+class DofLookup {
+ public:
+  explicit DofLookup(const std::vector<AlignedPart>& alignedParts);
+
+  /// Where the dof stands: one place, or all of them when no part is named. `who` opens messages:
+  /// `The constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an
+  /// inner dof of a reduced part, or one that a frame could not turn.
+  std::vector<DofPosition> find(const PartDof& dof, const std::string& who) const;
+  const model::ComponentNames& names() const { return alignedParts_.front().model->componentNames; }
+
+ private:
+  int partNumber(const std::string& name, const std::string& who) const;
+  int component(const std::string& name, const std::string& who) const;
+  bool hasNode(int part, std::int64_t node) const;
+
+  const std::vector<AlignedPart>& alignedParts_;
+};
+
+/// `u of node 4 of part "beam"`.
+std::string describe(const PartDof& dof);
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/interface/InterfaceReduction.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "coupling/assembly/Congruence.hpp"
+#include "reduction/part/Partition.hpp"
+
+namespace tooljoint::coupling {
+
+namespace {
+
+using model::DofLabel;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Reducer {
+ public:
+  Reducer(Coupling& coupling, const reduction::InterfaceBasis& basis)
+      : coupling_(coupling), model_(coupling.model), basis_(basis) {}
+
+  void run() {
+    if (!coupling_.multipliers.empty())
+      throw ModelError(
+          "An interface reduction needs joined dofs, but dual assembly leaves every part its own. "
+          "Set the assembly to Primal, or leave the interface "
+          "reduction out.");
+    choose();
+    coupling_.joinedDofs = static_cast<int>(reduced_.size());
+    if (reduced_.empty()) {
+      coupling_.interfaceModes = 0;
+      coupling_.remarks.push_back(
+          "There is no joined dof to reduce: point laws act on all of them.");
+      return;
+    }
+    const auto problem = makeProblem();
+    const auto vectors = basis_.build(problem);
+    coupling_.interfaceModes = static_cast<int>(vectors.vectors.cols());
+    apply(problem, vectors);
+  }
+
+ private:
+  void choose() {
+    std::vector<char> loaded(model_.dofs.size(), 0);
+    if (basis_.keepsPointLaws())
+      for (const auto& set : model_.points)
+        for (int r = 0; r < set.rows.outerSize(); ++r)
+          if (!throughModes(set.rows, r))
+            for (Sparse::InnerIterator it(set.rows, r); it; ++it)
+              if (it.value() != 0.0) loaded[at(static_cast<int>(it.col()))] = 1;
+    std::vector<char> joined(model_.dofs.size(), 0);
+    for (int i : coupling_.interface) joined[at(i)] = !loaded[at(i)];
+    for (int i = 0; i < model_.size(); ++i) (joined[at(i)] ? reduced_ : others_).push_back(i);
+  }
+
+  /// Whether the coordinate belongs to an inner dof of a reduced part, which the joined dofs only
+  /// carry along.
+  bool throughModes(const Sparse& rows, int r) const {
+    for (Sparse::InnerIterator it(rows, r); it; ++it)
+      if (it.value() != 0.0 &&
+          model_.dofs[at(static_cast<int>(it.col()))].kind == DofLabel::Kind::Modal)
+        return true;
+    return false;
+  }
+
+  /// Interfaces: the sets of parts that a dof joins, in the order of their first dof.
+  std::vector<int> groups(int& count) const {
+    std::vector<std::vector<int>> partsOf(model_.dofs.size());
+    for (std::size_t p = 0; p < coupling_.maps.size(); ++p)
+      for (int i = 0; i < coupling_.maps[p].outerSize(); ++i)
+        for (Sparse::InnerIterator it(coupling_.maps[p], i); it; ++it) {
+          auto& parts = partsOf[at(static_cast<int>(it.col()))];
+          if (parts.empty() || parts.back() != static_cast<int>(p))
+            parts.push_back(static_cast<int>(p));
+        }
+    std::map<std::vector<int>, int> number;
+    std::vector<int> group;
+    for (int i : reduced_)
+      group.push_back(
+          number.emplace(partsOf[at(i)], static_cast<int>(number.size())).first->second);
+    count = static_cast<int>(number.size());
+    return group;
+  }
+
+  reduction::InterfaceProblem makeProblem() const {
+    reduction::InterfaceProblem problem;
+    const Sparse K = reduction::constantStiffness(model_);
+    problem.stiffness = reduction::block(K, reduced_, reduced_);
+    problem.mass = reduction::symmetricPart(reduction::block(model_.mass, reduced_, reduced_));
+    problem.coupling = reduction::block(K, reduced_, others_);
+    problem.interface = groups(problem.interfaces);
+    problem.loads.resize(static_cast<Eigen::Index>(reduced_.size()),
+                         static_cast<Eigen::Index>(model_.loads.size()));
+    for (std::size_t j = 0; j < model_.loads.size(); ++j)
+      for (std::size_t i = 0; i < reduced_.size(); ++i)
+        problem.loads(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            model_.loads[j].vector[reduced_[i]];
+    problem.name = [this](int i) {
+      return model::describe(model_.dofs[at(reduced_[at(i)])], model_.componentNames);
+    };
+    return problem;
+  }
+
+  /// Old coordinates from (others, modes).
+  void apply(const reduction::InterfaceProblem& problem,
+             const reduction::InterfaceVectors& vectors) {
+    const auto kept = static_cast<int>(others_.size()),
+               modes = static_cast<int>(vectors.vectors.cols());
+    Triplets entries;
+    Substitution s;
+    s.initialDisplacement = Vector::Zero(kept + modes);
+    s.initialVelocity = Vector::Zero(kept + modes);
+    for (int j = 0; j < kept; ++j) {
+      entries.emplace_back(others_[at(j)], j, 1.0);
+      s.dofs.push_back(model_.dofs[at(others_[at(j)])]);
+      s.initialDisplacement[j] = model_.initialDisplacement[others_[at(j)]];
+      s.initialVelocity[j] = model_.initialVelocity[others_[at(j)]];
+    }
+    std::vector<int> next(at(std::max(1, problem.interfaces)), 0);
+    for (int k = 0; k < modes; ++k)
+      s.dofs.push_back(
+          DofLabel::interfaceMode(vectors.interface[at(k)], next[at(vectors.interface[at(k)])]++));
+    for (int i = 0; i < static_cast<int>(reduced_.size()); ++i) {
+      for (int k = 0; k < modes; ++k)
+        if (vectors.vectors(i, k) != 0.0)
+          entries.emplace_back(reduced_[at(i)], kept + k, vectors.vectors(i, k));
+      for (Sparse::InnerIterator it(vectors.attached, i); it; ++it)
+        entries.emplace_back(reduced_[at(i)], static_cast<int>(it.col()), it.value());
+    }
+    s.map = Sparse(model_.size(), kept + modes);
+    s.map.setFromTriplets(entries.begin(), entries.end());
+    s.offset = Vector::Zero(model_.size());
+    s.initialDisplacement.tail(modes) =
+        fit(problem, vectors, model_.initialDisplacement, s.initialDisplacement.head(kept));
+    s.initialVelocity.tail(modes) =
+        fit(problem, vectors, model_.initialVelocity, s.initialVelocity.head(kept));
+    substitute(model_, s);
+    const auto position = narrowNumbering(model_);
+    renumber(model_, position);
+    const Sparse map = moveColumns(s.map, position, s.map.cols());
+    for (std::size_t p = 0; p < coupling_.maps.size(); ++p) {
+      coupling_.maps[p] = Sparse(coupling_.maps[p] * map);
+      coupling_.positions[p] = positionsOf(coupling_.maps[p]);
+    }
+    coupling_.interface.clear();
+    for (std::size_t i = 0; i < model_.dofs.size(); ++i)
+      if (model_.dofs[i].kind == DofLabel::Kind::Interface)
+        coupling_.interface.push_back(static_cast<int>(i));
+  }
+
+  /// xi with Psi xi = u - Psi_C u_C in least squares of mass: (Psi' M Psi) xi = Psi' M (u - Psi_C
+  /// u_C).
+  Vector fit(const reduction::InterfaceProblem& problem, const reduction::InterfaceVectors& vectors,
+             const Vector& state, const Vector& others) const {
+    Vector u(static_cast<Eigen::Index>(reduced_.size()));
+    for (std::size_t i = 0; i < reduced_.size(); ++i)
+      u[static_cast<Eigen::Index>(i)] = state[reduced_[i]];
+    u -= vectors.attached * others;
+    if (u.isZero(0.0) || vectors.vectors.cols() == 0) return Vector::Zero(vectors.vectors.cols());
+    const Matrix weighted = problem.mass * vectors.vectors;
+    return (vectors.vectors.transpose() * weighted).ldlt().solve(weighted.transpose() * u);
+  }
+
+  Coupling& coupling_;
+  model::SecondOrderModel& model_;
+  const reduction::InterfaceBasis& basis_;
+  std::vector<int> reduced_, others_;
+};
+
+}  // namespace
+
+void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis) {
+  Reducer(coupling, basis).run();
+}
+
+}  // namespace tooljoint::coupling

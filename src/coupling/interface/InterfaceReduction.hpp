@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The joined dofs of a coupled model in fewer coordinates.
+#pragma once
+
+#include "coupling/assembly/Assembler.hpp"
+#include "reduction/methods/InterfaceBasis.hpp"
+
+namespace tooljoint::coupling {
+
+/// Replaces the joined dofs (but those with point laws, where the basis keeps them) by modes of the
+/// interfaces, u = Psi xi + Psi_C u_C, in all matrices, loads, point rows, recovery and maps; a
+/// start that is not in their span is fitted in least squares of mass. A coupled model without
+/// joined dofs is left alone. ModelError for a model with multipliers.
+void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis);
+
+}  // namespace tooljoint::coupling

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/blocks/BlockFactor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "common/Error.hpp"
+#include "linalg/blocks/BlockKernels.hpp"
+
+namespace tooljoint::linalg {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t word = 64;  // bits
+
+void set(std::vector<std::uint64_t>& bits, std::size_t i) {
+  bits[i / word] |= std::uint64_t{1} << (i % word);
+}
+void clear(std::vector<std::uint64_t>& bits, std::size_t i) {
+  bits[i / word] &= ~(std::uint64_t{1} << (i % word));
+}
+
+/// act(i) for each bit i that is set, upwards or downwards; those that act() sets further on are
+/// met too.
+template <class Act>
+TOOLJOINT_INLINED void upwards(const std::vector<std::uint64_t>& bits, const Act& act) {
+  for (std::size_t w = 0; w < bits.size(); ++w)
+    for (std::uint64_t left = ~std::uint64_t{0}; (bits[w] & left) != 0;) {
+      const auto bit = static_cast<std::size_t>(__builtin_ctzll(bits[w] & left));
+      left = bit == word - 1 ? 0 : ~std::uint64_t{0} << (bit + 1);
+      act(w * word + bit);
+    }
+}
+template <class Act>
+TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const Act& act) {
+  for (std::size_t w = bits.size(); w-- > 0;)
+    for (std::uint64_t left = ~std::uint64_t{0}; (bits[w] & left) != 0;) {
+      const auto bit = word - 1 - static_cast<std::size_t>(__builtin_clzll(bits[w] & left));
+      left = (std::uint64_t{1} << bit) - 1;
+      act(w * word + bit);
+    }
+}
+
+}  // namespace
+
+/// Blocks are taken by least work width * (width of the later neighbours)^2; ties go to the one
+/// that waited longest, which makes a chain shrink from both ends in turn and so gives the
+/// processor two independent sweeps.
+void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
+                        std::vector<std::vector<int>>& later) const {
+  const int n = pattern.blocks();
+  std::vector<std::set<int>> graph(z(n));
+  for (int b = 0; b < n; ++b)
+    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
+      if (pattern.column(e) != b) graph[z(b)].insert(pattern.column(e));
+  const auto work = [&](int b) {
+    double neighbours = 0;
+    for (int c : graph[z(b)]) neighbours += pattern.width(c);
+    return static_cast<long>(graph[z(b)].size() < 2 ? 0
+                                                    : pattern.width(b) * neighbours * neighbours);
+  };
+  std::set<std::tuple<long, int, int>> queue;  // work, waiting since, block
+  std::vector<std::tuple<long, int, int>> key(z(n));
+  for (int b = 0; b < n; ++b) queue.insert(key[z(b)] = {work(b), b, b});
+  later.assign(z(n), {});
+  for (int clock = n; !queue.empty(); ++clock) {
+    const int b = std::get<2>(*queue.begin());
+    queue.erase(queue.begin());
+    sequence.push_back(b);
+    later[z(b)].assign(graph[z(b)].begin(), graph[z(b)].end());
+    for (int i : later[z(b)]) {
+      graph[z(i)].erase(b);
+      for (int j : later[z(b)])
+        if (i != j) graph[z(i)].insert(j);
+    }
+    for (int i : later[z(b)]) {
+      queue.erase(key[z(i)]);
+      queue.insert(key[z(i)] = {work(i), clock, i});
+    }
+  }
+}
+
+BlockFactor::BlockFactor(const BlockPattern& pattern) {
+  std::vector<int> sequence;
+  std::vector<std::vector<int>> later;
+  order(pattern, sequence, later);
+
+  std::map<std::pair<int, int>, std::size_t> fill;
+  std::size_t storage = patternStorage_ = pattern.storage();
+  const auto place = [&](int i, int j) {
+    const int entry = pattern.find(i, j);
+    if (entry >= 0) return pattern.offset(entry);
+    const auto [it, fresh] = fill.emplace(std::make_pair(i, j), storage);
+    if (fresh) storage += (z(pattern.width(i)) * z(pattern.width(j)) + 3) / 4 * 4;
+    return it->second;
+  };
+
+  int widest = 0;
+  std::size_t panel = 0;
+  for (int k : sequence) {
+    Pivot pivot{k, pattern.start(k), pattern.width(k), static_cast<int>(couplings_.size()), 0, 0};
+    Elimination elimination{place(k, k), static_cast<int>(updates_.size()), 0};
+    widest = std::max(widest, pivot.width);
+    for (int i : later[z(k)]) {
+      couplings_.push_back({i, pattern.start(i), pattern.width(i), 0, 0});
+      places_.push_back({place(i, k), place(k, i)});
+      panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
+      solveWork_ += 2.0 * pivot.width * pattern.width(i);
+    }
+    solveWork_ += static_cast<double>(pivot.width) * pivot.width;
+    pivot.couplingEnd = static_cast<int>(couplings_.size());
+    for (int a = pivot.couplingBegin; a < pivot.couplingEnd; ++a)
+      for (int b = pivot.couplingBegin; b < pivot.couplingEnd; ++b)
+        updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)],
+                                  later[z(k)][z(b - pivot.couplingBegin)]),
+                            a, b});
+    elimination.updateEnd = static_cast<int>(updates_.size());
+    pivots_.push_back(pivot);
+    eliminations_.push_back(elimination);
+  }
+  pack();
+  findEarlier();
+  far_ = storage > kernel::nearCache;
+  values_.assign(storage, 0.0);
+  scale_.assign(z(pattern.size()), 0.0);
+  swaps_.assign(z(pattern.size()), 0);
+  workScale_.assign(z(widest), 0.0);
+  work_.assign(z(widest), 0.0);
+  const std::size_t inverted = z(std::min(widest, kernel::largestInverse));
+  panel_.assign(std::max(panel, inverted * inverted), 0.0);
+}
+
+/// The way down reads L pivot by pivot, the way up D^-1 and W from the last pivot to the first.
+void BlockFactor::pack() {
+  std::size_t down = 0, up = 0;
+  const auto take = [](std::size_t& next, int rows, int columns) {
+    if (next > std::numeric_limits<Offset>::max())
+      throw ModelError(
+          "The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes "
+          "or fewer kept nodes.");
+    const auto here = static_cast<Offset>(next);
+    next += (z(rows) * z(columns) + 3) / 4 * 4;
+    return here;
+  };
+  for (const Pivot& p : pivots_)
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+      couplings_[z(c)].down = take(down, couplings_[z(c)].width, p.width);
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
+    p->up = take(up, p->width, p->width);
+    for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
+      couplings_[z(c)].up = take(up, p->width, couplings_[z(c)].width);
+  }
+  down_.assign(down, 0.0);
+  up_.assign(up, 0.0);
+}
+
+void BlockFactor::findEarlier() {
+  pivotOf_.resize(pivots_.size());
+  for (std::size_t k = 0; k < pivots_.size(); ++k)
+    pivotOf_[z(pivots_[k].block)] = static_cast<int>(k);
+  std::vector<std::vector<int>> earlier(pivots_.size());
+  for (std::size_t k = 0; k < pivots_.size(); ++k)
+    for (int c = pivots_[k].couplingBegin; c < pivots_[k].couplingEnd; ++c)
+      earlier[z(pivotOf_[z(couplings_[z(c)].block)])].push_back(static_cast<int>(k));
+  earlierBegin_.push_back(0);
+  for (const auto& each : earlier) {
+    earlier_.insert(earlier_.end(), each.begin(), each.end());
+    earlierBegin_.push_back(static_cast<int>(earlier_.size()));
+  }
+  reached_.assign(pivots_.size() / word + 1, 0);
+}
+
+bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
+
+TOOLJOINT_CLONES int BlockFactor::factor() {
+  double* values = values_.data();
+  std::fill(values + patternStorage_, values + values_.size(), 0.0);
+  for (std::size_t k = 0; k < pivots_.size(); ++k) {  // size of each row before elimination
+    const Pivot& p = pivots_[k];
+    const double* D = values + eliminations_[k].diagonal;
+    for (int i = 0; i < p.width; ++i) {
+      double size = 0;
+      for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
+      if (!(size > 0)) return p.start + i;  // an empty row, or not a number
+      scale_[z(p.start + i)] = size;
+    }
+  }
+  for (std::size_t k = 0; k < pivots_.size(); ++k) {
+    const Pivot& p = pivots_[k];
+    double* D = values + eliminations_[k].diagonal;
+    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(),
+                                        &swaps_[z(p.start)], panel_.data());
+    if (bad >= 0) return p.start + bad;
+    eliminate(k);
+  }
+  return -1;
+}
+
+/// W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj;  L_ik = A_ik D_k^-1
+TOOLJOINT_CLONES void BlockFactor::eliminate(std::size_t k) {
+  const Pivot& p = pivots_[k];
+  double* values = values_.data();
+  const double* D = values + eliminations_[k].diagonal;
+  std::copy(D, D + p.width * p.width, up_.data() + p.up);
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const Coupling& at = couplings_[z(c)];
+    const double* upper = values + places_[z(c)].upper;
+    double* W = up_.data() + at.up;
+    if (p.inverted()) {
+      kernel::multiplySmall(p.width, p.width, at.width, D, upper, W);
+    } else {
+      std::copy(upper, upper + p.width * at.width, W);
+      kernel::solveLarge(p.width, at.width, D, &swaps_[z(p.start)], W);
+    }
+  }
+  for (int u = eliminations_[k].updateBegin; u < eliminations_[k].updateEnd; ++u) {
+    const Update& update = updates_[z(u)];
+    const Coupling& i = couplings_[z(update.i)];
+    const Coupling& j = couplings_[z(update.j)];
+    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[z(update.i)].lower,
+                             up_.data() + j.up, values + update.target);
+  }
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const Coupling& at = couplings_[z(c)];
+    const double* lower = values + places_[z(c)].lower;
+    double* L = down_.data() + at.down;
+    if (p.inverted())
+      kernel::multiplySmall(at.width, p.width, p.width, lower, D, L);
+    else
+      std::copy(lower, lower + at.width * p.width, L);
+  }
+}
+
+/// b_i -= L_ik b_k
+TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
+  double* target = x + p.start;
+  if (!p.inverted()) kernel::solveLarge(p.width, 1, up_.data() + p.up, &swaps_[z(p.start)], target);
+  const Coupling* couplings = couplings_.data();
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+    const double* L = down_.data() + couplings[c].down;
+    if (far_) kernel::fetchAhead(L, couplings[c].width * p.width);
+    kernel::multiplySubtract(couplings[c].width, p.width, L, target, x + couplings[c].start);
+  }
+}
+
+/// x_k = D_k^-1 b_k - sum_j W_kj x_j
+TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
+  const Coupling* couplings = couplings_.data();
+  double* target = x + p.start;
+  if (p.width == 6) {
+    kernel::Six even, odd;
+    if (far_) kernel::fetchAhead(up_.data() + p.up, 36);
+    kernel::addPairs(6, up_.data() + p.up, target, even, odd);
+    for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
+      if (far_) kernel::fetchAhead(up_.data() + couplings[c].up, 6 * couplings[c].width);
+      kernel::addPairs<-1>(couplings[c].width, up_.data() + couplings[c].up, x + couplings[c].start,
+                           even, odd);
+    }
+    even.a += odd.a, even.b += odd.b;
+    even.to(target);
+    return;
+  }
+  if (p.inverted()) {
+    double* copy = work_.data();
+    for (int i = 0; i < p.width; ++i) copy[i] = target[i], target[i] = 0;
+    kernel::multiplyAdd(p.width, p.width, up_.data() + p.up, copy, target);
+  }
+  for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+    kernel::multiplySubtract(p.width, couplings[c].width, up_.data() + couplings[c].up,
+                             x + couplings[c].start, target);
+}
+
+TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
+  for (const Pivot& p : pivots_) sweepDown(p, x);
+  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) sweepUp(*p, x);
+}
+
+TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
+                                             const double* weight, double small) const {
+  const auto isSmall = [&](const Pivot& p, bool weighted) __attribute__((always_inline)) {
+    double size = 0;
+    for (int i = p.start; i < p.start + p.width; ++i)
+      size = std::max(size, std::abs(x[i]) * (weighted ? weight[i] : 1.0));
+    return size <= small;
+  };
+  const auto drop = [&](std::size_t k) {
+    std::fill(x + pivots_[k].start, x + pivots_[k].start + pivots_[k].width, 0.0);
+    clear(reached_, k);
+  };
+  for (int block : live) set(reached_, z(pivotOf_[z(block)]));
+  upwards(
+      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+        const Pivot& p = pivots_[k];
+        if (isSmall(p, true)) return drop(k);
+        sweepDown(p, x);
+        for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
+          set(reached_, z(pivotOf_[z(couplings_[z(c)].block)]));
+      });
+  live.clear();
+  downwards(
+      reached_, [&](std::size_t k) __attribute__((always_inline)) {
+        sweepUp(pivots_[k], x);
+        if (isSmall(pivots_[k], false)) return drop(k);
+        live.push_back(pivots_[k].block);
+        for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e)
+          set(reached_, z(earlier_[z(e)]));
+      });
+  std::fill(reached_.begin(), reached_.end(), 0);
+}
+
+void BlockFactor::reserveInverse() {
+  if (!inverse_.empty()) return;
+  inverse_.assign(values_.size(), 0.0);
+  std::size_t widest = 0;
+  for (const Pivot& p : pivots_) widest = std::max(widest, z(p.width) * z(p.width));
+  panel_.resize(std::max(panel_.size(), widest));
+  inverted_.reserve(pivots_.size());
+}
+
+void BlockFactor::invert(const std::vector<char>& wanted) {
+  reserveInverse();
+  // A pivot is needed when it is wanted or couples to an earlier one that is needed.
+  std::vector<char>& needed = inverted_;
+  needed.assign(wanted.begin(), wanted.end());
+  for (const Pivot& p : pivots_)
+    if (needed[z(p.block)])
+      for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[z(couplings_[z(c)].block)] = 1;
+  for (std::size_t k = pivots_.size(); k-- > 0;)
+    if (needed[z(pivots_[k].block)]) invertPivot(k);
+}
+
+TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
+  const Pivot& p = pivots_[k];
+  double* Z = inverse_.data();
+  const int w = p.width;
+  // D_k^-1
+  double* diagonal = Z + eliminations_[k].diagonal;
+  if (w <= kernel::largestInverse) {
+    std::copy(up_.data() + p.up, up_.data() + p.up + w * w, diagonal);
+  } else {
+    std::fill(diagonal, diagonal + w * w, 0.0);
+    for (int i = 0; i < w; ++i) diagonal[i * (w + 1)] = 1.0;
+    kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[z(p.start)], diagonal);
+  }
+  const int count = p.couplingEnd - p.couplingBegin;
+  const Update* updates =
+      updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
+  for (int a = 0; a < count; ++a) {
+    const std::size_t c = z(p.couplingBegin + a);
+    const int size = couplings_[c].width * w;
+    std::fill(Z + places_[c].lower, Z + places_[c].lower + size, 0.0);
+    std::fill(Z + places_[c].upper, Z + places_[c].upper + size, 0.0);
+  }
+  // Z_ak = -sum_b Z_ab (A_bk D_k^-1),  Z_kb = -sum_a W_ka Z_ab
+  for (int b = 0; b < count; ++b) {
+    const Coupling& from = couplings_[z(p.couplingBegin + b)];
+    const double* L = down_.data() + from.down;
+    if (!p.inverted()) {  // diagonal is still D_k^-1
+      std::fill(panel_.begin(), panel_.begin() + from.width * w, 0.0);
+      kernel::multiplyAddTo(from.width, w, w, L, diagonal, panel_.data());
+      L = panel_.data();
+    }
+    for (int a = 0; a < count; ++a) {
+      const Coupling& to = couplings_[z(p.couplingBegin + a)];
+      const double* Zab = Z + updates[a * count + b].target;
+      kernel::multiplySubtract(to.width, from.width, w, Zab, L,
+                               Z + places_[z(p.couplingBegin + a)].lower);
+      kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab,
+                               Z + places_[z(p.couplingBegin + b)].upper);
+    }
+  }
+  // Z_kk = D_k^-1 - sum_b W_kb Z_bk
+  for (int b = 0; b < count; ++b) {
+    const Coupling& at = couplings_[z(p.couplingBegin + b)];
+    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up,
+                             Z + places_[z(p.couplingBegin + b)].lower, diagonal);
+  }
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/trilinos/EigenChecks.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "common/Error.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/Deterministic.hpp"
+#include "linalg/Scientific.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+using ColumnSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Ldlt = Eigen::SimplicialLDLT<ColumnSparse, Eigen::Lower, Eigen::AMDOrdering<int>>;
+
+/// Negative pivots of L D L' = A without pivoting, and how well the factors reproduce A.
+struct Inertia {
+  int negative = 0;
+  double error = std::numeric_limits<double>::infinity();
+};
+
+Inertia inertiaOf(const Sparse& A) {
+  Ldlt ldlt;
+  ldlt.compute(ColumnSparse(A));
+  if (ldlt.info() != Eigen::Success) return {};
+  const Vector d = ldlt.vectorD();
+  if (!d.allFinite() || (d.array() == 0.0).any()) return {};
+  const Vector b = scatteredNumbers(A.rows(), 1, 7);
+  const Vector x = ldlt.solve(b);
+  if (!x.allFinite()) return {};
+  return {static_cast<int>((d.array() < 0.0).count()), backwardError(A, x, b)};
+}
+
+/// C A C' with C = I + scattered couplings of neighbours, diagonally dominant in its rows: the same
+/// inertia (Sylvester), but other leading minors, so that factors without pivoting exist where
+/// those of A do not (a zero diagonal, say).
+Sparse congruent(const Sparse& A, std::uint64_t seed) {
+  const Matrix c = scatteredNumbers(A.rows(), 1, seed);
+  Triplets entries;
+  for (int i = 0; i < A.rows(); ++i) {
+    entries.emplace_back(i, i, 1.0);
+    const int neighbour = i > 0 ? i - 1 : 1;
+    if (neighbour < A.rows())
+      entries.emplace_back(i, neighbour, 0.5 * c(i, 0) + (c(i, 0) < 0.0 ? -0.2 : 0.2));
+  }
+  Sparse C(A.rows(), A.cols());
+  C.setFromTriplets(entries.begin(), entries.end());
+  return C * A * Sparse(C.transpose());
+}
+
+/// D A D with rows of order one.
+Sparse equilibrated(const Sparse& A) {
+  Vector d = Vector::Zero(A.rows());
+  for (int row = 0; row < A.rows(); ++row)
+    for (Sparse::InnerIterator it(A, row); it; ++it)
+      d[row] = std::max(d[row], std::abs(it.value()));
+  d = d.unaryExpr([](double size) { return size > 0.0 ? 1.0 / std::sqrt(size) : 1.0; });
+  return d.asDiagonal() * A * d.asDiagonal();
+}
+
+}  // namespace
+
+Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& name) {
+  if (A.rows() != A.cols())
+    throw ModelError("The " + what + " matrix of an eigenproblem must be square.");
+  Vector rowMax = Vector::Zero(A.rows());
+  for (int row = 0; row < A.rows(); ++row)
+    for (Sparse::InnerIterator it(A, row); it; ++it) {
+      if (!std::isfinite(it.value()))
+        throw ModelError("The " + what + " matrix has an entry that is not finite, between " +
+                         nameOf(name, row) + " and " + nameOf(name, static_cast<int>(it.col())) +
+                         ".");
+      rowMax[row] = std::max(rowMax[row], std::abs(it.value()));
+    }
+  const Sparse transpose = A.transpose();
+  const Sparse difference = A - transpose;
+  for (int row = 0; row < A.rows(); ++row)
+    for (Sparse::InnerIterator it(difference, row); it; ++it)
+      if (std::abs(it.value()) >
+          1e-9 * std::sqrt(std::max(rowMax[row], epsilon) * std::max(rowMax[it.col()], epsilon)))
+        throw ModelError("The " + what +
+                         " matrix of a symmetric eigenproblem is not symmetric between " +
+                         nameOf(name, row) + " and " + nameOf(name, static_cast<int>(it.col())) +
+                         ": give its symmetric part.");
+  return 0.5 * (A + transpose);
+}
+
+void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
+  Ldlt ldlt;
+  ldlt.compute(ColumnSparse(M));
+  const auto refuse = [&](int dof) {
+    throw ModelError(
+        "The mass matrix of an eigenproblem must be positive definite, and it is not at " +
+        nameOf(name, dof) + ": give that degree of freedom a mass, or condense it first.");
+  };
+  const Vector diagonal = M.diagonal();
+  for (int i = 0; i < M.rows(); ++i)
+    if (!(diagonal[i] > 0.0)) refuse(i);
+  if (ldlt.info() != Eigen::Success) refuse(static_cast<int>(largestEntry(-diagonal)));
+  // Pivot i belongs to row p_i of M; a pivot that is rounding beside the diagonal is zero.
+  const Vector d = ldlt.vectorD();
+  for (int i = 0; i < M.rows(); ++i) {
+    const int dof = ldlt.permutationPinv().indices()[i];
+    if (!(d[i] > 4.0 * epsilon * diagonal[dof])) refuse(dof);
+  }
+}
+
+double eigenvalueScale(const Sparse& K, const Sparse& M) {
+  return M.rows() == 0 ? 0.0
+                       : Vector(K.diagonal().cwiseAbs().cwiseQuotient(M.diagonal())).maxCoeff();
+}
+
+void applyConventions(EigenPairs& modes, const Sparse& M) {
+  std::vector<int> order(static_cast<std::size_t>(modes.values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return modes.values[a] < modes.values[b]; });
+  EigenPairs sorted = modes;
+  for (std::size_t j = 0; j < order.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    sorted.values[column] = modes.values[order[j]];
+    Vector phi = modes.vectors.col(order[j]);
+    phi /= std::sqrt(phi.dot(M * phi));
+    if (phi[largestEntry(phi)] < 0.0) phi = -phi;
+    sorted.vectors.col(column) = phi;
+  }
+  modes = std::move(sorted);
+}
+
+Vector unitMassScale(const Sparse& K, const Sparse& M) {
+  const Vector k = K.diagonal().cwiseAbs(), m = M.diagonal().cwiseAbs();
+  double stiffest = 0.0;  // largest K_ii / M_ii
+  for (Eigen::Index i = 0; i < m.size(); ++i)
+    if (m[i] > 0.0) stiffest = std::max(stiffest, k[i] / m[i]);
+  Vector scale = Vector::Ones(m.size());
+  for (Eigen::Index i = 0; i < m.size(); ++i) {
+    const double mass = m[i] > 0.0 ? m[i] : stiffest > 0.0 ? k[i] / stiffest : 0.0;
+    if (mass > 0.0) scale[i] = 1.0 / std::sqrt(mass);
+  }
+  return scale;
+}
+
+Vector binaryMassScale(const Sparse& K, const Sparse& M) {
+  return unitMassScale(K, M).unaryExpr(
+      [](double x) { return std::exp2(std::round(std::log2(x))); });
+}
+
+double roundingOf(const Sparse& K) {
+  constexpr int operations = 8;  // of assembly and rotation, for an entry
+  int fullest = 0;
+  for (int i = 0; i < K.outerSize(); ++i) {
+    int entries = 0;
+    for (Sparse::InnerIterator it(K, i); it; ++it) ++entries;
+    fullest = std::max(fullest, entries);
+  }
+  return (fullest + operations) * epsilon;
+}
+
+bool isRounding(double value, const Vector& phi, const Sparse& K) {
+  return areRounding(Vector::Constant(1, value), phi, K).front() != 0;
+}
+
+std::vector<char> areRounding(const Vector& values, const Matrix& shapes, const Sparse& K) {
+  const Matrix size = shapes.cwiseAbs();
+  const Vector bound =
+      roundingOf(K) * size.cwiseProduct(Matrix(K.cwiseAbs() * size)).colwise().sum().transpose();
+  std::vector<char> small(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index j = 0; j < values.size(); ++j)
+    small[static_cast<std::size_t>(j)] = std::abs(values[j]) <= bound[j];
+  return small;
+}
+
+void recomputeErrors(EigenPairs& modes, const Sparse& K, const Sparse& M, double tolerance,
+                     double orthogonality) {
+  // |D (K - lambda M) phi| against |D| (|K| + |lambda| |M|) |phi| with D = diag(M)^(-1/2)
+  const Vector d = unitMassScale(K, M);
+  const Matrix MPhi = M * modes.vectors;
+  const Matrix R = d.asDiagonal() * (K * modes.vectors - MPhi * modes.values.asDiagonal());
+  const Matrix size = modes.vectors.cwiseAbs();
+  const Sparse absK = d.asDiagonal() * K.cwiseAbs(), absM = d.asDiagonal() * M.cwiseAbs();
+  const Matrix KSize = absK * size, MSize = absM * size,
+               dSize = d.cwiseInverse().asDiagonal() * size;
+  // Rounding of the largest stiffness reaches modes that do not feel it: a free coordinate of a
+  // diagonal K has |K||phi| = 0.
+  const double rounding =
+      64.0 * epsilon / tolerance *
+      (K.nonZeros() == 0 ? 0.0 : Sparse(absK * d.asDiagonal()).coeffs().maxCoeff());
+  modes.residuals.resize(modes.values.size());
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
+    const double defect = R.col(j).norm();  // nothing at all where there is no stiffness
+    const double scale = KSize.col(j).norm() + std::abs(modes.values[j]) * MSize.col(j).norm() +
+                         rounding * dSize.col(j).norm();
+    modes.residuals[j] = defect == 0.0 ? 0.0 : defect / scale;
+  }
+  const Matrix gram =
+      modes.vectors.transpose() * MPhi - Matrix::Identity(modes.count(), modes.count());
+  modes.orthogonality = modes.count() == 0 ? 0.0 : gram.cwiseAbs().maxCoeff();
+  for (Eigen::Index j = 0; j < modes.residuals.size(); ++j)
+    if (!(modes.residuals[j] <= tolerance))
+      throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
+                             ") has a residual of " + scientific(modes.residuals[j]) + " where " +
+                             scientific(tolerance) + " is allowed.");
+  if (!(modes.orthogonality <= orthogonality))
+    throw ConvergenceError(
+        "The modes (" + modes.method + ") are orthogonal with respect to the mass matrix only to " +
+        scientific(modes.orthogonality) + " where " + scientific(orthogonality) + " is allowed.");
+}
+
+int keepWholePairs(const Vector& values, int count, double tolerance, double floor) {
+  int keep = count;
+  while (keep > 0 && keep < values.size()) {
+    const double last = values[keep - 1], next = values[keep];
+    if (next - last > std::max(tolerance * std::max(std::abs(last), std::abs(next)), floor)) break;
+    ++keep;
+  }
+  return keep;
+}
+
+void truncate(EigenPairs& modes, int count) {
+  modes.values.conservativeResize(count);
+  modes.vectors.conservativeResize(Eigen::NoChange, count);
+  modes.residuals.conservativeResize(std::min<Eigen::Index>(count, modes.residuals.size()));
+}
+
+int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound) {
+  if (K.rows() == 0) return 0;
+  const Stage stage("inertia counts");
+  const Sparse A = equilibrated(Sparse(K - bound * M));
+  Inertia best = inertiaOf(A);
+  for (std::uint64_t seed = 1; seed <= 8 && best.error > 1e-13; ++seed) {
+    const Inertia other = inertiaOf(congruent(A, seed));
+    if (other.error < best.error) best = other;
+  }
+  if (!(best.error <= 1e-10))
+    throw ConvergenceError("The eigenvalues below " + scientific(bound) +
+                           " could not be counted: K - lambda M has no stable LDL' factors there.");
+  return best.negative;
+}
+
+}  // namespace tooljoint::linalg

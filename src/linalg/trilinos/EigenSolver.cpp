@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/trilinos/EigenSolver.hpp"
+
+#include <AnasaziBasicEigenproblem.hpp>
+#include <AnasaziBlockKrylovSchurSolMgr.hpp>
+#include <AnasaziTpetraAdapter.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/Error.hpp"
+#include "common/report/EvaluationCounters.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/Deterministic.hpp"
+#include "linalg/Scientific.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/FunctionOperator.hpp"
+#include "linalg/trilinos/TpetraConversion.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A checked symmetric pencil and what is derived from it once.
+struct Pencil {
+  Sparse K, M;
+  double scale;  ///< lower bound of the largest eigenvalue
+
+  Pencil(const Sparse& k, const Sparse& m, const DofNamer& name)
+      : K(symmetricPart(k, "stiffness", name)), M(symmetricPart(m, "mass", name)), scale(0.0) {
+    if (K.rows() != M.rows())
+      throw ModelError("The stiffness and mass matrices of an eigenproblem have " +
+                       std::to_string(K.rows()) + " and " + std::to_string(M.rows()) +
+                       " rows: they must agree.");
+    requirePositiveDefinite(M, name);
+    scale = eigenvalueScale(K, M);
+  }
+  int size() const { return static_cast<int>(K.rows()); }
+  int below(double bound) const { return eigenvaluesBelow(K, M, bound); }
+};
+
+/// A shift below all eigenvalues: zero when the lowest is well above it, else about minus the first
+/// elastic eigenvalue (nearer to the rigid-body modes it would spoil the others), or further down
+/// for an indefinite K.
+double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
+  if (options.shift) {
+    const int below = pencil.below(*options.shift);
+    if (below > 0)
+      throw ModelError("The eigenvalue shift " + scientific(*options.shift) + " lies above " +
+                       std::to_string(below) + " eigenvalue(s): give a lower one, or none.");
+    return *options.shift;
+  }
+  const double floor = 1e-10 * pencil.scale;
+  if (floor == 0.0) return -1.0;  // K = 0
+  const int low = pencil.below(floor);
+  if (low == 0) return 0.0;
+  double size = floor;
+  while (size < pencil.scale && pencil.below(10.0 * size) == low) size *= 10.0;
+  while (pencil.below(-size) > 0) size *= 3.0;
+  return -size;
+}
+
+/// Parameters of one attempt. A restart of BlockKrylovSchur may cut a pair of equal eigenvalues
+/// that rounding made complex in the projected problem and then fails; later attempts have larger
+/// blocks and bases, so large that they need no restart.
+Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int attempt,
+                                        const EigenOptions& options) {
+  const int n = pencil.size();
+  Teuchos::ParameterList list;
+  int block = attempt == 0 ? 4 : 8;
+  if (options.anasazi != nullptr && options.anasazi->isType<int>("Block Size"))
+    block = std::max(1, options.anasazi->get<int>("Block Size"));
+  const int basis = (attempt + 1) * std::max(2 * wanted, wanted + 20) + (attempt > 0 ? 100 : 0);
+  const int blocks = std::min(n / block - 1, (basis + block - 1) / block);
+  list.set("Which", "LM");
+  list.set("Block Size", block);
+  list.set("Num Blocks", blocks);
+  list.set("Maximum Restarts", 100);
+  if (attempt > 0) list.set("Step Size", std::max(1, blocks / 4));
+  list.set("Convergence Tolerance", 1e-12);
+  list.set("Verbosity", 0);
+  if (options.anasazi != nullptr) list.setParameters(*options.anasazi);
+  return list;
+}
+
+/// |phi - (lambda - sigma) (K - sigma M)^-1 M phi|_M per mode: bounds the relative error of lambda
+/// - sigma.
+void requireAccurate(const EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
+                     double shift, double tolerance) {
+  const Matrix image = factors.solve(pencil.M * modes.vectors);
+  const Sparse absK = pencil.K.cwiseAbs();
+  for (int j = 0; j < modes.count(); ++j) {
+    const Vector error = modes.vectors.col(j) - (modes.values[j] - shift) * image.col(j);
+    const double size = std::sqrt(std::max(0.0, error.dot(pencil.M * error)));
+    // What rounding in the lowest mode leaves in this one, eps nu_1 / nu_j, and what rounding of K
+    // itself does to lambda - sigma.
+    const Vector phi = modes.vectors.col(j).cwiseAbs();
+    const double rounding = 1e3 * epsilon * (modes.values[j] - shift) / (modes.values[0] - shift) +
+                            4.0 * epsilon * phi.dot(absK * phi) / (modes.values[j] - shift);
+    if (!(size <= tolerance + rounding))
+      throw ConvergenceError("Mode " + std::to_string(j + 1) + " (" + modes.method +
+                             ") was called converged, but its relative error is " +
+                             scientific(size) + " where " + scientific(tolerance) + " is allowed");
+  }
+}
+
+/// Eigenvalue from the shift-inverted value nu or from the Rayleigh quotient, whichever rounding
+/// spoils less.
+double bestValue(double nu, double nuMax, double shift, const Vector& phi, const Pencil& pencil,
+                 const Sparse& absK) {
+  const double mass = phi.dot(pencil.M * phi);
+  const double quotient = phi.dot(pencil.K * phi) / mass;
+  const double quotientRounding = phi.cwiseAbs().dot(absK * phi.cwiseAbs()) / mass;
+  const double inverted = shift + 1.0 / nu;
+  const double invertedRounding = std::abs(nuMax / nu) * std::abs(1.0 / nu);
+  return invertedRounding < quotientRounding ? inverted : quotient;
+}
+
+/// One step of subspace iteration for the upper modes: the Krylov basis leaves rounding of eps nu_1
+/// / nu_j in mode j, most of it in directions far above the spectrum that is wanted. An inverse
+/// iteration removes those, a projection onto the complement of the lower modes what it stirs up
+/// there, and Rayleigh-Ritz with K separates the rest.
+void polishUpperModes(EigenPairs& modes, const Pencil& pencil, const DirectSolver& factors,
+                      double shift) {
+  const int count = modes.count();
+  const double split = std::sqrt((modes.values[0] - shift) * (modes.values[count - 1] - shift));
+  int first = 0;
+  while (first < count && modes.values[first] - shift <= split) ++first;
+  const int upper = count - first;
+  if (upper < 2) return;
+  Matrix phi = factors.solve(pencil.M * modes.vectors.rightCols(upper));
+  const Matrix lower = modes.vectors.leftCols(first), massLower = pencil.M * lower;
+  phi -= lower * (massLower.transpose() * phi);
+  for (int j = 0; j < upper; ++j) phi.col(j) /= std::sqrt(phi.col(j).dot(pencil.M * phi.col(j)));
+  phi -= lower * (massLower.transpose() * phi);
+  const Matrix K = phi.transpose() * (pencil.K * phi), M = phi.transpose() * (pencil.M * phi);
+  const EigenPairs ritz = symmetricModes(0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
+  modes.vectors.rightCols(upper) = phi * ritz.vectors;
+  modes.values.tail(upper) = ritz.values;
+}
+
+/// The `wanted` modes nearest above the shift by Anasazi. ConvergenceError when it does not
+/// converge.
+EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double shift, int wanted,
+                       int attempt, const EigenOptions& options) {
+  using Problem = Anasazi::BasicEigenproblem<double, tpetra::MultiVector, tpetra::Operator>;
+  using Manager = Anasazi::BlockKrylovSchurSolMgr<double, tpetra::MultiVector, tpetra::Operator>;
+  const auto map = serialMap(pencil.size());
+  Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
+  const int block = list.get<int>("Block Size");
+  // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
+  const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
+      new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
+  const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(
+      new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
+  const auto start = toTpetra(
+      scatteredNumbers(pencil.size(), std::max(1, block), 17 + static_cast<std::uint64_t>(attempt)),
+      map);
+  const auto problem = Teuchos::rcp(new Problem(inverse, mass, start));
+  EigenPairs modes;
+  modes.method = "Anasazi BlockKrylovSchur, shift " + scientific(shift) + ", blocks of " +
+                 std::to_string(block);
+  bool converged = false;
+  try {
+    problem->setHermitian(true);
+    problem->setNEV(wanted);
+    if (!problem->setProblem()) throw std::logic_error("it refused the eigenproblem.");
+    converged = Manager(problem, list).solve() == Anasazi::Converged;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& stopped) {
+    throw ConvergenceError(modes.method + " stopped: " + stopped.what());
+  }
+  const auto& solution = problem->getSolution();
+  if (!converged || solution.numVecs < wanted)
+    throw ConvergenceError(std::to_string(solution.numVecs) + " of " + std::to_string(wanted) +
+                           " modes converged (" + modes.method + ")");
+  modes.vectors = toEigen(*solution.Evecs).leftCols(wanted);
+  modes.values.resize(wanted);
+  const Sparse absK = pencil.K.cwiseAbs();
+  const auto nu = [&](int j) { return solution.Evals[static_cast<std::size_t>(j)].realpart; };
+  double nuMax = 0.0;
+  for (int j = 0; j < wanted; ++j) nuMax = std::max(nuMax, std::abs(nu(j)));
+  for (int j = 0; j < wanted; ++j)
+    modes.values[j] = bestValue(nu(j), nuMax, shift, modes.vectors.col(j), pencil, absK);
+  applyConventions(modes, pencil.M);
+  polishUpperModes(modes, pencil, factors, shift);
+  applyConventions(modes, pencil.M);
+  return modes;
+}
+
+/// Middle of the last gap among the values that is at or after position `from`; nothing when there
+/// is none.
+std::optional<std::pair<int, double>> lastGap(const Vector& values, int from, double floor) {
+  for (int j = static_cast<int>(values.size()) - 1; j >= from; --j) {
+    const double gap = values[j] - values[j - 1];
+    if (gap > std::max(1e-6 * std::max(std::abs(values[j]), std::abs(values[j - 1])), floor))
+      return std::make_pair(j, 0.5 * (values[j] + values[j - 1]));
+  }
+  return std::nullopt;
+}
+
+EigenPairs denseModes(const Pencil& pencil, int count, const EigenOptions& options) {
+  EigenPairs modes = symmetricModes(Matrix(pencil.K), Matrix(pencil.M), options.name);
+  const double floor = 1e-14 * modes.values.cwiseAbs().maxCoeff();
+  truncate(modes, options.keepPairs
+                      ? keepWholePairs(modes.values, count, options.pairTolerance, floor)
+                      : count);
+  applyConventions(modes, pencil.M);
+  recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
+  return modes;
+}
+
+/// One attempt, complete with all checks; ConvergenceError says which of them failed. `extra` modes
+/// beyond `count` show where the last cluster ends, and grow when they do not.
+EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, double shift, int count,
+                        int& extra, int attempt, const EigenOptions& options) {
+  const double floor = 1e-14 * pencil.scale;
+  const Stage stage("Krylov-Schur iteration");
+  EigenPairs modes = krylovSchur(pencil, factors, shift, std::min(count + extra, pencil.size() / 2),
+                                 attempt, options);
+  const auto gap = lastGap(modes.values, count, floor);
+  const int keep =
+      options.keepPairs ? keepWholePairs(modes.values, count, options.pairTolerance, floor) : count;
+  if (!gap || (options.keepPairs && keep >= modes.count())) {
+    const std::string cluster = std::to_string(extra) + " modes after number " +
+                                std::to_string(count) + " have the same eigenvalue " +
+                                scientific(modes.values[count - 1]);
+    extra *= 4;
+    throw ConvergenceError(cluster);
+  }
+  // Sylvester: as many eigenvalues lie below a gap as were found below it.
+  const int below = pencil.below(gap->second);
+  if (below != gap->first)
+    throw ConvergenceError(std::to_string(below) + " eigenvalues lie below " +
+                           scientific(gap->second) + " but " + std::to_string(gap->first) +
+                           " were found there (" + modes.method + ")");
+  truncate(modes, keep);
+  requireAccurate(modes, pencil, factors, shift, options.tolerance);
+  recomputeErrors(modes, pencil.K, pencil.M, options.tolerance, options.orthogonality);
+  return modes;
+}
+
+EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
+  const double shift = shiftBelowSpectrum(pencil, options);
+  const DirectSolver factors = [&] {
+    const Stage stage("factorisation for modes");
+    return DirectSolver(Sparse(pencil.K - shift * pencil.M), options.name);
+  }();
+  std::string reason;
+  int extra = 4;
+  constexpr int attempts = 4;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    try {
+      return checkedModes(pencil, factors, shift, count, extra, attempt, options);
+    } catch (const ConvergenceError& failure) {
+      reason = failure.what();
+    }
+  }
+  throw ConvergenceError("The " + std::to_string(count) + " lowest modes of " +
+                         std::to_string(pencil.size()) + " dofs were not found in " +
+                         std::to_string(attempts) + " attempts. The last one: " + reason +
+                         ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or lower "
+                         "\"Convergence Tolerance\".");
+}
+
+EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {
+  EigenPairs modes;
+  modes.method = "none asked for";
+  if (count == 0) {
+    modes.vectors.resize(pencil.size(), 0);
+    return modes;
+  }
+  const bool dense =
+      pencil.size() < options.denseBelow || 3 * count > pencil.size() || pencil.size() < 40;
+  modes = dense ? denseModes(pencil, count, options) : sparseModes(pencil, count, options);
+  tooljoint::count("modes computed", modes.count());
+  return modes;
+}
+
+}  // namespace
+
+EigenPairs lowestModes(const Sparse& K, const Sparse& M, int count, const EigenOptions& options) {
+  if (count < 0 || count > K.rows())
+    throw ModelError(std::to_string(count) + " modes were asked for, but the eigenproblem has " +
+                     std::to_string(K.rows()) + " dofs.");
+  return modesOf(Pencil(K, M, options.name), count, options);
+}
+
+EigenPairs lowestModesBelow(const Sparse& K, const Sparse& M, double omegaMax,
+                            const EigenOptions& options) {
+  if (!(omegaMax >= 0.0) || !std::isfinite(omegaMax))
+    throw ModelError("The cut-off of a mode selection must be a number >= 0, not " +
+                     scientific(omegaMax) + ".");
+  const Pencil pencil(K, M, options.name);
+  return modesOf(pencil, pencil.below(omegaMax * omegaMax), options);
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,452 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "common/Error.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/GrowingKrylov.hpp"
+#include "linalg/Scientific.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Relative error of s - sigma that is accepted beside the rounding of K: the last of the eight
+/// digits that are printed. Values of a Krylov space that has converged are better by some orders;
+/// what is above this bound is not rounding but a space that is too small.
+constexpr double acceptedError = 1e-8;
+/// The largest residual of the wanted Ritz pairs is at rounding when it is below the first of
+/// these, or below the second and no better than half of what it was in a space four fifths the
+/// size.
+constexpr double converged = 1e-13, stagnant = 1e-7;
+/// Vectors of a space at most, or twelve times the number of modes: all there are of a model of 750
+/// dofs.
+constexpr int largestSpace = 1500;
+/// Columns of a start block: as many as a free body in space has rigid-body motions, and two more.
+constexpr int block = 8;
+/// Block steps after a second start, which finds what the first one missed.
+constexpr int controlSteps = 5;
+/// Up to this size the inverse is formed whole.
+constexpr int denseBelow = 80;
+
+/// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
+/// rotations and modal amplitudes become comparable, and no entry is rounded.
+struct ScaledPencil {
+  Sparse M, C, K;
+  Vector scale;
+  EnergyRounding rounding;  ///< of shapes in scaled coordinates
+
+  ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given) {
+    scale = binaryMassScale(k, m);
+    const auto scaled = [&](const Sparse& A) {
+      return Sparse(scale.asDiagonal() * A * scale.asDiagonal());
+    };
+    M = scaled(m);
+    C = scaled(c);
+    K = scaled(k);
+    rounding = [this, given, absolute = Sparse(K.cwiseAbs()),
+                fraction = roundingOf(K)](const ComplexVector& phi) {
+      if (given) return given(scale.cast<Complex>().cwiseProduct(phi));
+      const Vector size = phi.cwiseAbs();
+      return fraction * size.dot(absolute * size);
+    };
+  }
+  ScaledPencil(const ScaledPencil&) = delete;
+  ScaledPencil& operator=(const ScaledPencil&) = delete;
+  Eigen::Index size() const { return M.rows(); }
+};
+
+ComplexVector times(const Sparse& A, const ComplexVector& x) {
+  ComplexVector y(x.size());
+  y.real() = A * Vector(x.real());
+  y.imag() = A * Vector(x.imag());
+  return y;
+}
+
+/// (L - sigma)^-1 for the linearisation s z = L z of the pencil, z = (x, s x / sigma), sigma > 0.
+class ShiftedInverse {
+ public:
+  ShiftedInverse(const ScaledPencil& pencil, double shift, const DofNamer& name)
+      : pencil_(pencil),
+        shift_(shift),
+        first_(pencil.C + shift * pencil.M),
+        factors_(Sparse(pencil.K + shift * first_), name) {}
+
+  double shift() const { return shift_; }
+
+  /// x' = -Q(sigma)^-1 ((C + sigma M) x + M s x),  v' = x / sigma + x'
+  Matrix operator()(const Matrix& z) const {
+    const auto n = pencil_.size();
+    const Matrix x = z.topRows(n), v = z.bottomRows(n);
+    Matrix out(2 * n, z.cols());
+    out.topRows(n) = -factors_.solve(Matrix(first_ * x + shift_ * (pencil_.M * v)));
+    out.bottomRows(n) = x / shift_ + out.topRows(n);
+    return out;
+  }
+
+  /// phi -> -(s - sigma) Q(sigma)^-1 ((s + sigma) M + C) phi, of which modes are the fixed points.
+  /// The difference is Q(sigma)^-1 Q(s) phi, the answer to the residual, without the cancellation
+  /// of Q(s) phi.
+  ComplexVector again(Complex s, const ComplexVector& phi) const {
+    const ComplexVector force = (s + shift_) * times(pencil_.M, phi) + times(pencil_.C, phi);
+    const Matrix parts =
+        factors_.solve((Matrix(phi.size(), 2) << force.real(), force.imag()).finished());
+    return -(s - shift_) *
+           (parts.col(0).cast<Complex>() + Complex(0, 1) * parts.col(1).cast<Complex>());
+  }
+
+ private:
+  const ScaledPencil& pencil_;
+  double shift_;
+  Sparse first_;  ///< C + sigma M
+  DirectSolver factors_;
+};
+
+/// At the shift, or a little beside it where Q(sigma) is singular: an eigenvalue.
+std::unique_ptr<ShiftedInverse> inverseNear(const ScaledPencil& pencil, double shift,
+                                            const DofNamer& name) {
+  constexpr int attempts = 3;
+  for (int attempt = 1;; ++attempt, shift *= 1.3) try {
+      return std::make_unique<ShiftedInverse>(pencil, shift, name);
+    } catch (const ModelError&) {
+      if (attempt == attempts) throw;
+    }
+}
+
+/// Values with Im s >= 0 by |s|, and their columns of the Ritz vectors.
+struct Upper {
+  std::vector<Complex> s;
+  std::vector<Eigen::Index> column;
+  std::vector<double> residual;
+
+  Upper(const RitzPairs& ritz, double shift) {
+    const double largest = ritz.values.size() > 0 ? ritz.values.cwiseAbs().maxCoeff() : 0.0;
+    std::vector<Eigen::Index> order;
+    for (Eigen::Index j = 0; j < ritz.values.size();
+         ++j)  // nu of rounding: no finite s; Im nu < 0: Im s > 0
+      if (std::abs(ritz.values[j]) > 1e-13 * largest && ritz.values[j].imag() <= 0.0)
+        order.push_back(j);
+    const auto value = [&](Eigen::Index j) { return shift + 1.0 / ritz.values[j]; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](auto a, auto b) { return std::abs(value(a)) < std::abs(value(b)); });
+    for (auto j : order) {
+      s.push_back(value(j));
+      column.push_back(j);
+      residual.push_back(ritz.residuals[j]);
+    }
+  }
+  /// Largest residual of the lowest `wanted` ones; infinite when there are fewer.
+  double worst(std::size_t wanted) const {
+    if (s.size() < wanted) return std::numeric_limits<double>::infinity();
+    return *std::max_element(residual.begin(),
+                             residual.begin() + static_cast<std::ptrdiff_t>(wanted));
+  }
+  std::size_t below(double bound) const {
+    return static_cast<std::size_t>(
+        std::count_if(s.begin(), s.end(), [&](Complex z) { return std::abs(z) <= bound; }));
+  }
+};
+
+/// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
+/// apart and Jordan chains at zero do not swamp them.
+double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer& name) {
+  double stiff = 0, mass = 0;
+  for (int i = 0; i < pencil.K.rows(); ++i)
+    stiff += std::abs(pencil.K.coeff(i, i)), mass += pencil.M.coeff(i, i);
+  double shift = mass > 0 && stiff > 0 ? 1e-4 * std::sqrt(stiff / mass) : 1.0;
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    const auto inverse = inverseNear(pencil, shift, name);
+    GrowingKrylov space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
+    space.start(block, 11);
+    space.grow(static_cast<int>(wanted) + 4 * block);
+    const Upper found(space.ritz(), inverse->shift());
+    if (found.s.empty()) return shift;
+    const double far = std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
+    double near = far;
+    for (const Complex& s : found.s)
+      if (std::abs(s) > 1e-3 * far) near = std::min(near, std::abs(s));
+    if (!(near > 0)) return shift;
+    const double ratio = near / shift;
+    shift = near;
+    if (ratio > 0.25 && ratio < 4.0) break;
+  }
+  return shift;
+}
+
+/// |s| at which s is zero but for the rounding of K: |s|^2 phi'|M|phi + |s| phi'|C|phi of the size
+/// of what rounding leaves of phi'K phi.
+bool isZero(const ScaledPencil& pencil, Complex s, const ComplexVector& phi) {
+  const double work = std::norm(s) * std::abs(phi.dot(times(pencil.M, phi))) +
+                      std::abs(s) * std::abs(phi.dot(times(pencil.C, phi))) +
+                      std::abs(phi.dot(times(pencil.K, phi)));
+  return work <= pencil.rounding(phi);
+}
+
+/// One mode of each independent motion at zero: a free body without damping has every one of them
+/// twice, in a Jordan chain.
+void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>& vectors,
+                       std::size_t zeros) {
+  if (zeros < 2) return;
+  const auto n = vectors.front().size();
+  Eigen::MatrixXcd orthonormal(n, 0);
+  std::vector<Complex> keptValues;
+  std::vector<ComplexVector> keptVectors;
+  constexpr double dependent = 1e-3;  // chains part by the root of rounding
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    if (j < zeros) {
+      ComplexVector fresh = vectors[j].normalized();
+      for (int pass = 0; pass < 2; ++pass) fresh -= orthonormal * (orthonormal.adjoint() * fresh);
+      if (fresh.norm() < dependent) continue;
+      orthonormal.conservativeResize(n, orthonormal.cols() + 1);
+      orthonormal.rightCols(1) = fresh.normalized();
+    }
+    keptValues.push_back(values[j]);
+    keptVectors.push_back(vectors[j]);
+  }
+  values = std::move(keptValues);
+  vectors = std::move(keptVectors);
+}
+
+/// Values and scaled vectors, checked, by |s|.
+struct Checked {
+  std::vector<Complex> values;
+  std::vector<ComplexVector> vectors;
+};
+
+Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, const Upper& found,
+                     const RitzPairs& ritz, std::size_t wanted) {
+  Checked out;
+  std::size_t zeros = 0;
+  for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
+    const ComplexVector phi = ritz.vectors.col(found.column[j]).head(pencil.size());
+    Complex s = found.s[j];
+    ComplexVector better = inverse.again(s, phi);
+    const double error = (better - phi).norm() / better.norm();
+    const Vector size = better.cwiseAbs();
+    const double rounding =
+        pencil.rounding(better) /
+        (std::norm(s - inverse.shift()) *
+         std::max(size.dot(pencil.M.cwiseAbs() * size), std::numeric_limits<double>::min()));
+    if (!(error <= acceptedError + rounding))
+      throw ConvergenceError("Damped mode " + std::to_string(j + 1) +
+                             " (s = " + scientific(s.real()) + " + " + scientific(s.imag()) +
+                             " i) has a relative error of " + scientific(error) + " where " +
+                             scientific(acceptedError + rounding) + " is allowed.");
+    if (isZero(pencil, s, better)) {
+      s = 0;
+      zeros = j + 1;
+    }
+    out.values.push_back(s);
+    out.vectors.push_back(std::move(better));
+  }
+  dropRepeatedZeros(out.values, out.vectors, zeros);
+  return out;
+}
+
+/// The lowest `count` modes, fewer where there are fewer finite ones.
+Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
+  const int all = 2 * static_cast<int>(pencil.size());
+  auto wanted = static_cast<std::size_t>(count);
+  const auto inverse = inverseNear(pencil, goodShift(pencil, wanted, name), name);
+  GrowingKrylov space([&](const Matrix& z) { return (*inverse)(z); }, all);
+  if (all <= 2 * denseBelow)
+    space.startWhole();
+  else
+    space.start(block, 23);
+  const int limit = std::min(all, std::max(largestSpace, 12 * static_cast<int>(wanted)));
+  int columns = std::min(limit, 3 * static_cast<int>(wanted) + 4 * block);
+  std::size_t confirmed = 0;  // values below `bound` after the last control
+  double bound = -1;
+  double before = std::numeric_limits<double>::infinity();  // largest residual in the smaller space
+  for (;;) {
+    space.grow(columns);
+    const RitzPairs ritz = space.ritz();
+    const Upper found(ritz, inverse->shift());
+    const bool whole = space.invariant();
+    const double worst = found.worst(wanted);
+    const bool settled =
+        worst <= converged || (worst <= stagnant && (worst > 0.5 * before || columns >= limit));
+    if (!whole && !settled) {
+      before = worst;
+      if (columns >= limit)
+        throw ConvergenceError("The " + std::to_string(count) + " damped modes nearest zero of " +
+                               std::to_string(pencil.size()) +
+                               " dofs were not found in a Krylov space of " +
+                               std::to_string(limit) + " vectors. Ask for fewer or more of them.");
+      columns = std::min(limit, columns + std::max(2 * block, columns / 4));
+      continue;
+    }
+    // A block finds no more than so many copies of a repeated value: a start beside all that has
+    // been found shows whether there are others.
+    if (!whole && (bound < 0 || found.below(bound) != confirmed)) {
+      bound = std::abs(found.s[wanted - 1]) * (1 + 1e-6);
+      confirmed = found.below(bound);
+      space.startBeside(block, 37 + static_cast<std::uint64_t>(columns));
+      columns = std::min(all, columns + controlSteps * block);
+      before = worst;
+      continue;
+    }
+    Checked modes = checkedModes(pencil, *inverse, found, ritz, wanted);
+    if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
+    wanted +=
+        static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
+    bound = -1;
+  }
+}
+
+/// a_ij - a_ji is rounding of the entries.
+bool isSymmetric(const Sparse& A) {
+  const Sparse transposed = A.transpose(), difference = A - transposed;
+  const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.0;
+  const Vector diagonal = A.diagonal().cwiseAbs();
+  for (int i = 0; i < difference.outerSize(); ++i)
+    for (Sparse::InnerIterator it(difference, i); it; ++it) {
+      const double scale = std::sqrt(diagonal[i] * diagonal[it.col()]);
+      if (std::abs(it.value()) > 64.0 * epsilon * (scale > 0.0 ? scale : largest)) return false;
+    }
+  return true;
+}
+
+/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the
+/// fit leaves: proportional damping, none at all included.
+struct Proportional {
+  double alpha = 0, beta = 0;
+};
+std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
+  const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(),
+               mk = pencil.M.cwiseProduct(pencil.K).sum();
+  const double cm = pencil.C.cwiseProduct(pencil.M).sum(),
+               ck = pencil.C.cwiseProduct(pencil.K).sum(), determinant = mm * kk - mk * mk;
+  Proportional fit;
+  if (determinant > 1e-12 * mm * kk) {
+    fit = {(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant};
+  } else if (mm > 0) {
+    fit = {cm / mm, 0.0};
+  }
+  const Sparse difference = pencil.C - fit.alpha * pencil.M - fit.beta * pencil.K;
+  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() +
+                      std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
+  for (int i = 0; i < difference.outerSize(); ++i)
+    for (Sparse::InnerIterator it(difference, i); it; ++it)
+      if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return std::nullopt;
+  return fit;
+}
+
+/// Roots with Im s >= 0 of s^2 + c s + lambda = 0; a double zero once.
+std::vector<Complex> roots(double c, double lambda) {
+  const double square = 0.25 * c * c - lambda;
+  if (square < 0) return {Complex(-0.5 * c, std::sqrt(-square))};
+  const double far = -(0.5 * c + std::copysign(std::sqrt(square), c));
+  if (far == 0.0) return {Complex(0)};
+  return {Complex(far), Complex(lambda / far)};
+}
+
+/// Those of the symmetric modes, which proportional damping does not couple. Of a mode with omega^2
+/// >= lambda no |s| is below sqrt(lambda) or, overdamped, lambda / (|alpha| + |beta| lambda):
+/// enough modes are computed to know that the lowest |s| are among them. Nothing when these are too
+/// many, where stiffness-proportional damping gathers the values of all high modes at 1 / beta.
+std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Proportional& damping,
+                                         int count, const DofNamer& name) {
+  EigenOptions options;
+  options.name = name;
+  const auto n = static_cast<int>(pencil.size());
+  const int most = std::min(n, std::max(16 * count, 200));
+  for (int asked = count;; asked = std::min(most, 2 * asked)) {
+    const EigenPairs pairs = lowestModes(pencil.K, pencil.M, asked, options);
+    Checked modes;
+    std::vector<double> sizes;
+    for (int j = 0; j < pairs.count(); ++j) {
+      const ComplexVector phi = pairs.vectors.col(j).cast<Complex>();
+      const double lambda =
+          std::abs(pairs.values[j]) <= pencil.rounding(phi) ? 0.0 : pairs.values[j];
+      for (const Complex& s : roots(damping.alpha + damping.beta * lambda, lambda)) {
+        modes.values.push_back(s);
+        modes.vectors.push_back(phi);
+        sizes.push_back(std::abs(s));
+      }
+    }
+    if (asked == n) return modes;
+    std::sort(sizes.begin(), sizes.end());
+    const double last = std::max(0.0, pairs.values[pairs.count() - 1]),
+                 spread = std::abs(damping.alpha) + std::abs(damping.beta) * last;
+    const double known = spread > 0 ? std::min(std::sqrt(last), last / spread) : std::sqrt(last);
+    if (sizes[static_cast<std::size_t>(count) - 1] <= known) return modes;
+    if (asked == most) return std::nullopt;
+  }
+}
+
+double rowNorm(const Sparse& A) {
+  double largest = 0;
+  for (int i = 0; i < A.outerSize(); ++i) {
+    double row = 0;
+    for (Sparse::InnerIterator it(A, i); it; ++it) row += std::abs(it.value());
+    largest = std::max(largest, row);
+  }
+  return largest;
+}
+
+}  // namespace
+
+QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse& K, int count,
+                                 const DofNamer& name, const EnergyRounding& rounding) {
+  const auto n = M.rows();
+  if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
+    throw ModelError(
+        "The mass, damping and stiffness matrices of a quadratic eigenproblem must be square and "
+        "of one size.");
+  if (count < 0 || count > n)
+    throw ModelError(std::to_string(count) +
+                     " damped modes were asked for, but the eigenproblem has " + std::to_string(n) +
+                     " dofs.");
+  QuadraticModes modes;
+  if (count == 0) {
+    modes.vectors.resize(n, 0);
+    return modes;
+  }
+  const Stage stage("damped modes");
+  const ScaledPencil pencil(M, C, K, rounding);
+  std::optional<Checked> simple;
+  if (isSymmetric(K) && !hasSingularMass(M))
+    if (const auto damping = proportionalDamping(pencil))
+      simple = proportionalModes(pencil, *damping, count, name);
+  const Checked found = simple ? *simple : generalModes(pencil, count, name);
+  std::vector<std::size_t> order(found.values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+    return std::abs(found.values[a]) < std::abs(found.values[b]);
+  });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  const auto kept = static_cast<Eigen::Index>(order.size());
+  modes.values.resize(kept);
+  modes.vectors.resize(n, kept);
+  modes.residuals.resize(kept);
+  const double m = rowNorm(pencil.M), c = rowNorm(pencil.C), k = rowNorm(pencil.K);
+  for (Eigen::Index j = 0; j < kept; ++j) {
+    const Complex s = found.values[order[static_cast<std::size_t>(j)]];
+    const ComplexVector& phi = found.vectors[order[static_cast<std::size_t>(j)]];
+    const ComplexVector residual =
+        s * s * times(pencil.M, phi) + s * times(pencil.C, phi) + times(pencil.K, phi);
+    modes.residuals[j] = residual.cwiseAbs().maxCoeff() /
+                         ((std::norm(s) * m + std::abs(s) * c + k) * phi.cwiseAbs().maxCoeff());
+    ComplexVector shape = pencil.scale.cast<Complex>().cwiseProduct(phi);
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    modes.values[j] = s;
+    modes.vectors.col(j) = shape / Complex(shape[largest]);
+  }
+  return modes;
+}
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/trilinos/SemidefiniteModes.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+/// An eigenvalue of M below this fraction of the largest one, rows scaled to unit diagonal, is
+/// zero.
+constexpr double massless = 1e-13;
+/// An eigenvalue of the shift-inverted operator below this fraction of the largest one belongs to
+/// an infinite one of the pencil.
+constexpr double infinite = 1e-13;
+
+/// M = W W', W with as many columns as M has rank.
+Matrix root(const Sparse& M, const DofNamer& name) {
+  std::vector<Eigen::Index> massive;
+  const Vector diagonal = M.diagonal();
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    if (diagonal[i] > 0) massive.push_back(i);
+    if (diagonal[i] < 0)
+      throw ModelError("The mass of " + nameOf(name, static_cast<int>(i)) +
+                       " is negative: " + formatNumber(diagonal[i]) + ".");
+  }
+  const auto n = static_cast<Eigen::Index>(massive.size());
+  const Matrix dense = M;
+  Matrix scaled(n, n);
+  const auto size = [&](Eigen::Index i) {
+    return std::sqrt(diagonal[massive[static_cast<std::size_t>(i)]]);
+  };
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      scaled(i, j) =
+          dense(massive[static_cast<std::size_t>(i)], massive[static_cast<std::size_t>(j)]) /
+          (size(i) * size(j));
+  if (n == 0) return Matrix::Zero(M.rows(), 0);
+  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(scaled);
+  const Vector& values = spectrum.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < n && values[first] <= massless * values[n - 1]) ++first;
+  if (values[0] < -1e-9 * values[n - 1]) {
+    Eigen::Index worst = 0;
+    spectrum.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+    throw ModelError("The mass matrix is indefinite, most of all in " +
+                     nameOf(name, static_cast<int>(massive[static_cast<std::size_t>(worst)])) +
+                     ".");
+  }
+  Matrix W = Matrix::Zero(M.rows(), n - first);
+  for (Eigen::Index i = 0; i < n; ++i)
+    W.row(massive[static_cast<std::size_t>(i)]) =
+        size(i) * spectrum.eigenvectors().row(i).tail(n - first).cwiseProduct(
+                      values.tail(n - first).cwiseSqrt().transpose());
+  return W;
+}
+
+/// About the middle of the spectrum, on a logarithmic scale.
+double middle(const Sparse& K, const Sparse& M) {
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index i = 0; i < K.rows(); ++i)
+    if (M.coeff(i, i) > 0 && K.coeff(i, i) != 0.0) {
+      sum += std::log(std::abs(K.coeff(i, i)) / M.coeff(i, i));
+      ++count;
+    }
+  return count > 0 ? std::exp(sum / count) : 1.0;
+}
+
+/// Modes from one shift: W' (K - sigma M)^-1 W y = mu y.
+EigenPairs shifted(const Matrix& K, const Sparse& M, const Matrix& W, double sigma, int count) {
+  const Eigen::PartialPivLU<Matrix> factor(K - sigma * Matrix(M));
+  if (!(factor.rcond() > 1e-18))
+    throw ModelError(
+        "Stiffness and mass are singular together: some dof has neither mass nor stiffness, or a "
+        "constraint stands in the model "
+        "twice.");
+  Matrix answer = factor.solve(W);
+  answer += factor.solve(W - (K * answer - sigma * (M * answer)));
+  Matrix H = W.transpose() * answer;
+  H = (0.5 * (H + H.transpose())).eval();
+  const Eigen::SelfAdjointEigenSolver<Matrix> spectrum(H);
+  const Vector& mu = spectrum.eigenvalues();
+  const double largest = mu.size() > 0 ? mu.cwiseAbs().maxCoeff() : 0.0;
+  std::vector<Eigen::Index> finite;
+  for (Eigen::Index i = 0; i < mu.size(); ++i)
+    if (std::abs(mu[i]) > infinite * largest) finite.push_back(i);
+  std::sort(finite.begin(), finite.end(),
+            [&](auto a, auto b) { return sigma + 1 / mu[a] < sigma + 1 / mu[b]; });
+  if (count >= 0 && count < static_cast<int>(finite.size()))
+    finite.resize(static_cast<std::size_t>(count));
+  EigenPairs modes;
+  modes.values.resize(static_cast<Eigen::Index>(finite.size()));
+  modes.vectors.resize(K.rows(), modes.values.size());
+  for (std::size_t j = 0; j < finite.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    modes.vectors.col(column) = answer * spectrum.eigenvectors().col(finite[j]);
+    const auto x = modes.vectors.col(column);
+    modes.values[column] = x.dot(K * x) / x.dot(M * x);
+  }
+  return modes;
+}
+
+/// Forces, displacements and modal amplitudes are coordinates side by side, and the condition of K
+/// - sigma M depends on their units: of the units given and of those that make masses equal (powers
+/// of two), the ones with the better condition.
+Vector betterScale(const Sparse& K, const Sparse& M, double sigma) {
+  const Matrix A = Matrix(K) - sigma * Matrix(M);
+  const Vector given = Vector::Ones(K.rows()), masses = binaryMassScale(K, M);
+  if (A.rows() == 0) return given;
+  const auto condition = [&](const Vector& d) {
+    return Eigen::PartialPivLU<Matrix>(d.asDiagonal() * A * d.asDiagonal()).rcond();
+  };
+  return condition(masses) > condition(given) ? masses : given;
+}
+
+}  // namespace
+
+EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options) {
+  if (K.rows() != M.rows())
+    throw ModelError("The stiffness and mass matrices of an eigenproblem must have the same size.");
+  const Sparse stiffness = symmetricPart(K, "stiffness", options.name),
+               mass = symmetricPart(M, "mass", options.name);
+  const Vector scale =
+      betterScale(stiffness, mass, options.shift.value_or(-middle(stiffness, mass)));
+  const Sparse k = scale.asDiagonal() * stiffness * scale.asDiagonal(),
+               m = scale.asDiagonal() * mass * scale.asDiagonal();
+  const Matrix W = root(m, options.name), dense = k;
+  if (W.cols() == 0) {  // no mass: no finite modes
+    EigenPairs none;
+    none.values.resize(0);
+    none.vectors.resize(K.rows(), 0);
+    none.method = "no mass";
+    return none;
+  }
+  EigenPairs modes = shifted(dense, m, W, options.shift.value_or(-middle(k, m)), count);
+  if (count > 0 && modes.count() > 0 &&
+      !options.shift) {  // again with a shift among what is wanted
+    const double wanted = std::abs(modes.values[modes.count() - 1]);
+    if (wanted > 0) modes = shifted(dense, m, W, -wanted, count);
+  }
+  modes.method = "dense, singular mass";
+  modes.vectors = (scale.asDiagonal() * modes.vectors).eval();
+  applyConventions(modes, mass);
+  recomputeErrors(modes, stiffness, mass, options.tolerance, options.orthogonality);
+  return modes;
+}
+
+bool hasSingularMass(const Sparse& M) {
+  const Vector diagonal = M.diagonal();
+  if (!(diagonal.array() > 0).all()) return true;
+  const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
+  const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * M * scale.asDiagonal();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);
+  return factor.info() != Eigen::Success ||
+         (M.rows() > 0 && factor.vectorD().minCoeff() <= massless);
+}
+
+bool hasMasslessDofs(const Sparse& M) { return (M.diagonal().array() == 0.0).any(); }
+
+EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options) {
+  return hasMasslessDofs(M) ? semidefiniteModes(K, M, count, options)
+                            : lowestModes(K, M, count, options);
+}
+
+}  // namespace tooljoint::linalg

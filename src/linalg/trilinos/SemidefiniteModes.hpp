@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Modes of pencils whose mass is singular: massless dofs, Lagrange multipliers.
+#pragma once
+
+#include "linalg/trilinos/EigenSolver.hpp"
+
+namespace tooljoint::linalg {
+
+/// The `count` lowest finite modes (all of them when there are fewer, or count < 0) of K phi =
+/// lambda M phi with K symmetric of any inertia and M symmetric positive semi-definite, phi' M phi
+/// = 1. Dense: with M = W W' and a shift sigma,
+///
+///     W' (K - sigma M)^-1 W y = y / (lambda - sigma),   phi = (K - sigma M)^-1 W y,
+///
+/// whose zero eigenvalues are the infinite ones of the pencil; lambda is then the Rayleigh quotient
+/// of phi. ModelError: sizes differ, K or M unsymmetric or not finite, M indefinite (dof named), K
+/// and M singular together. ConvergenceError: residuals above options.tolerance.
+EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options = {});
+
+/// Scaled to unit diagonal, M has a pivot that is rounding: dofs without mass, multipliers,
+/// residual flexibility without mass.
+bool hasSingularMass(const Sparse& M);
+
+/// Some dof has no mass: its diagonal entry is 0.
+bool hasMasslessDofs(const Sparse& M);
+
+/// lowestModes, or semidefiniteModes where some dof has no mass: at most `count`, all finite ones
+/// when there are fewer.
+EigenPairs lowestFiniteModes(const Sparse& K, const Sparse& M, int count,
+                             const EigenOptions& options = {});
+
+}  // namespace tooljoint::linalg

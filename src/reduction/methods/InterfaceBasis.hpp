@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Reduction of the dofs at which parts are joined. A variant is one file that adds itself to
+/// InterfaceRegistry.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/Registry.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::reduction {
+
+/// The coupled model in the joined dofs that may be reduced, everything else held.
+struct InterfaceProblem {
+  Sparse stiffness;            ///< constant, full and unsymmetric
+  Sparse mass;                 ///< symmetric
+  std::vector<int> interface;  ///< per dof the interface it belongs to, 0-based: the dofs that join
+                               ///< the same parts
+  int interfaces = 0;
+  Sparse coupling;  ///< stiffness towards the other coordinates, dofs x others
+  Matrix loads;     ///< constant load vectors, dofs x loads
+  linalg::DofNamer name;
+};
+
+/// u = vectors xi + attached u_other.
+struct InterfaceVectors {
+  Matrix vectors;              ///< dofs x modes
+  std::vector<int> interface;  ///< per mode: its interface, or 0 when it spans all of them
+  Vector eigenvalues;  ///< omega^2 per mode [rad^2/s^2]; of load vectors their Rayleigh quotient
+  Sparse attached;     ///< dofs x others: how the dofs follow the coordinates that stay
+};
+
+/// What all variants may be told.
+struct InterfaceOptions {
+  int modes = -1;  ///< in all, or of each interface; -1: by cut-off frequency
+  double cutOffHz = 0;
+  bool loadVectors = true;  ///< the static answer to every load is among the vectors
+};
+
+class InterfaceBasis {
+ public:
+  virtual ~InterfaceBasis() = default;
+  /// Throws ModelError when the mass of the interface is singular, ConvergenceError of the
+  /// eigensolver.
+  virtual InterfaceVectors build(const InterfaceProblem& problem) const = 0;
+  /// Whether dofs with point laws stay as they are.
+  virtual bool keepsPointLaws() const { return true; }
+};
+
+using InterfaceRegistry = deck::Registry<InterfaceBasis, const Teuchos::ParameterList&>;
+
+/// Characteristic constraint modes, K_GG psi = omega^2 M_GG psi with the joined dofs G of all parts
+/// (M. P. Castanier, Y.-C. Tan, C. Pierre, AIAA Journal 39 (2001) 1182-1187).
+std::unique_ptr<InterfaceBasis> systemInterfaceModes(const InterfaceOptions& options,
+                                                     bool keepPointLaws = true);
+/// The same for each interface by itself, the others held, which keeps the model sparse (S.-K.
+/// Hong, B. I. Epureanu, M. P. Castanier, Mech. Syst. Signal Process. 37 (2013) 403-421; D.
+/// Krattiger et al., Mech. Syst. Signal Process. 114 (2019) 579-603).
+std::unique_ptr<InterfaceBasis> localInterfaceModes(const InterfaceOptions& options,
+                                                    bool keepPointLaws = true);
+
+}  // namespace tooljoint::reduction

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The interface of a reduction basis. A variant is one file that adds itself to
+/// deck::Registry<Basis, const Teuchos::ParameterList&>.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/Registry.hpp"
+#include "model/Substructure.hpp"
+#include "reduction/part/Partition.hpp"
+#include "reduction/project/BasisReport.hpp"
+#include "reduction/selection/ModeChoice.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::reduction {
+
+/// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the
+/// kept dofs are the identity and zero, so that interface dofs stay what they are and parts are
+/// joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs
+/// among the interior ones: q = (retained dofs, modal coordinates, forces).
+struct Basis {
+  Partition partition;
+  Sparse vectors;                     ///< Phi: dofs x (kept + modes), structural zeros absent
+  std::vector<std::string> modeKind;  ///< one per modal column
+  Vector eigenvalues;                 ///< omega^2 of the modal columns [rad^2/s^2], increasing
+  Vector candidates;                  ///< omega^2 of all modes computed, kept ones first
+  bool complete = false;              ///< `candidates` are all modes the part has
+  bool orthonormal =
+      false;  ///< the modal columns are meant to be mass-orthonormal and to diagonalise sym(K)
+  Sparse inertial;  ///< what mass and damping are projected on where that is not `vectors`
+                    ///< (MacNeal); empty: `vectors`
+  std::vector<int> boundary;  ///< positions of interface dofs that are not kept: the last columns
+                              ///< are then the forces on them, one each (dual bases)
+  bool removable = true;      ///< modal columns may be left out one by one; otherwise a basis with
+                              ///< fewer modes is another one
+  std::vector<BasisRow> rows;
+  double orthogonality = 0;
+  std::string method;
+  std::vector<std::string> remarks;
+
+  int modes() const { return static_cast<int>(eigenvalues.size()); }
+  int forces() const { return static_cast<int>(boundary.size()); }
+};
+
+/// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped
+/// with the reason `why`.
+void truncate(Basis& basis, int modes, const std::string& why);
+
+/// Keep only the modal columns with keep[k] != 0; their rows say `kept`, the others are marked
+/// dropped with the reason `dropped`.
+void select(Basis& basis, const std::vector<char>& keep, const std::string& kept,
+            const std::string& dropped);
+
+/// Coordinates of a coupled model that follow the others: q_dofs = rows q_others, others in
+/// increasing order.
+struct DependentCoordinates {
+  std::vector<int> dofs;  ///< of the coupled model
+  Matrix rows;            ///< dofs x others
+};
+
+/// What is known of a family of bases before anything is computed.
+struct MethodTraits {
+  bool ownMass = true;  ///< mass and damping are projected on its vectors; otherwise the coupled
+                        ///< mass is singular and residuals tell no errors
+  bool interfaceForces = false;  ///< interface forces are coordinates, and interface dofs are none
+  bool dependent =
+      false;  ///< it has coordinates that depend on others, by the inverse of the coupled mass
+  bool selectable = false;  ///< its modes have a fixed interface and may be left out one by one
+};
+
+/// What is known of a part before anything is computed.
+struct PartOutline {
+  std::string name;
+  int dofs = 0;       ///< of the part
+  bool inner = true;  ///< it has dofs no other part has
+};
+
+/// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on
+/// several ranks.
+class ReductionMethod {
+ public:
+  virtual ~ReductionMethod() = default;
+
+  /// Basis of one part. Throws ModelError (the interior is a mechanism, the mass is indefinite) or
+  /// ConvergenceError.
+  virtual Basis build(const model::Substructure& part, const ModeRequest& request) const = 0;
+
+  /// Second hook, for families that need the assembled interface: improve the bases of all parts
+  /// given the coupled reduced model, `positions[p][i]` being the coupled dof of reduced coordinate
+  /// i of part p. True when a basis was changed, and parts are then projected and coupled again.
+  /// The default has nothing to improve.
+  virtual bool augment(const model::SecondOrderModel& coupled,
+                       const std::vector<std::vector<int>>& positions,
+                       const std::vector<model::Substructure>& parts,
+                       std::vector<Basis>& bases) const;
+
+  /// Third hook, after the last improvement: coordinates that are no unknowns of the coupled model
+  /// but follow the others. maps[p] are the coordinates of part p in coupled dofs. The default has
+  /// none.
+  virtual DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
+                                                    const std::vector<Sparse>& maps,
+                                                    const std::vector<model::Substructure>& parts,
+                                                    const std::vector<Basis>& bases) const;
+
+  virtual MethodTraits traits() const { return {}; }
+
+  /// Looks at what it will read, files above all, before anything is computed. Throws DeckError.
+  /// The default reads nothing.
+  virtual void checkInput(const std::vector<PartOutline>& parts) const;
+
+  /// True when build() looks at the name of the part: then identical parts are not reduced once for
+  /// all.
+  virtual bool namesParts() const { return false; }
+};
+
+using MethodRegistry = deck::Registry<ReductionMethod, const Teuchos::ParameterList&>;
+
+}  // namespace tooljoint::reduction

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/project/BasisChecks.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "common/report/StageTimes.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+/// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size,
+/// with room.
+constexpr double zeroEnergy = 1e-12;
+/// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and
+/// two more.
+constexpr int zeroEnergyCandidates = 8;
+
+/// Mass-normalised shapes phi with omega^2 = phi' K phi.
+int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues) {
+  const Sparse absolute = K.cwiseAbs();
+  int found = 0;
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    const Vector shape = shapes.col(k).cwiseAbs();
+    if (std::abs(eigenvalues[k]) <= zeroEnergy * shape.dot(absolute * shape)) ++found;
+  }
+  return found;
+}
+
+void checkRank(const Basis& basis, BasisReport& report) {
+  const Stage stage("check of the rank");
+  const Matrix Phi =
+      Matrix(basis.vectors)
+          .leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
+  if (Phi.cols() == 0) {
+    report.rank = 0;
+    report.conditioning = 1;
+    return;
+  }
+  Matrix scaled = Phi;
+  for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
+    const double length = scaled.col(j).norm();
+    if (length > 0) scaled.col(j) /= length;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> gram(scaled.transpose() * scaled,
+                                                   Eigen::EigenvaluesOnly);
+  const double largest = gram.eigenvalues().maxCoeff();
+  report.rank = static_cast<int>((gram.eigenvalues().array() > 1e-14 * largest).count());
+  report.conditioning =
+      std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
+}
+
+/// Sets of dofs without any of the basis' interface dofs.
+std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, const Basis& basis) {
+  model::Substructure free = part;
+  free.interface.clear();
+  free.retained.clear();
+  std::vector<std::vector<int>> floating;
+  for (const auto& link : partition(free).links)
+    if (std::none_of(basis.boundary.begin(), basis.boundary.end(),
+                     [&](int i) { return std::binary_search(link.begin(), link.end(), i); }))
+      floating.push_back(link);
+  return floating;
+}
+
+/// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all
+/// kept dofs (they change no constraint mode, and let a free part stand). Links that touch no kept
+/// dof do not move and are left out.
+void checkStatics(const model::Substructure& part, const Basis& basis,
+                  const ProjectedMatrices& reduced, BasisReport& report) {
+  const Stage stage("check of the statics");
+  const Partition& p = basis.partition;
+  const int kept = static_cast<int>(p.kept.size());
+  if (kept == 0) return;
+  std::vector<int> positions = p.kept;
+  for (std::size_t link = 0; link < p.links.size(); ++link)
+    if (!p.ends[link].empty())
+      for (int i : p.links[link]) positions.push_back(p.interior[static_cast<std::size_t>(i)]);
+  Sparse K = block(constantStiffness(part.model), positions, positions);
+  Matrix k = reduced.constantStiffness;
+  double spring = 0;
+  for (int i = 0; i < kept; ++i) spring += std::abs(K.coeff(i, i)) / kept;
+  if (spring == 0) spring = 1;
+  Triplets ground;
+  for (int i = 0; i < kept; ++i) {
+    ground.emplace_back(i, i, spring);
+    k(i, i) += spring;
+  }
+  Sparse springs(K.rows(), K.cols());
+  springs.setFromTriplets(ground.begin(), ground.end());
+  K = Sparse(K + springs);
+
+  std::set<int> loaded{0, kept / 3, 2 * kept / 3, kept - 1};
+  Matrix full = Matrix::Zero(K.rows(), static_cast<Eigen::Index>(loaded.size()));
+  Matrix small = Matrix::Zero(k.rows(), full.cols());
+  Eigen::Index column = 0;
+  for (int j : loaded) {
+    full(j, column) = 1;
+    small(j, column++) = 1;
+  }
+  // Modes of links left out are not excited: give them any stiffness that keeps the reduced matrix
+  // regular.
+  for (Eigen::Index i = kept; i < k.rows(); ++i)
+    if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
+  Matrix exact;
+  try {
+    exact = linalg::DirectSolver(K).solve(full);
+  } catch (const ModelError&) {
+    report.remarks.push_back(
+        "static exactness was not looked at: with springs on all kept dofs the part still moves "
+        "freely");
+    return;
+  }
+  const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
+  report.staticDefect = 0;
+  for (Eigen::Index c = 0; c < exact.cols(); ++c) {
+    double error = 0;
+    for (Eigen::Index i = 0; i < exact.rows(); ++i)
+      error = std::max(
+          error, std::abs(recovered(positions[static_cast<std::size_t>(i)], c) - exact(i, c)));
+    report.staticDefect = std::max(report.staticDefect, error / exact.col(c).cwiseAbs().maxCoeff());
+  }
+}
+
+/// The same for interface forces as coordinates: unit loads f on interface dofs that stand on
+/// springs s, g = f - s u_b, with the rest a held against g:
+///
+///     [k_aa  k_ag - B_a'; s B_a  1 + s B_g] (a, g) = (0, f),   u_b = B_a a + B_g g
+void checkDualStatics(const model::Substructure& part, const Basis& basis,
+                      const ProjectedMatrices& reduced, BasisReport& report) {
+  const Stage stage("check of the statics");
+  const Eigen::Index forces = basis.forces(), others = basis.vectors.cols() - forces;
+  Sparse K = constantStiffness(part.model);
+  double spring = 0;
+  for (int i : basis.boundary) spring += std::abs(K.coeff(i, i)) / static_cast<double>(forces);
+  if (spring == 0) spring = 1;
+  Triplets ground;
+  for (int i : basis.boundary) ground.emplace_back(i, i, spring);
+  for (int i = 0; i < K.rows(); ++i) ground.emplace_back(i, i, 0.0);
+  Sparse springs(K.rows(), K.cols());
+  springs.setFromTriplets(ground.begin(), ground.end());
+  K = Sparse(K + springs);
+  // What the interface does not reach floats: it is held by a stiffness that the loads do not feel.
+  for (const auto& link : floatingLinks(part, basis))
+    for (int i : link) K.coeffRef(i, i) += spring;
+
+  const Matrix Phi = basis.vectors, k = reduced.constantStiffness;
+  Matrix B(forces, Phi.cols());
+  for (Eigen::Index j = 0; j < forces; ++j)
+    B.row(j) = Phi.row(basis.boundary[static_cast<std::size_t>(j)]);
+  Matrix system(Phi.cols(), Phi.cols());
+  system.topRows(others) = k.topRows(others);
+  system.topRightCorner(others, forces) -= B.leftCols(others).transpose();
+  system.bottomRows(forces) = spring * B;
+  system.bottomRightCorner(forces, forces) += Matrix::Identity(forces, forces);
+  for (Eigen::Index i = 0; i < others; ++i)
+    if (system.row(i).cwiseAbs().maxCoeff() == 0) system(i, i) = 1;
+  const std::set<Eigen::Index> loaded{0, forces / 3, 2 * forces / 3, forces - 1};
+  const linalg::DirectSolver solver(K, [&](int i) {
+    return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames);
+  });
+  const Eigen::FullPivLU<Matrix> factor(system);
+  report.staticDefect = 0;
+  for (Eigen::Index j : loaded) {
+    Vector full = Vector::Zero(K.rows()), small = Vector::Zero(Phi.cols());
+    full[basis.boundary[static_cast<std::size_t>(j)]] = 1;
+    small[others + j] = 1;
+    const Vector exact = solver.solve(full), recovered = Phi * factor.solve(small);
+    report.staticDefect = std::max(report.staticDefect, (recovered - exact).cwiseAbs().maxCoeff() /
+                                                            exact.cwiseAbs().maxCoeff());
+  }
+}
+
+void checkFrequencies(const model::Substructure& part, const Basis& basis,
+                      const ProjectedMatrices& reduced, BasisReport& report) {
+  const Stage stage("check of the frequencies");
+  // Without forces on the interface: their coordinates are zero then.
+  const Eigen::Index size = basis.vectors.cols() - basis.forces();
+  const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
+  const Sparse K = symmetricPart(constantStiffness(part.model));
+  const Matrix k = Matrix(symmetricPart(reduced.constantStiffness)).topLeftCorner(size, size);
+  const Matrix vectors = Matrix(basis.vectors).leftCols(size);
+  if (m.rows() == 0) {
+    report.largestOmega = 0;
+    report.explicitStep = 0;
+    report.zeroEnergyReduced = 0;
+  } else if (basis.inertial.size() > 0 && basis.forces() == 0) {
+    const linalg::EigenPairs pairs =
+        linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
+    report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
+    if (pairs.count() < size)
+      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) +
+                               " of " + std::to_string(size) +
+                               " coordinates: implicit integrators only");
+    else
+      report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
+    report.zeroEnergyReduced = countZeroEnergy(K, vectors * pairs.vectors, pairs.values);
+  } else {
+    const Eigen::LLT<Matrix> factor(m);
+    if (factor.info() != Eigen::Success)
+      throw ModelError("Part \"" + part.name +
+                       "\": its reduced mass matrix is not positive definite. Give every dof of "
+                       "the part mass, or retain fewer "
+                       "massless dofs.");
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
+    if (pairs.info() != Eigen::Success)
+      throw ConvergenceError(
+          "Part \"" + part.name +
+          "\": the eigenvalues of the reduced part were not found (QR iteration).");
+    const Matrix& shapes = pairs.eigenvectors();
+    report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
+    report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
+    report.zeroEnergyReduced = countZeroEnergy(K, vectors * shapes, pairs.eigenvalues());
+  }
+  const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
+      K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()),
+      linalg::EigenOptions());
+  report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
+}
+
+}  // namespace
+
+void checkBasis(const model::Substructure& part, const Basis& basis,
+                const ProjectedMatrices& reduced, BasisReport& report) {
+  checkRank(basis, report);
+  if (report.rank < static_cast<int>(basis.vectors.cols()) - basis.forces())
+    report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " +
+                             std::to_string(basis.vectors.cols() - basis.forces()) +
+                             " coordinates");
+  if (basis.forces() > 0)
+    checkDualStatics(part, basis, reduced, report);
+  else
+    checkStatics(part, basis, reduced, report);
+  if (report.staticDefect > 1e-6)
+    report.remarks.push_back(
+        "static response to loads on kept dofs is not exact: largest relative difference " +
+        formatNumber(report.staticDefect));
+  checkFrequencies(part, basis, reduced, report);
+  if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
+    report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) +
+                             " zero-energy modes, the reduced part " +
+                             std::to_string(report.zeroEnergyReduced) +
+                             ": rigid-body motion is not preserved");
+  report.checked = true;
+}
+
+}  // namespace tooljoint::reduction

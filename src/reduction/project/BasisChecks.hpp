@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Checks made on every basis: rank, static exactness, zero-energy modes, largest frequency.
+#pragma once
+
+#include "model/Substructure.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/project/Projection.hpp"
+
+namespace tooljoint::reduction {
+
+/// What RK4 needs of a step: omega dt <= 2.78 (2.83 without damping, Hairer and Wanner 1996, with
+/// some room).
+constexpr double rk4StabilityLimit = 2.78;
+
+/// Fills the checked part of `report`. Throws ModelError when the reduced mass is not positive
+/// definite.
+void checkBasis(const model::Substructure& part, const Basis& basis,
+                const ProjectedMatrices& reduced, BasisReport& report);
+
+}  // namespace tooljoint::reduction

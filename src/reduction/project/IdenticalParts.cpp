@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/project/IdenticalParts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "linalg/blocks/BlockKernels.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+/// Relative difference of the entries of two parts of `dofs` up to which they are the same part.
+/// Positions of some kilometres are rounded to u = 5e-13 m; over an element of length l this is a
+/// strain u / l and a tension E A u / l, which changes its bending stiffness 12 E I / l^3 by (A l^2
+/// / 10 I) u / l: 3e-10 for 10 m of pipe, less on a finer mesh. The softest motion of a chain of n
+/// elements feels a change of tension as n^2 times the change of its entries, so that what is the
+/// same shrinks with n^2 as well: the lowest frequency is met to 1e-8.
+double sameEntry(int dofs) {
+  const double few = 90.0 / std::max(1, dofs);
+  return std::min(1e-9, 5e-11 * std::max(1.0, few * few));
+}
+
+/// Raises size_i to the largest entry of row i.
+void raiseToRows(const Sparse& a, Vector& size) {
+  if (a.rows() != size.size()) return;
+  for (int i = 0; i < a.outerSize(); ++i)
+    for (Sparse::InnerIterator it(a, i); it; ++it)
+      size[i] = std::max(size[i], std::abs(it.value()));
+}
+
+bool sameIntegers(const int* a, const int* b, Eigen::Index n) {
+  return n == 0 || std::memcmp(a, b, sizeof(int) * static_cast<std::size_t>(n)) == 0;
+}
+
+/// The matrix that is looked at next. Matrices of many parts are read once, one after the other,
+/// and come from far away: their memory is asked for while the one before is compared.
+struct Ahead {
+  explicit Ahead(const model::SharedSparse* a)
+      : columns(a ? a->innerIndexPtr() : nullptr),
+        values(a ? a->valuePtr() : nullptr),
+        size(a ? a->nonZeros() : 0) {}
+  /// Eight entries from the k-th on.
+  void fetch(Eigen::Index k) const {
+    if (k >= size) return;
+    __builtin_prefetch(values + k, 0, 2);
+    __builtin_prefetch(columns + k, 0, 2);
+  }
+  const int* columns;
+  const double* values;
+  Eigen::Index size;
+};
+
+/// |x_k - y_k| <= room_k for all k < n; false where one of them is not a number. Eight entries
+/// between two looks, which compilers do not do by themselves. x_k is entry `first` + k of its
+/// matrix.
+TOOLJOINT_CLONES bool near(const double* x, const double* y, const double* room, Eigen::Index n,
+                           const Ahead& ahead, Eigen::Index first) {
+  using linalg::kernel::Quad;
+  using Bits = long long __attribute__((vector_size(32)));
+  constexpr Bits notSign = {0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff,
+                            0x7fffffffffffffff};
+  Eigen::Index k = 0;
+  for (; k + 8 <= n; k += 8) {
+    ahead.fetch(first + k);
+    Bits good = ~Bits{};
+    for (Eigen::Index j = k; j < k + 8; j += 4) {
+      const Quad difference =
+          *reinterpret_cast<const Quad*>(x + j) - *reinterpret_cast<const Quad*>(y + j);
+      good &= reinterpret_cast<Quad>(reinterpret_cast<Bits>(difference) & notSign) <=
+              *reinterpret_cast<const Quad*>(room + j);
+    }
+    if ((good[0] & good[1] & good[2] & good[3]) == 0) return false;
+  }
+  for (; k < n; ++k)
+    if (!(std::abs(x[k] - y[k]) <= room[k])) return false;
+  return true;
+}
+
+/// A matrix others are compared with: a_ij ~ b_ij where |a_ij - b_ij| <= s_i s_j with s_i^2 =
+/// sameEntry(n) r_i, r the size of the rows: as strict for moments as for forces.
+class MatrixPattern {
+ public:
+  MatrixPattern(const model::SharedSparse& a, Vector s) : a_(a), s_(std::move(s)) {
+    if (!square(a)) return;
+    room_.resize(a.nonZeros());
+    for (int i = 0; i < a.outerSize(); ++i)
+      for (int k = a.outerIndexPtr()[i]; k < a.outerIndexPtr()[i + 1]; ++k)
+        room_[k] = s_[i] * s_[a.innerIndexPtr()[k]];
+  }
+
+  bool matches(const model::SharedSparse& b, const Ahead& ahead) const {
+    if (!square(a_) || !square(b)) return false;
+    const auto n = static_cast<int>(a_.rows());
+    const int *ai = a_.outerIndexPtr(), *aj = a_.innerIndexPtr();
+    const int *bi = b.outerIndexPtr(), *bj = b.innerIndexPtr();
+    // Runs of rows of the same structure at a time: all of them but where rounding left an exact
+    // zero.
+    for (int i = 0; i < n;) {
+      int end = sameIntegers(ai + i, bi + i, n - i + 1) ? n : i;
+      while (end < n && ai[end + 1] - ai[i] == bi[end + 1] - bi[i]) ++end;
+      const bool same = end > i && sameIntegers(aj + ai[i], bj + bi[i], ai[end] - ai[i]);
+      if (same && !near(a_.valuePtr() + ai[i], b.valuePtr() + bi[i], room_.data() + ai[i],
+                        ai[end] - ai[i], ahead, ai[i]))
+        return false;
+      if (!same) end = std::max(end, i + 1);
+      for (; !same && i < end; ++i)
+        if (!matchesRow(b, i)) return false;
+      i = end;
+    }
+    return true;
+  }
+
+ private:
+  bool square(const model::SharedSparse& m) const {
+    return m.rows() == s_.size() && m.cols() == s_.size();
+  }
+
+  /// A row of matrices of different structure: entries one of them does not have are 0.
+  bool matchesRow(const model::SharedSparse& b, int i) const {
+    model::SharedSparse::InnerIterator x(a_, i), y(b, i);
+    while (x || y) {
+      const Eigen::Index column = std::min(x ? x.col() : a_.cols(), y ? y.col() : b.cols());
+      double difference = 0;
+      if (x && x.col() == column) difference += x.value(), ++x;
+      if (y && y.col() == column) difference -= y.value(), ++y;
+      if (!(std::abs(difference) <= s_[i] * s_[column])) return false;
+    }
+    return true;
+  }
+
+  const model::SharedSparse& a_;
+  Vector s_;
+  Vector room_;  ///< s_i s_j of every entry
+};
+
+/// A part others are compared with. Terms of one law are measured together: a geometric stiffness
+/// that is rounding beside the elastic one is rounding.
+class Pattern {
+ public:
+  explicit Pattern(const model::Substructure& part) : part_(part) {
+    const auto& m = part.model;
+    const double same = sameEntry(m.size());
+    const auto add = [&](const model::SharedSparse& matrix, const Vector& rows) {
+      matrices_.emplace_back(matrix, (same * rows).cwiseSqrt());
+    };
+    Vector rows = Vector::Zero(m.size());
+    raiseToRows(m.mass, rows);
+    add(m.mass, rows);
+    for (const auto* terms : {&m.stiffness, &m.damping})
+      for (const auto& term : *terms) {
+        rows.setZero();
+        for (const auto& other : *terms)
+          if (other.law == term.law) raiseToRows(other.matrix, rows);
+        add(term.matrix, rows);
+      }
+  }
+
+  /// `next`: the part that is compared after this one, or null.
+  bool matches(const model::Substructure& other, const model::Substructure* next) const {
+    const auto& a = part_.model;
+    const auto& b = other.model;
+    if (a.size() != b.size() || part_.interface != other.interface ||
+        part_.retained != other.retained)
+      return false;
+    if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b))
+      return false;
+    auto mine = matrices_.begin();
+    if (!mine->matches(b.mass, Ahead(next ? &next->model.mass : nullptr))) return false;
+    for (const auto terms :
+         {&model::SecondOrderModel::stiffness, &model::SecondOrderModel::damping})
+      for (std::size_t i = 0; i < (b.*terms).size(); ++i) {
+        const bool follows = next != nullptr && i < (next->model.*terms).size();
+        if (!(++mine)->matches((b.*terms)[i].matrix,
+                               Ahead(follows ? &(next->model.*terms)[i].matrix : nullptr)))
+          return false;
+      }
+    return true;
+  }
+
+ private:
+  bool sameTerms(const std::vector<model::MatrixTerm>& left,
+                 const std::vector<model::MatrixTerm>& right,
+                 const model::SecondOrderModel& b) const {
+    if (left.size() != right.size()) return false;
+    const auto& laws = part_.model.laws;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const int law = left[i].law;
+      if (law != right[i].law || left[i].name != right[i].name || law < 0 ||
+          law >= static_cast<int>(std::min(laws.size(), b.laws.size())) ||
+          laws[static_cast<std::size_t>(law)].name != b.laws[static_cast<std::size_t>(law)].name)
+        return false;
+    }
+    return true;
+  }
+
+  const model::Substructure& part_;
+  std::vector<MatrixPattern> matrices_;  ///< the mass, the stiffness terms and the damping terms
+};
+
+/// Sum of the sizes of the entries of all stiffness terms (of the mass, without any): what differs
+/// here by more than rounding is not looked at any closer.
+double signature(const model::SecondOrderModel& model) {
+  const auto sum = [](const Sparse& a) {
+    return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum()
+                            : 0.0;
+  };
+  if (model.stiffness.empty()) return sum(model.mass);
+  double total = 0;
+  for (const auto& term : model.stiffness) total += sum(term.matrix);
+  return total;
+}
+
+}  // namespace
+
+std::vector<int> findIdenticalParts(const std::vector<model::Substructure>& parts,
+                                    const std::vector<ModeRequest>& requests) {
+  std::vector<int> representative(parts.size());
+  struct First {
+    std::size_t index;
+    Pattern pattern;
+  };
+  std::multimap<double, First> firsts;  // by signature
+  const First* latest = nullptr;        // the first part of the one before
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto* next = i + 1 < parts.size() ? &parts[i + 1] : nullptr;
+    const auto matches = [&](const First& first) {
+      return requests[i] == requests[first.index] && first.pattern.matches(parts[i], next);
+    };
+    if (latest == nullptr || !matches(*latest)) {
+      representative[i] = static_cast<int>(i);
+      const double mine = signature(parts[i].model);
+      if (!std::isfinite(mine)) continue;
+      const double room = 1e-8 * mine;
+      auto it = firsts.lower_bound(mine - room);
+      while (it != firsts.end() && it->first <= mine + room &&
+             (&it->second == latest || !matches(it->second)))
+        ++it;
+      if (it == firsts.end() || it->first > mine + room)
+        it = firsts.emplace(mine, First{i, Pattern(parts[i])});
+      latest = &it->second;
+    }
+    representative[i] = static_cast<int>(latest->index);
+  }
+  return representative;
+}
+
+}  // namespace tooljoint::reduction

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/project/ReducedModels.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "linalg/blocks/BlockKernels.hpp"
+#include "reduction/project/Projection.hpp"
+#include "reduction/vectors/InitialState.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+/// Equal bit by bit.
+bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
+  if (a.sharesWith(b)) return true;
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         (a.nonZeros() == 0 ||
+          std::memcmp(a.valuePtr(), b.valuePtr(),
+                      sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
+}
+
+}  // namespace
+
+LinearMap::LinearMap(Sparse A) {
+  if (static_cast<double>(A.nonZeros()) > 0.1 * static_cast<double>(A.size()))
+    dense_ = A;
+  else
+    sparse_ = std::move(A);
+}
+
+TOOLJOINT_CLONES Vector LinearMap::operator()(const Vector& x) const {
+  if (dense_.size() == 0) return sparse_ * x;
+  Vector y = Vector::Zero(dense_.rows());
+  linalg::kernel::multiplyAdd(static_cast<int>(dense_.rows()), static_cast<int>(dense_.cols()),
+                              dense_.data(), x.data(), y.data());
+  return y;
+}
+
+LinearMap LinearMap::times(const Sparse& B) const {
+  LinearMap product;
+  if (dense_.size() > 0)
+    product.dense_ = dense_ * B;
+  else
+    product.sparse_ = sparse_ * B;
+  return product;
+}
+
+ReducedModels::ReducedModels(const model::Substructure& like,
+                             std::shared_ptr<const ReducedCore> core,
+                             const ReductionOptions& options)
+    : like_(like),
+      core_(std::move(core)),
+      keepStatic_(options.initialState == InitialState::KeepStatic),
+      project_(core_->basis.vectors.transpose()) {}
+
+const std::vector<ReducedModels::Reaction>& ReducedModels::reactions() {
+  if (reactions_.empty())
+    for (const auto& term : stiffnessTerms(like_.model))
+      reactions_.push_back({term.law == 0 ? "reference state" : "reference state: " + term.name,
+                            project_.times(-term.matrix), term.law});
+  return reactions_;
+}
+
+void ReducedModels::addLoads(const model::Substructure& part, const Vector& offset,
+                             model::SecondOrderModel& reduced) {
+  const bool atRest = offset.isZero(0.0);
+  reduced.loads.reserve(part.model.loads.size() + (atRest ? 0 : reactions().size() + 1));
+  for (const auto& load : part.model.loads)
+    reduced.loads.push_back({load.name, project_(load.vector), load.law});
+  if (atRest) return;
+  // K (D_s + Phi q) = ... : -K_i D_s joins the loads, with the law of K_i.
+  for (const auto& reaction : reactions()) {
+    Vector force = reaction.force(offset);
+    if (!force.isZero(0.0))
+      reduced.loads.push_back({reaction.name, std::move(force), reaction.law});
+  }
+}
+
+void ReducedModels::addPoints(const model::Substructure& part, const Vector& offset,
+                              model::SecondOrderModel& reduced) {
+  const Sparse& Phi = core_->basis.vectors;
+  for (const auto& set : part.model.points) {
+    model::PointSet points = set;
+    points.rows = set.rows * Phi;
+    points.offset = set.offset + set.rows * offset;
+    reduced.points.push_back(points);
+  }
+  reduced.recoveryNodes = part.model.recoveryNodes;
+  if (part.model.recoveryNodes.empty()) return;
+  if (recovery_.size() == 0) recovery_ = like_.model.recovery * Phi;
+  if (same(part.model.recovery, like_.model.recovery))
+    reduced.recovery = recovery_;
+  else
+    reduced.recovery = part.model.recovery * Phi;
+  reduced.recoveryOffset = part.model.recoveryOffset;
+  reduced.recoveryOffset.noalias() += part.model.recovery * offset;
+}
+
+/// Of a basis whose last coordinates are the forces on the interface dofs.
+Boundary ReducedModels::forcesAsCoordinates(const model::Substructure& part,
+                                            const Vector& offset) const {
+  const Basis& basis = core_->basis;
+  Boundary boundary;
+  std::vector<int> columns(static_cast<std::size_t>(basis.vectors.cols()));
+  std::iota(columns.begin(), columns.end(), 0);
+  boundary.rows = block(basis.vectors, basis.boundary, columns);
+  boundary.offset.resize(basis.forces());
+  for (std::size_t j = 0; j < basis.boundary.size(); ++j) {
+    boundary.dofs.push_back(part.model.dofs[static_cast<std::size_t>(basis.boundary[j])]);
+    boundary.offset[static_cast<Eigen::Index>(j)] = offset[basis.boundary[j]];
+  }
+  boundary.forces = basis.forces();
+  return boundary;
+}
+
+void ReducedModels::make(const model::Substructure& part, int index, ReducedSubstructure& out) {
+  const ReducedCore& core = *core_;
+  out.name = part.name;
+  out.basis = std::shared_ptr<const Basis>(core_, &core.basis);
+  out.report = core.report;
+  const Partition& p = core.basis.partition;
+  const Sparse& Phi = core.basis.vectors;
+  out.interface = static_cast<int>(p.interface.size());
+  out.retained = static_cast<int>(p.retained.size());
+  out.modes = core.basis.modes();
+
+  model::SecondOrderModel& m = out.model;
+  m.componentNames = part.model.componentNames;
+  m.laws = part.model.laws;
+  m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
+  for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
+  for (int k = 0; k < out.modes + core.basis.forces(); ++k)
+    m.dofs.push_back(model::DofLabel::modal(index, k));
+  m.mass = core.matrices.mass;
+  m.damping = core.matrices.damping;
+  m.stiffness = core.matrices.stiffness;
+
+  StartState start = startState(part, core.basis, keepStatic_);
+  out.offset = std::move(start.offset);
+  addLoads(part, out.offset, m);
+  addPoints(part, out.offset, m);
+  m.initialDisplacement = std::move(start.displacement);
+  m.initialVelocity = std::move(start.velocity);
+  if (core.basis.forces() > 0) {
+    out.boundary = forcesAsCoordinates(part, out.offset);
+    out.boundary->staticForces = start.forces;
+    if (!start.forces.isZero(0.0))
+      m.loads.push_back({"reference state: forces between parts",
+                         Vector(out.boundary->rows.transpose() * start.forces),
+                         m.lawIndex(model::ScalarLaw::one())});
+  }
+
+  out.report.part = part.name;
+  if (core.report.part != part.name) out.report.sharedWith = core.report.part;
+  const double size = part.model.initialDisplacement.norm();
+  if (size > 0) {
+    const auto moved = part.model.initialDisplacement - out.offset;
+    const bool atRest = m.initialDisplacement.isZero(0.0);
+    out.report.initialStateDefect =
+        (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
+  }
+  if (&part == &like_) m.validate();
+}
+
+}  // namespace tooljoint::reduction

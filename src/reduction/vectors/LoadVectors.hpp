@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Load-dependent residual vectors: what the modes of a fixed-interface basis leave of the static
+/// answer to loads (J. M. Dickens, J. M. Nakagawa, M. J. Wittbrodt, A critique of mode acceleration
+/// and modal truncation augmentation methods for modal response analysis, Computers & Structures 62
+/// (1997) 985-998).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "reduction/methods/ReductionMethod.hpp"
+
+namespace tooljoint::reduction {
+
+struct LoadVectorOptions {
+  bool loads = false;               ///< of every load term of a part
+  bool points = false;              ///< of a unit force on every row of its point laws
+  std::vector<std::int64_t> nodes;  ///< only points of these nodes; empty: all
+  double independence = 1e-6;       ///< an answer of which less than this is new is left out
+  bool any() const { return loads || points; }
+};
+
+/// Adds to `basis` what is new in K_II^-1 f_I for every load f (with the full, unsymmetric K;
+/// pieces that no kept dof touches are balanced by their inertia): the reduced part then answers
+/// these loads statically as the full one does. DeckError when modes of the basis move kept dofs,
+/// ModelError when the interior is a mechanism.
+void addLoadVectors(const model::Substructure& part, const LoadVectorOptions& options,
+                    Basis& basis);
+
+/// Throws DeckError when a node of the options has no point law in any of the parts.
+void requirePointNodes(const std::vector<model::Substructure>& parts,
+                       const LoadVectorOptions& options);
+
+/// Classes of identical parts (the first of each, as findIdenticalParts) that also have the same
+/// loads and points. DeckError when a node of the options has no point.
+std::vector<int> sameLoads(const std::vector<model::Substructure>& parts,
+                           const std::vector<int>& classes, const LoadVectorOptions& options);
+
+/// Adds "Load Vectors" and its companions to the description of a list, and reads them.
+void declareLoadVectors(deck::ListSpec& list);
+LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::reduction

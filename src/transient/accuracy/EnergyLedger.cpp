@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/accuracy/EnergyLedger.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+double EnergyAccount::numerical() const {
+  double dissipated = friction + contactDamping + circulatory;
+  for (double each : damping) dissipated += each;
+  return initial + loads + drive - dissipated - (kinetic + strain + contact);
+}
+
+double EnergyAccount::residual() const {
+  const double scale = std::max(
+      {exchanged, std::abs(initial), std::abs(kinetic) + std::abs(strain) + std::abs(contact)});
+  return scale > 0 ? numerical() / scale : 0.0;
+}
+
+void EnergyLedger::allocate(CompiledModel& model) {
+  const int n = model.size();
+  for (Vector* x : {&q_, &step_, &product_, &internal_, &load_}) x->setZero(n);
+  dissipative_.clear();
+  account_.dampingNames.clear();
+  for (std::size_t i = 0; i < model.damping().terms().size(); ++i) {
+    if (model.damping().terms()[i].skew) continue;
+    dissipative_.push_back(i);
+    account_.dampingNames.push_back(model.damping().terms()[i].name);
+  }
+  account_.damping.resize(dissipative_.size(), 0.0);
+  dissipated_.assign(dissipative_.size(), 0.0);
+}
+
+template <class Power>
+EnergyLedger::Powers EnergyLedger::sumPowers(CompiledModel& model, const Power& power) {
+  Powers sum;
+  for (auto& batch : model.points()) {
+    const auto each = power(batch);
+    sum.stored += each.stored;
+    sum.damping += each.damping;
+    sum.friction += each.friction;
+    sum.drive += each.drive;
+  }
+  return sum;
+}
+
+void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
+  account_ = {};
+  stride_ = stride;
+  skipped_ = unwatched_ = 0;
+  allocate(model);
+  model.setTime(state.t);
+  model.addStiffness(state.q.data(), internal_.data());
+  load_ = Eigen::Map<const Vector>(model.load(), model.size());
+  q_ = state.q;
+  time_ = state.t;
+  strain_ = 0.5 * state.q.dot(internal_);
+  stored_ = sumPowers(model, [&](auto& batch) {
+              return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
+            }).stored;
+  EnergyAccount now = account(model, state);
+  now.contact = stored_;
+  account_.initial = now.kinetic + now.strain + now.contact;
+  account_.supplied = std::abs(now.kinetic) + std::abs(now.strain) + std::abs(now.contact);
+}
+
+void EnergyLedger::book(CompiledModel& model, const State& to) {
+  ++unwatched_;
+  if (++skipped_ < stride_) return;
+  enter(model, to);
+}
+
+/// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2
+/// . dq, which is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory. Of
+/// each damping term: dq' C_i dq.
+EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const State& to) {
+  const bool conservative = model.stiffness().isConservative();
+  const auto& terms = model.damping().terms();
+  double strain = 0, work = 0;
+  std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
+  for (const auto& run : model.runs()) {
+    const int begin = model.pattern().start(run.begin),
+              length = model.pattern().start(run.end) - begin;
+    if (conservative) {
+      strain += 0.5 * model.stiffness().form(to.q.data(), run);
+    } else {
+      const auto step = step_.segment(begin, length);
+      auto product = product_.segment(begin, length);
+      product.setZero();
+      model.addStiffness(to.q.data(), product_.data(), run);
+      strain += 0.5 * to.q.segment(begin, length).dot(product);
+      work += 0.5 * (internal_.segment(begin, length).dot(step) + product.dot(step));
+      internal_.segment(begin, length) = product;
+    }
+    for (std::size_t i = 0; i < dissipative_.size(); ++i) {
+      const auto& term = terms[dissipative_[i]];
+      if (model.damping().factor(dissipative_[i]) != 0.0)
+        dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
+    }
+  }
+  return {strain, conservative ? strain - strain_ : work};
+}
+
+void EnergyLedger::enter(CompiledModel& model, const State& to) {
+  skipped_ = 0;
+  model.setTime(to.t);
+  const double h = to.t - time_;
+  const double given = account_.loads, driven = account_.drive, turned = account_.circulatory;
+  time_ = to.t;
+  double exchanged = 0;
+  const auto entry = [&exchanged](double& account, double work) {
+    account += work;
+    exchanged += std::abs(work);
+  };
+  // loads: (F_n + F_{n+1}) / 2 . dq
+  const double* load = model.load();
+  double loads = 0;
+  for (int i = 0; i < step_.size(); ++i) {
+    step_[i] = to.q[i] - q_[i];
+    q_[i] = to.q[i];
+    loads += 0.5 * (load_[i] + load[i]) * step_[i];
+    load_[i] = load[i];
+  }
+  entry(account_.loads, loads);
+  const auto [strain, work] = formWorks(model, to);
+  entry(account_.circulatory, work - (strain - strain_));
+  exchanged += std::abs(strain - strain_);
+  strain_ = strain;
+  for (std::size_t i = 0; i < dissipative_.size(); ++i)
+    entry(account_.damping[i], model.damping().factor(dissipative_[i]) * dissipated_[i] / h);
+  // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
+  // the end of a step that meets a wall is not what it went in with)
+  if (!model.points().empty()) {
+    const Powers mean = sumPowers(model, [&](auto& batch) {
+      return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
+    });
+    entry(account_.friction, h * mean.friction);
+    entry(account_.contactDamping, h * mean.damping);
+    entry(account_.drive, h * mean.drive);
+    for (auto& batch : model.points()) batch.bookPowers();
+    exchanged += std::abs(mean.stored - stored_);
+    stored_ = mean.stored;
+  }
+  account_.exchanged += exchanged;
+  account_.supplied += std::abs(account_.loads - given) + std::abs(account_.drive - driven) +
+                       std::abs(account_.circulatory - turned);
+}
+
+/// Points that are not active store nothing.
+double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
+  return sumPowers(model,
+                   [&](auto& batch) {
+                     return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
+                   })
+      .stored;
+}
+
+bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
+  unwatched_ = 0;
+  if (skipped_ > 0) enter(model, state);
+  account_.kinetic = 0.5 * model.massForm(state.v.data());
+  account_.strain = strain_;
+  account_.contact = storedNow(model, state);
+  return account_.runaway();
+}
+
+EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
+  if (skipped_ > 0) enter(model, state);
+  EnergyAccount result = account_;
+  result.kinetic = 0.5 * model.massForm(state.v.data());
+  result.strain = strain_;
+  result.contact = storedNow(model, state);
+  return result;
+}
+
+void EnergyLedger::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {static_cast<double>(skipped_), static_cast<double>(unwatched_),
+                               time_, strain_, stored_, account_.initial, account_.loads,
+                               account_.drive, account_.friction, account_.contactDamping,
+                               account_.circulatory, account_.exchanged, account_.supplied});
+  memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
+  for (const Vector* x : {&q_, &internal_, &load_})
+    memory.insert(memory.end(), x->begin(), x->end());
+}
+
+void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memory) {
+  account_ = {};
+  stride_ = stride;
+  allocate(model);
+  skipped_ = static_cast<int>(*memory++);
+  unwatched_ = static_cast<int>(*memory++);
+  for (double* x : {&time_, &strain_, &stored_, &account_.initial, &account_.loads, &account_.drive,
+                    &account_.friction, &account_.contactDamping, &account_.circulatory,
+                    &account_.exchanged, &account_.supplied})
+    *x = *memory++;
+  for (double& x : account_.damping) x = *memory++;
+  for (Vector* vector : {&q_, &internal_, &load_})
+    for (double& x : *vector) x = *memory++;
+}
+
+}  // namespace tooljoint::transient

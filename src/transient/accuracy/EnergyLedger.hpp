@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Where the energy went: kinetic + strain + contact energy at the end equals what was there at the
+/// start plus the work of loads and drive, minus every dissipation; what is missing is the
+/// numerical dissipation of the integrator and the error of these sums, which are trapezoidal over
+/// the steps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "transient/compiled/CompiledModel.hpp"
+
+namespace tooljoint::transient {
+
+struct State;
+
+/// Energies in J. Stored ones are those of the time reached, exchanged ones are summed from the
+/// start.
+struct EnergyAccount {
+  double kinetic = 0;  ///< v'M v / 2
+  double strain = 0;   ///< q'K q / 2
+  double contact = 0;  ///< stored in point laws
+  double initial = 0;  ///< kinetic + strain + contact at the start
+  double loads = 0;    ///< work of F(t)
+  double drive =
+      0;  ///< work fed in through prescribed motion (the rotary drive acting through friction)
+  double friction = 0;        ///< dissipated in friction
+  double contactDamping = 0;  ///< dissipated in normal damping of point laws
+  double circulatory =
+      0;  ///< work given to skew stiffness (torque) and to stiffness that changes with time
+  std::vector<std::string>
+      dampingNames;  ///< groups of damping terms with one law; those that do no work are left out
+  std::vector<double> damping;  ///< dissipated per group
+  double exchanged = 0;         ///< sum of the sizes of all exchanges over all steps
+  double supplied =
+      0;  ///< |initial| and the sum of the sizes of all work of loads, drive and skew stiffness
+
+  /// initial + loads + drive - dissipations - stored: what the integrator lost (> 0) or made (< 0).
+  double numerical() const;
+  /// numerical() relative to the energy exchanged or stored, whichever is larger.
+  double residual() const;
+  /// The integrator has made more energy than the model was ever given.
+  bool runaway() const { return -numerical() > supplied; }
+};
+
+class EnergyLedger {
+ public:
+  /// Every `stride`-th step is booked (explicit steps are far shorter than what the sums need).
+  void start(CompiledModel& model, const State& state, int stride);
+  /// Call after every step. Allocates nothing.
+  void book(CompiledModel& model, const State& to);
+  /// The account at `state`, the last one booked or later: what is left is booked first.
+  EnergyAccount account(CompiledModel& model, const State& state);
+  /// Whether enough steps have been booked since the last runaway() for another look, which costs
+  /// as much as a booking.
+  bool isDue() const { return unwatched_ >= watchStride; }
+  /// EnergyAccount::runaway() at `state`. Allocates nothing.
+  bool runaway(CompiledModel& model, const State& state);
+
+  void save(std::vector<double>& memory) const;
+  void restore(CompiledModel& model, int stride, const double*& memory);
+
+ private:
+  struct Powers {
+    double stored = 0, damping = 0, friction = 0, drive = 0;
+  };
+  struct Works {
+    double strain, stiffness;
+  };
+  void allocate(CompiledModel& model);
+  Works formWorks(const CompiledModel& model, const State& to);
+  /// Sum of power(batch) over all batches.
+  template <class Power>
+  static Powers sumPowers(CompiledModel& model, const Power& power);
+  static double storedNow(CompiledModel& model, const State& state);
+
+  EnergyAccount account_;
+  std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
+  std::vector<double> dissipated_;        ///< dq' C_i dq of each
+  void enter(CompiledModel& model, const State& to);
+
+  int stride_ = 1;
+  static constexpr int watchStride = 8;
+  int unwatched_ = 0;  ///< steps since the last runaway()
+  int skipped_ = 0;    ///< steps since the last one booked
+  double time_ = 0;    ///< the last one booked
+  Vector q_;
+  Vector step_, product_, internal_, load_;
+  double stored_ = 0;  ///< by point laws at the last booking
+  double strain_ = 0;
+};
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/accuracy/StepDoublingError.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tooljoint::transient {
+namespace {
+
+/// Steps between those looked at, each at the price of about three, since its factor is not in the
+/// cache; runs that are short beside it still have `fewest` of them, long ones no more than `most`.
+constexpr long usualStride = 100, shortestStride = 25, fewest = 8, most = 128;
+/// Sums over less say nothing.
+constexpr std::size_t least = 4;
+/// One in so many steps differs by what happens once, a bounce or a grip, and not by how steps go.
+constexpr std::size_t leftOut = 4;
+/// The halves are solved better than the step, so that what its iterations leave is seen.
+constexpr double strictness = 0.1;
+
+}  // namespace
+
+void StepDoublingError::bind(const AlphaStep& step, const State& state, double h, long steps) {
+  auto parameters = step.parameters();
+  parameters.equations.tolerance *= strictness;
+  halves_.emplace(parameters);
+  points_.clear();
+  for (const auto& set : step.model().source().points)
+    points_.emplace_back(set, step.model().pattern());
+  withModel(step.model(), [&] {
+    halves_->startLike(step);
+    halves_->prepare(0.5 * h, state.t);
+  });
+  h_ = h;
+  size_.bind(step.model());
+  start_ = middle_ = end_ = state;
+  velocity_ = difference_ = state.v;
+  stride_ = std::max(std::clamp(steps / fewest, shortestStride, usualStride), steps / most);
+  errors_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
+  plan();
+}
+
+/// What is done with the model while the points are those of the halves; then it is as it was.
+template <class Work>
+void StepDoublingError::withModel(CompiledModel& model, const Work& work) {
+  model.remember(snapshot_);
+  points_.swap(model.points());
+  work();
+  points_.swap(model.points());
+  model.comeBack(snapshot_);
+}
+
+/// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
+void StepDoublingError::plan() {
+  constexpr double golden = 0.6180339887498949;
+  const double i = static_cast<double>(seen_), spread = golden * (i + 1);
+  next_ = static_cast<long>(static_cast<double>(stride_) * (i + spread - std::floor(spread)));
+}
+
+bool StepDoublingError::takeHalves(const AlphaStep& step, const State& from, double end) {
+  halves_->startWhere(step);
+  start_ = from;
+  step.addImpactVelocity(-0.5, h_, true, start_.v);
+  middle_.t = from.t + 0.5 * h_;
+  end_.t = end;
+  if (!halves_->take(start_, middle_, 0.5 * h_, false, unused_)) return false;
+  halves_->keep();
+  return halves_->take(middle_, end_, 0.5 * h_, false, unused_);
+}
+
+/// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has
+/// no part of its force.
+void StepDoublingError::shareImpacts(const std::vector<PointBatch>& points) {
+  for (std::size_t b = 0; b < points.size(); ++b)
+    for (int p = 0; p < points[b].points(); ++p) points_[b].setScale(p, points[b].scale(p));
+}
+
+void StepDoublingError::look(const AlphaStep& step, const State& from, const State& to) {
+  ++seen_;
+  plan();
+  shareImpacts(step.model().points());
+  bool solved = false;
+  withModel(step.model(), [&] { solved = takeHalves(step, from, to.t); });
+  if (!solved) return;  // says nothing: the step itself has been solved
+  const auto add = [&](double& sum, const Vector& x) { sum += size_(x) * size_(x); };
+  velocity_ = to.v;
+  step.addImpactVelocity(-1.0, h_, false, velocity_);
+  difference_ = velocity_ - end_.v;
+  halves_->addImpactVelocity(1.0, 0.5 * h_, false, difference_);
+  add(errors_.emplace_back(0.0), difference_);
+  difference_ = velocity_ - from.v;
+  step.addImpactVelocity(1.0, h_, true, difference_);
+  add(change_, difference_);
+}
+
+double StepDoublingError::ratio(double speed) const {
+  if (errors_.size() < least) return 0.0;
+  const double motion = speed * std::sqrt(change_ / static_cast<double>(errors_.size()));
+  if (!(motion > 0)) return 0.0;
+  auto errors = errors_;
+  std::sort(errors.begin(), errors.end());
+  const auto kept = errors.size() - errors.size() / leftOut;
+  return std::sqrt(
+      std::accumulate(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(kept), 0.0) /
+      static_cast<double>(kept) / motion);
+}
+
+void StepDoublingError::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(),
+                {static_cast<double>(seen_), change_, static_cast<double>(errors_.size())});
+  memory.insert(memory.end(), errors_.begin(), errors_.end());
+  for (const auto& batch : points_) batch.save(memory);
+  halves_->save(memory);
+}
+
+void StepDoublingError::restore(const double*& memory) {
+  seen_ = static_cast<long>(*memory++);
+  change_ = *memory++;
+  errors_.resize(static_cast<std::size_t>(*memory++));
+  for (double& error : errors_) error = *memory++;
+  plan();
+  const double* points = memory;
+  for (auto& batch : points_) batch.restore(memory);
+  withModel(halves_->model(), [&] { halves_->restore(memory); });
+  for (auto& batch : points_) batch.restore(points);  // the scheme has set scales of its own
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/compiled/CompiledModel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long
+/// runs.
+constexpr int positionsPerRun = 2048;
+
+/// Which dofs the tangents of each point couple: its first dof with all others, and one dof per
+/// entity with one of every other entity, which is all the partition into blocks needs to know.
+Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) {
+  const int width = set.law->width();
+  const auto n = static_cast<Eigen::Index>(group.size());
+  Triplets triplets;
+  std::map<int, int> dofOfGroup;
+  for (int p = 0; p < set.law->size(); ++p) {
+    dofOfGroup.clear();
+    int first = -1;
+    for (int r = p * width; r < (p + 1) * width; ++r)
+      for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
+        if (it.value() == 0.0) continue;
+        const int dof = static_cast<int>(it.col());
+        if (first < 0) first = dof;
+        triplets.emplace_back(first, dof, 1.0);
+        dofOfGroup.emplace(group[z(dof)], dof);
+      }
+    for (const auto& [groupA, a] : dofOfGroup)
+      for (const auto& [groupB, b] : dofOfGroup) triplets.emplace_back(a, b, 1.0);
+  }
+  Sparse coupling(n, n);
+  coupling.setFromTriplets(triplets.begin(), triplets.end());
+  return coupling;
+}
+
+/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there
+/// are families that neither matrices nor point laws couple among each other: lateral modes of one
+/// run between two kept nodes, torsional ones, ...
+struct Groups {
+  std::vector<int> group, kind;
+};
+
+Groups groupDofs(const model::SecondOrderModel& model) {
+  const int n = model.size();
+  std::vector<int> parent(z(n));
+  for (int i = 0; i < n; ++i) parent[z(i)] = i;
+  const auto root = [&](int i) {
+    while (parent[z(i)] != i) i = parent[z(i)] = parent[z(parent[z(i)])];
+    return i;
+  };
+  const auto isModal = [&](int i) { return model.dofs[z(i)].kind == model::DofLabel::Kind::Modal; };
+  const auto join = [&](int i, int j) {
+    if (model.dofs[z(i)].entity != model.dofs[z(j)].entity) return;
+    const int a = root(i), b = root(j);
+    parent[z(std::max(a, b))] = std::min(a, b);
+  };
+  const auto joinModes = [&](const Sparse& matrix) {
+    for (int i = 0; i < n; ++i)
+      if (isModal(i))
+        for (Sparse::InnerIterator it(matrix, i); it; ++it)
+          if (it.value() != 0.0 && isModal(static_cast<int>(it.col())))
+            join(i, static_cast<int>(it.col()));
+  };
+  joinModes(model.mass);
+  for (const auto* terms : {&model.damping, &model.stiffness})
+    for (const auto& term : *terms) joinModes(term.matrix);
+  std::map<std::int64_t, int> first;  // per part: the first of its modes a point hangs on
+  for (const auto& set : model.points)
+    for (int p = 0; p < set.law->size(); ++p) {
+      first.clear();
+      for (int r = p * set.law->width(); r < (p + 1) * set.law->width(); ++r)
+        for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
+          const int dof = static_cast<int>(it.col());
+          if (it.value() != 0.0 && isModal(dof))
+            join(first.emplace(model.dofs[z(dof)].entity, dof).first->second, dof);
+        }
+    }
+  Groups groups;
+  std::map<std::tuple<int, std::int64_t, int>, int> entities;
+  for (int i = 0; i < n; ++i) {
+    const auto& label = model.dofs[z(i)];
+    groups.kind.push_back(static_cast<int>(label.kind));
+    const auto key = std::make_tuple(groups.kind.back(), label.entity, isModal(i) ? root(i) : 0);
+    groups.group.push_back(entities.emplace(key, static_cast<int>(entities.size())).first->second);
+  }
+  return groups;
+}
+
+bool isSkew(const Sparse& matrix) {
+  const Sparse transposed = matrix.transpose();
+  const Sparse sum = matrix + transposed;
+  double largest = 0;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      largest = std::max(largest, std::abs(it.value()));
+  for (int k = 0; k < sum.outerSize(); ++k)
+    for (Sparse::InnerIterator it(sum, k); it; ++it)
+      if (std::abs(it.value()) > 1e-14 * largest) return false;
+  return true;
+}
+
+}  // namespace
+
+MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
+                     const std::vector<model::ScalarLaw>& laws, const linalg::BlockPattern& pattern,
+                     const linalg::BlockProduct& like) {
+  std::map<std::string, std::size_t> byLaw;  // laws of one name are one law
+  std::vector<Sparse> matrices;
+  for (const auto& term : terms) {
+    const auto& law = laws[z(term.law)].name;
+    const auto [it, fresh] = byLaw.emplace(law, terms_.size());
+    if (fresh) {
+      terms_.push_back({term.name, term.law, {}, {}, false});
+      matrices.push_back(term.matrix);
+    } else {
+      terms_[it->second].name += " + " + term.name;
+      matrices[it->second] += term.matrix;
+    }
+  }
+  std::vector<const linalg::BlockValues*> samples;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    terms_[i].values.assign(pattern.storage(), 0.0);
+    pattern.add(matrices[i], 1.0, terms_[i].values);
+    terms_[i].product = linalg::BlockProduct(pattern, {&terms_[i].values}, &like);
+    terms_[i].skew = isSkew(matrices[i]);
+  }
+  for (const auto& term : terms_) samples.push_back(&term.values);
+  product_ = linalg::BlockProduct(pattern, samples, &like);
+  constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
+  if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
+  last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+bool MatrixSum::update(const std::vector<double>& lawValues) {
+  if (terms_.empty()) return false;
+  bool changed = false;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double value = lawValues[z(terms_[i].law)];
+    if (!(value == last_[i])) changed = true;
+    last_[i] = value;
+  }
+  if (changed)
+    formed_ = false;
+  else if (!constant_ && !formed_)
+    form();
+  return changed;
+}
+
+void MatrixSum::comeBack(const Snapshot& snapshot) {
+  const bool still = formed_ && last_ == snapshot.last;
+  last_ = snapshot.last;
+  formed_ = snapshot.formed;
+  if (formed_ && !still) form();
+}
+
+void MatrixSum::setFormed(bool formed) {
+  if (formed && !formed_ && !constant_ && !terms_.empty()) form();
+  formed_ = formed;
+}
+
+/// A = sum_i c_i A_i, first term assigned, terms whose law is zero skipped
+void MatrixSum::form() const {
+  const std::size_t n = sum_.size();
+  double* sum = sum_.data();
+  bool assigned = false;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double c = last_[i];
+    const double* values = terms_[i].values.data();
+    if (c == 0.0) continue;
+    if (!assigned)
+      for (std::size_t k = 0; k < n; ++k) sum[k] = c * values[k];
+    else
+      for (std::size_t k = 0; k < n; ++k) sum[k] += c * values[k];
+    assigned = true;
+  }
+  if (!assigned) std::fill(sum_.begin(), sum_.end(), 0.0);
+  formed_ = true;
+}
+
+void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const {
+  if (terms_.empty()) return;
+  if (constant_ || formed_) {
+    product_.addTo(current(), x, y, 1.0, rows);
+    return;
+  }
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (last_[i] != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, last_[i], rows);
+}
+
+void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x,
+                               double* y) const {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const double difference = factor * (last_[i] - then[z(terms_[i].law)]);
+    if (difference != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, difference);
+  }
+}
+
+void MatrixSum::combine(double factor, double* values, std::size_t storage) const {
+  if (terms_.empty()) return;
+  const double* mine = current();
+  for (std::size_t k = 0; k < storage; ++k) values[k] += factor * mine[k];
+}
+
+CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(model) {
+  model.validate();
+  const int n = model.size();
+  const auto [group, kind] = groupDofs(model);
+  std::vector<Sparse> couplings;
+  for (const auto& set : model.points) couplings.push_back(pointCoupling(set, group));
+  std::vector<const Sparse*> matrices{&model.mass.sparse()};
+  for (const auto& term : model.damping) matrices.push_back(&term.matrix.sparse());
+  for (const auto& term : model.stiffness) matrices.push_back(&term.matrix.sparse());
+  for (const auto& coupling : couplings) matrices.push_back(&coupling);
+  pattern_ = linalg::BlockPattern(linalg::partitionDofs(matrices, group, kind), matrices);
+
+  runs_ = linalg::blockRuns(pattern_, positionsPerRun);
+
+  mass_.assign(pattern_.storage(), 0.0);
+  pattern_.add(model.mass, 1.0, mass_);
+  massProduct_ = linalg::BlockProduct(pattern_, {&mass_});
+  damping_ = MatrixSum(model.damping, model.laws, pattern_, massProduct_);
+  stiffness_ = MatrixSum(model.stiffness, model.laws, pattern_, massProduct_);
+  diagonalAddress_.resize(z(n));
+  for (int p = 0; p < n; ++p) diagonalAddress_[z(p)] = pattern_.address(p, p);
+
+  std::map<std::string, std::size_t> byLaw;
+  Vector vector;
+  for (const auto& term : model.loads) {
+    toPositions(term.vector, vector);
+    const auto [it, fresh] = byLaw.emplace(model.laws[z(term.law)].name, loads_.size());
+    if (fresh)
+      loads_.push_back({term.law, vector});
+    else
+      loads_[it->second].vector += vector;
+  }
+  lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
+  load_ = Vector::Zero(n);
+  lawValues_.assign(model.laws.size(), 0.0);
+  for (const auto& set : model.points) points_.emplace_back(set, pattern_);
+}
+
+void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
+  positions.resize(dofs.size());
+  for (int p = 0; p < size(); ++p) positions[p] = dofs[pattern_.partition().dof[z(p)]];
+}
+
+void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
+  dofs.resize(positions.size());
+  for (int p = 0; p < size(); ++p) dofs[pattern_.partition().dof[z(p)]] = positions[p];
+}
+
+std::string CompiledModel::dofName(int position) const {
+  return model::describe(model_.dofs[z(pattern_.partition().dof[z(position)])],
+                         model_.componentNames);
+}
+
+void CompiledModel::setTime(double t) {
+  if (timeSet_ && t == time_) return;
+  time_ = t;
+  timeSet_ = true;
+  for (std::size_t i = 0; i < lawValues_.size(); ++i) lawValues_[i] = model_.laws[i].value(t);
+  const bool c = damping_.update(lawValues_);
+  const bool k = stiffness_.update(lawValues_);
+  if (c || k) ++stamp_;
+  bool changed = false;
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    const double value = lawValues_[z(loads_[i].law)];
+    if (!(value == lastLoadLaws_[i])) changed = true;
+    lastLoadLaws_[i] = value;
+  }
+  if (!changed) return;
+  load_.setZero();
+  for (std::size_t i = 0; i < loads_.size(); ++i)
+    if (lastLoadLaws_[i] != 0.0) load_ += lastLoadLaws_[i] * loads_[i].vector;
+}
+
+void CompiledModel::remember(Snapshot& snapshot) const {
+  snapshot.time = time_, snapshot.timeSet = timeSet_, snapshot.stamp = stamp_;
+  snapshot.lawValues = lawValues_, snapshot.loadLaws = lastLoadLaws_, snapshot.load = load_;
+  damping_.remember(snapshot.damping);
+  stiffness_.remember(snapshot.stiffness);
+}
+
+void CompiledModel::comeBack(const Snapshot& snapshot) {
+  time_ = snapshot.time, timeSet_ = snapshot.timeSet, stamp_ = snapshot.stamp;
+  lawValues_ = snapshot.lawValues, lastLoadLaws_ = snapshot.loadLaws, load_ = snapshot.load;
+  damping_.comeBack(snapshot.damping);
+  stiffness_.comeBack(snapshot.stiffness);
+}
+
+void CompiledModel::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(),
+                {time_, damping_.isFormed() ? 1.0 : 0.0, stiffness_.isFormed() ? 1.0 : 0.0});
+}
+
+void CompiledModel::restore(const double*& memory) {
+  setTime(*memory++);
+  for (MatrixSum* sum : {&damping_, &stiffness_}) sum->setFormed(*memory++ != 0.0);
+}
+
+void CompiledModel::addChangeSince(const std::vector<double>& then, double c, const double* x,
+                                   double* y) {
+  damping_.addChangeSince(then, c, x, y);
+  stiffness_.addChangeSince(then, 1.0, x, y);
+}
+
+void CompiledModel::combine(double m, double c, double k, double* values) const {
+  const std::size_t n = pattern_.storage();
+  for (std::size_t i = 0; i < n; ++i) values[i] = m * mass_[i];
+  if (c != 0.0) damping_.combine(c, values, n);
+  if (k != 0.0) stiffness_.combine(k, values, n);
+}
+
+void CompiledModel::diagonal(double m, double c, double k, double* out) const {
+  for (std::size_t p = 0; p < diagonalAddress_.size(); ++p) {
+    const std::size_t a = diagonalAddress_[p];
+    out[p] = m * mass_[a] + c * damping_.entry(a) + k * stiffness_.entry(a);
+  }
+}
+
+void CompiledModel::addPointForces(double t, const double* q, const double* v, double* y) {
+  for (auto& batch : points_) {
+    batch.evaluate(t, q, v);
+    batch.addForce(1.0, y);
+  }
+}
+
+}  // namespace tooljoint::transient

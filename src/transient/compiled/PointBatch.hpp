@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// One PointSet in kernel form: gathers d = offset + R q, evaluates the law at the points that can
+/// act, scatters R' f and its tangents into the block matrix.
+///
+/// A point is looked at in a step when its clearance may close within the step at twice the rate
+/// last seen; after the step every other point is checked (by itself or by the bound of
+/// ContactBroadPhase), and one that has touched is added and the step corrected: none is ever
+/// missed.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "linalg/blocks/BlockSparse.hpp"
+#include "model/SecondOrderModel.hpp"
+#include "transient/compiled/ContactBroadPhase.hpp"
+
+namespace tooljoint::transient {
+
+class PointBatch {
+ public:
+  PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern);
+
+  int points() const { return points_; }
+  int width() const { return width_; }
+  const std::vector<int>& active() const { return active_; }
+  long evaluations() const { return evaluations_; }
+  const model::PointLaw& law() const { return *law_; }
+  const std::string& name() const { return name_; }
+  std::int64_t entity(int point) const { return entities_[static_cast<std::size_t>(point)]; }
+
+  /// Measure the clearances at q (time t) and choose the points to look at in a step of length h
+  /// from there.
+  void look(double t, double h, const double* q);
+  /// Measure the clearances at q and add points that have touched without being looked at; true if
+  /// there were any. When the next look() is at the time t given here, it is at this q and the
+  /// clearances are not measured again.
+  bool addMissed(const double* q, double t = std::numeric_limits<double>::quiet_NaN());
+
+  /// Forces of the active points at (q, v).
+  void evaluate(double t, const double* q, const double* v);
+  /// Forces and tangents of the active points at (q, v); the tangents are kept until the next call.
+  void evaluateWithTangent(double t, const double* q, const double* v);
+  /// y += factor R' f.
+  void addForce(double factor, double* y) const;
+
+  /// Multiply force and tangents of a point by this in all evaluations from now on (1 at first).
+  void setScale(int point, double scale);
+  double scale(int point) const { return scale_[static_cast<std::size_t>(point)]; }
+  /// y += R' f of the points whose scale is not 1, f multiplied by it; their blocks are appended.
+  void addScaledForce(double* y, std::vector<int>& blocks) const;
+  /// Apply a scale set after the last evaluation with tangents to what it left.
+  void rescale(int point) { scalePoint(point, true); }
+  bool isScaled() const { return scaled_ > 0; }
+
+  // The same in rows (point * width() + coordinate), for iterations that never form q and v; of the
+  // points given.
+  /// rows = R x.
+  void gather(const std::vector<int>& points, const double* x, double* rows) const;
+  /// y += R' rows.
+  void scatter(const std::vector<int>& points, const double* rows, double* y) const;
+  /// d() at q.
+  void gatherPositions(const std::vector<int>& points, const double* q);
+  /// Where the next evaluateHere() evaluates, offsets included.
+  double* position() { return d_.data(); }
+  double* velocity() { return v_.data(); }
+  /// Forces, with tangents if asked, at position() and velocity().
+  void evaluateHere(double t, const std::vector<int>& points, bool tangent);
+  /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
+  const double* dfdd() const { return dfdd_.data(); }
+  const double* dfdv() const { return dfdv_.data(); }
+  /// P of the last freezeTangent(); zero for points that are not in it.
+  const double* frozen() const { return P_.data(); }
+  /// R_p Z R_p' of a point for a matrix on the pattern, row-major.
+  void project(int point, const double* values, double* block) const;
+  /// Blocks of the pattern the rows of any point touch.
+  void markBlocks(std::vector<char>& blocks) const;
+  /// Append those of one point.
+  void appendBlocks(int point, std::vector<int>& blocks) const;
+  /// act(p) for the active points whose rows touch a block.
+  template <class Act>
+  void forActiveIn(int block, const Act& act) const {
+    const auto b = static_cast<std::size_t>(block);
+    for (int i = pointBegin_[b]; i < pointBegin_[b + 1]; ++i) {
+      const int p = point_[static_cast<std::size_t>(i)];
+      if (isActive_[static_cast<std::size_t>(p)]) act(p);
+    }
+  }
+
+  /// P = cd df/dd + cv df/dv of the last evaluateWithTangent(), frozen for the two calls below.
+  void freezeTangent(double cd, double cv);
+  /// Take out of P what pushes on as its point moves (friction that falls with speed), at points
+  /// where it pushes on in one coordinate at least: an effective matrix with it may be indefinite.
+  void takeOutPush();
+  /// Matrix -= R' P R on the pattern.
+  void subtractTangent(double* values) const;
+  /// The same with the part of P that is df/dd alone.
+  void subtractPositionTangent(double* values) const;
+  /// y += R' P R x.
+  void addTangentTimes(const double* x, double* y) const;
+  void forgetTangent();
+
+  // One point or one row (point * width() + coordinate) at a time, for what looks at single points.
+  /// Take the tangent of a point out of the frozen one.
+  void dropTangent(int point);
+  /// Row of P R x with the frozen P; 0 for a point that is not in it.
+  double frozenTimes(int row, const double* x) const;
+  /// R_row x and y += factor R_row'.
+  double rowTimesVector(int row, const double* x) const;
+  void addRow(int row, double factor, double* y) const;
+  /// Largest |R_row,i| weight_i.
+  double rowWeight(int row, const double* weight) const;
+  /// The law at one point for width() coordinates d, v; tangents row-major, both null if not
+  /// wanted.
+  void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd,
+                   double* dfdv);
+
+  /// Powers at (q, v), summed over these points.
+  model::PointLaw::Power power(double t, const double* q, const double* v,
+                               const std::vector<int>& points);
+  /// The same in the middle of the chord `step` that ends at q after h seconds, at its velocity.
+  model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step,
+                                    const std::vector<int>& points);
+  /// All points, and those that were active since the last bookPowers().
+  const std::vector<int>& everyPoint() const { return all_; }
+  const std::vector<int>& acted();
+  /// What is booked up to now is not looked at again.
+  void bookPowers();
+  /// Position, velocity of all points for recording (all of them are gathered).
+  void gatherAll(const double* q, const double* v);
+  const double* d() const { return d_.data(); }
+  const double* v() const { return v_.data(); }
+  /// Forces, defined for active points only.
+  const double* force() const { return f_.data(); }
+
+  /// What a restart needs to go on with the same choices and the same frozen tangent.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  void gatherThese(const std::vector<int>& points, const double* q, const double* v);
+  void findBlocks(const linalg::BlockPattern& pattern);
+  void listActive();
+  void measure(const double* q, std::vector<double>& gap);
+  void subtract(const std::vector<double>& frozen, double* values) const;
+  void applyScale(const std::vector<int>& points, bool tangent);
+  void scalePoint(int point, bool tangent);
+  double rowTimes(int row, const double* x) const;
+
+  std::string name_;
+  std::shared_ptr<const model::PointLaw> law_;
+  std::vector<std::int64_t> entities_;
+  int points_ = 0;
+  int width_ = 0;
+  bool single_ = false;        ///< every row has at most one entry, and it is 1
+  std::vector<int> index_;     ///< single: position per row, -1 for none
+  std::vector<int> rowBegin_;  ///< otherwise: rows as CSR in positions
+  std::vector<int> column_;
+  std::vector<double> value_;
+  std::vector<double> offset_;
+
+  std::vector<int> blockBegin_, block_;  ///< per point: the blocks its rows touch
+  std::vector<int> pointBegin_, point_;  ///< per block: the points whose rows touch it
+
+  // Per point, for tangents: the blocks its rows touch and the rows restricted to them (width x
+  // block, column-major).
+  struct Touch {
+    int start;
+    int width;
+    std::size_t rows;  ///< into touchRows_
+  };
+  std::vector<int> touchBegin_;
+  std::vector<Touch> touches_;
+  std::vector<double> touchRows_;
+  std::vector<int> pairBegin_;           ///< per point into pairOffset_
+  std::vector<std::size_t> pairOffset_;  ///< block offsets for all pairs of touches (general rows)
+  std::vector<std::size_t>
+      entryAddress_;  ///< single: address per point of (row, column), width x width; npos for none
+
+  std::vector<int> active_;
+  std::vector<char> isActive_;
+  std::vector<char> hasActed_;  ///< active since the last bookPowers()
+  std::vector<int> acted_, all_;
+  std::vector<char> isFrozen_;  ///< in the frozen tangent
+  std::vector<double> d_, v_, f_, dfdd_, dfdv_;
+  std::vector<double> scale_;
+  int scaled_ = 0;  ///< scales that are not 1
+  std::vector<double> gap_, lastGap_, check_;
+  double gapTime_ = 0, lastGapTime_ = 0;
+  double checkTime_ = std::numeric_limits<double>::quiet_NaN();  ///< of check_
+  ContactBroadPhase watch_;
+  int gapsSeen_ = 0;                   ///< 0, 1, 2: how many measurements gap_ and lastGap_ hold
+  std::vector<int> frozen_;            ///< points of the frozen tangent
+  std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd
+  mutable std::vector<double> small_;
+  std::vector<int> one_;
+  long evaluations_ = 0;
+};
+
+}  // namespace tooljoint::transient

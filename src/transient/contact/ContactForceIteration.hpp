@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The fast way through an implicit step: the effective matrix S is factored once, and the point
+/// forces are found by nodal compliance. With f = P y + p, P the tangents frozen in S and y = R
+/// delta,
+///
+///     S delta = -R0 + R'p,      p = f(y) - P y
+///
+/// holds at the solution, the residual of any other p is R'(p - f + P y), and each point knows how
+/// its own motion answers its force: y_i = ... + G_ii p_i with G_ii = R_i S^-1 R_i'. So
+///
+///     p_i += (I - (J_i - P_i) G_ii)^-1 (f_i - P_i y_i - p_i),     J_i = df_i/dy_i
+///
+/// with J taken once where the step is expected to end is Newton point by point: one solve and one
+/// evaluation of the laws per iteration, no product, no factorisation. It converges by what the
+/// points feel of each other's change of tangent. Where only few points are left to correct, only
+/// what they reach is solved and evaluated: a force moves a few neighbours in a step. A point whose
+/// force jumps (contact that switches within the step, friction that reverses) is solved as what it
+/// is, see PointSolve; its error is then measured in y.
+#pragma once
+
+#include <vector>
+
+#include "linalg/blocks/BlockFactor.hpp"
+#include "transient/compiled/CompiledModel.hpp"
+#include "transient/contact/PointSolve.hpp"
+
+namespace tooljoint::transient {
+
+class ContactForceIteration {
+ public:
+  static constexpr int widest = PointSolve::widest;
+
+  void bind(CompiledModel& model);
+  /// Scale of each dof's force.
+  void setWeights(const Vector& weight);
+
+  /// A point whose wall is so stiff that S without point laws gives way less than the wall does,
+  /// -tr(df/dd G0) > 1 (about two radians of its own contact frequency per step), meets it as an
+  /// impact in steps of length h: forces there are multiplied by `impact`.
+  void setImpacts(double h, double impact);
+
+  /// The compliance of the points looked at, from the factor of the effective matrix (invert() is
+  /// called), which must outlive its use.
+  void setCompliance(linalg::BlockFactor& factor);
+
+  /// What a restart needs to treat the same points as impacts.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+  /// Remember where delta counts from: q where v = 0, and the residual R0 of all linear terms
+  /// there, which must outlive the step.
+  void start(const Vector& q, const Vector& residual);
+  /// Evaluate the laws at delta = v / c, with tangents, and set p so that it is consistent with
+  /// them.
+  void guess(double t, double c, const Vector& v);
+  /// delta for the present p; `force`, if any, acts as well.
+  void solve(const linalg::BlockFactor& factor, const Vector* force, Vector& delta);
+  /// The same after a correct() that says so: delta changes by what the forces of the points
+  /// corrected have changed, but for residuals below `small`.
+  void solveNear(const linalg::BlockFactor& factor, double small, Vector& delta);
+  /// Share of all blocks that the last solveNear() reached.
+  double nearShare() const { return nearShare_; }
+  /// Evaluate the laws at delta (v is c delta). Returns max |w R'(f - P y - p)| by rows; `force`
+  /// becomes the largest of itself and |w f|; an error below `small` needs no care. After
+  /// solveNear() only what moved is evaluated.
+  double evaluate(double t, double c, const Vector& delta, double small, double& force);
+  /// |w (f - P y - p)|_2 over |w f|_2 where they were evaluated: how much of the forces of all
+  /// points is not accounted for (infinite where there are none any more).
+  double wrongShare() const;
+  /// Take in the points looked at since start(): they have had no force up to now, and are
+  /// evaluated at delta as by evaluate(). Only they are corrected next.
+  double join(double t, double c, const Vector& delta, double small, double& force);
+  /// One Newton step at every point, and the whole way at those where Newton does not help. True
+  /// when it was only taken at the few points wrong by more than a part of `small` (never if `all`
+  /// are asked for), and solveNear() can follow.
+  bool correct(double t, double c, double small, bool all);
+  /// Every `colours`-th point, from the one of this colour, if it is wrong: solved by itself while
+  /// its neighbours stand still. In turns for all colours this is block Gauss-Seidel over the
+  /// points, which converges where neighbours that stick and slip throw each other off when all
+  /// move at once. Returns as correct().
+  bool sweepEveryFourth(double t, double c, double small, int colour);
+  static constexpr int colours = 4;
+
+ private:
+  struct Set {
+    std::vector<double> d;  ///< rows at delta = 0
+    std::vector<double> y;  ///< rows of delta
+    std::vector<double> p;
+    std::vector<double> defect;      ///< f - P y - p
+    std::vector<char> started;       ///< per point: looked at since start() or join()
+    std::vector<char> known;         ///< per point: its compliance belongs to the factor
+    std::vector<double> stiffness;   ///< largest -tr(df/dd G0) / h^2 seen
+    std::vector<double> weight;      ///< per row: largest weight of the dofs it acts on
+    std::vector<double> compliance;  ///< G, width x width per point, row-major
+    std::vector<double> answer;      ///< (I - (J - P) G)^-1, likewise
+    std::vector<double> error;       ///< per point, of the last iteration
+    std::vector<char> exact;         ///< per point: solved by itself in this step
+    std::vector<double> target;      ///< y of the points solved by themselves
+    std::vector<double> change;      ///< of p in the last correct()
+    std::vector<char> moved;         ///< per point: corrected last time
+    std::vector<int> points;         ///< corrected, then those evaluated
+    std::vector<char> listed;        ///< per point: in `points` already, in listMoved()
+  };
+  void start(Set& set, PointBatch& batch);
+  void findImpacts(Set& set, PointBatch& batch, double t);
+  double yieldingDeeper(PointBatch& batch, int point, double t, const double* G0);
+  template <class Width>
+  void answer(Set& set, const PointBatch& batch, int point, double c, Width width);
+  void listMoved(Set& set, const PointBatch& batch) const;
+  void place(Set& set, PointBatch& batch, double t, double c, bool tangent);
+  void prepare(Set& set, PointBatch& batch, double t, double c);
+  void solvePoint(Set& set, PointBatch& batch, int point, double t, double c);
+  void measure(Set& set, PointBatch& batch, double small, double& force);
+  void move(Set& set, PointBatch& batch, int point, double t, double c);
+  bool isWrong(const Set& set, int point, double small) const;
+  bool isFew(long points) const;
+
+  CompiledModel* model_ = nullptr;
+  std::vector<Set> sets_;
+  std::vector<char> blocks_;
+  double h_ = 0, impact_ = 1;
+  const double* inverse_ = nullptr;
+  const Vector* q_ = nullptr;
+  const Vector* residual_ = nullptr;
+  Vector weight_;
+  Vector near_;            ///< change of delta in solveNear(), zero between calls
+  std::vector<int> live_;  ///< blocks where it is not zero
+  bool isNear_ = false;    ///< the last solve was solveNear()
+  bool allMoved_ = true;   ///< the last correction was of all points that were wrong: those it did
+                           ///< not reach are right
+  double nearShare_ = 0;   ///< of all blocks, that it reached
+  PointSolve problem_;
+  PointSolve::Local y_, phi_;
+};
+
+}  // namespace tooljoint::transient

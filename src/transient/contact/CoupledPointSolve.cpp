@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/contact/CoupledPointSolve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// Points treated at once, and the share of the worst error from which a point counts as troubled.
+constexpr int mostPoints = 24;
+constexpr double troubledShare = 0.1;
+constexpr int mostSweeps = 30;
+
+}  // namespace
+
+void CoupledPointSolve::bind(CompiledModel& model) {
+  model_ = &model;
+  int coordinates = 0;
+  for (const auto& batch : model.points()) {
+    const auto size = z(batch.points()) * z(batch.width());
+    for (auto* arrays : {&d_, &v_, &f_}) arrays->emplace_back(size, 0.0);
+    coordinates += batch.points() * batch.width();
+  }
+  const int room = std::min(coordinates, mostPoints * PointSolve::widest);
+  points_.reserve(mostPoints);
+  columns_.resize(model.size(), room);
+  compliance_.resize(room, room);
+}
+
+void CoupledPointSolve::begin() {
+  points_.clear();
+  for (std::size_t b = 0; b < d_.size(); ++b) {
+    const auto& batch = model_->points()[b];
+    std::copy(batch.d(), batch.d() + d_[b].size(), d_[b].begin());
+    std::copy(batch.v(), batch.v() + v_[b].size(), v_[b].begin());
+    std::copy(batch.force(), batch.force() + f_[b].size(), f_[b].begin());
+  }
+}
+
+bool CoupledPointSolve::isIn(int batch, int point) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) {
+    return at.batch == batch && at.problem.point == point;
+  });
+}
+
+/// max_r |w_r (f - f0 - P R delta)_r|, w_r by the strongest dof of the row.
+double CoupledPointSolve::error(const PointBatch& batch, int b, int p, const double* delta,
+                                const double* weight) const {
+  double worst = 0;
+  for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
+    const double wrong = batch.force()[r] - f_[z(b)][z(r)] - batch.frozenTimes(r, delta);
+    worst = std::max(worst, std::abs(wrong) * batch.rowWeight(r, weight));
+  }
+  return worst;
+}
+
+bool CoupledPointSolve::addTroubled(const double* delta, const double* weight) {
+  double worst = 0;
+  for (std::size_t b = 0; b < d_.size(); ++b)
+    for (int p : model_->points()[b].active())
+      if (!isIn(static_cast<int>(b), p))
+        worst = std::max(worst, error(model_->points()[b], static_cast<int>(b), p, delta, weight));
+  if (!(worst > 0) || !std::isfinite(worst)) return false;
+  bool any = false;
+  for (std::size_t b = 0; b < d_.size(); ++b) {
+    auto& batch = model_->points()[b];
+    if (batch.width() > PointSolve::widest) continue;
+    for (int p : batch.active()) {
+      if (isIn(static_cast<int>(b), p) ||
+          error(batch, static_cast<int>(b), p, delta, weight) < troubledShare * worst)
+        continue;
+      const int first =
+          points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
+      if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
+      const int w = batch.width();
+      Point at{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
+      at.problem.point = p;
+      at.problem.P = PointSolve::LocalMatrix::Zero(w, w);
+      at.problem.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][z(p * w)], w);
+      at.problem.v = Eigen::Map<const Eigen::VectorXd>(&v_[b][z(p * w)], w);
+      at.problem.f0 = Eigen::Map<const Eigen::VectorXd>(&f_[b][z(p * w)], w);
+      points_.push_back(at);
+      any = true;
+    }
+  }
+  for (const Point& at : points_) model_->points()[z(at.batch)].dropTangent(at.problem.point);
+  return any;
+}
+
+bool CoupledPointSolve::solve(double t, double c, const linalg::BlockFactor& factor,
+                              const Vector& residual, Vector& delta, Vector& force) {
+  delta = -residual;
+  factor.solve(delta.data());
+  for (const Point& at : points_) {
+    const auto& batch = model_->points()[z(at.batch)];
+    for (int k = 0; k < batch.width(); ++k) {
+      double* column = columns_.col(at.first + k).data();
+      std::fill(column, column + model_->size(), 0.0);
+      batch.addRow(at.problem.point * batch.width() + k, 1.0, column);
+      factor.solve(column);
+    }
+  }
+  const int total = points_.back().first + static_cast<int>(points_.back().y.size());
+  for (const Point& at : points_) {
+    const auto& batch = model_->points()[z(at.batch)];
+    for (int k = 0; k < batch.width(); ++k)
+      for (int j = 0; j < total; ++j)
+        compliance_(at.first + k, j) =
+            batch.rowTimesVector(at.problem.point * batch.width() + k, columns_.col(j).data());
+  }
+  bool settled = false;
+  for (int sweep = 0; sweep < mostSweeps && !settled; ++sweep) {
+    settled = true;
+    for (Point& at : points_) {
+      const auto& batch = model_->points()[z(at.batch)];
+      const auto w = static_cast<int>(at.y.size());
+      Local& free = at.problem.free;
+      free.resize(w);
+      for (int k = 0; k < w; ++k)
+        free[k] = batch.rowTimesVector(at.problem.point * w + k, delta.data());
+      for (const Point& other : points_) {
+        if (&other == &at) continue;
+        const auto columns = static_cast<int>(other.y.size());
+        free += compliance_.block(at.first, other.first, w, columns) * other.phi;
+      }
+      const Local before = at.y;
+      at.problem.G = compliance_.block(at.first, at.first, w, w);
+      if (!at.problem.solve(model_->points()[z(at.batch)], t, c, at.y, at.phi)) return false;
+      if ((at.y - before).norm() > 1e-10 * (at.y.norm() + free.norm())) settled = false;
+    }
+    if (points_.size() == 1) settled = true;
+  }
+  force.setZero();
+  for (const Point& at : points_) {
+    const auto& batch = model_->points()[z(at.batch)];
+    for (int k = 0; k < batch.width(); ++k) {
+      delta += at.phi[k] * columns_.col(at.first + k);
+      batch.addRow(at.problem.point * batch.width() + k, at.phi[k], force.data());
+    }
+  }
+  return delta.allFinite();
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/contact/PointSolve.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tooljoint::transient {
+namespace {
+
+/// Brackets in a row without a smaller defect before Newton at a point is given up.
+constexpr int mostIdle = 2;
+
+}  // namespace
+
+/// y - free - G phi(y); phi and, if asked, its derivative in y.
+PointSolve::Local PointSolve::defect(PointBatch& batch, double t, double c, const Local& y,
+                                     Local& phi, LocalMatrix* slope) const {
+  const Local position = d + y;
+  const Local velocity = v + c * y;
+  phi.resize(y.size());
+  if (slope != nullptr) {
+    LocalMatrix dfdd(y.size(), y.size()), dfdv(y.size(), y.size());
+    batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), dfdd.data(),
+                      dfdv.data());
+    *slope = dfdd.transpose() + c * dfdv.transpose() - P;  // the law's arrays are row-major
+  } else {
+    batch.evaluateOne(t, point, position.data(), velocity.data(), phi.data(), nullptr, nullptr);
+  }
+  phi -= f0 + P * y;
+  return y - free - G * phi;
+}
+
+/// Pseudo-time, (1/tau + 1 - G slope) step = -defect: slow, but it goes where forces balance in a
+/// stable way, past what stops Newton (friction that falls with speed has up to three balances, and
+/// folds between them).
+void PointSolve::flow(PointBatch& batch, double t, double c, const Local& scale, double enough,
+                      Local& y, Local& phi) const {
+  const Eigen::Index w = free.size();
+  const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
+  LocalMatrix slope(w, w);
+  Local now = defect(batch, t, c, y, phi, &slope);
+  double tau = 0.1;
+  for (int iteration = 0; iteration < 200 && size(now) > enough; ++iteration) {
+    const LocalMatrix J = (1 + 1 / tau) * LocalMatrix::Identity(w, w) - G * slope;
+    const Local trial = y - J.partialPivLu().solve(now);
+    if (!trial.allFinite()) return;
+    LocalMatrix nextSlope(w, w);
+    const Local next = defect(batch, t, c, trial, phi, &nextSlope);
+    const double ratio = size(now) / std::max(size(next), 1e-300);
+    if (!(ratio > 0.5)) {  // also catches NaN
+      tau *= 0.25;
+      continue;
+    }
+    y = trial, now = next, slope = nextSlope;
+    tau = std::min(1e12, tau * std::min(4.0, std::max(0.5, 2 * ratio)));
+  }
+}
+
+/// The path y(s) of y = free + s G phi(y) from y(0) = free to s = 1, followed along its length:
+/// forces that push back keep it bounded, so that it gets there, through folds (friction that falls
+/// with speed) and round corners (sticking, touching).
+void PointSolve::follow(PointBatch& batch, double t, double c, const Local& scale, double enough,
+                        Local& y, Local& phi) const {
+  using Path = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest + 1, 1>;  // y scaled, s
+  using PathMatrix =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest + 1, widest + 1>;
+  constexpr int mostSteps = 400, mostIterations = 8, quick = 4;
+  constexpr double shortest = 1e-14, longest = 0.5;
+  const Eigen::Index w = free.size();
+  const double unit = std::max(free.cwiseProduct(scale).norm(), y.cwiseProduct(scale).norm());
+  if (!(unit > 0)) return;
+  const Local size = scale / unit;
+  const Path whole = Path::Unit(w + 1, w);
+  LocalMatrix slope(w, w);
+  PathMatrix J(w + 1, w + 1);
+  Path wrong(w + 1);
+  // S (y - free - s G phi) and [S (1 - s G slope) S^-1, -S G phi] above `row`
+  const auto evaluate = [&](const Path& at, const Path& row) {
+    const Local here = at.head(w).cwiseQuotient(size);
+    defect(batch, t, c, here, phi, &slope);
+    const Local answer = G * phi;
+    J.topLeftCorner(w, w) =
+        LocalMatrix::Identity(w, w) -
+        at[w] * (size.asDiagonal() * G * slope * size.cwiseInverse().asDiagonal());
+    J.topRightCorner(w, 1) = -answer.cwiseProduct(size);
+    J.row(w) = row.transpose();
+    wrong.head(w) = (here - free - at[w] * answer).cwiseProduct(size);
+  };
+  Path at(w + 1), ahead = whole;
+  at << free.cwiseProduct(size), 0.0;
+  double step = 0.1;
+  for (int count = 0; count < mostSteps && step > shortest; ++count) {
+    evaluate(at, ahead);
+    const Path tangent = J.partialPivLu().solve(whole).normalized();
+    if (!tangent.allFinite()) return;
+    const bool last = tangent[w] > 0 && at[w] + step * tangent[w] >= 1;
+    const double length = last ? (1 - at[w]) / tangent[w] : step;
+    Path next = at + length * tangent;
+    bool found = false;
+    int iteration = 0;
+    for (; iteration < mostIterations && !found && next.allFinite(); ++iteration) {
+      wrong[w] = last ? 0.0 : tangent.dot(next - at) - length;
+      evaluate(next, last ? whole : tangent);
+      found = wrong.norm() * unit <= enough;
+      if (!found) next -= J.partialPivLu().solve(wrong);
+    }
+    if (!found || (next - at).norm() > 2 * length) {
+      step = 0.25 * length;
+      continue;
+    }
+    at = next;
+    ahead = tangent;
+    if (last) {
+      y = at.head(w).cwiseQuotient(size);
+      return;
+    }
+    if (iteration <= quick) step = std::min(longest, 2 * step);
+  }
+}
+
+/// Newton with backtracking on the defect scaled by 1/sqrt(G_cc) (an energy); where no decrease is
+/// found, the sign change of step . defect is bracketed. y becomes the best of what was seen;
+/// returns the size of its defect.
+double PointSolve::iterate(PointBatch& batch, double t, double c, const Local& scale, Local& y,
+                           Local& phi) const {
+  const Eigen::Index w = free.size();
+  const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
+  LocalMatrix slope(w, w);
+  Local best = y;
+  double bestSize = INFINITY;
+  int idle = 0;  // brackets in a row that were of no use
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const Local now = defect(batch, t, c, y, phi, &slope);
+    const double before = size(now);
+    if (!std::isfinite(before)) break;
+    if (before < 0.9 * bestSize) idle = 0;
+    if (before < bestSize) best = y, bestSize = before;
+    if (before <= 1e-11 * (size(free) + size(y)) + 1e-300) break;
+    const LocalMatrix J = LocalMatrix::Identity(w, w) - G * slope;
+    const Local step = -J.partialPivLu().solve(now);
+    if (!step.allFinite()) break;
+    double fraction = 1, beyond = 0;
+    bool decreased = false;
+    for (int cut = 0; cut < 10 && !decreased; ++cut, fraction *= 0.5) {
+      const Local trial = defect(batch, t, c, y + fraction * step, phi, nullptr);
+      if (size(trial) <= (1 - 1e-4 * fraction) * before) {
+        y += fraction * step;
+        decreased = true;
+      } else if (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0) {
+        beyond = fraction;
+      }
+    }
+    if (decreased) continue;
+    if (beyond == 0 || ++idle > mostIdle) break;
+    double low = 0, high = beyond;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      const Local trial = defect(batch, t, c, y + middle * step, phi, nullptr);
+      (step.cwiseProduct(scale).dot(trial.cwiseProduct(scale)) > 0 ? high : low) = middle;
+    }
+    y += high * step;
+  }
+  y = best;
+  return bestSize;
+}
+
+/// What rounding of d + y and v + c y may leave of the scaled defect: contact that is on within
+/// 1e-12 m is no better known than that.
+double PointSolve::rounding(PointBatch& batch, double t, double c, const Local& scale,
+                            const Local& y) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  LocalMatrix slope(y.size(), y.size());
+  Local phi;
+  defect(batch, t, c, y, phi, &slope);
+  const Local unsure = epsilon * (d.cwiseAbs() + 2 * y.cwiseAbs() + v.cwiseAbs() / c);
+  return (G.cwiseAbs() * (slope.cwiseAbs() * unsure)).cwiseProduct(scale).norm();
+}
+
+/// Newton from the guess and from without force, then pseudo-time from both, then the path: each
+/// only where the one before ends elsewhere than in a balance.
+bool PointSolve::solve(PointBatch& batch, double t, double c, Local& y, Local& phi) const {
+  const Eigen::Index w = free.size();
+  Local scale(w);
+  for (Eigen::Index i = 0; i < w; ++i)
+    scale[i] = 1.0 / std::sqrt(std::max(std::abs(G(i, i)), 1e-300));
+  const auto size = [&](const Local& x) { return x.cwiseProduct(scale).norm(); };
+  const Local guess = y;
+  Local best = y;
+  double bestSize = INFINITY;
+  const auto balanced = [&] {
+    return bestSize <= 1e-9 * (size(free) + size(best)) ||
+           (std::isfinite(bestSize) && bestSize <= rounding(batch, t, c, scale, best));
+  };
+  const auto keep = [&](double reached) {
+    if (reached < bestSize) best = y, bestSize = reached;
+  };
+  const auto measure = [&] { return size(defect(batch, t, c, y, phi, nullptr)); };
+  for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
+    if (balanced()) break;
+    y = *start;
+    keep(iterate(batch, t, c, scale, y, phi));
+  }
+  for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
+    if (balanced() || !std::isfinite(bestSize)) break;
+    y = *start;
+    flow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
+    keep(measure());
+  }
+  if (!balanced() && std::isfinite(bestSize)) {
+    y = best;
+    follow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
+    keep(measure());
+  }
+  y = best;
+  defect(batch, t, c, y, phi, nullptr);
+  return std::isfinite(bestSize);
+}
+
+}  // namespace tooljoint::transient

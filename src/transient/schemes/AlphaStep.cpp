@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/schemes/AlphaStep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/report/Log.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// What the acceleration by an impact has fallen to, beside its largest, where it is left out.
+constexpr double negligible = 1e-12;
+
+}  // namespace
+
+AlphaStep::AlphaStep(const Parameters& parameters) : parameters_(parameters) {
+  const double r = parameters.radius;
+  alphaM_ = (2 * r - 1) / (r + 1);
+  alphaF_ = r / (r + 1);
+  gamma_ = 0.5 - alphaM_ + alphaF_;
+  beta_ = 0.25 * (1 + alphaF_ - alphaM_) * (1 + alphaF_ - alphaM_);
+  if (parameters.phaseCorrection) setPhaseCorrection();
+}
+
+/// Vibration of frequency w is too slow by e (w h)^2, where e is the mean of the two local errors
+/// of the scheme,
+///
+///     v: g/2 + g d + k - 1/6,   q: d/2 + b - 1/6,   d = am - af,   k = (af - am)(1/2 - am).
+///
+/// A mass that is smaller by 2 e (w h)^2 makes up for it: M - k M (I - F), F = s ca (s ca M + K)^-1
+/// M, is that for low frequencies, (1 - k) M for high ones, symmetric and positive between, so that
+/// the scheme stays unconditionally stable; what is at rest stays where it is. s keeps k at 0.7 or
+/// below.
+void AlphaStep::setPhaseCorrection() {
+  const double d = alphaM_ - alphaF_;
+  const double ofVelocity =
+      gamma_ / 2 + gamma_ * d + (alphaF_ - alphaM_) * (0.5 - alphaM_) - 1.0 / 6;
+  const double ofDisplacement = d / 2 + beta_ - 1.0 / 6;
+  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_);  // times h^2
+  const double whole = (ofVelocity + ofDisplacement) * ca;
+  filter_ = std::min(1.0, 0.7 / whole);
+  phase_ = filter_ * whole;
+}
+
+StepScheme AlphaStep::scheme(double h) const {
+  const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
+  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, mass_->regular ? 0.5 * h * h * ca : 1.0};
+}
+
+/// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
+void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
+  model_ = &model;
+  mass_ = std::make_shared<Mass>();
+  const int n = model.size();
+  for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
+  state.a.setZero();
+  model.addStiffness(state.q.data(), state.a.data());
+  model.addDamping(state.v.data(), state.a.data());
+  state.a = -state.a;
+  for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
+  model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
+  mass_->factor = linalg::BlockFactor(model.pattern());
+  Vector diagonal(n);
+  model.combine(1.0, 0.0, 0.0, mass_->factor.values());
+  model.diagonal(1.0, 0.0, 0.0, diagonal.data());
+  mass_->perUnit.setOnes(n);
+  mass_->missing.assign(static_cast<std::size_t>(n), 0);
+  for (int i = 0; i < n; ++i)
+    if (diagonal[i] == 0.0) {
+      mass_->factor.values()[model.pattern().address(i, i)] = 1.0;
+      mass_->missing[static_cast<std::size_t>(i)] = 1;
+      state.a[i] = 0.0;
+    } else {
+      mass_->perUnit[i] = 1.0 / diagonal[i];
+    }
+  ++counters.factorisations;
+  const int bad = mass_->factor.factor();
+  mass_->regular = bad < 0;
+  if (mass_->regular) {
+    mass_->factor.solve(state.a.data());
+  } else {
+    log::warn("The mass matrix is singular at " + model.dofName(bad) +
+              " although there is mass on it: the motion starts without acceleration, with an "
+              "error of first order in the step.");
+    state.a.setZero();
+  }
+  equation_.bind(model, parameters_.equations);
+  bind(state.a);
+}
+
+void AlphaStep::startLike(const AlphaStep& other) {
+  model_ = other.model_;
+  mass_ = other.mass_;
+  equation_.bind(*model_, parameters_.equations);
+  bind(other.A_);
+}
+
+void AlphaStep::bind(const Vector& a) {
+  A_ = nextA_ = error_ = a;
+  for (Impacts* impacts : {&impacts_, &lastImpacts_}) {
+    impacts->a.setZero(a.size());
+    impacts->blocks.clear();
+    impacts->blocks.reserve(4 * static_cast<std::size_t>(model_->pattern().blocks()));
+  }
+}
+
+void AlphaStep::clear(Impacts& impacts) const {
+  const auto& pattern = model_->pattern();
+  for (int b : impacts.blocks) impacts.a.segment(pattern.start(b), pattern.width(b)).setZero();
+  impacts.blocks.clear();
+}
+
+void AlphaStep::addImpacts(double factor, const Impacts& impacts, Vector& y) const {
+  const auto& pattern = model_->pattern();
+  for (int b : impacts.blocks)
+    y.segment(pattern.start(b), pattern.width(b)) +=
+        factor * impacts.a.segment(pattern.start(b), pattern.width(b));
+}
+
+void AlphaStep::startWhere(const AlphaStep& other) {
+  A_ = other.A_;
+  lastImpacts_ = other.lastImpacts_;
+}
+
+/// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q''
+/// is no part of it.
+void AlphaStep::predict(const State& from, State& to, double h) {
+  for (auto& batch : model_->points()) batch.look(from.t, h, from.q.data());
+  const StepScheme s = scheme(h);
+  const double half = 0.5 * h * h, c = 1 / (1 - alphaF_), perVelocity = 1 / s.velocity,
+               ofVelocity = s.acceleration / s.velocity;
+  for (int i = 0; i < A_.size(); ++i) {
+    const double v = from.v[i] + h * A_[i];
+    to.v[i] = v;
+    to.q[i] = from.q[i] + h * from.v[i] + half * A_[i] - perVelocity * v;
+    to.a[i] = c * (A_[i] - alphaF_ * from.a[i]) - ofVelocity * v;
+  }
+  addImpacts(c * alphaF_ / s.impact, lastImpacts_, to.a);
+}
+
+bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counters& counters) {
+  predict(from, to, h);
+  if (!equation_.solve(to, scheme(h), counters)) {
+    if (!anyway || !equation_.isFinite()) return false;
+    ++counters.unconvergedSteps;
+  }
+  complete(from, to, h);
+  return true;
+}
+
+/// nextA_ = A_{n+1} = ((1 - af) q''_{n+1} + af q''_n - am A_n) / (1 - am), impacts left out of q''.
+void AlphaStep::complete(const State& from, State& to, double h) {
+  const double now = (1 - alphaF_) / (1 - alphaM_), before = alphaF_ / (1 - alphaM_),
+               last = alphaM_ / (1 - alphaM_);
+  const double s = scheme(h).impact;
+  findImpacts();
+  for (int i = 0; i < A_.size(); ++i) nextA_[i] = now * to.a[i] + before * from.a[i] - last * A_[i];
+  addImpacts(-now, impacts_, nextA_);
+  addImpacts(-before / s, lastImpacts_, nextA_);
+  addImpacts(1 / s - 1, impacts_, to.a);
+}
+
+/// From the forces in the batches, which are multiplied by the scheme's factor.
+void AlphaStep::findImpacts() {
+  clear(impacts_);
+  for (const auto& batch : model_->points())
+    if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
+  if (impacts_.blocks.empty()) return;
+  const auto& pattern = model_->pattern();
+  double largest = 0;
+  for (int b : impacts_.blocks)
+    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) {
+      if (mass_->missing[static_cast<std::size_t>(i)]) impacts_.a[i] = 0.0;
+      largest = std::max(largest, std::abs(mass_->perUnit[i] * impacts_.a[i]));
+    }
+  mass_->factor.solveNear(impacts_.a.data(), impacts_.blocks, mass_->perUnit.data(),
+                          negligible * largest);
+}
+
+void AlphaStep::keep() {
+  A_.swap(nextA_);
+  std::swap(impacts_, lastImpacts_);
+}
+
+void AlphaStep::addImpactVelocity(double factor, double h, bool before, Vector& v) const {
+  addImpacts(factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact,
+             before ? lastImpacts_ : impacts_, v);
+}
+
+const Vector& AlphaStep::localError(double h, bool impacts) {
+  error_ = ((alphaM_ - alphaF_) / 2 + beta_ - 1.0 / 6) * h * h * (nextA_ - A_);
+  if (impacts)
+    addImpacts(1.0 / scheme(h).acceleration, impacts_, error_);  // h^2/2 M^-1 R'f, see complete()
+  return error_;
+}
+
+void AlphaStep::save(std::vector<double>& memory) const {
+  for (const Vector* x : {&A_, &lastImpacts_.a}) memory.insert(memory.end(), x->begin(), x->end());
+  equation_.save(memory);
+}
+
+void AlphaStep::restore(const double*& memory) {
+  for (Vector* vector : {&A_, &lastImpacts_.a})
+    for (double& x : *vector) x = *memory++;
+  lastImpacts_.blocks.clear();
+  const auto& pattern = model_->pattern();
+  for (int b = 0; b < pattern.blocks(); ++b)
+    if (!lastImpacts_.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0))
+      lastImpacts_.blocks.push_back(b);
+  equation_.restore(memory);
+}
+
+}  // namespace tooljoint::transient

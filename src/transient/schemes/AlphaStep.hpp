@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// One step of the generalized-alpha scheme (its equations stand in GeneralizedAlpha.cpp) from a
+/// state and what the scheme remembers of the steps before. It chooses nothing: GeneralizedAlpha
+/// does, and StepDoublingError takes steps a second time with one of its own.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "linalg/blocks/BlockFactor.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/schemes/ImplicitStep.hpp"
+
+namespace tooljoint::transient {
+
+class AlphaStep {
+ public:
+  struct Parameters {
+    double radius = 0.8;  ///< spectral radius at infinite frequency
+    bool phaseCorrection = true;
+    ImplicitStep::Options equations;
+  };
+  explicit AlphaStep(const Parameters& parameters);
+  const Parameters& parameters() const { return parameters_; }
+
+  /// Bind to a model and complete state.a from state.{t, q, v}; counts a factorisation.
+  void start(CompiledModel& model, State& state, Counters& counters);
+  /// Bind to the model of another step that has started, and share its mass.
+  void startLike(const AlphaStep& other);
+  /// What depends on the length alone.
+  void prepare(double h, double t) { equation_.prepare(scheme(h), t); }
+
+  /// A step of length h from `from` to to.t; false when the equations have no solution that can be
+  /// found (with `anyway` their last iterate is taken, if it is made of numbers).
+  bool take(const State& from, State& to, double h, bool anyway, Counters& counters);
+  /// The step just taken counts: the next one starts where it ends.
+  void keep();
+  /// Start the next step where another has started the one it has just taken and not kept.
+  void startWhere(const AlphaStep& other);
+
+  /// What contact that lasts as an impact leaves in the velocity of a step of length h, where the
+  /// step just taken starts (`before`) or ends, is added to v `factor` times. While q rests the
+  /// scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
+  void addImpactVelocity(double factor, double h, bool before, Vector& v) const;
+
+  /// Local error of the displacement in the step just taken, with or without what impacts have
+  /// moved.
+  const Vector& localError(double h, bool impacts);
+  const Vector& lastError() const { return error_; }
+  const ImplicitStep& equation() const { return equation_; }
+  CompiledModel& model() const { return *model_; }
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  /// M with unit pivots where there is no mass.
+  struct Mass {
+    linalg::BlockFactor factor;
+    Vector perUnit;             ///< 1 / M_ii
+    std::vector<char> missing;  ///< per position: no mass
+    bool regular = true;        ///< but for those
+  };
+  void setPhaseCorrection();
+  void bind(const Vector& a);
+  StepScheme scheme(double h) const;
+  void predict(const State& from, State& to, double h);
+  /// M^-1 R'f of the impacts of a step, times the scheme's factor: zero but in a few blocks.
+  struct Impacts {
+    Vector a;
+    std::vector<int> blocks;
+  };
+  void complete(const State& from, State& to, double h);
+  void findImpacts();
+  void clear(Impacts& impacts) const;
+  /// y += factor a where a is not zero.
+  void addImpacts(double factor, const Impacts& impacts, Vector& y) const;
+
+  Parameters parameters_;
+  double alphaM_, alphaF_, beta_, gamma_;
+  double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
+  CompiledModel* model_ = nullptr;
+  ImplicitStep equation_;
+  std::shared_ptr<Mass> mass_;
+  Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
+  Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
+  Vector error_;
+};
+
+}  // namespace tooljoint::transient

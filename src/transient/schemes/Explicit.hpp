@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the explicit integrators share: the acceleration M^-1 (F + R'f - C v - K q), the classical
+/// Runge-Kutta step, and the largest frequency that bounds its length.
+#pragma once
+
+#include "linalg/blocks/BlockFactor.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+class ExplicitRightHandSide {
+ public:
+  /// Factors M; evaluations are added to counters.rightHandSides. Throws ModelError naming a dof
+  /// without mass.
+  void bind(CompiledModel& model, const std::string& integrator, Counters& counters);
+
+  /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look().
+  void acceleration(double t, const double* q, const double* v, double* a);
+
+  /// Choose the points to look at in a step of length h from (t, q).
+  void look(double t, double h, const double* q);
+  /// True when a point that was not looked at has touched at q; it is active from then on.
+  bool missed(const double* q);
+
+  /// Largest angular frequency [rad/s] of M^-1 (K + point tangents at the initial state), by
+  /// Lanczos iteration in the mass inner product; an upper estimate (Ritz value plus residual).
+  double largestFrequency(const State& state);
+
+  CompiledModel& model() { return *model_; }
+
+ private:
+  CompiledModel* model_ = nullptr;
+  Counters* counters_ = nullptr;
+  linalg::BlockFactor mass_;
+};
+
+/// Stages of one classical Runge-Kutta step (Nguyen et al. 2020, (B.1)-(B.5), with k41, k42 where
+/// (B.4) prints k31, k32).
+class RungeKuttaStep {
+ public:
+  void resize(int n);
+  /// q, v at t+h from (t, q0, v0), a0 = acceleration there.
+  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0,
+            const Vector& a0, Vector& q, Vector& v);
+
+ private:
+  Vector qi_, vi_, vj_, a2_, a3_, a4_;
+};
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,342 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `Generalized-alpha`: Chung and Hulbert (1993) in the form of Arnold and Bruels (2007). All
+/// forces, contact included, are balanced at t_{n+1}:
+///
+///     M q''_{n+1} + C v_{n+1} + K q_{n+1} = F(t_{n+1}) + R' f(q_{n+1}, v_{n+1}, t_{n+1})
+///     (1 - am) A_{n+1} + am A_n = (1 - af) q''_{n+1} + af q''_n
+///     q_{n+1} = q_n + h v_n + h^2 ((1/2 - b) A_n + b A_{n+1}),   v_{n+1} = v_n + h ((1 - g) A_n +
+///     g A_{n+1})
+///
+/// with am = (2r - 1)/(r + 1), af = r/(r + 1), g = 1/2 - am + af, b = (1 + af - am)^2 / 4 and r the
+/// spectral radius at infinite frequency. For a constant M this is the scheme that averages forces:
+/// second order in q and v, unconditionally stable for linear problems.
+///
+/// Contact too stiff for the step is an impact: averaging its force over two steps would make
+/// energy (up to eight times what comes in). It acts in full over the step in which it arises, and
+/// not beyond, as in Kane, Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels
+/// (2013):
+///
+///     q_{n+1} = ... + h^2/2 M^-1 R'f,   v_{n+1} = ... + h M^-1 R'f   (with the v of the scheme for
+///     that q),   A without f
+///
+/// which never makes energy, and is of first order where it is used.
+///
+/// The nonlinear equations are those of ImplicitStep; a step in which they do not converge is
+/// halved.
+///
+/// With `Step Tolerance` the step follows its error (StepControl), that of the displacement of one
+/// step: the third term of its series that the scheme has wrong (Zienkiewicz and Xie 1991), and all
+/// that impacts have moved, whose time is not known better than the step:
+///
+///     e = (d/2 + b - 1/6) h^2 (A_{n+1} - A_n) + h^2/2 M^-1 R'f,   d = am - af
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "common/Error.hpp"
+#include "common/report/Log.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/accuracy/StepAccuracy.hpp"
+#include "transient/accuracy/StepControl.hpp"
+#include "transient/accuracy/StepDoublingError.hpp"
+#include "transient/schemes/AlphaStep.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+constexpr double defaultTolerance = 1e-5;
+/// Spectral radius from which the rebound of impacts is no longer damped enough.
+constexpr double forImpacts = 0.2;
+
+deck::ListSpec specification() {
+  return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
+      .real("Spectral Radius", "", 0.8, deck::Range::between(0.0, 1.0),
+            "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above "
+            "the step in one step. Walls "
+            "too stiff for the "
+            "step (more than about 1 rad of contact frequency per step) need 0.2 or less.")
+      .real("Tolerance", "", defaultTolerance, deck::Range::positive(),
+            "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls "
+            "below this times the largest "
+            "force scaled alike.")
+      .integer("Max Iterations", 25, deck::Range::atLeast(1),
+               "Newton iterations before a step is halved.")
+      .integer("Max Halvings", 4, deck::Range::between(0, 16),
+               "Times a step may be halved before the run stops.")
+      .real("Step Tolerance", "m", deck::Optional{}, deck::Range::positive(),
+            "Error of the displacement allowed in one step, as root of the mean square over the "
+            "mass. Steps are then Transient/Step "
+            "cut into halves as often as this asks for; without it all steps are equal.")
+      .real("Smallest Step", "s", deck::Optional{}, deck::Range::positive(),
+            "With Step Tolerance: a step that would have to be shorter than this ends the run; by "
+            "default 1/1024 of Transient/Step.")
+      .boolean("Phase Correction", true,
+               "Make up for the period error of the scheme: vibration is then followed to fourth "
+               "order in the step, at about a "
+               "third more work per step.")
+      .boolean("Accept Coarse Steps", false,
+               "Take a motion as a result although fixed steps do not follow it (their local error "
+               "is more than 2.5 % of what moves in them, or "
+               "two of half the length end more than 2 to 4 % elsewhere).")
+      .boolean("Accept Unconverged", false,
+               "Go on with the last iterate of a step that failed after all halvings; such steps "
+               "are counted and reported.");
+}
+
+std::string percent(double part) {
+  std::ostringstream text;
+  text << std::round(1000 * part) / 10 << " %";
+  return text.str();
+}
+
+/// Largest step of the default when the deck gives none.
+constexpr double defaultStep = 1e-3;
+
+class GeneralizedAlpha final : public Integrator {
+ public:
+  explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
+    const auto own = withDefaults(given, specification());
+    tolerance_ = own.get<double>("Tolerance");
+    scheme_.emplace(AlphaStep::Parameters{own.get<double>("Spectral Radius"),
+                                          own.get<bool>("Phase Correction"),
+                                          {tolerance_, own.get<int>("Max Iterations")}});
+    maxHalvings_ = own.get<int>("Max Halvings");
+    acceptUnconverged_ = own.get<bool>("Accept Unconverged");
+    acceptCoarse_ = own.get<bool>("Accept Coarse Steps");
+    controlled_ = own.isParameter("Step Tolerance");
+    if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
+    if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
+  }
+
+  /// Two steps of one length are booked together.
+  int ledgerStride() const override { return controlled_ ? 1 : 2; }
+  std::string advice() const override {
+    return std::string("Choose a smaller ") +
+           (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
+           ", or a smaller Transient/Generalized-alpha/Spectral Radius";
+  }
+  void checkParameters(double step) const override;
+  void prepare(CompiledModel& model, const Window& window, State& state) override;
+  void advance(const State& from, State& to) override;
+  void finish() const override;
+  StepErrors stepErrors() const override;
+  void save(std::vector<double>& memory) const override;
+  void restore(const double*& memory) override;
+
+ private:
+  void look(const State& from, const State& to, double h);
+  int deepestLevel() const;
+  double gridTime() const;
+  [[noreturn]] void giveUp(const State& from, double h) const;
+  [[noreturn]] void giveUpAccuracy(const State& from, double h);
+  std::string describeFailure(double t, double h) const;
+
+  std::optional<AlphaStep> scheme_;
+  double tolerance_;
+  int maxHalvings_;
+  bool acceptUnconverged_, acceptCoarse_;
+  bool controlled_ = false;  ///< steps follow their error
+  double stepTolerance_ = 0, smallest_ = 0;
+
+  CompiledModel* model_ = nullptr;
+  Window window_;
+  double step_ = 0;
+  long units_ = 16;  ///< sub-steps a full step may be cut into
+  long index_ = 0;   ///< full steps done
+  long done_ = 0;    ///< units done of the step under way
+  int level_ = 0;    ///< halvings in force
+  int deepest_ = 4;  ///< halvings possible
+
+  StepControl control_;
+  StepAccuracy resolution_;
+  StepDoublingError halving_;
+  MassNorm length_;
+  double error_ = 0;  ///< of the step under way [m]
+  Vector change_;
+};
+
+void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
+  checkParameters(window.step);
+  model_ = &model;
+  window_ = window;
+  step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
+  deepest_ = controlled_ ? deepestLevel() : maxHalvings_;
+  units_ = 1L << deepest_;
+  if (controlled_) control_.set(stepTolerance_, deepest_);
+  length_.bind(model);
+  scheme_->start(model, state, counters_);
+  scheme_->prepare(step_, state.t);
+  change_ = state.q;
+  if (!controlled_)
+    halving_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
+}
+
+double GeneralizedAlpha::gridTime() const {
+  const double steps =
+      static_cast<double>(index_) + static_cast<double>(done_) / static_cast<double>(units_);
+  const double t = window_.begin + steps * step_;
+  return window_.end - t < 1e-9 * step_ ? window_.end : t;
+}
+
+void GeneralizedAlpha::checkParameters(double step) const {
+  if (!(smallest_ > 0)) return;
+  if (!controlled_)
+    throw DeckError(
+        "Transient/Generalized-alpha/Smallest Step bounds the steps that "
+        "Transient/Generalized-alpha/Step Tolerance chooses, which "
+        "is not given. Give it, or leave Smallest Step out.");
+  const double longest = step > 0 ? step : defaultStep;
+  if (smallest_ <= longest) return;
+  std::ostringstream text;
+  text << "Transient/Generalized-alpha/Smallest Step (" << smallest_
+       << " s) is longer than the longest step, Transient/Step (" << longest << " s).";
+  throw DeckError(text.str());
+}
+
+/// Halvings of the longest step that leave it no shorter than allowed.
+int GeneralizedAlpha::deepestLevel() const {
+  constexpr int usual = 10, most = 30;
+  if (!(smallest_ > 0)) return usual;
+  return std::clamp(static_cast<int>(std::floor(std::log2(step_ / smallest_) + 1e-9)), 0, most);
+}
+
+void GeneralizedAlpha::advance(const State& from, State& to) {
+  double h = 0;
+  int failures = 0;
+  for (;;) {
+    const long stride = units_ >> level_;
+    done_ += stride;
+    to.t = gridTime();
+    const bool last = level_ >= deepest_ || failures >= maxHalvings_;
+    // The nominal length, equal from step to step to the last digit; shorter only where the run
+    // ends.
+    h = step_ * static_cast<double>(stride) / static_cast<double>(units_);
+    if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
+    const bool solved = scheme_->take(from, to, h, last && acceptUnconverged_, counters_);
+    if (solved && controlled_) error_ = length_(scheme_->localError(h, true));
+    if (solved && (!controlled_ || control_.accepts(error_))) break;
+    done_ -= stride;
+    if (solved) {
+      ++counters_.rejected;
+      level_ = control_.shorter(error_, level_);
+      if (level_ > deepest_) giveUpAccuracy(from, h);
+      continue;
+    }
+    if (last) giveUp(from, h);
+    ++level_;
+    ++failures;
+    ++counters_.halved;
+    control_.forget();
+  }
+  if (!controlled_) look(from, to, h);
+  scheme_->keep();
+  counters_.accept(h);
+  if (done_ == units_) ++index_, done_ = 0;
+  if (controlled_) {
+    level_ = control_.next(error_, level_, done_);
+    return;
+  }
+  // Grow back as soon as the sub-steps done fill a longer one.
+  while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
+}
+
+/// What says, in the end, whether the steps follow the motion.
+void GeneralizedAlpha::look(const State& from, const State& to, double h) {
+  if (counters_.steps % StepAccuracy::stride == 0) {
+    change_ = to.q - from.q;
+    resolution_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
+  }
+  if (h == step_ && halving_.isDue(counters_.steps)) halving_.look(*scheme_, from, to);
+}
+
+StepErrors GeneralizedAlpha::stepErrors() const {
+  if (controlled_) return {};
+  return {resolution_.ratio(), halving_.ratio(resolution_.change() / step_)};
+}
+
+void GeneralizedAlpha::finish() const {
+  const auto errors = stepErrors();
+  const auto verdict = judge(errors);
+  if (verdict == Resolution::Good) return;
+  const bool lost = verdict == Resolution::Lost;
+  std::ostringstream text;
+  text << "Steps of " << counters_.maxStep << " s " << (lost ? "do not follow" : "hardly follow")
+       << " the motion: their local error is " << percent(errors.local)
+       << " of what moves in a step";
+  if (errors.halving > 0)
+    text << ", and two of half the length end " << percent(errors.halving) << " elsewhere";
+  text << ". Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance "
+          "choose it.";
+  if (tolerance_ > defaultTolerance)
+    text << " Iterations that stop at a Transient/Generalized-alpha/Tolerance of " << tolerance_
+         << " add to it.";
+  const auto& points = model_->points();
+  const bool hits =
+      std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); });
+  if (hits && scheme_->parameters().radius > forImpacts)
+    text << " Walls too stiff for the step are met as impacts, whose rebound is damped with a "
+            "Transient/Generalized-alpha/Spectral Radius of "
+         << forImpacts << " or less.";
+  if (!lost || acceptCoarse_) return log::warn(text.str());
+  throw ConvergenceError(text.str());
+}
+
+std::string GeneralizedAlpha::describeFailure(double t, double h) const {
+  std::ostringstream text;
+  text << "Newton did not converge in the step from t = " << t << " s (length " << h << " s after "
+       << level_ << " halvings): the residual is " << scheme_->equation().relativeError()
+       << " of the largest force, tolerance " << tolerance_ << ", worst at "
+       << model_->dofName(scheme_->equation().worstPosition()) << ".";
+  return text.str();
+}
+
+void GeneralizedAlpha::giveUp(const State& from, double h) const {
+  throw ConvergenceError(
+      describeFailure(from.t, h) +
+      " Choose a smaller Transient/Step, allow more Transient/Generalized-alpha/Max Halvings, or "
+      "look at what "
+      "happens at that node (contact stiffness, regularisation, friction velocity).");
+}
+
+void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
+  std::ostringstream text;
+  text << "Generalized-alpha needs a step below " << h << " s at t = " << from.t
+       << " s: the displacement is wrong by " << error_ << " m in one step, tolerance "
+       << stepTolerance_ << " m, most at " << model_->dofName(worstPosition(scheme_->lastError()))
+       << ". Raise Transient/Generalized-alpha/Step Tolerance, or allow a shorter "
+          "Transient/Generalized-alpha/Smallest Step.";
+  throw ConvergenceError(text.str());
+}
+
+void GeneralizedAlpha::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_),
+                               static_cast<double>(level_)});
+  scheme_->save(memory);
+  control_.save(memory);
+  resolution_.save(memory);
+  if (!controlled_) halving_.save(memory);
+}
+
+void GeneralizedAlpha::restore(const double*& memory) {
+  index_ = static_cast<long>(*memory++);
+  done_ = static_cast<long>(*memory++);
+  level_ = static_cast<int>(*memory++);
+  scheme_->restore(memory);
+  control_.restore(memory);
+  resolution_.restore(memory);
+  if (!controlled_) halving_.restore(memory);
+}
+
+const bool registered = IntegratorRegistry::instance().add(
+    "Generalized-alpha", {"Implicit, second order, with numerical damping of high frequencies only "
+                          "(Chung and Hulbert 1993, Arnold and Bruels 2007); "
+                          "contact is balanced at the end of each step.",
+                          specification(), [](const Teuchos::ParameterList& own) {
+                            return std::make_unique<GeneralizedAlpha>(own);
+                          }});
+
+}  // namespace
+}  // namespace tooljoint::transient

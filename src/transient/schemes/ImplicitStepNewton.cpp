@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The slow and safe way through an implicit step: modified Newton with line search.
+#include <algorithm>
+#include <cmath>
+
+#include "transient/schemes/ImplicitStep.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// A residual that shrinks by less than this factor in an iteration asks for a new factorisation
+/// ...
+constexpr double slowestRate = 0.5;
+/// ... and so does one that would need more iterations than this to converge: a factorisation costs
+/// about as much.
+constexpr double patience = 5;
+/// Iterations in a row that hardly change the residual before the step is given up, and times in a
+/// step that points are solved by themselves.
+constexpr int maxStalled = 3;
+constexpr int maxRescues = 5;
+
+}  // namespace
+
+/// Residual and its scaled size at the iterate.
+double ImplicitStep::measure(const State& to) {
+  scratch_.setZero();
+  for (auto& batch : model_->points()) {
+    batch.evaluate(to.t, to.q.data(), to.v.data());
+    batch.addForce(1.0, scratch_.data());
+  }
+  double largest = 0;
+  double square = 0;
+  double force = linearReference_;
+  const int n = model_->size();
+  const double* f = scratch_.data();
+  const double* linear = linear_.data();
+  const double* w = weight_.data();
+  double* r = residual_.data();
+  for (int i = 0; i < n; ++i) {
+    r[i] = linear[i] - f[i];
+    const double scaled = w[i] * r[i];
+    largest = std::max(largest, std::abs(scaled));
+    square += scaled * scaled;
+    force = std::max(force, std::abs(w[i] * f[i]));
+  }
+  error_ = std::isfinite(square) ? largest : square;
+  merit_ = std::sqrt(square);
+  reference_ = force;
+  return merit_;
+}
+
+/// Whether a new factor is cheaper than going on at this rate of convergence.
+bool ImplicitStep::isSlow(double rate) const {
+  if (rate >= slowestRate) return true;
+  const double left = error_ / tolerance();
+  return left > 1 && std::log(left) > -std::log(rate) * patience;
+}
+
+/// change_ = (c0 M + c1 C + K) delta for the solution of S delta = -R + force: -R + force + R'P R
+/// delta, corrected by what the laws have changed in C and K since S was built.
+void ImplicitStep::findChange() {
+  change_ -= residual_;
+  for (const auto& batch : model_->points()) batch.addTangentTimes(delta_.data(), change_.data());
+  if (drifted()) addDrift(delta_, change_);
+}
+
+/// Take the step delta_, halving it until the scaled residual falls. False when it does not.
+bool ImplicitStep::backtrack(State& to) {
+  change_.setZero();
+  findChange();
+  q0_ = to.q, v0_ = to.v, a0_ = to.a, linear0_ = linear_;
+  const double before = merit_;
+  double fraction = 1;
+  double beyond = 0;  // a fraction at which the residual along delta has changed sign
+  for (int cut = 0; cut < (fresh_ ? 5 : 3); ++cut, fraction *= 0.5) {
+    place(to, fraction);
+    if (converged() || merit_ <= (1 - 0.1 * fraction) * before) return true;
+    if (delta_.dot(residual_) > 0) beyond = fraction;
+  }
+  if (fresh_ && rescues_++ < maxRescues && solveTroubledPoints(to, before)) return true;
+  if (fresh_ && beyond > 0) return bracket(to, beyond);
+  place(to, 0);
+  return false;
+}
+
+/// The points that spoil the Newton step are solved as what they are. False, with the iterate and
+/// its step restored, when that does not help.
+bool ImplicitStep::solveTroubledPoints(State& to, double before) {
+  saved_ = delta_, savedChange_ = change_;
+  place(to, 0);
+  base_ = residual_;
+  nodal_.begin();
+  place(to, 1);
+  bool good = false;
+  for (int attempt = 0; attempt < 4 && !good && nodal_.addTroubled(delta_.data(), weight_.data());
+       ++attempt) {
+    buildFactor();
+    ++counters_->factorisations;
+    if (!factored_ || !nodal_.solve(to.t, scheme_.velocity, factor_, base_, delta_, change_)) break;
+    ++counters_->newtonIterations;
+    residual_ = base_;
+    findChange();
+    place(to, 1);
+    good = converged() || merit_ <= 0.9 * before;
+  }
+  wanted_ = true;  // the factor lacks tangents now
+  factored_ = false;
+  if (!good) delta_ = saved_, change_ = savedChange_;
+  return good;
+}
+
+/// Contact that switches within the step, or friction that reverses, is a jump of the residual that
+/// no decrease of its norm can find: search for the sign change of delta . R between 0 and `beyond`
+/// by bisection. The law is continuous, so there is a root, and at the root the tangent knows the
+/// steep branch.
+bool ImplicitStep::bracket(State& to, double beyond) {
+  double low = 0;
+  double high = beyond;
+  for (int i = 0; i < 60 && high - low > 1e-15 * beyond; ++i) {
+    const double middle = 0.5 * (low + high);
+    place(to, middle);
+    if (converged()) return true;
+    (delta_.dot(residual_) > 0 ? high : low) = middle;
+  }
+  return std::isfinite(merit_);
+}
+
+/// The iterate at a fraction of delta from where the line search began, measured.
+void ImplicitStep::place(State& to, double fraction) {
+  to.q = q0_ + fraction * delta_;
+  to.v = v0_ + fraction * scheme_.velocity * delta_;
+  to.a = a0_ + fraction * scheme_.acceleration * delta_;
+  linear_ = linear0_ + fraction * change_;
+  measure(to);
+}
+
+/// Newton iterations from the predicted state; false on failure.
+bool ImplicitStep::iterate(State& to) {
+  measure(to);
+  fresh_ = false;
+  rescues_ = 0;
+  int stalled = 0;
+  for (int iteration = 0;; ++iteration) {
+    if (converged()) {
+      bool missed = false;
+      for (auto& batch : model_->points()) missed = batch.addMissed(to.q.data(), to.t) || missed;
+      if (!missed) return true;
+      measure(to);
+      if (converged()) return true;
+    }
+    if (!std::isfinite(merit_) || iteration >= options_.maxIterations) return false;
+    if (!factored_ || factorScheme_.h != scheme_.h || (wanted_ && !fresh_)) {
+      refactor(to);
+      if (!factored_) return false;
+    }
+    delta_ = -residual_;
+    factor_.solve(delta_.data());
+    ++counters_->newtonIterations;
+    const double before = merit_;
+    const bool accepted = backtrack(to);
+    if (!accepted) {
+      if (fresh_) return false;  // the exact Newton direction does not help
+      wanted_ = true;
+      continue;
+    }
+    stalled = merit_ > 0.99 * before ? stalled + 1 : 0;
+    if (stalled == maxStalled) return false;
+    wanted_ = wanted_ || isSlow(merit_ / before);
+    fresh_ = false;
+  }
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `RK4 adaptive`: classical Runge-Kutta, one step against two half steps, Nguyen et al. 2020,
+/// appendix B:
+///
+///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15        over all coordinates, in their own units, as
+///     printed there error <= e0/100: keep the half steps, dt := growth * dt;   error <= e0: keep
+///     them;   else dt := dt / shrink and again
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "common/Error.hpp"
+#include "transient/schemes/Explicit.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+deck::ListSpec specification() {
+  return deck::ListSpec("RK4 adaptive", "Parameters of the adaptive Runge-Kutta integrator.")
+      .real("Tolerance", "", 1e-2, deck::Range::positive(),
+            "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
+      .real("First Step", "s", 1e-5, deck::Range::positive(), "Length of the first step.")
+      .real("Growth", "", 1.01, deck::Range::atLeast(1.0),
+            "Factor on the step after an error below a hundredth of the tolerance.")
+      .real("Shrink", "", 1.1, deck::Range{1.0, 100.0, true, false},
+            "Divisor of the step after an error above the tolerance.")
+      .real("Smallest Step", "s", 1e-9, deck::Range::positive(),
+            "A step that would have to be shorter than this ends the run.");
+}
+
+class RungeKutta4Adaptive final : public Integrator {
+ public:
+  explicit RungeKutta4Adaptive(const Teuchos::ParameterList& given) {
+    const auto own = withDefaults(given, specification());
+    tolerance_ = own.get<double>("Tolerance");
+    step_ = own.get<double>("First Step");
+    growth_ = own.get<double>("Growth");
+    shrink_ = own.get<double>("Shrink");
+    smallest_ = own.get<double>("Smallest Step");
+  }
+
+  bool isExplicit() const override { return true; }
+  std::string advice() const override {
+    return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator "
+           "\"Generalized-alpha\"";
+  }
+
+  void prepare(CompiledModel& model, const Window& window, State& state) override {
+    rhs_.bind(model, "RK4 adaptive", counters_);
+    ++counters_.factorisations;
+    stage_.resize(model.size());
+    end_ = window.end;
+    if (window.step > 0) step_ = window.step;
+    for (Vector* x : {&q1_, &v1_, &qHalf_, &vHalf_, &aHalf_}) x->setZero(model.size());
+    rhs_.look(state.t, 0.0, state.q.data());
+    rhs_.acceleration(state.t, state.q.data(), state.v.data(), state.a.data());
+  }
+
+  void advance(const State& from, State& to) override {
+    for (;;) {
+      // The last step ends where the run ends, without a sliver after it.
+      const double left = end_ - from.t;
+      const bool last = step_ >= left * (1 - 1e-9);
+      const double h = last ? left : step_;
+      const double error = tryStep(from, to, h);
+      if (error <= tolerance_) {
+        to.t = last ? end_ : from.t + h;
+        rhs_.acceleration(to.t, to.q.data(), to.v.data(), to.a.data());
+        counters_.accept(h);
+        if (error <= tolerance_ / 100 && !last) step_ *= growth_;
+        return;
+      }
+      ++counters_.rejected;
+      step_ = h / shrink_;
+      if (step_ < smallest_) giveUp(from, to, error);
+    }
+  }
+
+  void save(std::vector<double>& memory) const override { memory.push_back(step_); }
+  void restore(const double*& memory) override { step_ = *memory++; }
+
+ private:
+  /// Two half steps into `to`, their error against one whole step as result (not a number when the
+  /// step blew up).
+  double tryStep(const State& from, State& to, double h) {
+    rhs_.look(from.t, h, from.q.data());
+    do {
+      stage_.take(rhs_, from.t, h, from.q, from.v, from.a, q1_, v1_);
+      stage_.take(rhs_, from.t, 0.5 * h, from.q, from.v, from.a, qHalf_, vHalf_);
+      rhs_.acceleration(from.t + 0.5 * h, qHalf_.data(), vHalf_.data(), aHalf_.data());
+      stage_.take(rhs_, from.t + 0.5 * h, 0.5 * h, qHalf_, vHalf_, aHalf_, to.q, to.v);
+    } while (rhs_.missed(qHalf_.data()) || rhs_.missed(to.q.data()));
+    return ((q1_ - to.q).norm() + (v1_ - to.v).norm()) / 15.0;
+  }
+
+  [[noreturn]] void giveUp(const State& from, const State& to, double error) {
+    qHalf_ = (q1_ - to.q).cwiseAbs() + (v1_ - to.v).cwiseAbs();
+    std::ostringstream text;
+    if (!std::isfinite(error)) {
+      text << "The motion is not finite however short the step from t = " << from.t
+           << " s, first at " << rhs_.model().dofName(worstPosition(qHalf_))
+           << ": a load, a law of time or a point law gives no number there.";
+      throw ConvergenceError(text.str());
+    }
+    text
+        << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t
+        << " s: the error " << error << " exceeds the tolerance " << tolerance_ << ", most at "
+        << rhs_.model().dofName(worstPosition(qHalf_))
+        << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
+    throw ConvergenceError(text.str());
+  }
+
+  double tolerance_ = 0, step_ = 0, growth_ = 0, shrink_ = 0, smallest_ = 0, end_ = 0;
+  ExplicitRightHandSide rhs_;
+  RungeKuttaStep stage_;
+  Vector q1_, v1_, qHalf_, vHalf_, aHalf_;
+};
+
+const bool registered = IntegratorRegistry::instance().add(
+    "RK4 adaptive", {"Runge-Kutta of fourth order, its step controlled by comparing one step with "
+                     "two half steps (Nguyen et al. 2020, appendix "
+                     "B).",
+                     specification(), [](const Teuchos::ParameterList& own) {
+                       return std::make_unique<RungeKutta4Adaptive>(own);
+                     }});
+
+}  // namespace
+}  // namespace tooljoint::transient

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward
+/// differentiation) on y = (q, v), with the error of each step held below
+///
+///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of
+///     velocities
+///
+/// Both choose their steps; samples are interpolated.
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "common/Error.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/schemes/SundialsStepper.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+constexpr const char* arkode = "SUNDIALS ARKODE";
+constexpr const char* cvode = "SUNDIALS CVODE";
+
+/// Motion smaller than this is not resolved to the relative tolerance [m], [m/s].
+constexpr double usualLength = 0.01;
+constexpr double usualVelocity = 1.0;
+
+void addCommon(deck::ListSpec& spec) {
+  spec.real("Relative Tolerance", "", 1e-4, deck::Range::positive(),
+            "Error of a step allowed in each coordinate and velocity, relative to its size.")
+      .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
+            "Error of a step allowed in displacements beside that, and by the same number in "
+            "rotations (rad) and coordinates of "
+            "modes; by default 0.01 m times Relative Tolerance.")
+      .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
+            "The same for velocities; by default 1 m/s times Relative Tolerance.")
+      .real("Initial Step", "s", deck::Optional{}, deck::Range::positive(),
+            "Length of the first step; by default Transient/Step, and without that what SUNDIALS "
+            "estimates.")
+      .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(),
+            "Longest step allowed; by default there is no limit.")
+      .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2),
+               "Newton iterations before a step is tried shorter.")
+      .integer("Maximum Steps", 100000000, deck::Range::atLeast(1),
+               "Steps after which the run stops as one that cannot be afforded.");
+}
+
+deck::ListSpec arkodeSpecification() {
+  deck::ListSpec spec(arkode, "Parameters of ARKODE.");
+  spec.choice(
+      "Method", std::string("ESDIRK436L2SA_6_3_4"),
+      {"SDIRK_2_1_2", "TRBDF2_3_3_2", "ESDIRK324L2SA_4_2_3", "ESDIRK325L2SA_5_2_3", "SDIRK_5_3_4",
+       "KVAERNO_5_3_4", "ESDIRK436L2SA_6_3_4", "QESDIRK436L2SA_6_3_4", "ESDIRK437L2SA_7_3_4",
+       "KVAERNO_7_4_5", "ESDIRK547L2SA_7_4_5", "ESDIRK547L2SA2_7_4_5"},
+      "Butcher table by its name in SUNDIALS, which ends in stages, order of the error estimate "
+      "and order.");
+  addCommon(spec);
+  return spec;
+}
+
+deck::ListSpec cvodeSpecification() {
+  deck::ListSpec spec(cvode, "Parameters of CVODE.");
+  spec.integer("Maximum Order", 2, deck::Range::between(1, 5),
+               "Highest order of the formulas. Above 2 they are unstable for lightly damped "
+               "vibration, and the fastest vibration of "
+               "the mesh then bounds the step.");
+  addCommon(spec);
+  return spec;
+}
+
+class Sundials final : public Integrator {
+ public:
+  Sundials(const std::string& name, const Teuchos::ParameterList& given) : name_(name) {
+    const auto own =
+        withDefaults(given, name == arkode ? arkodeSpecification() : cvodeSpecification());
+    options_.relative = own.get<double>("Relative Tolerance");
+    const auto asked = [&own](const char* parameter, double usual) {
+      return own.isParameter(parameter) ? own.get<double>(parameter) : usual;
+    };
+    options_.positions = asked("Absolute Tolerance", usualLength * options_.relative);
+    options_.velocities = asked("Absolute Velocity Tolerance", usualVelocity * options_.relative);
+    options_.maxIterations = own.get<int>("Maximum Newton Iterations");
+    options_.firstStep = asked("Initial Step", 0.0);
+    options_.maxStep = asked("Maximum Step", 0.0);
+    if (name == arkode) options_.table = own.get<std::string>("Method");
+    if (name == cvode) options_.maxOrder = own.get<int>("Maximum Order");
+    maxSteps_ = own.get<int>("Maximum Steps");
+  }
+
+  std::string advice() const override {
+    return "Choose a smaller Transient/" + name_ +
+           "/Relative Tolerance, and smaller absolute tolerances there if given, or the "
+           "integrator \"Generalized-alpha\"";
+  }
+  void checkParameters(double step) const override {
+    const double first = options_.firstStep > 0 ? options_.firstStep : step;
+    if (!(options_.maxStep > 0) || first <= options_.maxStep) {
+      requireLibrary();
+      return;
+    }
+    std::ostringstream text;
+    text << "The first step (" << first << " s, "
+         << (options_.firstStep > 0 ? "Transient/" + name_ + "/Initial Step" : "Transient/Step")
+         << ") is longer than Transient/" << name_ << "/Maximum Step (" << options_.maxStep
+         << " s).";
+    throw DeckError(text.str());
+  }
+
+  void prepare(CompiledModel& model, const Window& window, State& state) override {
+    checkParameters(window.step);
+    form_.bind(model, name_);
+    window_ = window;
+    if (!(options_.firstStep > 0)) options_.firstStep = window.step;
+    y_.setZero(form_.size());
+    yDot_.setZero(form_.size());
+    stepper_ = makeStepper();
+    firstStep_ = options_.firstStep;
+    stepper_->restart(state.t, state.q.data(), state.v.data(), window.end, firstStep_);
+    complete(state);
+    count();
+  }
+
+  /// To the next sample, or to the end of the step under way if that comes first.
+  void advance(const State& from, State& to) override {
+    if (beginsAnew_) beginAnew(from);
+    if (!(stepper_->time() > from.t)) step(from);
+    const double reached = stepper_->time();
+    const double sample = nextSample(from.t);
+    to.t = sample < reached - 1e-6 * window_.sampling ? sample : reached;
+    stepper_->at(to.t, to.q.data(), to.v.data());
+    complete(to);
+    count();
+  }
+
+  void save(std::vector<double>& memory) const override { memory.push_back(firstStep_); }
+  void restore(const double*& memory) override {
+    firstStep_ = *memory++;
+    beginsAnew_ = true;
+  }
+
+  /// SUNDIALS does not hand out its history (Nordsieck array, errors and steps before, age of the
+  /// Newton matrix), and takes none.
+  bool goesOnFromAnywhere() const override { return false; }
+  void forgetHistory() override {
+    // BDF begins again at first order: a step of its own choice
+    firstStep_ = name_ == arkode ? stepper_->nextStep() : 0.0;
+    beginsAnew_ = true;
+  }
+
+ private:
+  std::unique_ptr<SundialsStepper> makeStepper();
+
+  /// Throws where makeStepper() has nothing to make.
+  void requireLibrary() const {
+#ifndef TOOLJOINT_HAS_SUNDIALS
+    throw DeckError("Transient/Integrator: this program was built without SUNDIALS, which \"" +
+                    name_ +
+                    "\" needs. Install libsundials-dev and configure with -D "
+                    "TOOLJOINT_SUNDIALS=ON, or choose \"Generalized-alpha\".");
+#endif
+  }
+
+  /// From a checkpoint, with its step but without what the method remembers of earlier ones. The
+  /// rest of a step that reached beyond the checkpoint is given up.
+  void beginAnew(const State& from) {
+    beginsAnew_ = false;
+    stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, firstStep_);
+    seen_ = {};
+    evaluations_ = form_.evaluations();
+    factorisations_ = form_.factorisations();
+  }
+
+  void step(const State& from) {
+    if (counters_.steps >= maxSteps_) {
+      std::ostringstream text;
+      text << name_ << " has taken " << counters_.steps << " steps by t = " << from.t
+           << " s, as many as Transient/" << name_ << "/Maximum Steps allows; the step is now "
+           << stepper_->nextStep()
+           << " s. Raise Relative Tolerance, Absolute Tolerance and Absolute Velocity Tolerance "
+              "there, or allow more steps.";
+      throw ConvergenceError(text.str());
+    }
+    const double before = stepper_->time();
+    const SundialsTrouble trouble = stepper_->step();
+    count();
+    if (trouble != SundialsTrouble::None) giveUp(from, trouble);
+    if (!(stepper_->time() > before)) giveUp(from, SundialsTrouble::Accuracy);
+    counters_.accept(stepper_->lastStep());
+  }
+
+  double nextSample(double t) const {
+    if (!(window_.sampling > 0)) return std::numeric_limits<double>::infinity();
+    return window_.begin +
+           (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
+  }
+
+  /// state.a from the equations of motion.
+  void complete(State& state) {
+    const int n = form_.dofs();
+    y_.head(n) = state.q;
+    y_.tail(n) = state.v;
+    form_.rightHandSide(state.t, y_.data(), yDot_.data());
+    state.a = yDot_.tail(n);
+  }
+
+  /// What SUNDIALS and the form counted since the last time.
+  void count() {
+    const SundialsCounts now = stepper_->counts();
+    counters_.rejected += now.rejected - seen_.rejected;
+    counters_.halved += now.newtonFailures - seen_.newtonFailures;
+    counters_.newtonIterations += now.newtonIterations - seen_.newtonIterations;
+    counters_.factorisations += form_.factorisations() - factorisations_;
+    counters_.rightHandSides += form_.evaluations() - evaluations_;
+    seen_ = now;
+    factorisations_ = form_.factorisations();
+    evaluations_ = form_.evaluations();
+  }
+
+  [[noreturn]] void giveUp(const State& from, SundialsTrouble trouble) {
+    const double t = stepper_->time();
+    const std::string own = "Transient/" + name_ + "/";
+    std::ostringstream text;
+    // A force that is no number is met as a step that cannot be short enough.
+    State state = from;
+    for (const double later : {0.0, 1e-9 * (window_.end - window_.begin)}) {
+      if (!state.a.allFinite()) continue;
+      state.t = t + later;
+      complete(state);
+    }
+    if (!state.a.allFinite()) trouble = SundialsTrouble::NotFinite;
+    switch (trouble) {
+      case SundialsTrouble::Accuracy:
+        text << name_ << " is asked at t = " << t << " s for more digits than numbers have. Raise "
+             << own << "Relative Tolerance, Absolute Tolerance or Absolute Velocity Tolerance.";
+        break;
+      case SundialsTrouble::ErrorTest:
+        text << name_ << " cannot hold its tolerances at t = " << t
+             << " s however short the step, least at "
+             << form_.model().dofName(stepper_->worstPosition()) << ": a force jumps there. Raise "
+             << own
+             << "Absolute Velocity Tolerance and Relative Tolerance, or use the integrator "
+                "\"Generalized-alpha\".";
+        break;
+      case SundialsTrouble::Newton:
+        text << "Newton of " << name_ << " does not converge at t = " << t
+             << " s however short the step. Allow more " << own
+             << "Maximum Newton Iterations, lower the tolerances there, or use the integrator "
+                "\"Generalized-alpha\".";
+        break;
+      case SundialsTrouble::NotFinite: {
+        const int worst =
+            state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
+        text << "The motion is not finite however short the step of " << name_ << " from t = " << t
+             << " s, first at " << form_.model().dofName(worst)
+             << ": a load, a law of time or a point law gives no number there.";
+        break;
+      }
+      default:
+        text << name_ << " stopped at t = " << t << " s: " << stepper_->message() << ".";
+    }
+    throw ConvergenceError(text.str());
+  }
+
+  std::string name_;
+  SundialsOptions options_;
+  long maxSteps_ = 0;
+  FirstOrderForm form_;
+  Window window_;
+  std::unique_ptr<SundialsStepper> stepper_;
+  Vector y_, yDot_;
+  SundialsCounts seen_;
+  long evaluations_ = 0, factorisations_ = 0;
+  double firstStep_ = 0;     ///< of the next start; 0: chosen by SUNDIALS
+  bool beginsAnew_ = false;  ///< before the next step
+};
+
+#ifdef TOOLJOINT_HAS_SUNDIALS
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
+  return name_ == arkode ? makeArkode(form_, options_) : makeCvode(form_, options_);
+}
+#else
+std::unique_ptr<SundialsStepper> Sundials::makeStepper() {
+  return nullptr;
+}  // prepare() has refused before
+#endif
+
+const bool registeredArkode = IntegratorRegistry::instance().add(
+    arkode, {"Implicit Runge-Kutta methods of SUNDIALS with error control (Reynolds et al. 2023); "
+             "needs a mass on every degree of "
+             "freedom, and a build with SUNDIALS.",
+             arkodeSpecification(), [](const Teuchos::ParameterList& own) {
+               return std::make_unique<Sundials>(arkode, own);
+             }});
+
+const bool registeredCvode = IntegratorRegistry::instance().add(
+    cvode, {"Backward differentiation formulas of SUNDIALS with control of error and order "
+            "(Hindmarsh et al. 2005); needs a mass on "
+            "every degree of freedom, and a build with SUNDIALS.",
+            cvodeSpecification(), [](const Teuchos::ParameterList& own) {
+              return std::make_unique<Sundials>(cvode, own);
+            }});
+
+}  // namespace
+}  // namespace tooljoint::transient

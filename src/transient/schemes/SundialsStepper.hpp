@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// ARKODE and CVODE of SUNDIALS (Hindmarsh et al. 2005; Reynolds et al. 2023) behind a plain
+/// interface: one step after the other on a FirstOrderForm, whose Newton matrix they solve. A build
+/// without SUNDIALS has this header but not its source.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "transient/schemes/FirstOrderForm.hpp"
+
+namespace tooljoint::transient {
+
+struct SundialsOptions {
+  double relative = 1e-4;    ///< relative tolerance
+  double positions = 1e-6;   ///< absolute tolerance of q
+  double velocities = 1e-4;  ///< absolute tolerance of v
+  double firstStep = 0;      ///< 0: chosen by SUNDIALS
+  double maxStep = 0;        ///< 0: no limit
+  int maxIterations = 3;     ///< of Newton
+  int maxOrder = 2;          ///< CVODE
+  std::string table;         ///< ARKODE
+};
+
+/// Why a step could not be taken.
+enum class SundialsTrouble {
+  None,
+  Accuracy,   ///< tolerances below rounding
+  ErrorTest,  ///< the error test failed however short the step
+  Newton,     ///< Newton did not converge however short the step
+  NotFinite,  ///< f(t, y) is no number, at once or however short the step
+  Other,
+};
+
+/// Sums since the start or the last restart().
+struct SundialsCounts {
+  long rejected = 0, newtonFailures = 0, newtonIterations = 0;
+};
+
+class SundialsStepper {
+ public:
+  virtual ~SundialsStepper() = default;
+  /// Begin at (t, y) and never step past `end`; firstStep 0 leaves the first step to SUNDIALS.
+  virtual void restart(double t, const double* q, const double* v, double end,
+                       double firstStep) = 0;
+  /// One step, however short. Rethrows what the model throws.
+  virtual SundialsTrouble step() = 0;
+  /// Time the last step reached, and its length.
+  virtual double time() const = 0;
+  virtual double lastStep() const = 0;
+  /// Length proposed for the next step.
+  virtual double nextStep() const = 0;
+  /// The solution at a time within the last step, by an interpolation as good as the method.
+  virtual void at(double t, double* q, double* v) = 0;
+  virtual SundialsCounts counts() const = 0;
+  /// Position (of q, whose velocity or acceleration it may be) where the error of the last try was
+  /// largest against its tolerance.
+  virtual int worstPosition() = 0;
+  /// What SUNDIALS itself said last.
+  virtual const std::string& message() const = 0;
+};
+
+std::unique_ptr<SundialsStepper> makeArkode(FirstOrderForm& form, const SundialsOptions& options);
+std::unique_ptr<SundialsStepper> makeCvode(FirstOrderForm& form, const SundialsOptions& options);
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/Components.hpp"
+
+#include <Teuchos_ParameterList.hpp>
+#include <array>
+#include <charconv>
+
+#include "common/Text.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+using deck::Optional;
+using deck::Range;
+using deck::Required;
+using Teuchos::ParameterList;
+
+const std::array<const char*, 4> generalNames = {"Area", "Inertia X", "Inertia Y",
+                                                 "Torsion Constant"};
+
+deck::ListSpec materialSpec() {
+  return deck::ListSpec("Material",
+                        "Material of this piece, where it differs from Drillstring/Material.")
+      .real("Density", "kg/m3", Optional{}, Range::positive(), "Density.")
+      .real("Young Modulus", "Pa", Optional{}, Range::positive(), "Young's modulus E.")
+      .real("Poisson Ratio", "", Optional{}, Range{-1.0, 0.5, true, false},
+            "Ratio of lateral contraction to stretch (Poisson).");
+}
+
+/// The parameters of a segment; a component of one segment gives them itself.
+void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
+  spec.real("Length", "m", length, Range::positive(), "Length along the axis.");
+  spec.integer("Elements", Optional{}, Range::between(1, 10000),
+               "Number of beam elements it is cut into; 1 when absent.");
+  spec.radius("Outer Radius", Optional{}, Range::positive(),
+              "Outer radius of the body; of a general section for contact and mud only.");
+  spec.radius("Inner Radius", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
+  spec.boolean("Shear Deformation", Optional{},
+               "Whether a circular section deforms in shear (Timoshenko); true when absent.");
+  spec.real("Area", "m2", Optional{}, Range::positive(),
+            "Area of a general section, which has no shear deformation.");
+  spec.real("Inertia X", "m4", Optional{}, Range::positive(),
+            "Second moment about x of a general section.");
+  spec.real("Inertia Y", "m4", Optional{}, Range::positive(),
+            "Second moment about y of a general section.");
+  spec.real("Torsion Constant", "m4", Optional{}, Range::positive(),
+            "Torsion constant J of a general section.");
+  spec.list(materialSpec());
+}
+
+double valueOr(const ParameterList& list, const char* name, double standard) {
+  return list.isParameter(name) ? list.get<double>(name) : standard;
+}
+
+beam::Material readMaterial(const ParameterList& list, const beam::Material& standard) {
+  if (!list.isSublist("Material")) return standard;
+  const ParameterList& own = list.sublist("Material");
+  beam::Material material = standard;
+  material.density = valueOr(own, "Density", standard.density);
+  material.youngModulus = valueOr(own, "Young Modulus", standard.youngModulus);
+  material.poissonRatio = valueOr(own, "Poisson Ratio", standard.poissonRatio);
+  return material;
+}
+
+/// Reads one component; the first fault ends it.
+class ComponentReader {
+ public:
+  ComponentReader(const beam::Material& standard, const Where& where)
+      : standard_(standard), where_(where) {}
+
+  Component read(const std::string& name, const ParameterList& list) const {
+    Component component;
+    component.name = name;
+    component.where = where_(name);
+    if (name.find_first_of("*,/{}") != std::string::npos)
+      fail(name, "The name of a component must not hold any of the characters * , / { }.");
+    const bool own = hasSegment(list);
+    const bool segments = list.isSublist("Segments");
+    const bool parts = list.isParameter("Parts");
+    if (static_cast<int>(own) + static_cast<int>(segments) + static_cast<int>(parts) != 1)
+      fail(name,
+           "A component is given by exactly one of: Length with a section, the list Segments, or "
+           "the array Parts.");
+    if (own) {
+      component.segments.push_back(segment(name, list, standard_));
+    } else if (segments) {
+      const beam::Material material = readMaterial(list, standard_);
+      const ParameterList& pieces = list.sublist("Segments");
+      for (auto it = pieces.begin(); it != pieces.end(); ++it)
+        component.segments.push_back(segment(name + "/Segments/" + pieces.name(it),
+                                             pieces.sublist(pieces.name(it)), material));
+      if (component.segments.empty())
+        fail(name + "/Segments", "The list is empty; a component needs at least one segment.");
+    } else {
+      readParts(name, list, component);
+    }
+    readGauge(name, list, component);
+    return component;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& path, const std::string& sentence) const {
+    throw DeckError(where_(path) + ": " + sentence);
+  }
+
+  static bool hasSegment(const ParameterList& list) {
+    for (const char* name : {"Length", "Elements", "Outer Radius", "Inner Radius", "Area",
+                             "Inertia X", "Inertia Y", "Torsion Constant", "Shear Deformation"})
+      if (list.isParameter(name)) return true;
+    return false;
+  }
+
+  Segment segment(const std::string& path, const ParameterList& list,
+                  const beam::Material& standard) const {
+    if (!list.isParameter("Length")) fail(path, "The segment has no Length.");
+    Segment piece;
+    piece.length = list.get<double>("Length");
+    piece.elements = list.isParameter("Elements") ? list.get<int>("Elements") : 1;
+    piece.section = section(path, list, readMaterial(list, standard));
+    return piece;
+  }
+
+  beam::Section section(const std::string& path, const ParameterList& list,
+                        const beam::Material& material) const {
+    int given = 0;
+    std::string missing;
+    for (const char* name : generalNames) {
+      if (list.isParameter(name))
+        ++given;
+      else
+        missing += (missing.empty() ? "" : ", ") + std::string(name);
+    }
+    const double inner = valueOr(list, "Inner Radius", 0.0);
+    if (given == 0) {
+      if (!list.isParameter("Outer Radius"))
+        fail(path,
+             "The section is missing: give Outer Radius (or Outer Diameter) and Inner Radius (or "
+             "Inner Diameter), or Area, Inertia X, Inertia Y and Torsion Constant.");
+      const double outer = list.get<double>("Outer Radius");
+      if (!(inner < outer))
+        fail(path + "/Inner Radius", "The inner radius " + formatNumber(inner) +
+                                         " m must be below the outer radius " +
+                                         formatNumber(outer) + " m.");
+      const beam::Section circular = beam::Section::hollow(outer, inner, material);
+      const bool shear =
+          !list.isParameter("Shear Deformation") || list.get<bool>("Shear Deformation");
+      return shear ? circular : circular.withoutShear();
+    }
+    if (given < 4) fail(path, "A general section also needs " + missing + ".");
+    if (list.isParameter("Shear Deformation"))
+      fail(path + "/Shear Deformation",
+           "A general section has no shear deformation; remove this parameter.");
+    const double outer = valueOr(list, "Outer Radius", 0.0);
+    if (inner > 0.0 && !(inner < outer))
+      fail(path + "/Inner Radius", "The inner radius must be below the outer radius.");
+    return beam::Section::general(list.get<double>("Area"), list.get<double>("Inertia X"),
+                                  list.get<double>("Inertia Y"),
+                                  list.get<double>("Torsion Constant"), material, outer, inner);
+  }
+
+  void readParts(const std::string& name, const ParameterList& list, Component& component) const {
+    if (list.isSublist("Material"))
+      fail(name + "/Material",
+           "A component made of Parts has no material of its own; give it where the parts are "
+           "defined.");
+    for (const std::string& text : list.get<Teuchos::Array<std::string>>("Parts")) {
+      try {
+        component.parts.push_back(parseEntry(text));
+      } catch (const DeckError& error) {
+        fail(name + "/Parts", error.what());
+      }
+    }
+    if (component.parts.empty())
+      fail(name + "/Parts", "The array is empty; a component needs at least one part.");
+  }
+
+  void readGauge(const std::string& name, const ParameterList& list, Component& component) const {
+    const bool position = list.isParameter("Gauge Position");
+    if (position != list.isParameter("Gauge Radius"))
+      fail(name,
+           std::string("A gauge needs both Gauge Position and Gauge Radius (or Gauge Diameter); ") +
+               (position ? "Gauge Radius" : "Gauge Position") + " is missing.");
+    if (!position) return;
+    component.gaugePosition = list.get<double>("Gauge Position");
+    component.gaugeRadius = list.get<double>("Gauge Radius");
+  }
+
+  const beam::Material& standard_;
+  const Where& where_;
+};
+
+}  // namespace
+
+AssemblyEntry parseEntry(const std::string& text) {
+  const std::string entry = trim(text);
+  const auto star = entry.find('*');
+  AssemblyEntry parsed{1, entry};
+  if (star != std::string::npos) {
+    const std::string number = trim(entry.substr(0, star));
+    parsed.name = trim(entry.substr(star + 1));
+    const auto result = std::from_chars(number.data(), number.data() + number.size(), parsed.count);
+    if (result.ec != std::errc() || result.ptr != number.data() + number.size() || parsed.count < 1)
+      throw DeckError("In " + inQuotes(entry) +
+                      " the number before * must be a whole number from 1 on, as in \"3*collar\".");
+  }
+  if (parsed.name.empty() || parsed.name.find('*') != std::string::npos)
+    throw DeckError(inQuotes(entry) + " is not of the form \"component\" or \"3*component\".");
+  return parsed;
+}
+
+deck::ListSpec componentParameters() {
+  deck::ListSpec spec("Component",
+                      "A component: one segment (Length and a section), several (Segments), or "
+                      "other components (Parts).");
+  spec.text("Description", Optional{}, "What it is, for people.");
+  addSegmentParameters(spec, Optional{});
+  deck::ListSpec segment("Segment", "A uniform piece.");
+  addSegmentParameters(segment, Required{});
+  spec.list(deck::ListSpec("Segments", "The pieces of the component from its top to its bottom.")
+                .namedLists(segment));
+  spec.textArray(
+      "Parts", Optional{}, {},
+      "Components it is made of from its top to its bottom, as in {pipe body, 2*joint half}.");
+  spec.real("Gauge Position", "m", Optional{}, Range::nonNegative(),
+            "Distance of a gauge (stabiliser blades, bit) from the top of the component; a node "
+            "must stand there.");
+  spec.radius("Gauge Radius", Optional{}, Range::positive(),
+              "Radius of the gauge; it replaces the outer radius in contact at that node.");
+  return spec;
+}
+
+deck::ListSpec libraryParameters() {
+  return deck::ListSpec("Components",
+                        "Component library: one list per component, named by the user.")
+      .namedLists(componentParameters());
+}
+
+void readComponents(const ParameterList& list, const beam::Material& standard, const Where& where,
+                    ComponentLibrary& library, std::vector<std::string>& faults) {
+  const ComponentReader reader(standard, where);
+  for (auto it = list.begin(); it != list.end(); ++it) {
+    const std::string& name = list.name(it);
+    if (!list.isSublist(name)) continue;
+    try {
+      Component component = reader.read(name, list.sublist(name));
+      const auto before = library.find(name);
+      if (before != library.end()) {
+        faults.push_back(where(name) + ": The component is defined before (" +
+                         before->second.where + "); rename one of them.");
+        continue;
+      }
+      library.emplace(name, std::move(component));
+    } catch (const DeckError& error) {
+      faults.emplace_back(error.what());
+    }
+  }
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a string can be made of: components given by segments, or by parts that are components
+/// themselves (a stand of pipes). They stand in the deck (`Drillstring/Components`) or in a
+/// component library, an XML file of its own.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "substructures/beam/Section.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::drillstring {
+
+/// Uniform piece of a component, cut into equal elements.
+struct Segment {
+  double length = 0.0;  ///< [m]
+  int elements = 1;
+  beam::Section section;
+};
+
+/// `count` times the component `name`: one entry of an assembly, "3*collar".
+struct AssemblyEntry {
+  int count = 1;
+  std::string name;
+};
+
+/// A component: either segments or parts, and perhaps a gauge.
+struct Component {
+  std::string name;
+  std::string
+      where;  ///< where it is defined, for messages: "string.xml:12: /Drillstring/Components/pipe"
+  std::vector<Segment> segments;
+  std::vector<AssemblyEntry> parts;
+  std::optional<double>
+      gaugePosition;  ///< distance of the gauge from the top of the component [m]; must be a node
+  double gaugeRadius = 0.0;  ///< [m]
+};
+
+/// Components by name.
+using ComponentLibrary = std::map<std::string, Component>;
+
+/// Tells where a parameter or list below the component lists stands; "" names the list itself.
+using Where = std::function<std::string(const std::string& path)>;
+
+/// Description of one component, and of a library file, a list of components named by the user.
+deck::ListSpec componentParameters();
+deck::ListSpec libraryParameters();
+
+/// "3*collar" -> {3, "collar"}. Throws DeckError with a sentence when it is not of the form "name"
+/// or "count*name".
+AssemblyEntry parseEntry(const std::string& text);
+
+/// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
+/// before ...) go to `faults`, one rendered line each; the component is then left out.
+void readComponents(const Teuchos::ParameterList& list, const beam::Material& standard,
+                    const Where& where, ComponentLibrary& library,
+                    std::vector<std::string>& faults);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/ContactNodes.hpp"
+
+namespace tooljoint::drillstring {
+
+contact::ContactPoints contactPoints(const contact::ContactSettings& settings,
+                                     const DrillString& string, const std::vector<char>& held) {
+  contact::ContactPoints points;
+  for (int i = 0; i < string.nodeCount(); ++i) {
+    const auto dof = static_cast<std::size_t>(6 * i);
+    if (held.at(dof) != 0 && held.at(dof + 1) != 0) continue;
+    const Node& node = string.nodes[static_cast<std::size_t>(i)];
+    points.add(settings.pointAt(node.s, i + 1, node.clearance, node.contactRadius));
+  }
+  return points;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/DrillString.hpp"
+
+namespace tooljoint::drillstring {
+
+std::vector<double> DrillString::depths() const {
+  std::vector<double> depths;
+  depths.reserve(nodes.size());
+  for (const Node& node : nodes) depths.push_back(node.s);
+  return depths;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The meshed string: nodes with their clearance, beam elements with their section, and the
+/// components they came from. A plain value made by readDrillString (DrillstringReader.hpp) or
+/// buildDrillString (Mesh.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "substructures/beam/Section.hpp"
+
+namespace tooljoint::drillstring {
+
+/// A node of the mesh. In code nodes count from 0, wherever a person sees them from 1.
+struct Node {
+  double s = 0.0;          ///< distance from the surface along the hole [m]
+  double clearance = 0.0;  ///< radial clearance j0 [m]: bore radius minus outer or gauge radius
+  double contactRadius =
+      0.0;                ///< R_c [m]: radius of what would touch, lever arm of the friction torque
+  bool gauge = false;     ///< a stabiliser blade or the bit stands here
+  std::string component;  ///< assembly component the node belongs to (the upper one where two meet)
+};
+
+/// A beam element; element i joins nodes i and i+1.
+struct Element {
+  double length = 0.0;  ///< [m]
+  beam::Section section;
+  int instance = 0;  ///< index into DrillString::instances
+};
+
+/// One occurrence of a component in the string.
+struct Instance {
+  std::string component;  ///< name of the component
+  std::string path;  ///< where it stands: "pipe 3", "stand 2/pipe 1"; the number counts equal names
+                     ///< on one level
+  int firstElement = 0;  ///< 0-based
+  int lastElement = 0;   ///< 0-based, inclusive
+};
+
+/// Straight chain of beam elements from the surface (node 0) to the bit (last node).
+struct DrillString {
+  std::vector<Node> nodes;  ///< elements.size() + 1
+  std::vector<Element> elements;
+  std::vector<Instance>
+      instances;  ///< entries of the assembly, in order; every element belongs to exactly one
+  std::vector<Instance>
+      nested;  ///< the components inside them ("stand 2/pipe 1"), outer before inner
+
+  int nodeCount() const { return static_cast<int>(nodes.size()); }
+  int elementCount() const { return static_cast<int>(elements.size()); }
+  /// Length of the string [m].
+  double length() const { return nodes.empty() ? 0.0 : nodes.back().s; }
+  /// Depths of the nodes [m].
+  std::vector<double> depths() const;
+};
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Deck list `Drillstring`: components, where they come from, and their order.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/Deck.hpp"
+#include "substructures/drillstring/Components.hpp"
+#include "substructures/drillstring/DrillString.hpp"
+#include "substructures/well/Well.hpp"
+
+namespace tooljoint::drillstring {
+
+/// What the list `Drillstring` says.
+struct StringSettings {
+  ComponentLibrary library;             ///< of the file and of the deck itself
+  std::vector<AssemblyEntry> assembly;  ///< from the surface down
+  std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
+  beam::Material material;              ///< of components that give none
+};
+
+/// Description of the list `Drillstring`.
+deck::ListSpec drillstringParameters();
+
+/// Settings of the deck's list `Drillstring`, component library included. Collective (the library
+/// is read on rank 0). Throws DeckError with one line "file:line: path: sentence" per fault.
+StringSettings readDrillstring(const deck::Deck& deck);
+
+/// The meshed string in its well: see buildDrillString in Mesh.hpp.
+DrillString buildDrillString(const StringSettings& settings, const well::Well& well);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// From a meshed string in a well to its equations of motion. What the scene does not have is not
+/// built.
+#pragma once
+
+#include "substructures/drillstring/DrillString.hpp"
+#include "substructures/drillstring/StringModel.hpp"
+#include "substructures/loads/Loads.hpp"
+#include "substructures/mud/Mud.hpp"
+#include "substructures/path/PathState.hpp"
+#include "substructures/well/Well.hpp"
+
+namespace tooljoint::drillstring {
+
+/// What the equations are made of; the references must outlive the call of buildEquations only.
+struct EquationInput {
+  const DrillString& string;
+  const well::Well& well;
+  const path::PathState& path;
+  const std::vector<char>& held;  ///< 6 nodes; 1 where a support holds the dof
+  const mud::Mud* mud = nullptr;  ///< null: no mud
+  const loads::RotarySpeed& rotary;
+  const loads::LoadsData& loads;
+  const loads::RayleighDamping& damping;
+};
+
+/// M, C and K at the path state (K_pa = K_a + K_gpa + K_fe, or the corotational tangent where the
+/// path state carries one), the loads F_s, R_ipa, F_u and -dOmega/dt F_thetaz (Nguyen et al. 2020,
+/// equations 19 and 27). No static geometric stiffness and no contact yet; the state is zero.
+StringModel buildEquations(const EquationInput& input);
+
+/// Adds the geometric stiffness K_gpo(D_s) (and its share of the Rayleigh damping) and makes D_s
+/// the state the motion starts from.
+void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness,
+               const Vector& state, const loads::RayleighDamping& damping);
+
+}  // namespace tooljoint::drillstring

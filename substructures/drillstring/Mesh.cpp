@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/Mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+/// Two places along the string are the same within this [m].
+constexpr double samePlace = 1e-6;
+
+/// Clearance below which a body or gauge does not fit [m]; above it, and below zero, it is rounding
+/// and taken as zero.
+constexpr double tightFit = -1e-9;
+
+/// More elements than this are taken for a slip in a repeat count.
+constexpr int mostElements = 200000;
+
+struct Gauge {
+  double s;
+  double radius;
+  const Component* component;
+  double position;  ///< from the top of its component [m]
+  int firstNode, lastNode;
+};
+
+class Mesher {
+ public:
+  Mesher(const ComponentLibrary& library, const well::Well& well, std::string where)
+      : library_(library), well_(well), where_(std::move(where)) {}
+
+  DrillString mesh(const std::vector<AssemblyEntry>& assembly) {
+    out_.nodes.emplace_back();
+    std::map<std::string, int> occurrences;
+    for (const AssemblyEntry& entry : assembly) placeAll(entry, "", occurrences, where_);
+    if (faults_.empty() && out_.elements.empty())
+      fault(where_, "The assembly is empty; it needs at least one component.");
+    if (faults_.empty()) {
+      checkLength();
+      setClearances();
+      setGauges();
+      warnOfUnseenBores();
+    }
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    return std::move(out_);
+  }
+
+ private:
+  void fault(const std::string& where, const std::string& sentence) {
+    const std::string line = where + ": " + sentence;
+    if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
+  }
+
+  /// Appends every occurrence of an entry; the first fault ends it, since the others would only
+  /// repeat it.
+  bool placeAll(const AssemblyEntry& entry, const std::string& parent,
+                std::map<std::string, int>& occurrences, const std::string& where) {
+    for (int i = 0; i < entry.count; ++i)
+      if (!place(entry.name, parent, occurrences, where)) return false;
+    return true;
+  }
+
+  /// Appends one occurrence of a component; `parent` is the path it stands in, `where` the array
+  /// that names it. False when there was a fault.
+  bool place(const std::string& name, const std::string& parent,
+             std::map<std::string, int>& occurrences, const std::string& where) {
+    const auto found = library_.find(name);
+    if (found == library_.end()) {
+      fault(where, unknown(name));
+      return false;
+    }
+    const Component& component = found->second;
+    if (std::find(stack_.begin(), stack_.end(), name) != stack_.end()) {
+      fault(component.where,
+            "The component contains itself (" + join(stack_, " > ") + " > " + name + ").");
+      return false;
+    }
+    if (out_.elementCount() > mostElements) {
+      fault(where_, "The string has more than " + std::to_string(mostElements) +
+                        " elements; look at the repeat counts.");
+      return false;
+    }
+    const bool top = parent.empty();
+    Instance instance;
+    instance.component = name;
+    instance.path = parent + name + " " + std::to_string(++occurrences[name]);
+    instance.firstElement = out_.elementCount();
+    const double start = out_.nodes.back().s;
+    if (top) out_.instances.emplace_back();
+    const std::size_t slot = out_.nested.size();
+    if (!top) out_.nested.emplace_back();
+    stack_.push_back(name);
+    for (const Segment& segment : component.segments) append(segment);
+    std::map<std::string, int> inner;
+    bool good = true;
+    for (const AssemblyEntry& entry : component.parts)
+      good = placeAll(entry, instance.path + "/", inner, component.where + "/Parts") && good;
+    stack_.pop_back();
+    instance.lastElement = out_.elementCount() - 1;
+    if (component.gaugePosition)
+      gauges_.push_back({start + *component.gaugePosition, component.gaugeRadius, &component,
+                         *component.gaugePosition, instance.firstElement, out_.elementCount()});
+    if (top)
+      out_.instances.back() = instance;
+    else
+      out_.nested[slot] = instance;
+    return good;
+  }
+
+  std::string unknown(const std::string& name) const {
+    std::vector<std::string> names;
+    for (const auto& entry : library_) names.push_back(entry.first);
+    std::string sentence = "The component " + inQuotes(name) + " is not defined.";
+    const std::string meant = closest(name, names);
+    if (!meant.empty())
+      sentence += " Did you mean " + inQuotes(meant) + "?";
+    else
+      sentence += names.empty()
+                      ? " No components are defined: give a Library or the list Components."
+                      : " Known are " + quotedList(names) + ".";
+    return sentence;
+  }
+
+  void append(const Segment& segment) {
+    const double start = out_.nodes.back().s;
+    for (int i = 1; i <= segment.elements; ++i) {
+      Node node;
+      node.s = start + segment.length * i / segment.elements;
+      out_.nodes.push_back(node);
+      out_.elements.push_back({segment.length / segment.elements, segment.section,
+                               static_cast<int>(out_.instances.size()) - 1});
+    }
+  }
+
+  void checkLength() {
+    if (out_.length() > well_.length() + samePlace)
+      fault(where_, "The string is " + formatNumber(out_.length()) +
+                        " m long, but the well ends at " + formatNumber(well_.length()) +
+                        " m. Shorten the string or lengthen the well.");
+  }
+
+  /// Smaller of the clearances on both sides of a node; the bore is looked up a hair inside the
+  /// element.
+  void setClearances() {
+    for (int i = 0; i < out_.nodeCount(); ++i) {
+      Node& node = out_.nodes[static_cast<std::size_t>(i)];
+      bool first = true;
+      for (const int e : {i - 1, i}) {
+        if (e < 0 || e >= out_.elementCount()) continue;
+        const Element& element = out_.elements[static_cast<std::size_t>(e)];
+        if (first)
+          node.component = out_.instances[static_cast<std::size_t>(element.instance)].component;
+        const double bore = well_.boreRadius(node.s + (e < i ? -samePlace : samePlace));
+        const double clearance = bore - element.section.outerRadius();
+        if (clearance < tightFit) tooWide(i, element, bore);
+        if (first || clearance < node.clearance) {
+          node.clearance = std::max(0.0, clearance);
+          node.contactRadius = element.section.outerRadius();
+        }
+        first = false;
+      }
+    }
+  }
+
+  void tooWide(int node, const Element& element, double bore) {
+    const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
+    if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
+    fault(library_.at(instance.component).where,
+          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " +
+              instance.path + " does not fit into the hole of radius " + formatNumber(bore) +
+              " m at " + formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
+              std::to_string(node + 1) + ").");
+  }
+
+  void setGauges() {
+    for (const Gauge& gauge : gauges_) {
+      int at = -1;
+      for (int i = gauge.firstNode; i <= gauge.lastNode; ++i)
+        if (std::abs(out_.nodes[static_cast<std::size_t>(i)].s - gauge.s) < samePlace) at = i;
+      if (at < 0) {
+        offNode(gauge);
+        continue;
+      }
+      Node& node = out_.nodes[static_cast<std::size_t>(at)];
+      const double bore =
+          std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
+      const double clearance = bore - gauge.radius;
+      const std::string gaugeText = "The gauge radius " + formatNumber(gauge.radius) + " m ";
+      if (clearance < tightFit)
+        fault(gauge.component->where, gaugeText + "does not fit into the hole of radius " +
+                                          formatNumber(bore) + " m at " + formatNumber(node.s) +
+                                          " m (node " + std::to_string(at + 1) + ").");
+      if (clearance > node.clearance - tightFit)
+        fault(gauge.component->where,
+              gaugeText + "is below the outer radius of the body at " + formatNumber(node.s) +
+                  " m, " + formatNumber(node.contactRadius) + " m, so it would never touch.");
+      node.clearance = std::max(0.0, clearance);
+      node.contactRadius = gauge.radius;
+      node.gauge = true;
+      node.component = gauge.component->name;
+    }
+  }
+
+  void offNode(const Gauge& gauge) {
+    const double start = gauge.s - gauge.position;
+    double nearest = 0.0;
+    double distance = std::numeric_limits<double>::infinity();
+    for (int i = gauge.firstNode; i <= gauge.lastNode; ++i) {
+      const double position = out_.nodes[static_cast<std::size_t>(i)].s - start;
+      if (std::abs(position - gauge.position) >= distance) continue;
+      distance = std::abs(position - gauge.position);
+      nearest = position;
+    }
+    fault(gauge.component->where,
+          "The Gauge Position " + formatNumber(gauge.position) +
+              " m is not at a node of the component; the nearest stands at " +
+              formatNumber(std::round(nearest * 1e9) / 1e9) +
+              " m. Move the gauge or change the number of Elements.");
+  }
+
+  void warnOfUnseenBores() const {
+    for (const well::BoreInterval& interval : well_.intervals()) {
+      if (interval.from > out_.length()) continue;
+      const bool seen = std::any_of(out_.nodes.begin(), out_.nodes.end(), [&](const Node& node) {
+        return node.s >= interval.from - samePlace && node.s <= interval.to + samePlace;
+      });
+      if (!seen)
+        log::warn("No node of the string stands in the bore interval " + inQuotes(interval.name) +
+                  ", so contact does not see it; use shorter elements there.");
+    }
+  }
+
+  const ComponentLibrary& library_;
+  const well::Well& well_;
+  std::string where_;
+  DrillString out_;
+  std::vector<Gauge> gauges_;
+  std::vector<std::string> stack_;
+  std::vector<std::string> faults_;
+  std::set<int> tooWide_;
+};
+
+}  // namespace
+
+DrillString buildDrillString(const ComponentLibrary& library,
+                             const std::vector<AssemblyEntry>& assembly, const well::Well& well,
+                             const std::string& assemblyWhere) {
+  return Mesher(library, well, assemblyWhere).mesh(assembly);
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Where the string is cut into parts and which dofs stay physical. Deck list `Substructures`.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/ListSpec.hpp"
+#include "substructures/drillstring/DrillString.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::drillstring {
+
+/// A run of elements that becomes one substructure.
+struct PartRange {
+  std::string name;
+  int firstElement = 0;  ///< 0-based
+  int lastElement = 0;   ///< 0-based, inclusive
+};
+
+/// Which components of a retained node stay physical.
+enum class Retain { Nodes, Contact, Translations };
+
+/// The choices of the list `Substructures`.
+struct PartitionRules {
+  std::string where = "Substructures";  ///< path of the list, for messages
+  std::string rule = "By component";
+  double length = 0.0;        ///< "By length": shortest part [m]
+  std::vector<int> cutNodes;  ///< "By nodes": 1-based
+  Retain retain = Retain::Nodes;
+  std::string retainedNodes = "Gap";
+  double retainedGap = 0.008;  ///< [m]
+  int shortestRun = 1;         ///< inner nodes; shorter runs between kept nodes stay physical
+  double wholeBelow = std::numeric_limits<double>::infinity();  ///< depth [m]; all nodes from there
+                                                                ///< on stay physical
+  std::vector<int> nodeList;                                    ///< "List": 1-based
+  bool contactAtRetainedOnly = false;
+};
+
+/// What the rules need to know of the static state.
+struct NodeState {
+  std::vector<double> gap;  ///< radial clearance left at each node [m]; <= 0 in contact; +inf where
+                            ///< nothing can touch
+  std::vector<char> candidate;  ///< laterally free nodes with a contact point
+  std::vector<int> loadedDofs;  ///< 6 node + component of dofs that point loads act on, increasing
+};
+
+/// Description of the list `Substructures`.
+deck::ListSpec partitionParameters();
+
+/// Rules of a validated list; `explicitIntegrator` decides the default of `Retain` (whole nodes for
+/// implicit integrators, translations for explicit ones, whose stable step retained rotations would
+/// cut).
+PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator);
+
+/// The parts from top to bottom; they cover every element once. Throws DeckError for cut nodes that
+/// do not exist.
+std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules& rules);
+
+/// Positions 6 node + component of the dofs that stay physical inside the parts, increasing
+/// (interface nodes, which stay whole anyway, may be among them).
+std::vector<int> retainedDofs(const DrillString& string, const PartitionRules& rules,
+                              const NodeState& state);
+
+/// Throws DeckError when the rules name a node the string does not have.
+void requireKnownNodes(const DrillString& string, const PartitionRules& rules);
+
+/// Nodes (0-based, increasing) that `Retained Nodes` chooses.
+std::vector<int> chosenNodes(const DrillString& string, const PartitionRules& rules,
+                             const NodeState& state);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Every term of the equations of motion alone, against its integral along a straight inclined
+/// string of two sections in two bores: M D'' + C(Omega) D' + (K + dOmega/dt C_ac') D = F -
+/// dOmega/dt F_thetaz + R_ipa (Nguyen et al. 2020, equations 19, 26-28; mud after its section 2.3
+/// with the coefficients of Chen 1981 and Fritz 1970).
+#include <Eigen/Geometry>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "substructures/beam/Rotation.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
+#include "tests/support/PolynomialMotion.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+using testing_::firstMotion;
+using testing_::integral;
+using testing_::PolynomialMotion;
+using testing_::secondMotion;
+
+const double pi = std::acos(-1.0);
+const std::vector<double> depths{0.0, 2.0, 5.0};
+const std::vector<double> bore{0.15, 0.108};      // of the two elements [m]
+const std::vector<double> outer{0.0795, 0.0635};  // [m]
+const std::vector<double> inner{0.0355, 0.054};   // [m]
+const std::vector<double> axialForce{3e4, -2e4};  // of the path state [N]
+const std::vector<double> torque{-4e3, 7e3};      // [N m]
+constexpr double density = 7900.0, youngModulus = 2.03e11, shearModulus = youngModulus / 2.6,
+                 gravity = 9.81;
+
+double square(double x) { return x * x; }
+
+/// Omega = 3 + 2 t: no number of one law is that of another.
+class Rising final : public loads::SpeedLaw {
+ public:
+  double speed(double t) const override { return 3.0 + 2.0 * t; }
+  double acceleration(double) const override { return 2.0; }
+  double angle(double t) const override { return 3.0 * t + t * t; }
+};
+
+mud::MudProperties fluid() {
+  mud::MudProperties p;
+  p.density = 1200.0;
+  p.frictionCoefficient = 0.013;
+  p.kinematicViscosity = 3e-6;
+  p.flowRate = 0.02;
+  return p;
+}
+
+/// The scene. Element axes lie along a well of 40 degrees inclination; the nodal axes are those of
+/// the elements turned about the tangent by 0.3 rad times the number of the node.
+struct Scene {
+  well::Well well{well::straight(20.0, 0.7, 0.4),
+                  0.108,
+                  {{"casing", 0.0, 1.5, 0.15}, {"liner", 1.5, 3.0, 0.13}}};
+  DrillString string;
+  path::PathState path;
+  std::vector<char> held = std::vector<char>(18, 0);
+  loads::RotarySpeed rotary;
+  loads::LoadsData loads;
+  loads::RayleighDamping damping;
+  const mud::Mud* mud = nullptr;
+  Matrix3 axes;
+
+  Scene() {
+    const Vector3 tangent = well.at(1.0).tangent;
+    axes.col(2) = tangent;
+    axes.col(0) = Vector3(0.0, 1.0, 0.0).cross(tangent).normalized();
+    axes.col(1) = tangent.cross(axes.col(0));
+    const beam::Material steel{density, youngModulus, 0.3};
+    for (std::size_t n = 0; n < 3; ++n) {
+      Node node;
+      node.s = depths[n];
+      string.nodes.push_back(node);
+      path.frame.push_back(
+          axes * beam::rotationExponential(Vector3(0.0, 0.0, 0.3 * static_cast<double>(n))));
+    }
+    for (std::size_t e = 0; e < 2; ++e) {
+      Element element;
+      element.length = depths[e + 1] - depths[e];
+      element.section = beam::Section::hollow(outer[e], inner[e], steel).withoutShear();
+      string.elements.push_back(element);
+      path.elementFrame.push_back(axes);
+      path.initialLength.push_back(element.length);
+      path.chordLength.push_back(element.length);
+    }
+    path.reaction = Matrix::Zero(6, 3);
+    path.axialForce = Vector::Zero(2);
+    path.torque = Vector::Zero(2);
+  }
+
+  void prestress() {
+    path.axialForce << axialForce[0], axialForce[1];
+    path.torque << torque[0], torque[1];
+  }
+  void turn() { rotary = loads::RotarySpeed(std::make_shared<Rising>()); }
+
+  StringModel equations() const {
+    return buildEquations({string, well, path, held, mud, rotary, loads, damping});
+  }
+
+  /// Nodal dofs of a motion given in element axes.
+  Vector dofs(const PolynomialMotion& motion) const {
+    Vector d = motion.dofs(depths);
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Matrix3 toNode = path.frame[n].transpose() * axes;
+      for (const int first : {0, 3}) {
+        const auto at = 6 * static_cast<Eigen::Index>(n) + first;
+        d.segment<3>(at) = (toNode * d.segment<3>(at)).eval();
+      }
+    }
+    return d;
+  }
+
+  double form(const Sparse& matrix) const {
+    return dofs(firstMotion()).dot(matrix * dofs(secondMotion()));
+  }
+  double work(const Vector& load) const { return dofs(firstMotion()).dot(load); }
+};
+
+/// Sum over the elements of the integral of f(virtual, real, z, element).
+template <class Integrand>
+double alongString(const Integrand& f) {
+  double sum = 0.0;
+  const PolynomialMotion a = firstMotion(), b = secondMotion();
+  for (std::size_t e = 0; e < 2; ++e)
+    sum += integral(depths[e], depths[e + 1], [&](double z) { return f(a, b, z, e); });
+  return sum;
+}
+
+double area(std::size_t e) { return pi * (square(outer[e]) - square(inner[e])); }
+double inertia(std::size_t e) { return pi / 4.0 * (std::pow(outer[e], 4) - std::pow(inner[e], 4)); }
+
+const model::MatrixTerm* find(const model::SharedList<model::MatrixTerm>& terms,
+                              const std::string& name) {
+  for (const auto& term : terms)
+    if (term.name == name) return &term;
+  return nullptr;
+}
+
+/// The form of the term of this name and its law.
+void expectTerm(const Scene& scene, const model::SecondOrderModel& model,
+                const model::SharedList<model::MatrixTerm>& terms, const std::string& name,
+                const std::string& law, double value) {
+  const auto* term = find(terms, name);
+  ASSERT_NE(term, nullptr) << name;
+  EXPECT_EQ(model.laws[static_cast<std::size_t>(term->law)].name, law) << name;
+  EXPECT_NEAR(scene.form(term->matrix), value, 1e-10 * std::abs(value)) << name;
+}
+
+void expectLoad(const Scene& scene, const model::SecondOrderModel& model, const std::string& name,
+                const std::string& law, double value) {
+  for (const auto& load : model.loads) {
+    if (load.name != name) continue;
+    EXPECT_EQ(model.laws[static_cast<std::size_t>(load.law)].name, law) << name;
+    EXPECT_NEAR(scene.work(load.vector), value, 1e-10 * std::abs(value)) << name;
+    return;
+  }
+  FAIL() << "no load " << name;
+}
+
+double strain(const PolynomialMotion& a, const PolynomialMotion& b, double z, std::size_t e) {
+  return youngModulus * area(e) * a.w.slope(z) * b.w.slope(z) +
+         shearModulus * 2.0 * inertia(e) * a.twist.slope(z) * b.twist.slope(z) +
+         youngModulus * inertia(e) *
+             (a.u.curvature(z) * b.u.curvature(z) + a.v.curvature(z) * b.v.curvature(z));
+}
+
+double kinetic(const PolynomialMotion& a, const PolynomialMotion& b, double z, std::size_t e) {
+  return density * (area(e) * (a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z) +
+                               a.w.value(z) * b.w.value(z)) +
+                    inertia(e) * (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z)) +
+                    2.0 * inertia(e) * a.twist.value(z) * b.twist.value(z));
+}
+
+/// F (u' du' + v' dv') + T (v' du'' - u' dv'').
+double geometric(const PolynomialMotion& a, const PolynomialMotion& b, double z, double force,
+                 double moment) {
+  return force * (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z)) +
+         moment * (b.v.slope(z) * a.u.curvature(z) - b.u.slope(z) * a.v.curvature(z));
+}
+
+double lateral(const PolynomialMotion& a, const PolynomialMotion& b, double z) {
+  return a.u.value(z) * b.u.value(z) + a.v.value(z) * b.v.value(z);
+}
+
+// -------------------------------------------------------------------------------------------------
+// structure
+
+TEST(Equations, MassAndStiffnessOfTheBareString) {
+  const Scene scene;
+  const auto model = assemble(scene.equations());
+  ASSERT_EQ(model.size(), 18);
+  const double m = alongString(kinetic);
+  EXPECT_NEAR(scene.form(model.mass), m, 1e-11 * std::abs(m));
+  ASSERT_EQ(model.stiffness.size(), 1u);
+  expectTerm(scene, model, model.stiffness, "structure", "1", alongString(strain));
+  EXPECT_TRUE(model.damping.empty());
+  EXPECT_TRUE(model.loads.empty());
+}
+
+TEST(Equations, PrestressAddsTheGeometricStiffnessOfTheForcesOfThePath) {
+  Scene scene;
+  scene.prestress();
+  const auto model = assemble(scene.equations());
+  expectTerm(scene, model, model.stiffness, "structure", "1",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               return strain(a, b, z, e) + geometric(a, b, z, axialForce[e], torque[e]);
+             }));
+}
+
+TEST(Equations, TheTangentOfThePathTakesThePlaceOfStiffnessAndPrestress) {
+  Scene scene;
+  scene.prestress();
+  for (int e = 0; e < 2; ++e) scene.path.tangent.push_back(beam::Matrix12::Random());
+  const StringModel model = scene.equations();
+  ASSERT_EQ(model.stiffness.size(), 1u);
+  for (std::size_t e = 0; e < 2; ++e)
+    EXPECT_EQ(model.stiffness[0].matrices[e], scene.path.tangent[e]);
+}
+
+TEST(Equations, WeightActsDownwardsAlongTheWholeString) {
+  Scene scene;
+  scene.loads.gravity = gravity;
+  const Vector3 down = scene.axes.transpose() * Vector3(0.0, 0.0, gravity);
+  EXPECT_GT(std::abs(down.x()), 3.0);
+  expectLoad(scene, assemble(scene.equations()), "weight", "1",
+             alongString([&](const auto& a, const auto&, double z, std::size_t e) {
+               return density * area(e) *
+                      (down.x() * a.u.value(z) + down.y() * a.v.value(z) + down.z() * a.w.value(z));
+             }));
+}
+
+// -------------------------------------------------------------------------------------------------
+// rotation
+
+/// Left-hand side: +rho I_p Omega dtheta_y/dt in the row of theta_x, -rho I_p Omega dtheta_x/dt in
+/// that of theta_y.
+TEST(Equations, GyroscopicMomentsTurnWithTheSpeed) {
+  Scene scene;
+  scene.turn();
+  const auto model = assemble(scene.equations());
+  expectTerm(scene, model, model.damping, "gyroscopic", "Omega",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               const double thetaX = -a.v.slope(z), thetaY = a.u.slope(z), rateX = -b.v.slope(z),
+                            rateY = b.u.slope(z);
+               return density * 2.0 * inertia(e) * (thetaX * rateY - thetaY * rateX);
+             }));
+}
+
+/// dOmega/dt C_ac' D: of the kinetic energy Omega rho I_p int theta_y dtheta_x/dt only the row of
+/// theta_x is left.
+TEST(Equations, SpinUpCouplesTheSlopesWithTheAngularAcceleration) {
+  Scene scene;
+  scene.turn();
+  const auto model = assemble(scene.equations());
+  expectTerm(scene, model, model.stiffness, "spin-up", "dOmega/dt",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               return density * 2.0 * inertia(e) * -a.v.slope(z) * b.u.slope(z);
+             }));
+  expectLoad(scene, model, "spin-up", "dOmega/dt",
+             alongString([](const auto& a, const auto&, double z, std::size_t e) {
+               return -density * 2.0 * inertia(e) * a.twist.value(z);
+             }));
+}
+
+/// At a time, the terms enter with the value of their law: Omega(0.5 s) = 4 rad/s, dOmega/dt = 2
+/// rad/s2.
+TEST(Equations, LawsAreThoseOfTheRotarySpeed) {
+  Scene scene;
+  scene.turn();
+  const auto model = assemble(scene.equations());
+  const double gyroscopic = scene.form(find(model.damping, "gyroscopic")->matrix);
+  EXPECT_NEAR(scene.form(model.dampingAt(0.5)), 4.0 * gyroscopic, 1e-10 * std::abs(gyroscopic));
+  const double spinUp = scene.form(find(model.stiffness, "spin-up")->matrix),
+               structure = alongString(strain);
+  EXPECT_NEAR(scene.form(model.stiffnessAt(0.5)) - structure, 2.0 * spinUp,
+              1e-9 * std::abs(structure));
+}
+
+// -------------------------------------------------------------------------------------------------
+// Rayleigh damping
+
+/// c_M M_a + c_K (K_a + K_gpa + K_gpo(D_s)), equation (28): the mass of the mud has no part in it.
+TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
+  Scene scene;
+  const mud::Mud mud(fluid());
+  scene.mud = &mud;
+  scene.prestress();
+  scene.damping = {0.3, 2e-4};
+  StringModel model = scene.equations();
+  const auto rayleigh = [](const PolynomialMotion& a, const PolynomialMotion& b, double z,
+                           std::size_t e) {
+    return 0.3 * kinetic(a, b, z, e) +
+           2e-4 * (strain(a, b, z, e) + geometric(a, b, z, axialForce[e], torque[e]));
+  };
+  const auto before = assemble(model);
+  expectTerm(scene, before, before.damping, "Rayleigh damping", "1", alongString(rayleigh));
+
+  // K_gpo(D_s) = F_apo K_gF + T_apo K_gT in the nodal frames
+  const std::vector<double> force{5e6, -4e6}, moment{2e6, 3e6};
+  std::vector<beam::Matrix12> still;
+  for (std::size_t e = 0; e < 2; ++e) {
+    const beam::Matrix12 turn =
+        beam::rotation12(scene.axes, scene.path.frame[e], scene.path.frame[e + 1]);
+    const double l = depths[e + 1] - depths[e];
+    still.push_back(turn.transpose() *
+                    (force[e] * beam::geometricAxial(l) + moment[e] * beam::geometricTorque(l)) *
+                    turn);
+  }
+  const Vector state = Vector::LinSpaced(18, 0.1, 1.8);
+  linearise(model, still, state, scene.damping);
+  EXPECT_EQ(model.state, state);
+  const auto after = assemble(model);
+  const double added = alongString([&](const auto& a, const auto& b, double z, std::size_t e) {
+    return geometric(a, b, z, force[e], moment[e]);
+  });
+  expectTerm(scene, after, after.stiffness, "static geometric", "1", added);
+  expectTerm(scene, after, after.damping, "Rayleigh damping", "1",
+             alongString(rayleigh) + 2e-4 * added);
+  EXPECT_GT(std::abs(2e-4 * added), 1e-3 * std::abs(alongString(rayleigh)))
+      << "too small to be seen";
+}
+
+// -------------------------------------------------------------------------------------------------
+// mud
+
+double annulus(std::size_t e) { return pi * (square(bore[e]) - square(outer[e])); }
+double innerSpeed(std::size_t e) { return 0.02 / (pi * square(inner[e])); }
+double annulusSpeed(std::size_t e) { return 0.02 / annulus(e); }
+double innerMass(std::size_t e) { return 1200.0 * pi * square(inner[e]); }
+double annulusMass(std::size_t e) {
+  return 1200.0 * pi * square(outer[e]) * (square(bore[e]) + square(outer[e])) /
+         (square(bore[e]) - square(outer[e]));
+}
+
+TEST(Equations, MudAddsItsMassAndItsBuoyancyInTheBoreOfEachElement) {
+  Scene scene;
+  scene.loads.gravity = gravity;
+  const mud::Mud mud(fluid());
+  scene.mud = &mud;
+  const auto model = assemble(scene.equations());
+  const double m = alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+    return kinetic(a, b, z, e) + (innerMass(e) + annulusMass(e)) * lateral(a, b, z);
+  });
+  EXPECT_NEAR(scene.form(model.mass), m, 1e-11 * std::abs(m));
+  const Vector3 down = scene.axes.transpose() * Vector3(0.0, 0.0, gravity);
+  expectLoad(scene, model, "mud", "1",
+             alongString([&](const auto& a, const auto&, double z, std::size_t e) {
+               const double buoyancy = 1200.0 * pi * (square(inner[e]) - square(outer[e]));
+               const double drag = -0.013 * 1200.0 * 2.0 * outer[e] * square(annulusSpeed(e)) / 2.0;
+               return buoyancy * (down.x() * a.u.value(z) + down.y() * a.v.value(z) +
+                                  down.z() * a.w.value(z)) +
+                      drag * a.w.value(z);
+             }));
+}
+
+TEST(Equations, MudDampsBendsAndCarriesTheFlowOfEachElement) {
+  Scene scene;
+  scene.turn();
+  const mud::Mud mud(fluid());
+  scene.mud = &mud;
+  const auto model = assemble(scene.equations());
+  expectTerm(scene, model, model.damping, "mud axial flow damping", "1",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               return 0.013 * 1200.0 * 2.0 * outer[e] * annulusSpeed(e) / 2.0 * lateral(a, b, z);
+             }));
+  expectTerm(scene, model, model.damping, "mud rotation damping", "sqrt|Omega|",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               const double gamma = outer[e] / bore[e];
+               return 2.0 * std::sqrt(2.0) * pi * 1200.0 * outer[e] * std::sqrt(3e-6) *
+                      (1.0 + std::pow(gamma, 3)) / square(1.0 - square(gamma)) * lateral(a, b, z);
+             }));
+  expectTerm(scene, model, model.damping, "mud Coriolis", "1",
+             alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+               return (innerMass(e) * innerSpeed(e) - annulusMass(e) * annulusSpeed(e)) *
+                      (a.u.value(z) * b.u.slope(z) + a.v.value(z) * b.v.slope(z) -
+                       a.u.slope(z) * b.u.value(z) - a.v.slope(z) * b.v.value(z));
+             }));
+  expectTerm(
+      scene, model, model.stiffness, "mud centrifugal", "1",
+      alongString([](const auto& a, const auto& b, double z, std::size_t e) {
+        return -(innerMass(e) * square(innerSpeed(e)) + annulusMass(e) * square(annulusSpeed(e))) *
+               (a.u.slope(z) * b.u.slope(z) + a.v.slope(z) * b.v.slope(z));
+      }));
+}
+
+// -------------------------------------------------------------------------------------------------
+// loads
+
+TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
+  Scene scene;
+  scene.path.reaction = Matrix::Random(6, 3);
+  scene.loads.weightOnBit = 1e4;
+  scene.loads.torqueOnBit = 5e3;
+  const auto model = assemble(scene.equations());
+  const Vector d = scene.dofs(firstMotion());
+  const Matrix nodes = Eigen::Map<const Matrix>(d.data(), 6, 3);
+  expectLoad(scene, model, "path reaction", "1",
+             (nodes.array() * scene.path.reaction.array()).sum());
+  expectLoad(scene, model, "weight on bit", "1", -1e4 * d(14));
+  expectLoad(scene, model, "torque on bit", "1", -5e3 * d(17));
+}
+
+// -------------------------------------------------------------------------------------------------
+// parts
+
+/// Held dofs are left out; two parts have the matrices and loads of the whole between them, each
+/// node's load once.
+TEST(Equations, PartsAddUpToTheWhole) {
+  Scene scene;
+  scene.turn();
+  scene.prestress();
+  scene.loads.gravity = gravity;
+  scene.loads.weightOnBit = 1e4;
+  scene.path.reaction = Matrix::Random(6, 3);
+  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[static_cast<std::size_t>(dof)] = 1;
+  StringModel equations = scene.equations();
+  equations.state = Vector::LinSpaced(18, 0.1, 1.8);
+  const auto whole = assemble(equations);
+  ASSERT_EQ(whole.size(), 12);
+  EXPECT_EQ(equations.freeDofs(), 12);
+  Matrix mass = Matrix::Zero(12, 12), stiffness = mass, damping = mass;
+  Vector load = Vector::Zero(12);
+  for (int e = 0; e < 2; ++e) {
+    const auto part = assemblePart(equations, {"part", e, e}, {}, nullptr);
+    EXPECT_EQ(part.interface.size(), 6u);
+    Matrix take = Matrix::Zero(part.model.size(), 12);
+    for (int i = 0; i < part.model.size(); ++i)
+      for (int j = 0; j < 12; ++j)
+        if (part.model.dofs[static_cast<std::size_t>(i)] == whole.dofs[static_cast<std::size_t>(j)])
+          take(i, j) = 1.0;
+    ASSERT_EQ(take.sum(), part.model.size());
+    EXPECT_EQ(part.reference, take * whole.initialDisplacement);
+    EXPECT_EQ(part.model.initialDisplacement, part.reference);
+    mass += take.transpose() * (part.model.mass * take);
+    stiffness += take.transpose() * (part.model.stiffnessAt(0.5) * take);
+    damping += take.transpose() * (part.model.dampingAt(0.5) * take);
+    load += take.transpose() * part.model.loadAt(0.5);
+  }
+  EXPECT_LT((mass - Matrix(whole.mass)).norm(), 1e-13 * mass.norm());
+  EXPECT_LT((stiffness - Matrix(whole.stiffnessAt(0.5))).norm(), 1e-13 * stiffness.norm());
+  EXPECT_LT((damping - Matrix(whole.dampingAt(0.5))).norm(), 1e-13 * damping.norm());
+  EXPECT_LT((load - whole.loadAt(0.5)).norm(), 1e-13 * load.norm());
+  EXPECT_GT(load.norm(), 1.0);
+}
+
+/// Recovery gives all six dofs of a node back, zero where one is held.
+TEST(Equations, RecoveryPutsHeldDofsBack) {
+  Scene scene;
+  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[static_cast<std::size_t>(dof)] = 1;
+  const auto model = assemble(scene.equations());
+  const Vector q = Vector::LinSpaced(12, 1.0, 12.0);
+  const Vector d = model.recoveryOffset + model.recovery * q;
+  ASSERT_EQ(d.size(), 18);
+  int next = 0;
+  for (int dof = 0; dof < 18; ++dof) {
+    const bool held = scene.held[static_cast<std::size_t>(dof)] != 0;
+    EXPECT_EQ(d(dof), held ? 0.0 : q(next++)) << dof;
+  }
+}
+
+}  // namespace
+}  // namespace tooljoint::drillstring

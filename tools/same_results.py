@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the shipped decks with two versions of the program and compares everything they write.
+
+    same_results.py OLD NEW [--end 0.2] [--only PATTERN] [--names names.json] [--json table.json]
+
+OLD and NEW are programs (tooljoint), each run in its own source tree (--old-tree, --new-tree; default: this one) because decks
+and their parameters may have been renamed between them. Every deck of xml/ and examples/ and every gold of tests/regression/ is
+run up to --end seconds of motion at its own fixed settings. All datasets of results.h5 and all numbers of summary.json are
+compared but for times and memory. A line per scene names the largest difference: relative to the largest entry of its dataset.
+
+Allowed are 1e-10 for the static state, 1e-9 for the motion, 1 % of the counts of steps (--static, --motion, --steps).
+--names gives a JSON object {old dotted key or dataset: new one}. Exit code 0: every scene agrees; 1: one does not or fails.
+"""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+# What two runs of one program do not share, and texts that say where they ran.
+VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date", "status_at", "host", "cost_ratio")
+COUNTS = ("steps", "rejected", "newton_iterations", "factorisations", "evaluations", "iterations", "solves")
+
+
+def scenes(tree):
+    """(name, deck below the tree, overrides) of every scene that ships."""
+    for deck in sorted([*tree.glob("xml/*.xml"), *tree.glob("examples/*/*.xml")]):
+        lists = {child.get("name") for child in ET.parse(deck).getroot()}
+        if lists & {"Drillstring", "Parts"} and "Your Own Basis" not in deck.read_text():
+            yield str(deck.relative_to(tree)), deck.relative_to(tree), []
+    for gold in sorted(tree.glob("tests/regression/*.json")):
+        content = json.loads(gold.read_text())
+        yield f"gold {gold.stem}", pathlib.Path(content["deck"]), content.get("set", [])
+
+
+def run(program, tree, deck, overrides, end, folder):
+    command = [program, "run", str(tree / deck), "--output", folder]
+    moves = any(child.get("name") == "Transient" for child in ET.parse(tree / deck).getroot())
+    for override in overrides + ([f"Transient/End Time={end}"] if moves else []):
+        command += ["--set", override]
+    done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return done.returncode, done.stdout
+
+
+def flatten(value, path=""):
+    if isinstance(value, dict):
+        for key, entry in value.items():
+            yield from flatten(entry, f"{path}.{key}" if path else key)
+    elif isinstance(value, list):
+        for i, entry in enumerate(value):
+            yield from flatten(entry, f"{path}.{i}")
+    else:
+        yield path, value
+
+
+def difference(a, b):
+    """Largest difference relative to the largest entry; infinite where shape or meaning differ."""
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        if a.shape != b.shape:
+            return math.inf
+        if a.dtype.kind not in "fiu":
+            return 0.0 if np.array_equal(a, b) else math.inf
+        if a.size == 0 or np.array_equal(a, b, equal_nan=a.dtype.kind == "f"):
+            return 0.0
+        if not (np.isfinite(a).all() and np.isfinite(b).all()):
+            return math.inf
+        return float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.finfo(float).tiny))
+    if isinstance(a, bool) or isinstance(b, bool) or not isinstance(a, (int, float)) or not isinstance(b, (int, float)):
+        return 0.0 if a == b else math.inf
+    return 0.0 if a == b else abs(a - b) / max(abs(a), abs(b))
+
+
+def datasets(file):
+    found = {}
+    with h5py.File(file, "r") as h5:
+        h5.visititems(lambda name, item: found.update({name: item[()] if item.shape == () else item[...]}) if isinstance(item, h5py.Dataset) else None)
+    return {name: value if isinstance(value, np.ndarray) else np.asarray(value) for name, value in found.items()}
+
+
+def bound(name, options):
+    if name.split(".")[-1] in COUNTS:
+        return options.steps
+    return options.motion if name.startswith(("transient", "xdmf", "reduction", "bases", "modes")) else options.static
+
+
+def compare(old, new, options, names):
+    """(largest difference of a kind to its bound, name, difference), and how many values were compared."""
+    worst, count = (0.0, "", 0.0), 0
+    values = []
+    summaries = [json.loads((folder / "summary.json").read_text()) for folder in (old, new)]
+    flat = dict(flatten(summaries[1]))
+    for key, value in flatten(summaries[0]):
+        if not any(word in key for word in VOLATILE):
+            values.append((key, value, flat.get(names.get(key, key))))
+    if (old / "results.h5").exists() or (new / "results.h5").exists():
+        one, two = datasets(old / "results.h5"), datasets(new / "results.h5")
+        for name, value in one.items():
+            if not name.startswith(("input", "deck", "run")):
+                values.append((name, value, two.get(names.get(name, name))))
+    for name, a, b in values:
+        count += 1
+        d = difference(a, b)
+        ratio = d / bound(name, options)
+        if ratio > worst[0]:
+            worst = (ratio, name, d)
+    return worst, count
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("old")
+    parser.add_argument("new")
+    parser.add_argument("--old-tree", type=pathlib.Path, default=ROOT)
+    parser.add_argument("--new-tree", type=pathlib.Path, default=ROOT)
+    parser.add_argument("--end", type=float, default=0.2, help="end of the motion [s]")
+    parser.add_argument("--only", default="", help="scenes whose name holds this")
+    parser.add_argument("--names", type=pathlib.Path, help="JSON object of old and new names")
+    parser.add_argument("--json", type=pathlib.Path, help="file for the table")
+    parser.add_argument("--static", type=float, default=1e-10)
+    parser.add_argument("--motion", type=float, default=1e-9)
+    parser.add_argument("--steps", type=float, default=0.01)
+    options = parser.parse_args()
+    names = json.loads(options.names.read_text()) if options.names else {}
+    news = {name: (deck, overrides) for name, deck, overrides in scenes(options.new_tree.resolve())}
+    table, agree = [], True
+    print(f"{'scene':45} {'values':>7} {'largest difference':>19}  where")
+    for name, deck, overrides in scenes(options.old_tree.resolve()):
+        if options.only not in name:
+            continue
+        if name not in news:
+            print(f"{name:45} {'':>7} {'missing':>19}")
+            agree = False
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            folders = [pathlib.Path(folder) / "old", pathlib.Path(folder) / "new"]
+            codes = [run(options.old, options.old_tree.resolve(), deck, overrides, options.end, str(folders[0])),
+                     run(options.new, options.new_tree.resolve(), *news[name], options.end, str(folders[1]))]
+            if codes[0][0] != codes[1][0] or codes[0][0] != 0:
+                same = codes[0][0] == codes[1][0]
+                agree = agree and same
+                last = (codes[1][1].strip().splitlines() or [""])[-1]
+                print(f"{name:45} {'':>7} {f'exit {codes[0][0]} / {codes[1][0]}':>19}  {last[:100]}", flush=True)
+                table.append({"scene": name, "exit": [codes[0][0], codes[1][0]]})
+                continue
+            (ratio, where, d), count = compare(*folders, options, names)
+        fits = ratio <= 1.0
+        agree = agree and fits
+        print(f"{name:45} {count:>7} {'bitwise the same' if d == 0.0 else f'{d:.1e}':>19}  {where}{'' if fits else '  TOO LARGE'}", flush=True)
+        table.append({"scene": name, "values": count, "largest_difference": d if math.isfinite(d) else "missing", "where": where, "agrees": fits})
+    if not table:
+        print("No scene was compared.")
+        return 1
+    if options.json:
+        options.json.write_text(json.dumps(table, indent=1) + "\n")
+    return 0 if agree else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
