@@ -36,7 +36,7 @@ Synthesis join(const std::vector<model::Substructure>& parts,
       parallel::agree([&] {
         condenseDependent(
             result.coupled,
-            basis.condenseDependent(result.coupled.model, result.coupled.maps, parts, bases));
+            basis.dependentCoordinates(result.coupled.model, result.coupled.maps, parts, bases));
       });
       if (options.interface)
         parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });

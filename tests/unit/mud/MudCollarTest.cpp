@@ -17,6 +17,8 @@ constexpr double outerRadius = 0.0795;
 constexpr double innerRadius = 0.0355;
 constexpr double boreRadius = 0.108;
 
+const Vector3 downElement(0.0, 0.0, 9.81);
+
 MudProperties referenceMud() {
   MudProperties p;
   p.density = 1200.0;
