@@ -91,7 +91,10 @@ void inspect(const ListSpec& list, const std::string& path, std::vector<std::str
   };
   for (const ParameterSpec& parameter : list.parameters()) {
     claim(parameter.name);
+    for (const std::string& former : parameter.formerNames) claim(former);
     inspect(parameter, path, faults);
+    if (parameter.level == Level::Expert && std::holds_alternative<Required>(parameter.value))
+      faults.push_back(path + "/" + parameter.name + " is required, so it cannot be for experts");
   }
   for (const ListSpec& sublist : list.lists()) {
     claim(sublist.name());
@@ -103,19 +106,20 @@ void inspect(const ListSpec& list, const std::string& path, std::vector<std::str
 
 }  // namespace
 
+ListSpec& ListSpec::add(ParameterSpec parameter) {
+  parameters_.push_back(std::move(parameter));
+  return *this;
+}
+
 ListSpec& ListSpec::real(std::string name, std::string unit, Default value, Range range,
                          std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::Real,
-                         std::move(unit),
-                         asReal(std::move(value)),
-                         range,
-                         {},
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
-  return *this;
+  return add({std::move(name),
+              Kind::Real,
+              std::move(unit),
+              asReal(std::move(value)),
+              range,
+              {},
+              std::move(doc)});
 }
 
 ListSpec& ListSpec::radius(const std::string& name, Default value, Range range,
@@ -135,89 +139,64 @@ ListSpec& ListSpec::unitBy(std::string parameter,
   return *this;
 }
 
-ListSpec& ListSpec::integer(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::Integer,
-                         "",
-                         std::move(value),
-                         range,
-                         {},
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
+ListSpec& ListSpec::expert() {
+  parameters_.back().level = Level::Expert;
   return *this;
+}
+
+ListSpec& ListSpec::formerly(std::string name) {
+  parameters_.back().formerNames.push_back(std::move(name));
+  return *this;
+}
+
+ListSpec& ListSpec::integer(std::string name, Default value, Range range, std::string doc) {
+  return add({std::move(name), Kind::Integer, "", std::move(value), range, {}, std::move(doc)});
 }
 
 ListSpec& ListSpec::boolean(std::string name, Default value, std::string doc) {
-  parameters_.push_back(
-      {std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
-  return *this;
+  return add({std::move(name), Kind::Boolean, "", std::move(value), {}, {}, std::move(doc)});
 }
 
 ListSpec& ListSpec::text(std::string name, Default value, std::string doc) {
-  parameters_.push_back(
-      {std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc), {}, {}, {}});
-  return *this;
+  return add({std::move(name), Kind::Text, "", std::move(value), {}, {}, std::move(doc)});
 }
 
 ListSpec& ListSpec::choice(std::string name, Default value, std::vector<std::string> choices,
                            std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::Choice,
-                         "",
-                         std::move(value),
-                         {},
-                         std::move(choices),
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
-  return *this;
+  return add({std::move(name),
+              Kind::Choice,
+              "",
+              std::move(value),
+              {},
+              std::move(choices),
+              std::move(doc)});
 }
 
 ListSpec& ListSpec::realArray(std::string name, std::string unit, Default value, Range range,
                               std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::RealArray,
-                         std::move(unit),
-                         asReal(std::move(value)),
-                         range,
-                         {},
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
-  return *this;
+  return add({std::move(name),
+              Kind::RealArray,
+              std::move(unit),
+              asReal(std::move(value)),
+              range,
+              {},
+              std::move(doc)});
 }
 
 ListSpec& ListSpec::integerArray(std::string name, Default value, Range range, std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::IntegerArray,
-                         "",
-                         std::move(value),
-                         range,
-                         {},
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
-  return *this;
+  return add(
+      {std::move(name), Kind::IntegerArray, "", std::move(value), range, {}, std::move(doc)});
 }
 
 ListSpec& ListSpec::textArray(std::string name, Default value, std::vector<std::string> choices,
                               std::string doc) {
-  parameters_.push_back({std::move(name),
-                         Kind::TextArray,
-                         "",
-                         std::move(value),
-                         {},
-                         std::move(choices),
-                         std::move(doc),
-                         {},
-                         {},
-                         {}});
-  return *this;
+  return add({std::move(name),
+              Kind::TextArray,
+              "",
+              std::move(value),
+              {},
+              std::move(choices),
+              std::move(doc)});
 }
 
 ListSpec& ListSpec::list(ListSpec sublist) {
@@ -274,6 +253,13 @@ ListSpec ListSpec::named(std::string name) const {
 const ParameterSpec* ListSpec::findParameter(const std::string& name) const {
   const auto it = std::find_if(parameters_.begin(), parameters_.end(),
                                [&](const ParameterSpec& p) { return p.name == name; });
+  return it == parameters_.end() ? nullptr : &*it;
+}
+
+const ParameterSpec* ListSpec::findFormer(const std::string& name) const {
+  const auto it = std::find_if(parameters_.begin(), parameters_.end(), [&](const auto& p) {
+    return std::find(p.formerNames.begin(), p.formerNames.end(), name) != p.formerNames.end();
+  });
   return it == parameters_.end() ? nullptr : &*it;
 }
 

@@ -39,21 +39,27 @@ struct Optional {};  ///< absent stays absent: ask with isParameter()
 using Default = std::variant<Required, Optional, bool, int, double, std::string, std::vector<int>,
                              std::vector<double>, std::vector<std::string>>;
 
+/// Whom a parameter concerns: manual, `tooljoint doc` and templates show the basic ones first.
+enum class Level { Basic, Expert };
+
 struct ParameterSpec {
   std::string name;
   Kind kind = Kind::Real;
-  std::string unit;  ///< SI unit of a Real or RealArray, "" when it has none; also decides which
-                     ///< unit strings are accepted
+  /// SI unit of a Real or RealArray, "" when it has none; also decides which unit strings are
+  /// accepted.
+  std::string unit = {};
   Default value = Required{};
-  Range range;                       ///< numbers, and every entry of number arrays
-  std::vector<std::string> choices;  ///< Choice, and every entry of a TextArray when not empty
-  std::string doc;                   ///< one sentence
-  std::string
-      radius;  ///< of a diameter: the parameter it is twice of; that one alone stands in the tree
-  std::string unitFrom;  ///< parameter of the same list that decides the unit; `unit` names all of
-                         ///< them then
-  std::function<std::string(const std::string&)>
-      unitOf;  ///< SI unit for the text of `unitFrom`, "" when that is absent
+  Range range = {};                       ///< numbers, and every entry of number arrays
+  std::vector<std::string> choices = {};  ///< Choice, every entry of a TextArray when not empty
+  std::string doc = {};                   ///< one sentence
+  /// Of a diameter: the parameter it is twice of; that one alone stands in the tree.
+  std::string radius = {};
+  /// Parameter of the same list that decides the unit; `unit` names all of them then.
+  std::string unitFrom = {};
+  /// SI unit for the text of `unitFrom`, "" when that is absent.
+  std::function<std::string(const std::string&)> unitOf = {};
+  Level level = Level::Basic;
+  std::vector<std::string> formerNames = {};  ///< refused with a sentence that gives the new one
 };
 
 /// Builder and description of a list. Order of declaration is the order of the manual.
@@ -69,6 +75,10 @@ class ListSpec {
   /// The unit of the parameter declared last depends on the text of another one: N for a force, N m
   /// for a torque.
   ListSpec& unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf);
+  /// The parameter declared last is for experts.
+  ListSpec& expert();
+  /// The parameter declared last was called `name` in earlier versions.
+  ListSpec& formerly(std::string name);
   ListSpec& integer(std::string name, Default value, Range range, std::string doc);
   ListSpec& boolean(std::string name, Default value, std::string doc);
   ListSpec& text(std::string name, Default value, std::string doc);
@@ -102,6 +112,8 @@ class ListSpec {
   bool required() const { return required_; }
   bool passesThrough() const { return passThrough_; }
   const ParameterSpec* findParameter(const std::string& name) const;
+  /// The parameter that was called `name` in earlier versions; null when there is none.
+  const ParameterSpec* findFormer(const std::string& name) const;
   /// The diameter that may stand for this radius; null when there is none.
   const ParameterSpec* diameterOf(const std::string& radius) const;
   const ListSpec* findList(
@@ -113,6 +125,8 @@ class ListSpec {
   std::vector<std::string> inconsistencies() const;
 
  private:
+  ListSpec& add(ParameterSpec parameter);
+
   std::string name_;
   std::string doc_;
   std::vector<ParameterSpec> parameters_;

@@ -144,6 +144,20 @@ std::string sentence(const std::string& doc) {
   return text.empty() || text.back() == '.' ? text : text + ".";
 }
 
+/// The parameters of one level; "" when there are none.
+std::string table(const ListSpec& list, Level level) {
+  std::string rows;
+  for (const ParameterSpec& parameter : list.parameters()) {
+    if (parameter.level != level) continue;
+    rows += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " +
+            cell(parameter.unit) + " | " + cell(rangeOrChoices(parameter)) + " | " +
+            defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
+  }
+  if (rows.empty()) return "";
+  return "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n" + rows +
+         "\n";
+}
+
 std::string markdown(const Located& item, int headingLevel) {
   const ListSpec& list = *item.list;
   const auto depth = static_cast<int>(std::count(item.path.begin(), item.path.end(), '/'));
@@ -157,13 +171,10 @@ std::string markdown(const Located& item, int headingLevel) {
             cell(patternName(*list.pattern())) + ".";
   text += "\n\n";
   if (list.parameters().empty()) return text;
-  text += "| Name | Type | Unit | Range | Default | Meaning |\n|---|---|---|---|---|---|\n";
-  for (const ParameterSpec& parameter : list.parameters()) {
-    text += "| `" + parameter.name + "` | " + typeName(parameter.kind) + " | " +
-            cell(parameter.unit) + " | " + cell(rangeOrChoices(parameter)) + " | " +
-            defaultCell(parameter) + " | " + cell(sentence(parameter.doc)) + " |\n";
-  }
-  return text + "\n";
+  text += table(list, Level::Basic);
+  const std::string expert = table(list, Level::Expert);
+  if (!expert.empty()) text += "For experts:\n\n" + expert;
+  return text;
 }
 
 std::string kindName(Kind kind) {
@@ -199,6 +210,7 @@ Json jsonOf(const ParameterSpec& parameter) {
   return {{"name", parameter.name},
           {"type", typeName(parameter.kind)},
           {"kind", kindName(parameter.kind)},
+          {"level", parameter.level == Level::Basic ? "basic" : "expert"},
           {"unit", parameter.unit},
           {"min", bound(parameter.range.min)},
           {"max", bound(parameter.range.max)},

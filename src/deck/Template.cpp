@@ -108,9 +108,10 @@ class Writer {
   void writeList(const ListSpec& list, const std::string& name, const std::string& path, int depth,
                  bool active) {
     element(depth, "<ParameterList name=\"" + escaped(name) + "\">", active);
-    for (const ParameterSpec& parameter : list.parameters())
-      if (parameter.radius.empty())
-        writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
+    for (const Level level : {Level::Basic, Level::Expert})
+      for (const ParameterSpec& parameter : list.parameters())
+        if (parameter.level == level && parameter.radius.empty())
+          writeParameter(parameter, list.diameterOf(parameter.name), path, depth + 1, active);
     for (const ListSpec& sublist : list.lists()) {
       line(depth + 1,
            remark(sublist.name() + (sublist.required() ? " (required): " : " (optional): ") +
@@ -139,6 +140,7 @@ class Writer {
     const bool required = std::holds_alternative<Required>(parameter.value);
     const bool stands = required || example(path + parameter.name) != nullptr;
     std::string note = describe(parameter);
+    if (parameter.level == Level::Expert) note += "; for experts";
     if (required) note += "; required";
     if (diameter != nullptr) note += "; or give " + diameter->name;
     if (std::holds_alternative<Optional>(parameter.value)) note += "; optional";

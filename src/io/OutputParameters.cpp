@@ -29,14 +29,17 @@ deck::ListSpec parameters() {
                "and speed.")
       .real("XDMF Interval", "s", defaults.xdmfInterval, Range::positive(),
             "Time between two pictures in results.xdmf, at least the sampling interval.")
+      .expert()
       .boolean("Reduced Bases", defaults.reducedBases,
                "Store the basis of every reduced part in results.h5.")
+      .expert()
       .choice("Export Parts", std::string("None"), {"None", "HDF5", "Matrix Market"},
               "Write every reduced part with its basis into the folder parts of the results, to be "
               "used again as an imported part: one HDF5 file, or a "
               "folder of Matrix Market files each.")
       .integer("Compression", defaults.compression, Range::between(0, 9),
-               "Deflate level of the time series in results.h5; 0 is off and fastest.");
+               "Deflate level of the time series in results.h5; 0 is off and fastest.")
+      .expert();
 }
 
 OutputSettings readOutput(const Teuchos::ParameterList& list) {

@@ -46,10 +46,12 @@ void declareCriteria(deck::ListSpec& list) {
   list.real("Effective Interface Mass", "", deck::Optional{}, fraction,
             "The modes of each substructure that couple most to its kept dofs, until they hold "
             "this fraction of the coupling mass (Kammer and "
-            "Triller 1996).");
+            "Triller 1996).")
+      .expert();
   list.real("Interface Moment", "", deck::Optional{}, fraction,
             "The same with the first moment of the coupling, which weighs low frequencies more "
-            "(Liao, Bai and Gao 2007).");
+            "(Liao, Bai and Gao 2007).")
+      .expert();
   list.real("Frequency Tolerance", "", deck::Optional{}, tolerance,
             "As many modes of each substructure as the estimated relative errors of the coupled "
             "frequencies need to stay below this; which "
@@ -62,15 +64,18 @@ void declareCriteria(deck::ListSpec& list) {
   list.real("Tolerance Safety", "", 1.5, Range::atLeast(1.0),
             "What an estimate is multiplied by before it is compared with a tolerance; that of the "
             "motion, which is less sharp, by twice "
-            "this.");
+            "this.")
+      .expert();
   list.choice("Error Estimate", std::string("None"), {"None", "Frequencies", "Transient", "Both"},
               "Errors that are estimated a posteriori, from residuals: of the coupled frequencies "
               "about the static state, of the motion "
               "(dyn, while it is computed), or of both.");
   list.integer("Estimated Frequencies", 20, Range::atLeast(1),
-               "How many of the lowest coupled frequencies estimates and tolerances look at.");
+               "How many of the lowest coupled frequencies estimates and tolerances look at.")
+      .expert();
   list.real("Estimated Below", "Hz", deck::Optional{}, Range::positive(),
-            "Look at all coupled frequencies below this instead.");
+            "Look at all coupled frequencies below this instead.")
+      .expert();
 }
 
 }  // namespace
@@ -89,19 +94,23 @@ deck::ListSpec parameters() {
   list.integer("Modes", deck::Optional{}, Range::atLeast(0),
                "Number of modes of every substructure; 0 is static condensation.");
   list.integerArray("Modes by Substructure", deck::Optional{}, Range::atLeast(0),
-                    "Number of modes of each substructure, in their order.");
+                    "Number of modes of each substructure, in their order.")
+      .expert();
   list.integer("Total Modes", deck::Optional{}, Range::atLeast(0),
-               "The lowest so many modes over all substructures together.");
+               "The lowest so many modes over all substructures together.")
+      .expert();
   list.real("Cut-off Frequency", "Hz", deck::Optional{}, Range::nonNegative(),
             "All modes of each substructure at or below this frequency.");
-  list.boolean(
-      "All Modes", false,
-      "Every mode of every substructure: the reduced model is the full one in other coordinates.");
+  list.boolean("All Modes", false,
+               "Every mode of every substructure: the reduced model is the full one in other "
+               "coordinates.")
+      .expert();
   declareCriteria(list);
   list.real("Pair Tolerance", "", defaultPairTolerance, Range::between(0.0, 0.2),
             "Relative difference in frequency up to which two neighbouring modes count as a pair "
             "that is never cut; 0 keeps only "
-            "equal frequencies together.");
+            "equal frequencies together.")
+      .expert();
   declareLoadVectors(list);
   list.choice("Initial State", std::string("Keep static"), {"Keep static", "Least squares"},
               "\"Keep static\" reduces about the static state, which is then exact; \"Least "
@@ -110,9 +119,10 @@ deck::ListSpec parameters() {
   deck::declareVariants<InterfaceBasis, const Teuchos::ParameterList&>(
       list, "Interface Reduction", std::string("None"),
       "Reduction of the dofs at which substructures are joined, after they were coupled.");
-  list.boolean(
-      "Basis Checks", true,
-      "Check rank, static exactness, zero-energy modes and the largest frequency of every basis.");
+  list.boolean("Basis Checks", true,
+               "Check rank, static exactness, zero-energy modes and the largest frequency of every "
+               "basis.")
+      .expert();
   list.passThrough("Anasazi", "Parameters of the Anasazi eigensolver, handed on as they are.");
   return list;
 }

@@ -243,6 +243,7 @@ ListSpec parameters() {
       .boolean(
           "Statistics", true,
           "Compare bit speeds, contact duty, lateral motion and its spectrum beyond the window.")
+      .expert()
       .text("Baseline", deck::Optional{},
             "Label of the run whose time is divided by that of each run: a method's label, with "
             "the values of its sweep when it has several runs.")

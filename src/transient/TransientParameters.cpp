@@ -26,13 +26,16 @@ deck::ListSpec parameters() {
             "on it.")
       .boolean("Progress", true,
                "Show a progress bar, or a line per 10 % when the output is not a terminal.")
+      .expert()
       .boolean("Energy Ledger", true,
                "Keep account of kinetic, strain and contact energy, of the work of all loads and "
                "of every dissipation.")
+      .expert()
       .real("Checkpoint Interval", "s", 1.0, deck::Range::nonNegative(),
             "Simulated time between two states saved for a restart; 0 saves one only when the run "
             "is interrupted. The integrators of SUNDIALS begin "
-            "anew at each of them and go on only from there.");
+            "anew at each of them and go on only from there.")
+      .expert();
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);
     own.merge(entry.parameters);

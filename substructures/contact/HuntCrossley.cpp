@@ -65,6 +65,7 @@ const bool registered = LawRegistry::instance().add(
      deck::ListSpec("Hunt-Crossley", "Force k G^n (1 + chi dG/dt), only while it pushes.")
          .real("Exponent", "", 1.0, deck::Range::between(1.0, 3.0),
                "n; above 1 the Stiffness k is in N/m^n.")
+         .expert()
          .real("Dissipation", "s/m", 0.0, deck::Range::nonNegative(),
                "chi; a body hitting the wall at v comes back with about (1 - 2 chi v/3) v."),
      [](const Teuchos::ParameterList& list) {

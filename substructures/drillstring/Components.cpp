@@ -36,15 +36,20 @@ void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
               "Outer radius of the body; of a general section for contact and mud only.");
   spec.radius("Inner Radius", Optional{}, Range::nonNegative(), "Inner radius; 0 when absent.");
   spec.boolean("Shear Deformation", Optional{},
-               "Whether a circular section deforms in shear (Timoshenko); true when absent.");
+               "Whether a circular section deforms in shear (Timoshenko); true when absent.")
+      .expert();
   spec.real("Area", "m2", Optional{}, Range::positive(),
-            "Area of a general section, which has no shear deformation.");
+            "Area of a general section, which has no shear deformation.")
+      .expert();
   spec.real("Inertia X", "m4", Optional{}, Range::positive(),
-            "Second moment about x of a general section.");
+            "Second moment about x of a general section.")
+      .expert();
   spec.real("Inertia Y", "m4", Optional{}, Range::positive(),
-            "Second moment about y of a general section.");
+            "Second moment about y of a general section.")
+      .expert();
   spec.real("Torsion Constant", "m4", Optional{}, Range::positive(),
-            "Torsion constant J of a general section.");
+            "Torsion constant J of a general section.")
+      .expert();
   spec.list(materialSpec());
 }
 

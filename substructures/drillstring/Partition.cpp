@@ -26,10 +26,11 @@ deck::ListSpec partitionParameters() {
             "Shortest part of the rule \"By length\"; required there.");
   list.integerArray("Cut Nodes", deck::Optional{}, Range::atLeast(2),
                     "Nodes (1-based) where the rule \"By nodes\" cuts; required there.");
-  list.choice("Retain", deck::Optional{}, {"Nodes", "Contact", "Translations"},
+  list.choice("Retained Dofs", deck::Optional{}, {"Nodes", "Contact", "Translations"},
               "Dofs that stay physical at a retained node: all six, u v theta_z, or u v. Default: "
               "Nodes for implicit "
-              "integrators, Translations for explicit ones.");
+              "integrators, Translations for explicit ones.")
+      .formerly("Retain");
   list.choice("Retained Nodes", std::string("Gap"),
               {"Gap", "Static contacts", "Gauges", "All", "List", "None"},
               "Which nodes are retained: static gap below Retained Gap, nodes in contact in the "
@@ -37,21 +38,27 @@ deck::ListSpec partitionParameters() {
               "node that can touch, Node List, or none.");
   list.real("Retained Gap", "m", 0.008, Range::nonNegative(),
             "Static gap below which a node is retained by the choice \"Gap\".");
-  list.real("Whole Below", "m", deck::Optional{}, Range::nonNegative(),
+  list.real("Keep Full Below", "m", deck::Optional{}, Range::nonNegative(),
             "Depth below which every node is retained, beside those of Retained Nodes: where the "
             "action is (the bottom-hole assembly and the pipes that strike "
-            "the wall above it) stays as it is while the long string above is reduced.");
+            "the wall above it) stays as it is while the long string above is reduced.")
+      .formerly("Whole Below");
   list.integer(
-      "Shortest Run", 1, Range::atLeast(1),
-      "Nodes in runs shorter than this between kept nodes (retained ones, loads, ends of parts) "
-      "are retained too: a few nodes cost less as they "
-      "are than as constraint modes and modes. 8 is a good choice for speed; 1 keeps all runs.");
+          "Minimum Reduced Run", 1, Range::atLeast(1),
+          "Nodes in runs shorter than this between kept nodes (retained ones, loads, ends of "
+          "parts) "
+          "are retained too: a few nodes cost less as they "
+          "are than as constraint modes and modes. 8 is a good choice for speed; 1 keeps all runs.")
+      .expert()
+      .formerly("Shortest Run");
   list.integerArray("Node List", deck::Optional{}, Range::atLeast(1),
-                    "Nodes (1-based) of the choice \"List\"; required there.");
+                    "Nodes (1-based) of the choice \"List\"; required there.")
+      .expert();
   list.choice("Contact Nodes", std::string("All"), {"All", "Retained"},
               "Where contact is evaluated in the reduced model: at every node that can touch, or "
               "at retained nodes alone (a short "
-              "cut: the run warns when a skipped node would have touched).");
+              "cut: the run warns when a skipped node would have touched).")
+      .expert();
   return list;
 }
 
@@ -86,16 +93,17 @@ PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIn
     rules.length = list.get<double>("Length");
   }
   if (rules.rule == "By nodes") rules.cutNodes = integers(list, "Cut Nodes", rules.rule);
-  if (list.isParameter("Retain")) {
-    const auto retain = list.get<std::string>("Retain");
+  if (list.isParameter("Retained Dofs")) {
+    const auto retain = list.get<std::string>("Retained Dofs");
     rules.retain = retain == "Nodes"     ? Retain::Nodes
                    : retain == "Contact" ? Retain::Contact
                                          : Retain::Translations;
   }
   rules.retainedNodes = list.get<std::string>("Retained Nodes");
   rules.retainedGap = list.get<double>("Retained Gap");
-  if (list.isParameter("Whole Below")) rules.wholeBelow = list.get<double>("Whole Below");
-  rules.shortestRun = list.get<int>("Shortest Run");
+  if (list.isParameter("Keep Full Below"))
+    rules.keepFullBelow = list.get<double>("Keep Full Below");
+  rules.minimumReducedRun = list.get<int>("Minimum Reduced Run");
   if (rules.retainedNodes == "List") rules.nodeList = integers(list, "Node List", "List");
   rules.contactAtRetainedOnly = list.get<std::string>("Contact Nodes") == "Retained";
   return rules;
@@ -177,17 +185,17 @@ std::vector<int> chosenNodes(const DrillString& string, const PartitionRules& ru
 
 namespace {
 
-/// Nodes at or below rules.wholeBelow.
+/// Nodes at or below rules.keepFullBelow.
 std::vector<int> wholeNodes(const DrillString& string, const PartitionRules& rules) {
   const auto depths = string.depths();
   std::vector<int> nodes;
   for (int node = 0; node < string.nodeCount(); ++node)
-    if (depths[static_cast<std::size_t>(node)] >= rules.wholeBelow * (1.0 - 1e-12))
+    if (depths[static_cast<std::size_t>(node)] >= rules.keepFullBelow * (1.0 - 1e-12))
       nodes.push_back(node);
   return nodes;
 }
 
-/// Inner nodes of runs of fewer than rules.shortestRun nodes between kept ones.
+/// Inner nodes of runs of fewer than rules.minimumReducedRun nodes between kept ones.
 std::vector<int> nodesOfShortRuns(const DrillString& string, const PartitionRules& rules,
                                   const std::set<int>& keptDofs, const std::vector<int>& chosen) {
   std::vector<char> kept(static_cast<std::size_t>(string.nodeCount()), 0);
@@ -203,7 +211,7 @@ std::vector<int> nodesOfShortRuns(const DrillString& string, const PartitionRule
       run.push_back(node);
       continue;
     }
-    if (static_cast<int>(run.size()) < rules.shortestRun)
+    if (static_cast<int>(run.size()) < rules.minimumReducedRun)
       nodes.insert(nodes.end(), run.begin(), run.end());
     run.clear();
   }

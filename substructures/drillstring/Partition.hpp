@@ -36,10 +36,10 @@ struct PartitionRules {
   Retain retain = Retain::Nodes;
   std::string retainedNodes = "Gap";
   double retainedGap = 0.008;  ///< [m]
-  int shortestRun = 1;         ///< inner nodes; shorter runs between kept nodes stay physical
-  double wholeBelow = std::numeric_limits<double>::infinity();  ///< depth [m]; all nodes from there
-                                                                ///< on stay physical
-  std::vector<int> nodeList;                                    ///< "List": 1-based
+  int minimumReducedRun = 1;   ///< inner nodes; shorter runs between kept nodes stay physical
+  double keepFullBelow = std::numeric_limits<double>::infinity();  ///< depth [m]; all nodes from
+                                                                   ///< there on stay physical
+  std::vector<int> nodeList;                                       ///< "List": 1-based
   bool contactAtRetainedOnly = false;
 };
 
@@ -54,9 +54,9 @@ struct NodeState {
 /// Description of the list `Substructures`.
 deck::ListSpec partitionParameters();
 
-/// Rules of a validated list; `explicitIntegrator` decides the default of `Retain` (whole nodes for
-/// implicit integrators, translations for explicit ones, whose stable step retained rotations would
-/// cut).
+/// Rules of a validated list; `explicitIntegrator` decides the default of `Retained Dofs` (whole
+/// nodes for implicit integrators, translations for explicit ones, whose stable step retained
+/// rotations would cut).
 PartitionRules readPartition(const Teuchos::ParameterList& list, bool explicitIntegrator);
 
 /// The parts from top to bottom; they cover every element once. Throws DeckError for cut nodes that

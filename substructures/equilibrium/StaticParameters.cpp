@@ -17,7 +17,8 @@ deck::ListSpec parameters() {
               "contact and takes full steps.");
   spec.choice("Jacobian", std::string("Exact"), {"Exact", "Source"},
               "\"Source\" leaves out how the geometric stiffness changes with the displacement, "
-              "equation (25).");
+              "equation (25).")
+      .expert();
   spec.choice("Friction", std::string("Sliding Speed"), {"Sliding Speed", "Peak", "None"},
               "Friction of a string that turns in its hole without moving sideways. \"Sliding "
               "Speed\": the coefficient at the "
@@ -29,18 +30,23 @@ deck::ListSpec parameters() {
               "no friction. A string that "
               "never turns has none.");
   spec.boolean("Geometric Stiffness", true,
-               "Whether axial force and torque of the static state stiffen the string.");
+               "Whether axial force and torque of the static state stiffen the string.")
+      .expert();
   spec.real("Tolerance", "", 1e-9, Range::positive(),
             "Largest residual at convergence, relative to the largest load (moments: to that load "
             "on a mean element length).");
-  spec.integer("Max Iterations", 200, Range::atLeast(1), "Newton iterations allowed in one stage.");
+  spec.integer("Max Iterations", 200, Range::atLeast(1), "Newton iterations allowed in one stage.")
+      .expert();
   spec.real("Lateral Step Limit", "m", 0.05, Range::positive(),
-            "Largest change of a lateral displacement in one iteration of \"Continuation\".");
+            "Largest change of a lateral displacement in one iteration of \"Continuation\".")
+      .expert();
   spec.realArray("Lambda Stages", "1/m", std::vector<double>{1e3, 1e4, 1e6}, Range::positive(),
                  "Contact regularisations that \"Continuation\" goes through before the one of the "
-                 "contact list.");
+                 "contact list.")
+      .expert();
   spec.integer("Friction Steps", 4, Range::atLeast(1),
-               "Equal steps in which \"Continuation\" brings in friction.");
+               "Equal steps in which \"Continuation\" brings in friction.")
+      .expert();
   spec.passThrough("NOX", "Handed on to NOX.");
   spec.passThrough("Belos", "Handed on to Belos.");
   return spec;

@@ -70,15 +70,19 @@ deck::ListSpec parameters() {
             "Volume pumped per second, down the string and up the annulus when positive.")
       .boolean("Coriolis", true,
                "Keep the Coriolis forces of both axial flows; needs a flow rate to matter.")
+      .expert()
       .boolean("Centrifugal", true,
                "Keep the centrifugal stiffness of both axial flows; needs a flow rate to matter.")
+      .expert()
       .boolean(
           "Axial Drag", true,
           "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
+      .expert()
       .boolean("Rotating Annulus", false,
                "Let the annular mud swirl at half the rotary speed: cross-coupled damping, "
                "negative and circulatory stiffness. It "
-               "changes the motion strongly; terms of the angular acceleration are left out.");
+               "changes the motion strongly; terms of the angular acceleration are left out.")
+      .expert();
 }
 
 Mud::Mud(const MudProperties& properties) : properties_(properties) {}

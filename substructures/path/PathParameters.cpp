@@ -21,21 +21,26 @@ deck::ListSpec parameters() {
               "or the geometric stiffness of axial force and torque alone, which violates the "
               "torque balance of a curved string.");
   spec.integer("Increments", 10, Range::atLeast(1),
-               "Load steps of \"Imposed nodes\"; halved where one does not converge.");
+               "Load steps of \"Imposed nodes\"; halved where one does not converge.")
+      .expert();
   spec.integer("Node Count", 9, Range::atLeast(2),
                "Number of imposed nodes, equally spaced in arc length with both ends included, "
-               "when no Nodes are given.");
+               "when no Nodes are given.")
+      .expert();
   spec.integerArray("Nodes", deck::Optional{}, Range::atLeast(1),
                     "Imposed nodes by number (1 is at the surface).");
   spec.choice("Imposition", std::string("Elimination"), {"Elimination", "Penalty"},
               "How imposed displacements enter: exactly, or by a stiff spring as in equations (12) "
-              "and (13).");
+              "and (13).")
+      .expert();
   spec.real("Penalty Factor", "", 1e6, Range::atLeast(1.0),
-            "Stiffness of that spring over the largest entry of the stiffness matrix.");
+            "Stiffness of that spring over the largest entry of the stiffness matrix.")
+      .expert();
   spec.real("Tolerance", "", 1e-9, Range::positive(),
             "Largest scaled residual at which a load step has converged.");
   spec.integer("Max Iterations", 50, Range::atLeast(1),
-               "Newton iterations allowed in one load step.");
+               "Newton iterations allowed in one load step.")
+      .expert();
   spec.passThrough("NOX", "Handed on to NOX.");
   spec.passThrough("Belos", "Handed on to Belos.");
   return spec;

@@ -43,7 +43,7 @@ inline std::vector<Family> freeFamilies() {
           {"Rubin", "", ""},
           {"Craig-Chang", "", ""},
           {"Herting", "", ""},
-          {"Herting", "Modes with Interface", "Fixed"},
+          {"Herting", "Mode Supports", "Fixed"},
           {"Herting", "Inertia Relief", "", false},
           {"MacNeal", "", ""},
           {"Dual Craig-Bampton", "", ""},

@@ -120,10 +120,12 @@ deck::ListSpec stopSpec() {
             "Damping factor of Hunt and Crossley (1975).")
       .real("Smoothing", "m", 0.0, Range::nonNegative(),
             "Half width of the quadratic transition at touch.")
+      .expert()
       .real("Friction", "", 0.0, Range::nonNegative(),
             "Coulomb friction coefficient across the direction; 0: none. Needs a Direction.")
       .real("Slip Velocity", "m/s", 1e-3, Range::positive(),
-            "Regularisation velocity of the friction.");
+            "Regularisation velocity of the friction.")
+      .expert();
   return deck::ListSpec("Stops", "One-sided contacts between parts or with the ground.")
       .namedLists(entry);
 }
@@ -134,7 +136,8 @@ deck::ListSpec sliderSpec() {
       .real("Force", "N or N m", deck::Required{}, Range::positive(),
             "Sliding force, or moment about a rotation.")
       .unitBy("Component", unitByKind("N", "N m", "N"))
-      .real("Slip Velocity", "m/s", 1e-3, Range::positive(), "Regularisation velocity.");
+      .real("Slip Velocity", "m/s", 1e-3, Range::positive(), "Regularisation velocity.")
+      .expert();
   return deck::ListSpec("Sliders", "Dry friction between parts or to the ground.")
       .namedLists(entry);
 }
@@ -155,9 +158,10 @@ deck::ListSpec parameters() {
               "Shared: equal numbers are one node, wherever they stand. Own: every part numbers "
               "its nodes for itself, and only Joints join them.");
   list.boolean(
-      "Keep Static Forces", true,
-      "Released dofs keep the force they carry in the static state as a constant load on both "
-      "sides, so that the model stays at rest there; otherwise it starts with a jump.");
+          "Keep Static Forces", true,
+          "Released dofs keep the force they carry in the static state as a constant load on both "
+          "sides, so that the model stays at rest there; otherwise it starts with a jump.")
+      .expert();
   for (auto& sublist : {jointSpec(), frameSpec(), releaseSpec(), constraintSpec(), linkSpec(),
                         hingeSpec(), springSpec(), stopSpec(), sliderSpec()})
     list.list(sublist);

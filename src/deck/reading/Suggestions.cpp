@@ -80,6 +80,8 @@ std::string didYouMean(const ListSpec& list, const std::string& name, bool lists
 
 std::string unknownParameter(const ListSpec& root, const ListSpec& list, const std::string& path,
                              const std::string& name) {
+  if (const ParameterSpec* renamed = list.findFormer(name))
+    return path + "/" + name + " is now called \"" + renamed->name + "\". " + introduce(*renamed);
   std::string text = path + "/" + name + " is not a parameter.";
   if (declares(list, name))
     return text + " It is a list: write <ParameterList name=\"" + name + "\">.";

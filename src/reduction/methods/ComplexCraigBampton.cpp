@@ -250,7 +250,8 @@ deck::ListSpec ownParameters() {
             "time. Gyroscopics need a time at which the rotor turns.");
   list.real("Independence", "", 1e-6, Range{0.0, 0.1, true, false},
             "The part of a half of a mode, measured by mass, that must be new for it to be taken; "
-            "lightly damped modes have one half.");
+            "lightly damped modes have one half.")
+      .expert();
   return list;
 }
 

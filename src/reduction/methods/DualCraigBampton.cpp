@@ -113,7 +113,8 @@ deck::ListSpec parameters() {
                "frequencies gain an order of accuracy, but for every force the model "
                "has a spurious negative eigenvalue, with which motions grow without bound: for "
                "`tooljoint modes` alone. Without it the forces have no mass, as in "
-               "\"MacNeal\", and implicit integrators run the model.");
+               "\"MacNeal\", and implicit integrators run the model.")
+      .expert();
   return list;
 }
 

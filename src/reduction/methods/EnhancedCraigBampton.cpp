@@ -192,9 +192,9 @@ deck::ListSpec ownParameters() {
               "coupled model (Kim and Lee 2015), which adds no dofs but makes the "
               "coupled matrices full; \"Free\": they are coordinates of their own, one for each "
               "kept dof at most, and the model stays sparse.");
-  list.real(
-      "Independence", "", 1e-6, deck::Range{0.0, 0.1, true, false},
-      "The part of a residual vector, measured by mass, that must be new for it to be taken.");
+  list.real("Independence", "", 1e-6, deck::Range{0.0, 0.1, true, false},
+            "The part of a residual vector, measured by mass, that must be new for it to be taken.")
+      .expert();
   return list;
 }
 

@@ -90,7 +90,8 @@ deck::ListSpec parameters() {
               "coordinates: those left when the dof with the largest k_ii / m_ii "
               "is condensed again and again (Henshell and Ong 1975; a cut-off frequency is "
               "compared with sqrt(k_ii / m_ii)). \"None\" keeps interface and "
-              "retained dofs alone.");
+              "retained dofs alone.")
+      .expert();
   return list;
 }
 

@@ -99,13 +99,16 @@ class Herting : public ReductionMethod {
 
 deck::ListSpec parameters() {
   deck::ListSpec list("Herting", "Which modes go with the constraint modes.");
-  list.choice("Modes with Interface", std::string("Free"), {"Free", "Fixed"},
+  list.choice("Mode Supports", std::string("Free"), {"Free", "Fixed"},
               "Support of interface and retained dofs while the modes are computed: with \"Free\" "
               "and inertia relief the space is that of \"Rubin\", with \"Fixed\" and "
-              "without it that of \"Craig-Bampton\".");
+              "without it that of \"Craig-Bampton\".")
+      .expert()
+      .formerly("Modes with Interface");
   list.boolean("Inertia Relief", true,
                "Add the static answer, kept dofs held, to the inertia of every rigid-body mode of "
-               "the free part; those of \"Fixed\" come in addition to the number of modes.");
+               "the free part; those of \"Fixed\" come in addition to the number of modes.")
+      .expert();
   return list;
 }
 
@@ -113,8 +116,8 @@ const bool registered = MethodRegistry::instance().add(
     "Herting",
     {"Constraint modes, inertia-relief modes and free- or fixed-interface modes (Herting 1985).",
      parameters(), [](const Teuchos::ParameterList& list) {
-       const bool fixed = list.isParameter("Modes with Interface") &&
-                          list.get<std::string>("Modes with Interface") == "Fixed";
+       const bool fixed =
+           list.isParameter("Mode Supports") && list.get<std::string>("Mode Supports") == "Fixed";
        const bool relief = !list.isParameter("Inertia Relief") || list.get<bool>("Inertia Relief");
        return std::unique_ptr<ReductionMethod>(new Herting(fixed, relief));
      }});

@@ -195,7 +195,8 @@ deck::ListSpec own(const std::string& name, const std::string& count) {
                "Add the static answer of the interfaces to every load, so that it is exact "
                "whatever the number of modes.");
   list.boolean("Keep Contact Dofs", true,
-               "Leave joined dofs on which point laws act (contact, springs, stops) as they are.");
+               "Leave joined dofs on which point laws act (contact, springs, stops) as they are.")
+      .expert();
   return list;
 }
 

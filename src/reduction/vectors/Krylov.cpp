@@ -383,15 +383,18 @@ deck::ListSpec ownParameters() {
   list.real("Expansion Frequency", "Hz", 0.0, Range::nonNegative(),
             "Where moments are matched: at this frequency, or with \"Damped\" at s = 2 pi times "
             "this on the real axis. Take the middle of the band of interest; "
-            "0 gives quasi-static vectors.");
+            "0 gives quasi-static vectors.")
+      .expert();
   list.boolean("Damped", false,
                "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) "
-               "instead of those of mass and stiffness alone.");
+               "instead of those of mass and stiffness alone.")
+      .expert();
   list.real("Time", "s", 0.0, Range::any(),
             "When damping that varies, as gyroscopics do with the speed, is looked at; used with "
             "\"Damped\".");
   list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
-            "The part of a vector, measured by mass, that must be new for the vector to be taken.");
+            "The part of a vector, measured by mass, that must be new for the vector to be taken.")
+      .expert();
   return list;
 }
 

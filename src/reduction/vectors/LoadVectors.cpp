@@ -168,7 +168,8 @@ void declareLoadVectors(deck::ListSpec& list) {
               "the points of contact and other point laws, or to both (Dickens, Nakagawa and "
               "Wittbrodt 1997).");
   list.integerArray("Load Vector Nodes", deck::Optional{}, deck::Range::atLeast(1),
-                    "Only points of these nodes get load vectors.");
+                    "Only points of these nodes get load vectors.")
+      .expert();
 }
 
 LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list) {

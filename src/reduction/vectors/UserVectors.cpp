@@ -198,7 +198,8 @@ deck::ListSpec ownParameters() {
               "What happens to a vector that is a combination of those before it and of constraint "
               "modes: an error, or it is left out with a remark.");
   list.real("Independence", "", 1e-8, deck::Range{0.0, 0.1, true, false},
-            "The part of a vector, measured by mass, that must be new, or it is dependent.");
+            "The part of a vector, measured by mass, that must be new, or it is dependent.")
+      .expert();
   return list;
 }
 

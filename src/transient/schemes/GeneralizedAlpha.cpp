@@ -64,8 +64,10 @@ deck::ListSpec specification() {
             "force scaled alike.")
       .integer("Max Iterations", 25, deck::Range::atLeast(1),
                "Newton iterations before a step is halved.")
+      .expert()
       .integer("Max Halvings", 4, deck::Range::between(0, 16),
                "Times a step may be halved before the run stops.")
+      .expert()
       .real("Step Tolerance", "m", deck::Optional{}, deck::Range::positive(),
             "Error of the displacement allowed in one step, as root of the mean square over the "
             "mass. Steps are then Transient/Step "
@@ -73,6 +75,7 @@ deck::ListSpec specification() {
       .real("Smallest Step", "s", deck::Optional{}, deck::Range::positive(),
             "With Step Tolerance: a step that would have to be shorter than this ends the run; by "
             "default 1/1024 of Transient/Step.")
+      .expert()
       .boolean("Phase Correction", true,
                "Make up for the period error of the scheme: vibration is then followed to fourth "
                "order in the step, at about a "
@@ -81,9 +84,11 @@ deck::ListSpec specification() {
                "Take a motion as a result although fixed steps do not follow it (their local error "
                "is more than 2.5 % of what moves in them, or "
                "two of half the length end more than 2 to 4 % elsewhere).")
+      .expert()
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps "
-               "are counted and reported.");
+               "are counted and reported.")
+      .expert();
 }
 
 std::string percent(double part) {

@@ -21,12 +21,16 @@ deck::ListSpec specification() {
       .real("Tolerance", "", 1e-2, deck::Range::positive(),
             "Threshold e0 of the error of a step, a sum of norms in m, rad, m/s and rad/s.")
       .real("First Step", "s", 1e-5, deck::Range::positive(), "Length of the first step.")
+      .expert()
       .real("Growth", "", 1.01, deck::Range::atLeast(1.0),
             "Factor on the step after an error below a hundredth of the tolerance.")
+      .expert()
       .real("Shrink", "", 1.1, deck::Range{1.0, 100.0, true, false},
             "Divisor of the step after an error above the tolerance.")
+      .expert()
       .real("Smallest Step", "s", 1e-9, deck::Range::positive(),
-            "A step that would have to be shorter than this ends the run.");
+            "A step that would have to be shorter than this ends the run.")
+      .expert();
 }
 
 class RungeKutta4Adaptive final : public Integrator {

@@ -33,17 +33,23 @@ void addCommon(deck::ListSpec& spec) {
             "Error of a step allowed in displacements beside that, and by the same number in "
             "rotations (rad) and coordinates of "
             "modes; by default 0.01 m times Relative Tolerance.")
+      .expert()
       .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
             "The same for velocities; by default 1 m/s times Relative Tolerance.")
+      .expert()
       .real("Initial Step", "s", deck::Optional{}, deck::Range::positive(),
             "Length of the first step; by default Transient/Step, and without that what SUNDIALS "
             "estimates.")
+      .expert()
       .real("Maximum Step", "s", deck::Optional{}, deck::Range::positive(),
             "Longest step allowed; by default there is no limit.")
+      .expert()
       .integer("Maximum Newton Iterations", 3, deck::Range::atLeast(2),
                "Newton iterations before a step is tried shorter.")
+      .expert()
       .integer("Maximum Steps", 100000000, deck::Range::atLeast(1),
-               "Steps after which the run stops as one that cannot be afforded.");
+               "Steps after which the run stops as one that cannot be afforded.")
+      .expert();
 }
 
 deck::ListSpec arkodeSpecification() {

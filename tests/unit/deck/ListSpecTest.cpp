@@ -105,6 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
                       ListSpec("a", "A.").integer("N", 1.5, Range::any(), "N.")},
         Contradiction{"/a/L has a default that is not one of its choices",
                       ListSpec("a", "A.").choice("L", "z", {"x", "y"}, "L.")},
+        Contradiction{"/a/old is declared twice", ListSpec("a", "A.")
+                                                      .integer("N", 1, Range::any(), "N.")
+                                                      .formerly("old")
+                                                      .integer("old", 1, Range::any(), "O.")},
+        Contradiction{"/a/N is required, so it cannot be for experts",
+                      ListSpec("a", "A.").integer("N", Required{}, Range::any(), "N.").expert()},
         Contradiction{"/a/L has no choices", ListSpec("a", "A.").choice("L", Required{}, {}, "L.")},
         Contradiction{"/a/L has no sentence that documents it",
                       ListSpec("a", "A.").text("L", "x", "")},

@@ -84,6 +84,43 @@ TEST(Manual, ShowsEachListAndParameterInTheOrderOfDeclaration) {
   EXPECT_NE(text[text.size() - 2], '\n');
 }
 
+/// A list that declares an expert parameter between two basic ones.
+ListSpec listWithExpert() {
+  return ListSpec("steps", "The steps.")
+      .real("Step", "s", Optional{}, Range::positive(), "The time step.")
+      .integer("Max Halvings", 10, Range::atLeast(0), "How often a step is halved.")
+      .expert()
+      .formerly("Halvings")
+      .real("End Time", "s", Optional{}, Range::positive(), "The end.");
+}
+
+TEST(Manual, ShowsBasicParametersBeforeThoseForExperts) {
+  const std::string text = manualMarkdown(listWithExpert());
+  const auto end = text.find("| `End Time` |");
+  const auto heading = text.find("For experts:\n\n| Name |");
+  const auto halvings = text.find("| `Max Halvings` |");
+  EXPECT_LT(text.find("| `Step` |"), end);
+  EXPECT_LT(end, heading);
+  EXPECT_LT(heading, halvings);
+  ASSERT_NE(halvings, std::string::npos);
+  EXPECT_EQ(manualMarkdown(smallScene()).find("For experts"), std::string::npos);
+}
+
+TEST(Manual, JsonHasTheLevelOfEachParameter) {
+  const auto list = nlohmann::json::parse(manualJson(listWithExpert()))[0];
+  EXPECT_EQ(list["parameters"][0]["level"], "basic");
+  EXPECT_EQ(list["parameters"][1]["level"], "expert");
+}
+
+TEST(Template, ShowsBasicParametersBeforeThoseForExperts) {
+  const std::string text = templateXml(listWithExpert(), "steps");
+  const auto end = text.find("name=\"End Time\"");
+  const auto halvings = text.find("name=\"Max Halvings\"");
+  EXPECT_LT(end, halvings);
+  ASSERT_NE(halvings, std::string::npos);
+  EXPECT_NE(text.find("; for experts -->"), std::string::npos);
+}
+
 TEST(Manual, IsTheSameEachTime) {
   EXPECT_EQ(manualMarkdown(smallScene()), manualMarkdown(smallScene()));
 }

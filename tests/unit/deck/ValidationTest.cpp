@@ -113,6 +113,18 @@ TEST(Validation, AListMayHaveDeclaredSublistsAndOnesOwn) {
             "value=\"...\"/>. It is the length, m, > 0.");
 }
 
+TEST(Validation, AFormerNameIsRefusedWithTheNewOne) {
+  const ListSpec steps = ListSpec("steps", "S.")
+                             .integer("Max Halvings", 10, Range::atLeast(0), "The halvings.")
+                             .formerly("Halvings");
+  EXPECT_EQ(messageOf([&] {
+              Deck::parse("<ParameterList name=\"run\">\n" + parameter("Halvings", "int", "3") +
+                              "</ParameterList>",
+                          "run.xml", steps);
+            }),
+            "run.xml:2: /run/Halvings is now called \"Max Halvings\". It is the halvings, >= 0.");
+}
+
 struct Row {
   std::string contact, transient, message;
   friend std::ostream& operator<<(std::ostream& out, const Row& t) {

@@ -41,9 +41,9 @@ std::vector<int> wholeNodes(const std::vector<int>& dofs) {
 TEST(Partition, KeepsEveryNodeBelowADepth) {
   const DrillString s = string();
   PartitionRules rules;
-  rules.wholeBelow = 17.0;
+  rules.keepFullBelow = 17.0;
   EXPECT_EQ(wholeNodes(retainedDofs(s, rules, far(s))), (std::vector<int>{17, 18, 19, 20}));
-  rules.wholeBelow = std::numeric_limits<double>::infinity();
+  rules.keepFullBelow = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(retainedDofs(s, rules, far(s)).empty());
 }
 
@@ -53,11 +53,11 @@ TEST(Partition, KeepsShortRunsBetweenKeptNodes) {
   PartitionRules rules;
   auto state = far(s);
   state.gap[7] = 1e-3;
-  rules.shortestRun = 2;
+  rules.minimumReducedRun = 2;
   EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)), (std::vector<int>{6, 7}));
-  rules.shortestRun = 3;
+  rules.minimumReducedRun = 3;
   EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)), (std::vector<int>{6, 7, 8, 9}));
-  rules.shortestRun = 5;
+  rules.minimumReducedRun = 5;
   EXPECT_EQ(wholeNodes(retainedDofs(s, rules, state)),
             (std::vector<int>{1, 2, 3, 4, 6, 7, 8, 9, 11, 12, 13, 14, 16, 17, 18, 19}));
 }
@@ -74,7 +74,7 @@ TEST(Partition, RetainsNodesByTheirGapTheirContactOrTheirGauge) {
   state.gap[15] = 1e-3;
   state.candidate[15] = 0;  // held on the axis
   PartitionRules rules;
-  rules.wholeBelow = std::numeric_limits<double>::infinity();
+  rules.keepFullBelow = std::numeric_limits<double>::infinity();
   const auto kept = [&](const std::string& rule) {
     rules.retainedNodes = rule;
     return wholeNodes(retainedDofs(s, rules, state));
@@ -96,7 +96,7 @@ TEST(Partition, RetainsTheComponentsAskedForAndLoadedDofs) {
   state.gap[7] = -1e-3;
   state.loadedDofs = {6 * 4 + 1};
   PartitionRules rules;
-  rules.wholeBelow = std::numeric_limits<double>::infinity();
+  rules.keepFullBelow = std::numeric_limits<double>::infinity();
   rules.retainedNodes = "Static contacts";
   rules.retain = Retain::Contact;
   EXPECT_EQ(retainedDofs(s, rules, state), (std::vector<int>{25, 42, 43, 47}));

@@ -18,7 +18,7 @@ using namespace tooljoint::reduction;
 ReducedSubstructure reduced(const model::Substructure& part, const std::string& basis,
                             const std::string& support, bool relief, int modes) {
   Teuchos::ParameterList list;
-  list.sublist("Herting").set("Modes with Interface", support).set("Inertia Relief", relief);
+  list.sublist("Herting").set("Mode Supports", support).set("Inertia Relief", relief);
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = modes;
