@@ -47,11 +47,11 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
-/// How well fixed steps follow the motion, as parts of 1 (StepAccuracy.hpp); 0 where it is not
+/// Accuracy of fixed steps, as parts of 1 (StepAccuracy.hpp); 0 where it is not
 /// known.
 struct StepErrors {
-  double local = 0;    ///< R
-  double halving = 0;  ///< D
+  double local = 0;         ///< local error ratio R
+  double stepDoubling = 0;  ///< step-doubling ratio D
 };
 
 class Integrator {

@@ -259,8 +259,8 @@ class Run {
         std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
   }
 
-  /// A start far off balance may overshoot and is damped again: energy made out of nothing counts
-  /// when it stays.
+  /// A start far from equilibrium may overshoot and is damped again, so that growth of energy
+  /// counts only when it persists.
   void watchEnergy() {
     runawaySamples_ = ledger_.runaway(model_, next_) ? runawaySamples_ + 1 : 0;
     if (runawaySamples_ == sustained) std::swap(state_, next_), runaway();
@@ -269,10 +269,9 @@ class Run {
   [[noreturn]] void runaway() {
     const auto account = ledger_.account(model_, state_);
     std::ostringstream text;
-    text << "By t = " << state_.t << " s the integrator had made " << -account.numerical()
-         << " J out of nothing, more than the " << account.supplied
-         << " J the model was given: the motion is an artefact of the step, not a result. "
-         << integrator_->advice() << ".";
+    text << "Energy grew by " << -account.numerical()
+         << " J without work being done until t = " << state_.t << " s (" << account.supplied
+         << " J supplied): the integration is unstable. " << integrator_->advice() << ".";
     throw ConvergenceError(text.str());
   }
 

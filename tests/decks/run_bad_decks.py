@@ -16,6 +16,7 @@ file NAME.xml.expect beside it. Only *.xml directly in the folder are decks; wha
 """
 import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import shlex
@@ -60,7 +61,7 @@ def check(program, deck):
     except ValueError as problem:
         return [str(problem)]
     try:
-        run = subprocess.run([program, "check", str(deck), *arguments], capture_output=True, text=True, errors="replace", timeout=60)
+        run = subprocess.run([program, "check", str(deck), *arguments], capture_output=True, text=True, errors="replace", timeout=60 * float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1")))
     except subprocess.TimeoutExpired:
         return ["did not end within 60 s"]
     complaints = []

@@ -56,19 +56,19 @@ class StepAccuracy {
   long count_ = 0;
 };
 
-enum class Resolution { Good, Coarse, Lost };
+enum class StepVerdict { Good, Coarse, TooLarge };
 
-/// What R and D say of a run: Coarse is worth a warning, Lost is no result.
-inline Resolution judge(const StepErrors& errors) {
+/// What R and D say of a run: Coarse is worth a warning, TooLarge is no result.
+inline StepVerdict assess(const StepErrors& errors) {
   constexpr double moving = 0.001;  ///< R of a motion for which D counts
   constexpr double lost = 0.025, coarse = 0.01;
   constexpr double lostHalves = 0.04, coarseHalves = 0.0033;
   /// D is suspect where contact and iterations are most of it, or where R is large as well.
   constexpr double suspectHalves = 0.02, mostOfIt = 4.2, large = 0.02;
-  const double r = errors.local, d = errors.halving;
+  const double r = errors.local, d = errors.stepDoubling;
   const bool astray = d > lostHalves || (d > suspectHalves && (d > mostOfIt * r || r > large));
-  if (r > lost || (r > moving && astray)) return Resolution::Lost;
-  return r > coarse || (r > moving && d > coarseHalves) ? Resolution::Coarse : Resolution::Good;
+  if (r > lost || (r > moving && astray)) return StepVerdict::TooLarge;
+  return r > coarse || (r > moving && d > coarseHalves) ? StepVerdict::Coarse : StepVerdict::Good;
 }
 
 }  // namespace tooljoint::transient

@@ -81,9 +81,8 @@ deck::ListSpec specification() {
                "order in the step, at about a "
                "third more work per step.")
       .boolean("Accept Coarse Steps", false,
-               "Take a motion as a result although fixed steps do not follow it (their local error "
-               "is more than 2.5 % of what moves in them, or "
-               "two of half the length end more than 2 to 4 % elsewhere).")
+               "Accept a motion although the fixed time step is too large (its local error "
+               "exceeds 2.5 % per step, or the step-doubling difference 2 to 4 %).")
       .expert()
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps "
@@ -156,8 +155,8 @@ class GeneralizedAlpha final : public Integrator {
   int deepest_ = 4;  ///< halvings possible
 
   StepControl control_;
-  StepAccuracy resolution_;
-  StepDoublingError halving_;
+  StepAccuracy accuracy_;
+  StepDoublingError doubling_;
   MassNorm length_;
   double error_ = 0;  ///< of the step under way [m]
   Vector change_;
@@ -176,7 +175,7 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   scheme_->prepare(step_, state.t);
   change_ = state.q;
   if (!controlled_)
-    halving_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
+    doubling_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
 }
 
 double GeneralizedAlpha::gridTime() const {
@@ -248,44 +247,41 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
 }
 
-/// What says, in the end, whether the steps follow the motion.
+/// Collects the measures of the step's accuracy.
 void GeneralizedAlpha::look(const State& from, const State& to, double h) {
   if (counters_.steps % StepAccuracy::stride == 0) {
     change_ = to.q - from.q;
-    resolution_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
+    accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }
-  if (h == step_ && halving_.isDue(counters_.steps)) halving_.look(*scheme_, from, to);
+  if (h == step_ && doubling_.isDue(counters_.steps)) doubling_.look(*scheme_, from, to);
 }
 
 StepErrors GeneralizedAlpha::stepErrors() const {
   if (controlled_) return {};
-  return {resolution_.ratio(), halving_.ratio(resolution_.change() / step_)};
+  return {accuracy_.ratio(), doubling_.ratio(accuracy_.change() / step_)};
 }
 
 void GeneralizedAlpha::finish() const {
   const auto errors = stepErrors();
-  const auto verdict = judge(errors);
-  if (verdict == Resolution::Good) return;
-  const bool lost = verdict == Resolution::Lost;
+  const auto verdict = assess(errors);
+  if (verdict == StepVerdict::Good) return;
+  const bool tooLarge = verdict == StepVerdict::TooLarge;
   std::ostringstream text;
-  text << "Steps of " << counters_.maxStep << " s " << (lost ? "do not follow" : "hardly follow")
-       << " the motion: their local error is " << percent(errors.local)
-       << " of what moves in a step";
-  if (errors.halving > 0)
-    text << ", and two of half the length end " << percent(errors.halving) << " elsewhere";
-  text << ". Choose a smaller Transient/Step, or let Transient/Generalized-alpha/Step Tolerance "
-          "choose it.";
+  text << "The time step (" << counters_.maxStep << " s) is " << (tooLarge ? "too large" : "coarse")
+       << ": local error " << percent(errors.local) << " per step";
+  if (errors.stepDoubling > 0) text << ", step-doubling difference " << percent(errors.stepDoubling);
+  text << ". Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
   if (tolerance_ > defaultTolerance)
-    text << " Iterations that stop at a Transient/Generalized-alpha/Tolerance of " << tolerance_
-         << " add to it.";
+    text << " The iteration tolerance (Transient/Generalized-alpha/Tolerance = " << tolerance_
+         << ") adds to the error.";
   const auto& points = model_->points();
   const bool hits =
       std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); });
   if (hits && scheme_->parameters().radius > forImpacts)
-    text << " Walls too stiff for the step are met as impacts, whose rebound is damped with a "
-            "Transient/Generalized-alpha/Spectral Radius of "
-         << forImpacts << " or less.";
-  if (!lost || acceptCoarse_) return log::warn(text.str());
+    text << " Contact is too stiff for this step and is treated as impacts. Set "
+            "Transient/Generalized-alpha/Spectral Radius to "
+         << forImpacts << " or less to damp their rebound.";
+  if (!tooLarge || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }
 
@@ -321,8 +317,8 @@ void GeneralizedAlpha::save(std::vector<double>& memory) const {
                                static_cast<double>(level_)});
   scheme_->save(memory);
   control_.save(memory);
-  resolution_.save(memory);
-  if (!controlled_) halving_.save(memory);
+  accuracy_.save(memory);
+  if (!controlled_) doubling_.save(memory);
 }
 
 void GeneralizedAlpha::restore(const double*& memory) {
@@ -331,8 +327,8 @@ void GeneralizedAlpha::restore(const double*& memory) {
   level_ = static_cast<int>(*memory++);
   scheme_->restore(memory);
   control_.restore(memory);
-  resolution_.restore(memory);
-  if (!controlled_) halving_.restore(memory);
+  accuracy_.restore(memory);
+  if (!controlled_) doubling_.restore(memory);
 }
 
 const bool registered = IntegratorRegistry::instance().add(

@@ -21,7 +21,7 @@ double ofVibration(double wh) {
   o.own.set("Spectral Radius", 1.0);
   o.own.set("Tolerance", 1e-12);
   o.own.set("Accept Coarse Steps", true);
-  return integrate(oscillator(1.0, 0.0, w * w, 0.3, 0.0), o, samples).stepErrors.halving;
+  return integrate(oscillator(1.0, 0.0, w * w, 0.3, 0.0), o, samples).stepErrors.stepDoubling;
 }
 
 /// Without damping (r = 1) the scheme is the trapezoidal rule, which turns (q, v/w) by 2 atan(wh/2)
@@ -52,8 +52,8 @@ TEST(StepDoublingError, leavesTheRunAlone) {
   Keep brief, whole;
   const auto first = drop(1e-5, 0.1, brief);
   const auto second = drop(1e-5, 2.0, whole);
-  EXPECT_GT(first.stepErrors.halving, 0.0);
-  EXPECT_NE(first.stepErrors.halving, second.stepErrors.halving);
+  EXPECT_GT(first.stepErrors.stepDoubling, 0.0);
+  EXPECT_NE(first.stepErrors.stepDoubling, second.stepErrors.stepDoubling);
   ASSERT_EQ(brief.q.size(), 21u);
   for (std::size_t i = 0; i < brief.q.size(); ++i) {
     EXPECT_EQ(brief.q[i], whole.q[i]) << i;
@@ -75,20 +75,20 @@ TEST(StepDoublingError, contactThatLastsIsNoError) {
   const auto errors = integrate(model, o, samples).stepErrors;
   EXPECT_GT(samples.v.back().norm(), 0.01);
   EXPECT_GT(errors.local, 1e-3);
-  EXPECT_LT(errors.halving, 1e-4);
+  EXPECT_LT(errors.stepDoubling, 1e-4);
 }
 
 TEST(StepDoublingError, isWeighedBesideTheLocalError) {
-  EXPECT_EQ(judge({0.0, 0.0}), Resolution::Good);
-  EXPECT_EQ(judge({0.0005, 0.2}), Resolution::Good);       // rest
-  EXPECT_EQ(judge({0.0062, 0.0258}), Resolution::Coarse);  // sticking points
-  EXPECT_EQ(judge({0.0105, 0.0378}), Resolution::Coarse);
-  EXPECT_EQ(judge({0.005, 0.024}), Resolution::Lost);  // what contact and iterations spoil
-  EXPECT_EQ(judge({0.022, 0.025}), Resolution::Lost);
-  EXPECT_EQ(judge({0.003, 0.003}), Resolution::Good);
-  EXPECT_EQ(judge({0.017, 0.08}), Resolution::Lost);
-  EXPECT_EQ(judge({0.017, 0.005}), Resolution::Coarse);
-  EXPECT_EQ(judge({0.03, 0.0}), Resolution::Lost);
+  EXPECT_EQ(assess({0.0, 0.0}), StepVerdict::Good);
+  EXPECT_EQ(assess({0.0005, 0.2}), StepVerdict::Good);       // rest
+  EXPECT_EQ(assess({0.0062, 0.0258}), StepVerdict::Coarse);  // sticking points
+  EXPECT_EQ(assess({0.0105, 0.0378}), StepVerdict::Coarse);
+  EXPECT_EQ(assess({0.005, 0.024}), StepVerdict::TooLarge);  // what contact and iterations spoil
+  EXPECT_EQ(assess({0.022, 0.025}), StepVerdict::TooLarge);
+  EXPECT_EQ(assess({0.003, 0.003}), StepVerdict::Good);
+  EXPECT_EQ(assess({0.017, 0.08}), StepVerdict::TooLarge);
+  EXPECT_EQ(assess({0.017, 0.005}), StepVerdict::Coarse);
+  EXPECT_EQ(assess({0.03, 0.0}), StepVerdict::TooLarge);
 }
 
 }  // namespace

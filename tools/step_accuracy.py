@@ -3,7 +3,7 @@
 """Measures whether R and D, the two signs by which a run tells that its fixed steps lose the motion, say so where they do, and
 rewrites the table of docs/theory.md.
 
-    tools/step_resolution.py --program build/release/tooljoint [--work results/step_resolution]
+    tools/step_accuracy.py --program build/release/tooljoint [--work results/step_accuracy]
 
 Each run of 2 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8; dyn is what `tooljoint
 compare` prints. Runs that are already in the work folder are not repeated; all of them take some
@@ -22,7 +22,7 @@ MODELS = {"full": ["--without", "Reduction", "--without", "Substructures"], "red
 TOLERANCES = ("1e-4", "1e-5", "1e-6", "1e-7")
 REFERENCE = ("1.25e-4", "1e-8")
 BANDS = ((0.0, 0.01), (0.01, 0.025), (0.025, 0.1), (0.1, math.inf))
-SIGN = re.compile(r"Steps of \S+ s (hardly|do not) follow the motion")
+SIGN = re.compile(r"The time step \(\S+ s\) is (coarse|too large)")
 
 
 class Case:
@@ -55,7 +55,7 @@ class Run:
         summary = self.folder / "summary.json"
         self.finished = summary.exists() and json.loads(summary.read_text())["status"] == "finished"
         sign = SIGN.search(log.read_text())
-        self.verdict = {"hardly": "warned", "do not": "refused"}[sign.group(1)] if sign else "silent"
+        self.verdict = {"coarse": "warned", "too large": "refused"}[sign.group(1)] if sign else "silent"
         if self.finished:
             transient = json.loads(summary.read_text())["transient"]
             self.local, self.halving = transient["local_error"] or 0.0, transient["halving_error"] or 0.0
@@ -114,7 +114,7 @@ def table(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", required=True)
-    parser.add_argument("--work", default="results/step_resolution")
+    parser.add_argument("--work", default="results/step_accuracy")
     options = parser.parse_args()
     text = table(options)
     print(text)
