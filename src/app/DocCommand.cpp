@@ -33,7 +33,7 @@ std::string deckTemplate(const std::string& kind) {
   if (kind == "components")
     return deck::templateXml(drillstring::libraryParameters(), "my_components");
   throw UsageError("There is no template \"" + kind +
-                   "\"; known are \"scene\" and \"components\".");
+                   "\". Available: \"scene\" and \"components\".");
 }
 
 }  // namespace tooljoint::app

@@ -45,7 +45,7 @@ class Registry {
       std::string known;
       for (const auto& [key, entry] : entries_)
         known += (known.empty() ? "\"" : ", \"") + key + "\"";
-      throw DeckError("\"" + name + "\" is not known here; known are " + known + ".");
+      throw DeckError("Unknown name \"" + name + "\". Available: " + known + ".");
     }
     return it->second;
   }

@@ -92,7 +92,7 @@ class Reader {
       if (std::find(knownNames.begin(), knownNames.end(), name) != knownNames.end()) continue;
       const auto meant = closest(name, knownNames);
       fail(name, "is nothing a part file holds" +
-                     (meant.empty() ? "; known are " + quotedList(knownNames)
+                     (meant.empty() ? ". Available: " + quotedList(knownNames)
                                     : ". Did you mean " + inQuotes(meant) + "?"));
     }
     if (source_->has("name")) source_->text("name");  // for people: the deck names the part

@@ -60,7 +60,7 @@ class SurveyReader {
       const auto factor = unitFactor(kinds[k], unit);
       if (!factor)
         throw DeckError("The survey unit " + inQuotes(unit) + " of the " + kinds[k].name +
-                        " is not known; " + expected(kinds[k]) + ".");
+                        " is unknown. " + expected(kinds[k]) + ".");
       factor_[k] = *factor;
     }
   }
@@ -87,7 +87,7 @@ class SurveyReader {
   }
 
   static std::string expected(const ColumnKind& kind) {
-    return "known are " + quotedList(deck::unitsLike(kind.si));
+    return "Available: " + quotedList(deck::unitsLike(kind.si));
   }
 
   void fault(const std::string& sentence) {
@@ -187,7 +187,7 @@ class SurveyReader {
   void unit(std::size_t k, const std::string& name) {
     const auto factor = unitFactor(kinds[k], name);
     if (!factor)
-      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name + " is not known; " +
+      fault("the unit " + inQuotes(name) + " of the " + kinds[k].name + " is unknown. " +
             expected(kinds[k]) + ".");
     else if (given_[k] && *factor != factor_[k])
       fault("the unit " + inQuotes(name) + " of the " + kinds[k].name +

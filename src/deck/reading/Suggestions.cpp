@@ -50,7 +50,7 @@ std::string elsewhere(const ListSpec& root, const std::string& sceneName, const 
 
 std::string sceneNameOf(const std::string& path) { return path.substr(1, path.find('/', 1) - 1); }
 
-/// `Known here are the parameters "A", "B" and the lists "C".`
+/// `Available: the parameters "A", "B" and the lists "C".`
 std::string known(const ListSpec& list) {
   const std::string parameters = quotedList(parameterNames(list));
   const std::string lists = quotedList(listNames(list));
@@ -59,8 +59,7 @@ std::string known(const ListSpec& list) {
   if (!lists.empty()) result += (result.empty() ? "" : " and ") + ("the lists " + lists);
   if (list.pattern() != nullptr)
     result += (result.empty() ? "" : " and ") + std::string("lists named by you");
-  return result.empty() ? " This list holds nothing of its own."
-                        : " Known here are " + result + ".";
+  return result.empty() ? " This list has no parameters." : " Available: " + result + ".";
 }
 
 /// `Did you mean "Stiffness"? It is ...`, over parameters and lists; "" when nothing is close.

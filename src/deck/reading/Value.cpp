@@ -184,8 +184,7 @@ std::optional<Value> parseValue(const std::string& type, const std::string& text
     });
   }
   const std::string meant = meantType(type);
-  fault = "has the type " + inQuotes(type) + ", which is not known; known are " +
-          quotedList(typeNames());
+  fault = "has the unknown type " + inQuotes(type) + ". Available: " + quotedList(typeNames());
   if (!meant.empty()) fault += ". Did you mean type=" + inQuotes(meant) + "?";
   return std::nullopt;
 }

@@ -198,9 +198,8 @@ class TreeReader {
       if (std::find(known.begin(), known.end(), name) != known.end()) {
         result.emplace(name, value);
       } else {
-        add(node, subject + " has the attribute " + shortened(name) + "=" +
-                      inQuotes(shortened(value)) + ", which is not known; " +
-                      attributeAdvice(name, value, known));
+        add(node, subject + " has the unknown attribute " + shortened(name) + "=" +
+                      inQuotes(shortened(value)) + ". " + attributeAdvice(name, value, known));
       }
     }
     for (const xmlNs* space = node->nsDef; space != nullptr; space = space->next) {
@@ -213,11 +212,11 @@ class TreeReader {
                                      const std::vector<std::string>& known) {
     const std::string small = lower(name);
     if (small == "unit" || small == "units") {
-      return "write the unit into the value: type=\"string\" value=\"... " + shortened(value) +
+      return "Write the unit into the value: type=\"string\" value=\"... " + shortened(value) +
              "\".";
     }
     const std::string near = closest(name, known);
-    return "known are " + quotedList(known) + "." +
+    return "Available: " + quotedList(known) + "." +
            (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?");
   }
 
@@ -287,7 +286,7 @@ class TreeReader {
     } else {
       const std::string near = closest(tag, {"Parameter", "ParameterList"});
       add(child, path + " holds a <" + tag +
-                     ">; known are <Parameter .../> and <ParameterList ...>." +
+                     ">. Available: <Parameter .../> and <ParameterList ...>." +
                      (near.empty() ? "" : " Did you mean <" + near + ">?"));
     }
   }

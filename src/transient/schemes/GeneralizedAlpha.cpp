@@ -269,7 +269,8 @@ void GeneralizedAlpha::finish() const {
   std::ostringstream text;
   text << "The time step (" << counters_.maxStep << " s) is " << (tooLarge ? "too large" : "coarse")
        << ": local error " << percent(errors.local) << " per step";
-  if (errors.stepDoubling > 0) text << ", step-doubling difference " << percent(errors.stepDoubling);
+  if (errors.stepDoubling > 0)
+    text << ", step-doubling difference " << percent(errors.stepDoubling);
   text << ". Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
   if (tolerance_ > defaultTolerance)
     text << " The iteration tolerance (Transient/Generalized-alpha/Tolerance = " << tolerance_

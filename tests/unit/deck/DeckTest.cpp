@@ -160,7 +160,7 @@ TEST_F(DeckFiles, FaultsOfALibraryPointIntoTheLibrary) {
                                  "<ParameterList name=\"lib\">\n<Parameter name=\"x\" type=\"int\" "
                                  "value=\"1\"/></ParameterList>");
   EXPECT_EQ(messageOf([&] { deck.readNamed("Title", "library.xml", ListSpec("library", "L.")); }),
-            file + ":2: /lib/x is not a parameter. This list holds nothing of its own.");
+            file + ":2: /lib/x is not a parameter. This list has no parameters.");
 }
 
 TEST(DeckPlaces, NamesOfFilesAreRelativeToTheDeck) {

@@ -33,19 +33,18 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2" units="m"/>)x",
-            p + R"x(/Friction has the attribute units="m", which is not known; write the unit into the value: type="string" value="... m".)x"},
+            p + R"x(/Friction has the unknown attribute units="m". Write the unit into the value: type="string" value="... m".)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2" Value="3"/>)x",
-            p + R"x(/Friction has the attribute Value="3", which is not known; known are "name", "type", "value". Did you mean "value"?)x"},
+            p + R"x(/Friction has the unknown attribute Value="3". Available: "name", "type", "value". Did you mean "value"?)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2" docString="mu"/>)x",
-            p + R"x(/Friction has the attribute docString="mu", which is not known; known are "name", "type", "value".)x"},
-        Lexical{
-            R"x(<ParameterList name="Intervals" type="double"/>)x",
-            p + R"x(/Intervals has the attribute type="double", which is not known; known are "name".)x"},
+            p + R"x(/Friction has the unknown attribute docString="mu". Available: "name", "type", "value".)x"},
+        Lexical{R"x(<ParameterList name="Intervals" type="double"/>)x",
+                p + R"x(/Intervals has the unknown attribute type="double". Available: "name".)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="double" value="0.2" xml:lang="en"/>)x",
-            p + R"x(/Friction has the attribute xml:lang="en", which is not known; known are "name", "type", "value".)x"},
+            p + R"x(/Friction has the unknown attribute xml:lang="en". Available: "name", "type", "value".)x"},
         Lexical{R"x(<ParameterList name="Intervals" xmlns="http://x"/>)x",
                 p + "/Intervals declares an XML namespace; a deck has none."},
         Lexical{R"x(<Parameter type="double" value="0.2"/>)x",
@@ -76,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
             p + R"x(/Friction has content; a parameter is one empty element: <Parameter name="..." type="..." value="..."/>.)x"},
         Lexical{
             R"x(<Parameter name="Friction" type="Double" value="0.2"/>)x",
-            p + R"x(/Friction has the type "Double", which is not known; known are "double", "int", "bool", "string", "Array(double)", )x" +
+            p + R"x(/Friction has the unknown type "Double". Available: "double", "int", "bool", "string", "Array(double)", )x" +
                 R"x("Array(int)", "Array(string)". Did you mean type="double"?)x"},
         Lexical{R"x(<Parameter name="Friction" type="double" value=""/>)x",
                 p + R"x(/Friction: type="double" value="" is empty; a number is expected.)x"},
@@ -94,15 +93,16 @@ INSTANTIATE_TEST_SUITE_P(
             R"x(<Parameter name="Friction" type="Array(double)" value="{1, x}"/>)x",
             p + R"x(/Friction: type="Array(double)" value="{1, x}" has the entry "x" (number 2), which is not a number.)x"},
         Lexical{R"x(<Paramter name="Friction" type="double" value="0.2"/>)x",
-                p + " holds a <Paramter>; known are <Parameter .../> and <ParameterList ...>. Did "
+                p + " holds a <Paramter>. Available: <Parameter .../> and <ParameterList ...>. Did "
                     "you mean <Parameter>?"},
-        Lexical{R"x(<parameterlist name="Intervals"/>)x",
-                p + " holds a <parameterlist>; known are <Parameter .../> and <ParameterList ...>. "
-                    "Did you mean <ParameterList>?"},
+        Lexical{
+            R"x(<parameterlist name="Intervals"/>)x",
+            p + " holds a <parameterlist>. Available: <Parameter .../> and <ParameterList ...>. "
+                "Did you mean <ParameterList>?"},
         Lexical{"<Validators/>",
-                p + " holds a <Validators>; known are <Parameter .../> and <ParameterList ...>."},
+                p + " holds a <Validators>. Available: <Parameter .../> and <ParameterList ...>."},
         Lexical{R"x(<xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="other.xml"/>)x",
-                p + " holds a <xi:include>; known are <Parameter .../> and <ParameterList ...>."},
+                p + " holds a <xi:include>. Available: <Parameter .../> and <ParameterList ...>."},
         Lexical{"0.2",
                 "deck.xml:3: /well/Contact holds the stray text \"0.2\"; a list holds <Parameter/> "
                 "and <ParameterList> only."},

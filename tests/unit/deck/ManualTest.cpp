@@ -353,7 +353,7 @@ TEST(Variants, AnUnknownOneNamesTheKnown) {
             "x.xml:1: /x/Law: value=\"Cubical\" is not one of \"Cubic\", \"Plain\". Did you mean "
             "\"Cubic\"?");
   EXPECT_EQ(messageOf([] { Springs::instance().find("Cubical"); }),
-            "\"Cubical\" is not known here; known are \"Cubic\", \"Plain\".");
+            "Unknown name \"Cubical\". Available: \"Cubic\", \"Plain\".");
 }
 
 TEST(Variants, AVariantWithRequiredParametersNeedsItsList) {

@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
             "is the friction coefficient, "
             "in [0, 1]."},
         Row{s + parameter("Viscosity", "double", "1"), "",
-            "deck.xml:4: /well/Contact/Viscosity is not a parameter. Known here are the parameters "
+            "deck.xml:4: /well/Contact/Viscosity is not a parameter. Available: the parameters "
             "\"Stiffness\", \"Friction\", "
             "\"Law\", \"Smooth\" and the lists "
             "\"Intervals\"."},

@@ -128,7 +128,7 @@ TEST(Value, AnUnknownTypeIsNamedWithTheKnownOnes) {
   std::string fault;
   EXPECT_FALSE(parseValue("Double", "1", fault));
   EXPECT_EQ(fault,
-            "has the type \"Double\", which is not known; known are \"double\", \"int\", \"bool\", "
+            "has the unknown type \"Double\". Available: \"double\", \"int\", \"bool\", "
             "\"string\", "
             "\"Array(double)\", \"Array(int)\", "
             "\"Array(string)\". Did you mean type=\"double\"?");

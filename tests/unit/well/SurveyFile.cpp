@@ -131,14 +131,14 @@ TEST(SurveyFile, ARowOfUnitsBelowTheHeader) {
     EXPECT_DOUBLE_EQ(stations[1].azimuth, 90.0 * degree);
   }
   EXPECT_NE(errorOf("MD,Inc,Azi\nm,furlong,deg\n0,0,0\n1,0,0\n")
-                .find("F:2: the unit \"furlong\" of the inclination is not known"),
+                .find("F:2: the unit \"furlong\" of the inclination is unknown"),
             std::string::npos);
   EXPECT_NE(
       errorOf("MD [ft],Inc,Azi\nm,deg,deg\n0,0,0\n1,0,0\n")
           .find("F:2: the unit \"m\" of the measured depth is another one than that of the header"),
       std::string::npos);
   EXPECT_NE(errorOf("MD,Inc,Azi\nkg,deg,deg\n0,0,0\n1,0,0\n")
-                .find("the unit \"kg\" of the measured depth is not known"),
+                .find("the unit \"kg\" of the measured depth is unknown"),
             std::string::npos);
 }
 
@@ -208,7 +208,7 @@ TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {
   EXPECT_NE(errorOf("0,0,0\n10,0,400\n").find("F:2: the azimuth must lie"), std::string::npos);
   EXPECT_NE(errorOf("MD,Inc\n0,0\n10,0\n").find("no column for the azimuth"), std::string::npos);
   EXPECT_NE(errorOf("MD [furlong],Inc,Azi\n0,0,0\n10,0,0\n")
-                .find("the unit \"furlong\" of the measured depth is not known"),
+                .find("the unit \"furlong\" of the measured depth is unknown"),
             std::string::npos);
   EXPECT_NE(errorOf("MD,Inc,Azi,MD\n0,0,0,0\n").find("stands twice"), std::string::npos);
   EXPECT_THROW(readSurvey("no_such_file.csv"), DeckError);
