@@ -243,7 +243,7 @@ class Run {
         integrator_->forgetHistory();
         if (hooks_.keep) hooks_.keep(checkpoint());
       }
-      if (bar && bar->due(state_.t)) bar->update(state_.t, suffix());
+      if (bar && bar->due()) bar->update(state_.t, suffix());
     }
     if (bar) bar->finish();
     if (options_.ledger && ledger_.runaway(model_, state_)) runaway();

@@ -17,13 +17,15 @@ constexpr std::chrono::milliseconds redraw(100);
 
 }  // namespace
 
-Progress::Progress(std::string title, double end, double begin)
+Progress::Progress(std::string title, double end, double begin, std::chrono::milliseconds interval)
     : title_(std::move(title)),
       begin_(begin),
       end_(end),
       speaks_(parallel::rank() == 0 && !log::quiet()),
       terminal_(isatty(STDERR_FILENO) == 1),
-      start_(std::chrono::steady_clock::now()) {}
+      interval_(terminal_ ? redraw : interval),
+      start_(std::chrono::steady_clock::now()),
+      lastPrint_(start_) {}
 
 Progress::~Progress() {
   if (drawn_ && !finished_) std::fputc('\n', stderr);
@@ -40,22 +42,21 @@ double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-bool Progress::due(double now) const {
+bool Progress::due() const {
   if (!speaks_ || finished_) return false;
-  if (terminal_) return !drawn_ || std::chrono::steady_clock::now() - lastDraw_ >= redraw;
-  return static_cast<int>(10.0 * fraction(now) + 1e-9) > lastTenth_;
+  return (terminal_ && !drawn_) || std::chrono::steady_clock::now() - lastPrint_ >= interval_;
 }
 
 void Progress::update(double now, const std::string& suffix) {
-  if (!due(now)) return;
+  if (!due()) return;
   const double done = fraction(now);
+  lastPrint_ = std::chrono::steady_clock::now();
   if (terminal_) {
     drawBar(done, suffix);
     return;
   }
-  lastTenth_ = static_cast<int>(10.0 * done + 1e-9);
-  std::fprintf(stderr, "%s: %3d %% (%.1f s)%s%s\n", title_.c_str(), 10 * lastTenth_, elapsed(),
-               suffix.empty() ? "" : " ", suffix.c_str());
+  std::fprintf(stderr, "%s: %3d %% (%.1f s)%s%s\n", title_.c_str(), static_cast<int>(100.0 * done),
+               elapsed(), suffix.empty() ? "" : " ", suffix.c_str());
   std::fflush(stderr);
 }
 
@@ -72,18 +73,13 @@ void Progress::drawBar(double done, const std::string& suffix) {
                suffix.c_str());
   std::fflush(stderr);
   drawn_ = true;
-  lastDraw_ = std::chrono::steady_clock::now();
 }
 
 void Progress::finish() {
   if (finished_) return;
-  if (speaks_) {
-    if (terminal_) {
-      drawBar(1.0, "");
-      std::fputc('\n', stderr);
-    } else {
-      update(end_);
-    }
+  if (speaks_ && terminal_) {
+    drawBar(1.0, "");
+    std::fputc('\n', stderr);
   }
   finished_ = true;
 }

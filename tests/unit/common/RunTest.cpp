@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run says and counts: log, progress, interrupt flag, census, versions.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <gtest/gtest.h>
+#include <thread>
 
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
@@ -47,43 +49,60 @@ TEST(Log, QuietSilencesInfoOnly) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), parallel::rank() == 0 ? "one\n" : "");
 }
 
-TEST(Progress, SpeaksOncePerTenPercentAwayFromATerminal) {
+TEST(Progress, PrintsALineForEachIntervalAwayFromATerminal) {
+  using std::chrono::milliseconds;
+  ::testing::internal::CaptureStderr();
+  {
+    Progress progress("transient", 20.0, 0.0, milliseconds(50));
+    progress.update(1.0);
+    std::this_thread::sleep_for(milliseconds(60));
+    progress.update(5.0, "t");
+    progress.update(6.0, "t");
+    std::this_thread::sleep_for(milliseconds(60));
+    progress.update(10.0, "t");
+    progress.finish();
+  }
+  const std::string printed = ::testing::internal::GetCapturedStderr();
+  if (parallel::rank() == 0) {
+    EXPECT_EQ(linesOf(printed), 2U) << printed;
+    EXPECT_EQ(printed.find("transient:  25 %"), 0U) << printed;
+    EXPECT_NE(printed.find("\ntransient:  50 %"), std::string::npos) << printed;
+  } else {
+    EXPECT_EQ(printed, "");
+  }
+}
+
+TEST(Progress, IsSilentInShortWork) {
   ::testing::internal::CaptureStderr();
   {
     Progress progress("transient", 20.0);
     for (int step = 0; step <= 1000; ++step) progress.update(0.02 * step, "t");
     progress.finish();
   }
-  const std::string printed = ::testing::internal::GetCapturedStderr();
-  if (parallel::rank() == 0) {
-    EXPECT_EQ(linesOf(printed), 10U);
-    EXPECT_EQ(printed.find("transient:  10 %"), 0U);
-    EXPECT_NE(printed.find("transient: 100 %"), std::string::npos);
-  } else {
-    EXPECT_EQ(printed, "");
-  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Progress, CountsFromItsBegin) {
-  Progress progress("restart", 20.0, 10.0);
-  EXPECT_FALSE(progress.due(10.5));
-  if (parallel::rank() == 0) {
-    EXPECT_TRUE(progress.due(11.0));
-  }
+  ::testing::internal::CaptureStderr();
+  Progress("restart", 20.0, 10.0, std::chrono::milliseconds(0)).update(15.0);
+  const std::string printed = ::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(printed.find("restart:  50 %"), parallel::rank() == 0 ? 0U : std::string::npos);
 }
 
 TEST(Progress, ToleratesAnEmptySpanAndNonsense) {
+  const std::chrono::milliseconds always(0);
   ::testing::internal::CaptureStderr();
-  Progress empty("nothing", 0.0);
+  Progress empty("nothing", 0.0, 0.0, always);
   empty.update(0.0);
-  Progress odd("odd", 1.0);
+  Progress odd("odd", 1.0, 0.0, always);
   odd.update(std::nan(""));
   odd.update(-5.0);
   odd.update(7.0);
   odd.finish();
   odd.update(8.0);
   const std::string printed = ::testing::internal::GetCapturedStderr();
-  EXPECT_EQ(linesOf(printed), parallel::rank() == 0 ? 2U : 0U);
+  EXPECT_EQ(linesOf(printed), parallel::rank() == 0 ? 4U : 0U) << printed;
+  EXPECT_EQ(printed.find("nan"), std::string::npos) << printed;
 }
 
 TEST(Interrupt, ASignalSetsTheFlag) {
