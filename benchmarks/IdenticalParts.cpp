@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
 #include "reduction/Reduce.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 
 namespace {
 
@@ -22,10 +22,10 @@ const std::vector<model::Substructure>& pipes(long elements) {
   static std::map<long, std::vector<model::Substructure>> known;
   auto& inner = known[elements];
   if (inner.empty()) {
-    const auto scene = app::readScene(
+    const auto scene = drillstring::readScene(
         std::string(TOOLJOINT_SOURCE_DIR) + "/benchmarks/unloaded_pipes.xml",
         {"Drillstring/Components/pipe/Segments/body/Elements=" + std::to_string(elements)});
-    const auto parts = app::cut(scene, app::settle(scene));
+    const auto parts = drillstring::cut(scene, drillstring::solveStatic(scene));
     inner.assign(parts.begin() + 1, parts.end() - 1);
   }
   return inner;

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
 #include "common/Parallel.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
 #include "linalg/Deterministic.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 
 namespace {
 
@@ -63,10 +63,11 @@ const bool registered = MethodRegistry::instance().add(
      }});
 
 int run(const std::string& deck) {
-  const app::Scene scene = app::readScene(deck, {});
-  const app::StaticStage stage = app::settle(scene);
-  const auto mine = coupling::synthesise(app::cut(scene, stage), scene.list().sublist("Reduction"));
-  const auto full = coupling::lowestModes(app::fullModel(stage), 8),
+  const drillstring::Scene scene = drillstring::readScene(deck, {});
+  const drillstring::StaticStage stage = drillstring::solveStatic(scene);
+  const auto mine =
+      coupling::synthesise(drillstring::cut(scene, stage), scene.list().sublist("Reduction"));
+  const auto full = coupling::lowestModes(drillstring::fullModel(stage), 8),
              small = coupling::lowestModes(mine.coupled.model, 8);
   bool near = registered;
   for (int k = 0; k < 8; ++k) {

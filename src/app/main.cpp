@@ -12,7 +12,7 @@
 #include <sstream>
 #include <string>
 
-#include "app/Commands.hpp"
+#include "app/commands/Commands.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"

@@ -49,8 +49,19 @@ bool continues(const std::string& sentence) {
 
 Deck Deck::parse(const std::string& text, const std::string& file, const ListSpec& scene,
                  const std::vector<std::string>& overrides) {
-  requireConsistent(scene);
+  return parse(
+      text, file, [&](const std::vector<std::string>&) { return scene; }, overrides);
+}
+
+Deck Deck::parse(const std::string& text, const std::string& file, const ChooseSpec& choose,
+                 const std::vector<std::string>& overrides) {
   RawList tree = readXml(text, file);
+  std::vector<std::string> names;
+  for (const RawList& list : tree.lists())
+    if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end())
+      names.push_back(list.name);
+  const ListSpec scene = choose(names);
+  requireConsistent(scene);
   std::vector<Finding> findings;
   applyOverrides(tree, scene, overrides, findings);
   auto map = std::make_shared<Map>();
@@ -71,31 +82,18 @@ Deck Deck::parse(const std::string& text, const std::string& file, const ListSpe
 
 Deck Deck::read(const std::string& file, const ListSpec& scene,
                 const std::vector<std::string>& overrides) {
-  std::string text;
-  parallel::agree([&] {
-    if (parallel::rank() == 0) text = readTextFile(file);
-  });
-  parallel::broadcast(text, 0);
-  return parse(text, file, scene, overrides);
+  return read(
+      file, [&](const std::vector<std::string>&) { return scene; }, overrides);
 }
 
-std::vector<std::string> Deck::lists(const std::string& file,
-                                     const std::vector<std::string>& overrides) {
+Deck Deck::read(const std::string& file, const ChooseSpec& choose,
+                const std::vector<std::string>& overrides) {
   std::string text;
   parallel::agree([&] {
     if (parallel::rank() == 0) text = readTextFile(file);
   });
   parallel::broadcast(text, 0);
-  std::vector<std::string> names;
-  try {
-    const RawList tree = readXml(text, file);
-    for (const RawList& list : tree.lists())
-      if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end())
-        names.push_back(list.name);
-  } catch (const DeckError&) {
-    return {};
-  }
-  return names;
+  return parse(text, file, choose, overrides);
 }
 
 Deck Deck::readNamed(const std::string& path, const std::string& name,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,11 +30,14 @@ class Deck {
   static Deck read(const std::string& file, const ListSpec& scene,
                    const std::vector<std::string>& overrides = {});
 
-  /// Names of the lists that stand in the root list of a file, overrides "!NAME" taken out: what
-  /// kind of deck is it? Nothing is checked, and of a file that is no deck there are none.
-  /// Collective. Throws FileError as read() does.
-  static std::vector<std::string> lists(const std::string& file,
-                                        const std::vector<std::string>& overrides = {});
+  /// Chooses the description of a deck by the names of the lists in its root list, those taken out
+  /// by overrides left out.
+  using ChooseSpec = std::function<ListSpec(const std::vector<std::string>& lists)>;
+
+  /// The same for a deck whose description depends on what it holds; the file is read and parsed
+  /// once. Collective.
+  static Deck read(const std::string& file, const ChooseSpec& choose,
+                   const std::vector<std::string>& overrides = {});
 
   /// Read a file that the parameter at `path` of this deck names, relative to this deck's folder.
   /// Collective. A file that cannot be opened is then a DeckError that points at the parameter.
@@ -77,6 +81,8 @@ class Deck {
 
  private:
   struct Map;  ///< path -> place
+  static Deck parse(const std::string& text, const std::string& file, const ChooseSpec& choose,
+                    const std::vector<std::string>& overrides);
   std::string relative(const std::string& path) const;
 
   std::string file_;

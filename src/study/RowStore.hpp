@@ -3,7 +3,6 @@
 /// What a study has done so far, kept in its folder so that a later one goes on where it stopped.
 #pragma once
 
-#include <Teuchos_ParameterList.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +10,6 @@
 #include "study/Row.hpp"
 
 namespace tooljoint::study {
-
-/// The value of a parameter as text, numbers in full.
-std::string valueText(const Teuchos::ParameterEntry& entry);
-
-/// A list as text that depends on names and values alone, not on their order; numbers in full.
-std::string canonicalText(const Teuchos::ParameterList& list);
 
 /// The program that computes: version and commit, and for a build from changed sources also its
 /// files with their sizes and times.

@@ -17,7 +17,11 @@ ROOMS = ["src", "substructures", "tests", "examples", "benchmarks", "cmake", "do
 TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
-TOOLKIT_ROOMS_FOR_PARTS = {"model", "common", "deck", "linalg"}
+TOOLKIT_ROOMS_FOR_PARTS = {"model", "common", "deck", "linalg", "statics"}
+# What a case is made of: the rooms that the way from a deck to a case needs beside them.
+TOOLKIT_ROOMS_FOR_CASES = TOOLKIT_ROOMS_FOR_PARTS | {"cases", "coupling", "estimate", "io", "parts", "reduction", "transient"}
+ABOVE_CASES = {"app", "cases", "response", "study"}  # rooms of src/ that work on any case
+ABOVE_STUDY = {"app", "study"}
 # Spelt so that this file does not contain them.
 FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"\bXX" r"X\b", r"(?i)\bnot " r"implemented\b", r"(?i)\bplace" r"holder\b",
                                            r"(?<![\w.])/wo" r"rk/"]]
@@ -32,20 +36,27 @@ def is_source(path):
 def include_problem(parts, included):
     """Why a file at `parts` (path in pieces) may not include `included`, or None."""
     target = included.removeprefix("tooljoint/").removeprefix("../").split("/")
+    room = toolkit_room(target)
     if parts[0] == "src" and parts[1] != "app" and target[0] == "substructures":
         return "the toolkit (src/) includes nothing of substructures/"
-    if parts[0] == "src" and parts[1] != "app" and target[0] == "app":
+    if parts[:2] != ("src", "app") and room == "app":
         return "nothing but the program includes src/app/"
-    if parts[0] == "substructures" and toolkit_room(target) and toolkit_room(target) not in TOOLKIT_ROOMS_FOR_PARTS:
-        return "substructures/ includes only model, common, deck and linalg of src/"
-    return None
+    if parts[0] == "src" and room == "cases" and parts[1] not in ABOVE_CASES:
+        return "only app, cases, response and study include src/cases/"
+    if parts[0] == "src" and room == "study" and parts[1] not in ABOVE_STUDY:
+        return "only app and study include src/study/"
+    if parts[0] != "substructures" or room is None:
+        return None
+    if parts[:3] == ("substructures", "drillstring", "case"):
+        return None if room in TOOLKIT_ROOMS_FOR_CASES else "substructures/drillstring/case/ includes nothing of src/ that works on cases"
+    return None if room in TOOLKIT_ROOMS_FOR_PARTS else "substructures/ includes only model, common, deck, linalg and statics of src/"
 
 
 def toolkit_room(target):
     """The room of src/ that an included path (in pieces) belongs to, or None for other headers."""
     if target[0] == "src" and len(target) > 1:
         target = target[1:]
-    rooms = {"common", "deck", "linalg", "model", "statics", "reduction", "coupling", "transient", "study", "io", "app"}
+    rooms = TOOLKIT_ROOMS_FOR_CASES | ABOVE_CASES
     return target[0] if len(target) > 1 and target[0] in rooms else None
 
 
@@ -105,11 +116,17 @@ def self_test():
     spdx = "// SPDX-License-Identifier: BSD-3-Clause\n"
     cases = {  # file, text, part of the complaint (None: no complaint)
         "src/io/A.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "includes nothing of substructures"),
-        "src/io/B.cpp": (spdx + '#include "app/Scene.hpp"\n', "nothing but the program"),
+        "src/io/B.cpp": (spdx + '#include "app/commands/Commands.hpp"\n', "nothing but the program"),
+        "src/io/N.cpp": (spdx + '#include "cases/Case.hpp"\n', "only app, cases"),
+        "src/cases/O.cpp": (spdx + '#include "study/Row.hpp"\n', "only app and study"),
+        "src/study/P.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
         "src/io/C.cpp": (spdx + "// a drill" + "string\n", "never heard"),
         "src/io/D.cpp": (spdx + "// a Drill" + " pipe\n", "never heard"),
         "src/app/E.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n// drill' + "string\n", None),
-        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "only model, common, deck and linalg"),
+        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "only model, common, deck, linalg and statics"),
+        "substructures/drillstring/Q.cpp": (spdx + '#include "cases/Case.hpp"\n', "only model, common, deck, linalg and statics"),
+        "substructures/drillstring/case/R.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
+        "substructures/drillstring/case/S.cpp": (spdx + '#include "study/Row.hpp"\n', "that works on cases"),
         "substructures/beam/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/path/PathState.hpp"\n#include <vector>\n', None),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
         "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),

@@ -197,6 +197,24 @@ def goes_on():
     expect("to the same numbers", same)
 
 
+def cost_energy_and_remarks():
+    """A run of parts says what a run of a string says: cost of a step, energy balance, remarks of the coupling; a failed one leaves a summary."""
+    deck = ROOT / "xml" / "frame.xml"
+    short = ["--set", "Transient/End Time=0.2"]
+    done = tooljoint("run", str(deck), "--output", "said", *short)
+    summary = json.loads(pathlib.Path("said", "summary.json").read_text(encoding="utf-8"))
+    ratio, energy = summary["reduction"]["cost_ratio"], summary["transient"]["energy_residual"]
+    expect("cost of a step of both models", f"takes about {ratio:.2f} of the work" in done.stdout and 0 < ratio < 2, str(ratio))
+    expect("energy balance", f"energy balance closes to {energy:.2g} of" in done.stdout and 0 < energy < 1e-3, str(energy))
+    full = tooljoint("run", str(deck), "--output", "remarked", "--set", "Reduction/Basis=Enhanced Craig-Bampton", *short)
+    warned = json.loads(pathlib.Path("remarked", "summary.json").read_text(encoding="utf-8"))["warnings"]
+    expect("remarks of the coupling are warnings", any("coupled matrices are full" in line for line in warned), full.stderr[-300:])
+    loose = tooljoint("run", str(deck), "--output", "loose", "--set", "Parts/Initial State=Equilibrium", "--set", "Parts/Imported/left column/Fixed={}",
+                      "--set", "Parts/Imported/right column/Fixed={}", *short)
+    left = json.loads(pathlib.Path("loose", "summary.json").read_text(encoding="utf-8")) if pathlib.Path("loose", "summary.json").exists() else {}
+    expect("parts that nothing holds end with 3 and a summary", loose.returncode == 3 and left.get("status") == "failed", f"{loose.returncode} {loose.stderr[-300:]} {left}")
+
+
 def refused():
     """A study of parts without a Study list is refused with a sentence; tests/study/check_frame_study.py has one that runs."""
     done = tooljoint("study", str(ROOT / "xml" / "frame.xml"))
@@ -210,6 +228,7 @@ if __name__ == "__main__":
     string_part()
     bad_parts_on_ranks()
     goes_on()
+    cost_energy_and_remarks()
     refused()
     print(f"\n{len(FAULTS)} faults")
     sys.exit(1 if FAULTS else 0)

@@ -6,21 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
 #include "coupling/assembly/Assembler.hpp"
 #include "reduction/Reduce.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::testing_ {
 
-inline app::Scene reference(const std::vector<std::string>& overrides = {}) {
-  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", overrides);
+inline drillstring::Scene reference(const std::vector<std::string>& overrides = {}) {
+  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml",
+                                overrides);
 }
 
-inline model::SecondOrderModel reduced(const app::Scene& scene, const app::StaticStage& stage) {
+inline model::SecondOrderModel reduced(const drillstring::Scene& scene,
+                                       const drillstring::StaticStage& stage) {
   return coupling::couple(
-      reduction::reduceAll(app::cut(scene, stage), scene.list().sublist("Reduction")));
+      reduction::reduceAll(drillstring::cut(scene, stage), scene.list().sublist("Reduction")));
 }
 
 /// All sampled displacements of all nodes, one column per sample.
@@ -38,7 +40,8 @@ class History : public transient::SampleSink {
   std::vector<Vector> columns_;
 };
 
-inline std::vector<Vector> move(const app::Scene& scene, const model::SecondOrderModel& model) {
+inline std::vector<Vector> move(const drillstring::Scene& scene,
+                                const model::SecondOrderModel& model) {
   History history(model);
   transient::integrate(model, scene.list().sublist("Transient"), history);
   return history.columns();

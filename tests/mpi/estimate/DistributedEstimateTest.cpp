@@ -4,14 +4,14 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/assembly/Assembler.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -75,8 +75,8 @@ TEST(DistributedEstimate, AFrameHasTheSameFrequenciesOnAnyNumberOfRanks) {
 
 TEST(DistributedEstimate, TheReferenceSceneHasTheSameFrequenciesOnAnyNumberOfRanks) {
   const auto scene =
-      app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", {});
-  expectSame(app::cut(scene, app::settle(scene)), 1e-4);
+      drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/helical_170m.xml", {});
+  expectSame(drillstring::cut(scene, drillstring::solveStatic(scene)), 1e-4);
 }
 
 TEST(DistributedEstimate, CriteriaOfTheInterfaceChooseTheSameOnEveryRank) {

@@ -14,8 +14,9 @@ using namespace tooljoint;
 
 equilibrium::StaticState settled(const std::string& deck,
                                  const std::vector<std::string>& overrides) {
-  return app::settle(
-             app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml", overrides))
+  return drillstring::solveStatic(
+             drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/" + deck + ".xml",
+                                    overrides))
       .state;
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "cases/ListText.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "study/RowStore.hpp"
@@ -128,9 +129,9 @@ TEST(CanonicalText, DependsOnValuesAndNotOnTheirOrder) {
   one.sublist("c").set("d", std::string("x"));
   two.sublist("c").set("d", std::string("x"));
   two.set("b", 2).set("a", 0.1);
-  EXPECT_EQ(study::canonicalText(one), study::canonicalText(two));
+  EXPECT_EQ(cases::canonicalText(one), cases::canonicalText(two));
   two.set("a", 0.1 + 1e-16);
-  EXPECT_NE(study::canonicalText(one), study::canonicalText(two)) << "all digits count";
+  EXPECT_NE(cases::canonicalText(one), cases::canonicalText(two)) << "all digits count";
 }
 
 TEST(RowStore, GivesBackWhatItKeptUnderItsKey) {

@@ -5,19 +5,19 @@
 /// stays at rest.
 #include <gtest/gtest.h>
 
-#include "app/Stages.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 
 namespace {
 
 using namespace tooljoint;
 
-app::Scene sceneWith(const std::vector<std::string>& overrides) {
-  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/tests/effects/coupling.xml",
-                        overrides);
+drillstring::Scene sceneWith(const std::vector<std::string>& overrides) {
+  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/tests/effects/coupling.xml",
+                                overrides);
 }
 
 class CoupledScene : public testing::TestWithParam<const char*> {};
@@ -25,9 +25,9 @@ class CoupledScene : public testing::TestWithParam<const char*> {};
 TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
   const auto scene = sceneWith({"!Reduction/Modes", "Reduction/All Modes=true",
                                 std::string("Coupling/Assembly=") + GetParam()});
-  const auto stage = app::settle(scene);
-  const auto resolved = app::resolvedParts(scene, stage);
-  const auto whole = app::joinUnreduced(resolved);
+  const auto stage = drillstring::solveStatic(scene);
+  const auto resolved = drillstring::resolvedParts(scene, stage);
+  const auto whole = drillstring::joinUnreduced(resolved);
   const auto reduced =
       coupling::synthesise(resolved.parts, scene.list().sublist("Reduction"), resolved.options);
   EXPECT_EQ(reduced.coupled.multipliers.empty(), std::string(GetParam()) == "Primal");
@@ -62,7 +62,7 @@ TEST(CoupledScene, StaysAtRestWhereTheStringWas) {
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.end(), quiet.begin(), quiet.end());
     const auto scene = sceneWith(more);
-    return residual(app::fullModel(scene, app::settle(scene)));
+    return residual(drillstring::fullModel(scene, drillstring::solveStatic(scene)));
   };
   const double kept = run({}), jump = run({"Coupling/Keep Static Forces=false"});
   EXPECT_LT(kept, 1e-3) << "N, where the string weighs 50 kN";

@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "app/PartsDeck.hpp"
-#include "app/Scene.hpp"
-#include "app/Stages.hpp"
+#include "cases/CaseKinds.hpp"
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
+#include "substructures/drillstring/case/DrillstringCase.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
 #include "tests/support/Scenes.hpp"
 #include "tests/support/TrackedDecks.hpp"
 
@@ -30,9 +31,8 @@ std::string folder() { return std::string(TOOLJOINT_SOURCE_DIR) + "/xml/"; }
 std::vector<std::string> scenes() {
   std::vector<std::string> files;
   for (const auto& name : testing_::trackedDecks(folder())) {
-    app::RunOptions options;
-    options.deck = folder() + name;
-    if (!app::isPartsDeck(options) && app::readScene(options.deck, {}).reduces())
+    const auto one = cases::readCase(folder() + name, {});
+    if (one->reduces() && dynamic_cast<const drillstring::DrillstringCase*>(one.get()) != nullptr)
       files.push_back(name);
   }
   return files;
@@ -43,30 +43,30 @@ std::vector<std::string> scenes() {
 struct Case {
   std::string file;
   std::vector<std::string> overrides;
-  app::Scene scene;
-  app::StaticStage stage;
+  drillstring::Scene scene;
+  drillstring::StaticStage stage;
   model::SecondOrderModel full;
 
   Case(const std::string& name, const std::vector<std::string>& more = {})
       : file(folder() + name),
         overrides(more),
-        scene(app::readScene(file, more)),
-        stage(app::settle(scene)),
-        full(app::fullModel(stage)) {}
+        scene(drillstring::readScene(file, more)),
+        stage(drillstring::solveStatic(scene)),
+        full(drillstring::fullModel(stage)) {}
 
   /// The scene with another Reduction list.
-  app::Scene with(const std::vector<std::string>& reduction) const {
+  drillstring::Scene with(const std::vector<std::string>& reduction) const {
     std::vector<std::string> all = overrides;
     all.emplace_back("!Reduction");
     all.insert(all.end(), reduction.begin(), reduction.end());
-    return app::readScene(file, all);
+    return drillstring::readScene(file, all);
   }
 };
 
 /// Estimate over true error of every frequency whose error is above rounding.
 std::vector<double> ratios(const Case& c, const std::string& choice, int count) {
   const auto scene = c.with({"Reduction/" + choice});
-  const auto parts = app::cut(scene, c.stage);
+  const auto parts = drillstring::cut(scene, c.stage);
   const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
   std::vector<double> all;
   for (const auto& mode : estimate::compareModes(c.full, parts, outcome.synthesis, count))
@@ -103,7 +103,7 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
       char choice[64];
       std::snprintf(choice, sizeof choice, "Reduction/Frequency Tolerance=%g", tolerance);
       const auto scene = c.with({choice});
-      const auto parts = app::cut(scene, c.stage);
+      const auto parts = drillstring::cut(scene, c.stage);
       const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
       // By number, not by shape: the i-th coupled frequency is the i-th full one.
       const Vector full = linalg::lowestModes(coupling::undampedStiffness(c.full),
@@ -177,7 +177,7 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   int counted = 0;
   for (const char* cutOff : {"25", "50", "100", "200", "400"}) {
     const auto scene = c.with({std::string("Reduction/Cut-off Frequency=") + cutOff});
-    const auto parts = app::cut(scene, c.stage);
+    const auto parts = drillstring::cut(scene, c.stage);
     const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
     Watched watched(parts, outcome.synthesis, rest);
     const auto report = transient::integrate(outcome.synthesis.coupled.model,
@@ -201,7 +201,7 @@ double chosen(const Case& c, const std::vector<Vector>& reference, double tolera
   std::snprintf(choice, sizeof choice, "Reduction/Motion Tolerance=%g", tolerance);
   const auto scene = c.with({choice});
   const auto& transient = scene.list().sublist("Transient");
-  const auto parts = app::cut(scene, c.stage);
+  const auto parts = drillstring::cut(scene, c.stage);
   const auto outcome = estimate::synthesise(
       parts, scene.list().sublist("Reduction"),
       [&](const coupling::Synthesis& synthesis, const estimate::MotionLimit& limit) {

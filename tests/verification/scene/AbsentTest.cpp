@@ -19,7 +19,7 @@ model::SecondOrderModel without(std::vector<std::string> overrides) {
     overrides.emplace_back(override);
   resetEvaluationCounters();
   const auto scene = testing_::reference(overrides);
-  auto model = app::fullModel(app::settle(scene));
+  auto model = drillstring::fullModel(drillstring::solveStatic(scene));
   testing_::move(scene, model);
   return model;
 }

@@ -46,9 +46,9 @@ TEST_P(AllModes, IsTheFullModel) {
       "Transient/Energy Ledger=false"};
   overrides.insert(overrides.end(), GetParam().overrides.begin(), GetParam().overrides.end());
   const auto scene = testing_::reference(overrides);
-  const auto stage = app::settle(scene);
-  const auto full = app::fullModel(stage);
-  ASSERT_EQ(app::cut(scene, stage).size(), static_cast<std::size_t>(GetParam().parts));
+  const auto stage = drillstring::solveStatic(scene);
+  const auto full = drillstring::fullModel(stage);
+  ASSERT_EQ(drillstring::cut(scene, stage).size(), static_cast<std::size_t>(GetParam().parts));
   const auto coupled = testing_::reduced(scene, stage);
   ASSERT_EQ(coupled.size(), full.size());
 

@@ -12,8 +12,8 @@ namespace {
 using namespace tooljoint;
 using testing_::reference;
 
-const app::StaticStage& sourcePrestress() {
-  static const app::StaticStage stage = app::settle(reference());
+const drillstring::StaticStage& sourcePrestress() {
+  static const drillstring::StaticStage stage = drillstring::solveStatic(reference());
   return stage;
 }
 
@@ -68,7 +68,8 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
 
 TEST(ReferenceStatic, BothRecipesFindTheSameState) {
   const auto state = [](const std::string& recipe) {
-    return app::settle(reference({"Static/Tolerance=1e-12", "Static/Recipe=" + recipe}))
+    return drillstring::solveStatic(
+               reference({"Static/Tolerance=1e-12", "Static/Recipe=" + recipe}))
         .state.displacement;
   };
   const Vector expected = state("Continuation");
@@ -76,7 +77,7 @@ TEST(ReferenceStatic, BothRecipesFindTheSameState) {
 }
 
 TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
-  const auto full = app::settle(reference({"Path/Pre-stress=Full tangent"})).state;
+  const auto full = drillstring::solveStatic(reference({"Path/Pre-stress=Full tangent"})).state;
   EXPECT_EQ(full.contactNodes, 82);
   // Turning the whole string about its curved axis must cost next to nothing; K_a + K_g alone
   // resists like EI kappa^2 L.
@@ -86,7 +87,7 @@ TEST(ReferenceStatic, TheFullTangentBalancesTheTorque) {
 }
 
 TEST(ReferenceStatic, ImposedNodesStrayFromTheAxisAndTouchElsewhere) {
-  const auto stage = app::settle(reference({"Path/Mode=Imposed nodes"}));
+  const auto stage = drillstring::solveStatic(reference({"Path/Mode=Imposed nodes"}));
   EXPECT_GT(stage.path.report.maxPositionError, 0.1);
   EXPECT_LT(stage.path.report.maxPositionError, 0.4);
   EXPECT_GE(stage.state.contactNodes, 73);

@@ -13,11 +13,12 @@ using namespace tooljoint;
 
 const double rpm = std::acos(-1.0) / 30.0;
 
-app::Scene scene(std::vector<std::string> overrides) {
+drillstring::Scene scene(std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(),
                    {"Well/Arc/Kick-off Depth=0", "Well/Arc/Start Inclination=50 deg",
                     "Well/Arc/Build Rate=3 deg/30m", "Drillstring/Assembly={4*stand}"});
-  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml", overrides);
+  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml",
+                                overrides);
 }
 
 const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table",
@@ -25,43 +26,44 @@ const std::vector<std::string> fromRestLater{"Rotary Speed/Law=Table",
                                              "Rotary Speed/Table/Speeds={0, 0, -5}"};
 
 TEST(StaticFriction, FollowsTheSpeedWithWhichTheMotionStarts) {
-  const auto turning = app::staticFriction(scene({}));
+  const auto turning = drillstring::staticFriction(scene({}));
   EXPECT_EQ(turning.direction, 1.0);
   EXPECT_NEAR(turning.speed, 120.0 * rpm, 1e-12);
 
-  const auto backwards = app::staticFriction(scene({"Rotary Speed/Constant/Speed=-60 rpm"}));
+  const auto backwards =
+      drillstring::staticFriction(scene({"Rotary Speed/Constant/Speed=-60 rpm"}));
   EXPECT_EQ(backwards.direction, -1.0);
   EXPECT_NEAR(backwards.speed, 60.0 * rpm, 1e-12);
 
-  const auto laterStart = app::staticFriction(
+  const auto laterStart = drillstring::staticFriction(
       scene({"Rotary Speed/Law=Table", "Rotary Speed/Table/Times={0, 1, 2}",
              "Rotary Speed/Table/Speeds={0, 3, 3}", "Transient/Start Time=1.5"}));
   EXPECT_NEAR(laterStart.speed, 3.0, 1e-12);
 }
 
 TEST(StaticFriction, IsThePeakFromRestInTheSenseOfTheFirstRotation) {
-  const auto later = app::staticFriction(scene(fromRestLater));
+  const auto later = drillstring::staticFriction(scene(fromRestLater));
   EXPECT_EQ(later.direction, -1.0);
   EXPECT_EQ(later.speed, 0.0);
 }
 
 TEST(StaticFriction, PeakAndNoneAreTaken) {
-  const auto peak = app::staticFriction(scene({"Static/Friction=Peak"}));
+  const auto peak = drillstring::staticFriction(scene({"Static/Friction=Peak"}));
   EXPECT_EQ(peak.direction, 1.0);
   EXPECT_EQ(peak.speed, 0.0);
-  EXPECT_EQ(app::staticFriction(scene({"Static/Friction=None"})).direction, 0.0);
+  EXPECT_EQ(drillstring::staticFriction(scene({"Static/Friction=None"})).direction, 0.0);
 }
 
 TEST(StaticFriction, IsNoneWithoutRotation) {
-  EXPECT_EQ(app::staticFriction(scene({"!Rotary Speed"})).direction, 0.0);
-  EXPECT_EQ(app::staticFriction(scene({"Rotary Speed/Constant/Speed=0"})).direction, 0.0);
+  EXPECT_EQ(drillstring::staticFriction(scene({"!Rotary Speed"})).direction, 0.0);
+  EXPECT_EQ(drillstring::staticFriction(scene({"Rotary Speed/Constant/Speed=0"})).direction, 0.0);
 }
 
 /// The friction torque of the state is that of the coefficient, force by force.
 TEST(StaticFriction, ActsWithItsCoefficient) {
   const auto coefficient = [](const std::vector<std::string>& overrides) {
     const auto given = scene(overrides);
-    const auto state = app::settle(given).state;
+    const auto state = drillstring::solveStatic(given).state;
     EXPECT_GT(state.totalNormalForce, 1e3);
     return -state.totalFrictionTorque / (0.084 * state.totalNormalForce);  // it lies on its joints
   };

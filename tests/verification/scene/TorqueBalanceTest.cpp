@@ -14,8 +14,9 @@ namespace {
 
 using namespace tooljoint;
 
-app::Scene buildAndHold(const std::vector<std::string>& overrides) {
-  return app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml", overrides);
+drillstring::Scene buildAndHold(const std::vector<std::string>& overrides) {
+  return drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/xml/build_hold_1400m.xml",
+                                overrides);
 }
 
 /// A well with its share of curvature, tension and compression.
@@ -41,7 +42,7 @@ class TorqueBalance : public testing::TestWithParam<WellCase> {
     auto overrides = GetParam().overrides;
     overrides.push_back("!Transient");
     overrides.push_back("Drillstring/Components/body/Elements=" + std::to_string(elements));
-    return app::settle(buildAndHold(overrides)).state;
+    return drillstring::solveStatic(buildAndHold(overrides)).state;
   }
 };
 
@@ -70,9 +71,9 @@ TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
         "xml/stress_170m.xml", "xml/study_helical_170m.xml", "xml/vertical_1000m.xml",
         "examples/01_vertical_string/deck.xml", "examples/03_survey_well/deck.xml",
         "tests/effects/scene.xml", "tests/study/study.xml"}) {
-    const auto scene = app::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/" + deck, {});
+    const auto scene = drillstring::readScene(std::string(TOOLJOINT_SOURCE_DIR) + "/" + deck, {});
     EXPECT_EQ(scene.path.prestress, path::Prestress::FullTangent) << deck;
-    const auto state = app::solveStatic(scene).state;
+    const auto state = drillstring::findEquilibrium(scene).state;
     EXPECT_LT(state.relativeTorqueDefect(), 0.005)
         << deck << ": " << state.torqueBalanceDefect() << " N m of " << state.torqueScale;
   }
@@ -84,7 +85,7 @@ TEST(TorqueOfTheDecks, BalancesWithinHalfAPerCent) {
 /// joints, on which it lies. Left over: the bit, which a support holds, and the ends of the bend.
 TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
   const auto scene = buildAndHold({"!Transient"});
-  const auto state = app::settle(scene).state;
+  const auto state = drillstring::solveStatic(scene).state;
   double tension = -50e3, torque = 0.0;
   const auto& elements = scene.string.elements;
   const double mu =
@@ -113,8 +114,8 @@ TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
 
 TEST(TorqueInMotion, AStringThatTurnsAtConstantSpeedStaysAtRest) {
   const auto scene = buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false"});
-  const auto stage = app::settle(scene);
-  const auto motion = testing_::move(scene, app::fullModel(stage));
+  const auto stage = drillstring::solveStatic(scene);
+  const auto motion = testing_::move(scene, drillstring::fullModel(stage));
   ASSERT_GT(motion.size(), 30U);
   for (const auto& sample : motion)
     EXPECT_LT((sample - stage.state.displacement).cwiseAbs().maxCoeff(),
@@ -124,14 +125,14 @@ TEST(TorqueInMotion, AStringThatTurnsAtConstantSpeedStaysAtRest) {
 TEST(TorqueInMotion, ThePeakCoefficientWouldStartAJump) {
   const auto scene =
       buildAndHold({"Transient/End Time=0.2", "Transient/Progress=false", "Static/Friction=Peak"});
-  const auto stage = app::settle(scene);
-  const auto motion = testing_::move(scene, app::fullModel(stage));
+  const auto stage = drillstring::solveStatic(scene);
+  const auto motion = testing_::move(scene, drillstring::fullModel(stage));
   EXPECT_GT((motion.back() - stage.state.displacement).cwiseAbs().maxCoeff(), 1e-3);
 }
 
 /// A static state whose top torque misses its balance by a share of the scale.
-app::StaticStage unbalanced(double share) {
-  app::StaticStage stage;
+drillstring::StaticStage unbalanced(double share) {
+  drillstring::StaticStage stage;
   stage.state.torqueScale = 1e4;
   stage.state.appliedTorque = -8e3;
   stage.state.topTorque = -8e3 + share * 1e4;
@@ -140,16 +141,16 @@ app::StaticStage unbalanced(double share) {
 
 TEST(TorqueJudgement, WarnsAboveTwoPerCentAndRefusesAboveTen) {
   const auto scene = buildAndHold({});
-  const auto warnings = [&](double share, const app::Scene& of) {
+  const auto warnings = [&](double share, const drillstring::Scene& of) {
     log::clearWarnings();
-    app::judgeTorqueBalance(of, unbalanced(share));
+    drillstring::judgeTorqueBalance(of, unbalanced(share));
     return log::warnings().size();
   };
   EXPECT_EQ(warnings(0.019, scene), 0U);
   EXPECT_EQ(warnings(0.021, scene), 1U);
   EXPECT_EQ(warnings(-0.099, scene), 1U);
-  EXPECT_THROW(app::judgeTorqueBalance(scene, unbalanced(0.101)), ConvergenceError);
-  EXPECT_THROW(app::judgeTorqueBalance(scene, unbalanced(-0.101)), ConvergenceError);
+  EXPECT_THROW(drillstring::judgeTorqueBalance(scene, unbalanced(0.101)), ConvergenceError);
+  EXPECT_THROW(drillstring::judgeTorqueBalance(scene, unbalanced(-0.101)), ConvergenceError);
   EXPECT_EQ(warnings(0.5, buildAndHold({"Path/Pre-stress=Axial and torque"})), 1U);
   log::clearWarnings();
 }

@@ -143,10 +143,10 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
 /// m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
 TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
-    const auto scene = app::readScene(
+    const auto scene = drillstring::readScene(
         std::string(TOOLJOINT_SOURCE_DIR) + "/xml/vertical_1000m.xml",
         {"Transient/End Time=2", "Transient/Step=" + step, "Transient/Progress=false", "!Study"});
-    const auto model = app::fullModel(app::settle(scene));
+    const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
     NoSamples sink;
     log::clearWarnings();
     return integrate(model, scene.list().sublist("Transient"), sink).stepErrors;

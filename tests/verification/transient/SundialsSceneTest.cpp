@@ -22,7 +22,7 @@ std::vector<Vector> motion(const model::SecondOrderModel& model,
 
 TEST(SundialsScene, theReferenceSceneMovesAsWithRungeKutta) {
   const auto scene = reference(common);
-  const auto model = app::fullModel(app::settle(scene));
+  const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
   // eps0 = 1e-2 leaves less than 1e-4 of the vibration, far below what is compared.
   const auto exact = motion(model, {"Transient/Integrator=RK4 adaptive", "Transient/Step=1e-5"});
   ASSERT_EQ(exact.size(), 101u);

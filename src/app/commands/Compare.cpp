@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/Commands.hpp"
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "study/FolderComparison.hpp"
+
+namespace tooljoint::app {
+
+void compare(const CompareOptions& options) {
+  const auto errors =
+      study::compareFolders({options.folder, options.reference}, {options.begin, options.end});
+  if (options.json) {
+    const nlohmann::ordered_json report{
+        {"folder", options.folder},
+        {"reference", options.reference},
+        {"window",
+         {{"begin", errors.times.front()},
+          {"end", errors.times.back()},
+          {"samples", errors.times.size()}}},
+        {"eps_t", {{"max", errors.overTime.max()}, {"mean", errors.overTime.mean()}}},
+        {"eps_n", {{"max", errors.overNodes.max()}}},
+        {"dyn", errors.dyn}};
+    log::info(report.dump(2));
+  } else {
+    char line[256];
+    std::snprintf(
+        line, sizeof line,
+        "window %g to %g s (%zu samples): eps_t max %.4e mean %.4e, eps_n max %.4e, dyn %.4e",
+        errors.times.front(), errors.times.back(), errors.times.size(), errors.overTime.max(),
+        errors.overTime.mean(), errors.overNodes.max(), errors.dyn);
+    log::info(line);
+  }
+  if (options.failAbove && errors.dyn > *options.failAbove)
+    throw ConvergenceError("The vibration error dyn of " + options.folder + " is " +
+                           formatNumber(errors.dyn) + ", more than the " +
+                           formatNumber(*options.failAbove) +
+                           " of --fail-above. Reduce Transient/Step, or keep more modes.");
+}
+
+}  // namespace tooljoint::app

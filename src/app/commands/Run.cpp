@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/Run.hpp"
+
+#include "app/commands/Commands.hpp"
+#include "cases/CaseKinds.hpp"
+
+namespace tooljoint::app {
+
+void run(const RunOptions& options) {
+  const auto one = cases::readCase(options.deck, options.overrides);
+  cases::run(*one, {options.output, options.restart});
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A case: something that comes to rest, can be cut into parts, reduced and set in motion, whatever
+/// it is made of. What is done with a case (run, check, study, modes, export) is written once
+/// against this interface; a case supplies data.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/MotionRecord.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/ResolvedCoupling.hpp"
+#include "deck/Deck.hpp"
+#include "io/OutputFolder.hpp"
+#include "io/OutputParameters.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+#include "parts/PartFile.hpp"
+
+namespace tooljoint::cases {
+
+/// What of a motion is recorded and compared.
+struct Measures {
+  std::vector<std::int64_t> nodes;  ///< in the order of all histories
+  std::vector<int> components;      ///< of a node
+  std::size_t vibrating =
+      0;  ///< how many of them, from the first on, are the vibration that dyn measures
+  std::vector<double> clearance;  ///< per node [m]; infinite where nothing can be touched
+  std::string wall;               ///< point set of what can be touched; "" for none
+  int speedRow =
+      -1;  ///< row of the recovery whose velocity is the speed of the bit; -1: there is no bit
+  std::function<double(double)> turning;  ///< what is added to that velocity [rad/s]
+
+  /// The components of the vibration.
+  std::vector<int> vibration() const {
+    return {components.begin(), components.begin() + static_cast<std::ptrdiff_t>(vibrating)};
+  }
+};
+
+/// A line of `tooljoint check`: is it modelled or computed, and why.
+struct OutlineItem {
+  bool present = false;
+  std::string what;
+  std::string why;
+};
+
+/// What `tooljoint check` says of a case.
+struct CaseOutline {
+  std::vector<OutlineItem> modelled;
+  OutlineItem rest;                ///< how the state at rest is found
+  std::string reduction;           ///< what is reduced, when the deck reduces
+  OutlineItem coupling;            ///< how the parts are joined
+  std::vector<std::string> notes;  ///< further lines on the coupling
+};
+
+/// A case at rest. All calls are collective.
+class RestingCase {
+ public:
+  virtual ~RestingCase() = default;
+
+  /// Warns of a state that is doubtful. ConvergenceError for one that is wrong.
+  virtual void judge() const {}
+
+  /// The full model; maps of its parts where it was coupled from them.
+  virtual coupling::Coupling full() const = 0;
+  /// The parts that are reduced, and what joins them.
+  virtual coupling::ResolvedCoupling parts() const = 0;
+  /// Displacements at rest, rows of the recovery.
+  virtual Vector rest() const = 0;
+  virtual Measures measures() const = 0;
+
+  /// Lines of the log; "" for none.
+  virtual std::string describe() const = 0;
+  virtual void summarise(io::Summary& summary) const = 0;
+  /// Groups of results.h5 before the motion, and tables beside it.
+  virtual void write(io::ResultsFile& file) const = 0;
+  virtual void stageTables(io::OutputFolder& folder) const { (void)folder; }
+  /// What the file of a study says of the nodes and of the state at rest.
+  virtual void writeProfile(io::ResultsFile& file) const = 0;
+
+  /// What is recorded of the motion of a model of this case. The case, `model` and `file` must
+  /// outlive it.
+  virtual std::unique_ptr<MotionRecord> record(const model::SecondOrderModel& model) const = 0;
+  /// What an export keeps of the unreduced parts.
+  virtual std::vector<parts::PartContent> contents(
+      const std::vector<model::Substructure>& parts) const = 0;
+};
+
+/// Cases made by with() from one another share the states at rest that they have in common. All
+/// calls are collective.
+class Case {
+ public:
+  virtual ~Case() = default;
+
+  virtual const deck::Deck& deck() const = 0;
+  /// The same deck with other overrides; its file is not read again. DeckError, ModelError,
+  /// FileError.
+  virtual std::unique_ptr<Case> with(const std::vector<std::string>& overrides) const = 0;
+  /// Lists that the full model does without.
+  virtual std::vector<std::string> reductionLists() const = 0;
+  /// True when a run reduces the parts although the deck has no Transient list.
+  virtual bool reducesWithoutMotion() const = 0;
+  virtual const io::OutputSettings& output() const = 0;
+  /// Content of the files that decide the numbers beside the deck. On rank 0 only.
+  virtual std::string files() const = 0;
+
+  virtual int nodes() const = 0;
+  virtual int components() const = 0;  ///< numbers that describe the motion of a node
+  virtual int freeDofs() const = 0;    ///< of the full model
+  /// A line of the log: what the case is and how large.
+  virtual std::string describe() const = 0;
+  /// Doubts about the case, one sentence each.
+  virtual std::vector<std::string> remarks() const = 0;
+  virtual void summarise(io::Summary& summary) const = 0;
+  virtual CaseOutline outline() const = 0;
+
+  /// Computes what `check` must know to refuse what a run would refuse. ModelError,
+  /// ConvergenceError.
+  virtual void verify() const = 0;
+  /// Finds the state at rest. ConvergenceError, ModelError.
+  virtual std::shared_ptr<const RestingCase> solveStatic() const = 0;
+
+  const Teuchos::ParameterList& list() const { return deck().list(); }
+  bool reduces() const { return list().isSublist("Reduction"); }
+  bool moves() const { return list().isSublist("Transient"); }
+  const Teuchos::ParameterList& transient() const { return list().sublist("Transient"); }
+  const Teuchos::ParameterList& reduction() const { return list().sublist("Reduction"); }
+  /// The state at rest, judged.
+  std::shared_ptr<const RestingCase> atRest() const {
+    auto rest = solveStatic();
+    rest->judge();
+    return rest;
+  }
+};
+
+}  // namespace tooljoint::cases

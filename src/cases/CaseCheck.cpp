@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/CaseCheck.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+#include "cases/CaseLists.hpp"
+#include "cases/ReducedCase.hpp"
+#include "cases/run/Run.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+/// "modelled" and "not modelled" lines, aligned.
+void list(const OutlineItem& item) {
+  char line[512];
+  std::snprintf(line, sizeof line, "  %-3s %-24s %s", item.present ? "yes" : "no",
+                item.what.c_str(), item.why.c_str());
+  log::info(line);
+}
+
+/// How the modes are chosen when a tolerance does it, and which errors are estimated.
+void listEstimates(const Teuchos::ParameterList& reduction) {
+  std::vector<std::string> tolerances;
+  for (const char* name : {"Frequency Tolerance", "Motion Tolerance"})
+    if (reduction.isParameter(name))
+      tolerances.push_back(std::string(name) + " " + formatNumber(reduction.get<double>(name)));
+  if (!tolerances.empty())
+    list({true, "modes by tolerance",
+          join(tolerances, ", ") + ": in rounds" +
+              (reduction.isParameter("Motion Tolerance") ? ", each with a transient" : "")});
+  const auto estimated = reduction.get<std::string>("Error Estimate");
+  list({estimated != "None", "error estimate",
+        estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\""});
+}
+
+/// What happens to the joined dofs.
+void listInterfaces(const Teuchos::ParameterList& reduction) {
+  const auto name = reduction.get<std::string>("Interface Reduction");
+  list({name != "None", "interface reduction",
+        name == "None" ? "all joined dofs are kept"
+                       : "characteristic constraint modes, \"" + name + "\""});
+}
+
+void listTransient(const Case& one) {
+  if (!one.moves()) {
+    list({false, "transient", "no Transient list: the run stops at the static state"});
+    return;
+  }
+  const auto& transient = one.transient();
+  const double duration = transient.get<double>("End Time") - transient.get<double>("Start Time");
+  const double samples = std::floor(duration / transient.get<double>("Sampling Interval")) + 1.0;
+  std::string what =
+      transient.get<std::string>("Integrator") + " over " + formatNumber(duration) + " s";
+  if (transient.isParameter("Step"))
+    what += ", about " + countText(std::ceil(duration / transient.get<double>("Step"))) + " steps";
+  list({true, "transient", what});
+  const auto& output = one.output();
+  const double bytes =
+      8.0 * samples * one.nodes() *
+      (one.components() * (output.hasField("displacement") + output.hasField("velocity") +
+                           output.hasField("acceleration")) +
+       output.hasField("normal_force"));
+  list({true, "results.h5",
+        countText(samples) + " samples, about " + countText(std::ceil(bytes / 1e6)) + " MB"});
+}
+
+void listWork(const Case& one, const CaseOutline& outline) {
+  log::info("computed:");
+  list(outline.rest);
+  if (one.reduces()) {
+    list({true, "reduction", outline.reduction});
+    listEstimates(one.reduction());
+    listInterfaces(one.reduction());
+  } else {
+    list({false, "reduction", "no Reduction list: the full model runs"});
+  }
+  list(outline.coupling);
+  for (const auto& note : outline.notes) log::info(note);
+  listTransient(one);
+}
+
+void listAnalyses(const Case& one) {
+  for (const auto& analysis : AnalysisLists::instance().lists()) {
+    if (!one.list().isSublist(analysis.name)) continue;
+    std::string name = analysis.name;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    list({true, name, analysis.describe(one)});
+  }
+}
+
+/// Solves for the state at rest and reduces the case to know both models.
+void listCost(const Case& one) {
+  if (!one.reduces() || !one.moves()) {
+    log::info("cost        nothing to compare: the deck has " +
+              std::string(one.moves() ? "no Reduction list" : "no Transient list"));
+    return;
+  }
+  const auto rest = one.atRest();
+  const auto text = rest->describe();
+  if (!text.empty()) log::info(text);
+  const auto reduced = reduce(one, *rest);
+  log::info(predictCost(one, rest->full().model, reduced.model()));
+}
+
+}  // namespace
+
+void check(const Case& one, bool cost) {
+  one.verify();
+  log::info(one.deck().file() + " is a valid deck.");
+  announce(one);
+  const auto outline = one.outline();
+  log::info("modelled:");
+  for (const auto& item : outline.modelled) list(item);
+  listWork(one, outline);
+  listAnalyses(one);
+  if (cost) listCost(one);
+}
+
+}  // namespace tooljoint::cases

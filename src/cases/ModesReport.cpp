@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/ModesReport.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <filesystem>
+
+#include "cases/ReducedCase.hpp"
+#include "cases/run/Report.hpp"
+#include "cases/run/Run.hpp"
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
+#include "coupling/CoupledModes.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "io/Csv.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/part/Partition.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+constexpr double kTwoPi = 6.28318530717958647692;
+
+void writeInto(const std::string& folder, const std::string& name, const io::Csv& table) {
+  parallel::agree([&] {
+    if (parallel::rank() != 0) return;
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+      throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
+    table.write((std::filesystem::path(folder) / name).string());
+  });
+}
+
+const char* const undampedHeading =
+    "Undamped modes about the static state: symmetric part of the stiffness, friction left out, "
+    "closed contacts linear. A "
+    "negative frequency stands for "
+    "omega^2 < 0 of that part and 0 for a rigid-body mode; whether the state is stable is for the "
+    "damped modes to say";
+
+std::string dampedHeading(double t) {
+  return "Damped modes with the matrices of t = " + formatNumber(t) +
+         " s (damping, gyroscopic, circulatory, friction), by |s|; s = Re s + i Im s, damping = "
+         "-Re s / |s|";
+}
+
+/// Growth rates below this fraction of |s| are within the accuracy of s.
+constexpr double noGrowth = 1e-8;
+
+/// What the damped modes say of the stability of the state.
+std::string verdict(const std::vector<std::complex<double>>& values) {
+  std::size_t growing = 0;
+  double fastest = 0;
+  for (const auto& s : values)
+    if (s.real() > noGrowth * std::abs(s)) {
+      ++growing;
+      fastest = std::max(fastest, s.real());
+    }
+  if (growing == 0)
+    return "None of the " + std::to_string(values.size()) + " damped modes listed grows.";
+  return std::to_string(growing) + " of the " + std::to_string(values.size()) +
+         " damped modes listed " + (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" +
+         formatNumber(fastest) + " t): the state is unstable.";
+}
+
+void reportTimes() {
+  const std::string times = stageTimes();
+  if (!times.empty()) log::info("times       " + times);
+}
+
+void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::string& folder,
+                const std::string& name) {
+  io::Csv table({{"mode", ""},
+                 {"full", "Hz"},
+                 {"full_damping", ""},
+                 {"coupled_mode", ""},
+                 {"coupled", "Hz"},
+                 {"coupled_damping", ""},
+                 {"mac", ""},
+                 {"error", ""},
+                 {"estimate", ""},
+                 {"definite", ""},
+                 {"full_im", "Hz"},
+                 {"coupled_im", "Hz"}});
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto& m = modes[i];
+    std::vector<std::string> cells;
+    for (double number : {static_cast<double>(i + 1), m.fullHz(), m.fullDamping(),
+                          m.coupledMode + 1.0, m.coupledHz(), m.coupledDamping(), m.mac, m.error})
+      cells.push_back(formatNumber(number));
+    cells.push_back(m.estimated ? formatNumber(m.estimate) : "");
+    cells.push_back(m.definite ? "1" : "0");
+    cells.push_back(formatNumber(m.fullImHz()));
+    cells.push_back(formatNumber(m.coupledImHz()));
+    table.row(cells);
+  }
+  writeInto(folder, name, table);
+}
+
+/// Undamped and damped modes of one model.
+void listFullModes(const model::SecondOrderModel& full, const ModesOptions& options, double t) {
+  const int count = std::min(options.count, full.size());
+  const auto pairs = coupling::lowestModes(full, count);
+  const auto values =
+      estimate::undampedValues(coupling::undampedStiffness(full),
+                               reduction::symmetricPart(full.mass), pairs.values, pairs.vectors);
+  log::info(std::string(undampedHeading) + ":");
+  log::info("  mode       full [Hz]");
+  io::Csv table({{"mode", ""}, {"full", "Hz"}});
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    char line[64];
+    std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1),
+                  values(i).imag() / kTwoPi);
+    log::info(line);
+    table.row({static_cast<double>(i + 1), values(i).imag() / kTwoPi});
+  }
+  if (!options.output.empty()) writeInto(options.output, "modes.csv", table);
+  const auto m = estimate::linearise(full, t);
+  const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count);
+  log::info(dampedHeading(t) + ":");
+  log::info("  mode  full |s| [Hz]  full Im s [Hz]       damping");
+  io::Csv dampedTable({{"mode", ""}, {"full", "Hz"}, {"full_damping", ""}, {"full_im", "Hz"}});
+  for (Eigen::Index i = 0; i < damped.values.size(); ++i) {
+    const auto s = damped.values[i];
+    const double size = std::abs(s), ratio = size > 0 ? 0.0 - s.real() / size : 0.0;
+    char line[96];
+    std::snprintf(line, sizeof line, "  %4ld %14.8g  %14.8g  %12.4e", static_cast<long>(i + 1),
+                  size / kTwoPi, s.imag() / kTwoPi, ratio);
+    log::info(line);
+    dampedTable.row({static_cast<double>(i + 1), size / kTwoPi, ratio, s.imag() / kTwoPi});
+  }
+  log::info(verdict({damped.values.begin(), damped.values.end()}));
+  reportTimes();
+  if (!options.output.empty()) writeInto(options.output, "damped_modes.csv", dampedTable);
+}
+
+/// Full and coupled modes side by side, undamped and with the matrices of time t.
+/// \param maps of the full model where it was coupled from the parts, see estimate::compareModes
+void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sparse>& maps,
+                       const std::vector<model::Substructure>& parts,
+                       const coupling::Synthesis& synthesis, const ModesOptions& options,
+                       double t) {
+  log::info("reduced     " + std::to_string(full.size()) + " dofs to " +
+            std::to_string(synthesis.coupled.model.size()));
+  const auto undamped = estimate::compareModes(full, parts, synthesis, options.count, maps);
+  if (synthesis.coupled.interfaceModes >= 0)
+    log::info(
+        "The estimates see what the reduction of the parts leaves out, not what the interface "
+        "reduction does.");
+  log::info(std::string(undampedHeading) +
+            ". Beside each full mode the coupled mode of the same shape (repeated modes: of the "
+            "same subspace), " +
+            "its true relative error and the one estimated without the full model:");
+  log::info(estimate::comparisonTable(undamped, false));
+  if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
+  const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.count, t, maps);
+  log::info(dampedHeading(t) + ", errors of s:");
+  log::info(estimate::comparisonTable(damped, true));
+  std::vector<std::complex<double>> values;
+  for (const auto& mode : damped) values.push_back(mode.full);
+  log::info(verdict(values));
+  reportTimes();
+  if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
+}
+
+/// The end of the motion, unless the options say otherwise.
+double timeOf(const Case& one, const ModesOptions& options) {
+  if (options.time) return *options.time;
+  return one.moves() ? one.transient().get<double>("End Time") : 0.0;
+}
+
+}  // namespace
+
+void listModes(const Case& one, const ModesOptions& options) {
+  announce(one);
+  const auto rest = one.atRest();
+  const auto text = rest->describe();
+  if (!text.empty()) log::info(text);
+  const auto full = rest->full();
+  const double t = timeOf(one, options);
+  if (!one.reduces()) {
+    listFullModes(full.model, options, t);
+    return;
+  }
+  const auto reduced = reduce(one, *rest);
+  for (const auto& part : reduced.parts()) log::info(part.report.table());
+  log::info(reduction::summaryTable(reduced.parts()));
+  log::info(describeCoupling(reduced.coupled()));
+  if (!reduced.outcome.rounds.empty()) log::info(estimate::roundTable(reduced.outcome.rounds));
+  listComparedModes(full.model, full.maps, reduced.unreduced.parts, reduced.outcome.synthesis,
+                    options, t);
+}
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What `tooljoint modes` prints and writes of any case.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cases/Case.hpp"
+
+namespace tooljoint::cases {
+
+struct ModesOptions {
+  int count = 20;              ///< modes listed
+  std::optional<double> time;  ///< of the matrices of the damped modes [s]; none: the end of the
+                               ///< motion
+  std::string output;          ///< folder of modes.csv and damped_modes.csv; empty: no files
+};
+
+/// Lists the undamped and damped modes of the full model and, where the deck reduces, those of the
+/// coupled model beside them with MAC values, true and estimated errors. DeckError, ModelError,
+/// ConvergenceError, FileError. Collective.
+void listModes(const Case& one, const ModesOptions& options);
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a case records of its motion beside the time and the motion of its nodes: channels of the
+/// results file, the rows of motion.csv, figures for the summary, pictures.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "io/Csv.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+#include "io/Xdmf.hpp"
+
+namespace tooljoint::cases {
+
+/// One sample of a motion: coordinates of the model, and what they mean for the nodes.
+struct Sample {
+  double t = 0.0;  ///< [s]
+  const Vector& q;
+  const Vector& qDot;
+  const Vector& displacement;  ///< rows of the recovery: offset + Phi q
+  const Vector& velocity;      ///< Phi q'
+};
+
+/// A time series of the results file.
+struct Channel {
+  std::string path;
+  io::Shape shape;
+  std::string unit, longName;
+  const double* values;  ///< of the latest sample, as many as the shape holds
+};
+
+/// Unit and long name of a field of all nodes.
+struct FieldText {
+  std::string unit, longName;
+};
+
+/// Made by a case for one model, full or reduced. The lists below keep their order and size, and
+/// the values of the channels their place, from the construction on.
+class MotionRecord {
+ public:
+  virtual ~MotionRecord() = default;
+
+  /// Brings channels, row and figures to this sample.
+  virtual void sample(const Sample& sample) = 0;
+
+  /// Of displacement, velocity and acceleration.
+  virtual std::array<FieldText, 3> fields() const = 0;
+  virtual std::vector<Channel> channels() const = 0;
+  /// Columns of motion.csv, the time first, and their values at the latest sample.
+  virtual std::vector<io::Csv::Column> columns() const = 0;
+  virtual const std::vector<double>& row() const = 0;
+
+  /// Appends what a run that continues needs of the samples so far, and takes it back.
+  virtual void save(std::vector<double>& memory) const = 0;
+  virtual void restore(const double*& memory) = 0;
+
+  /// The figures a person asks for first, as summary keys and as one line of the log.
+  virtual void summarise(io::Summary& summary) const = 0;
+  virtual std::string describe() const = 0;
+  /// Doubts about the motion, one sentence each.
+  virtual std::vector<std::string> warnings() const { return {}; }
+
+  /// Null for a case without geometry.
+  virtual const io::XdmfScene* picture() const { return nullptr; }
+  /// Fills what a picture shows beside displacements and velocities at time t.
+  virtual void complete(double t, io::XdmfFrame& frame) const {
+    (void)t;
+    (void)frame;
+  }
+};
+
+}  // namespace tooljoint::cases

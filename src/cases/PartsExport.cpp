@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/PartsExport.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "cases/ReducedCase.hpp"
+#include "cases/run/Run.hpp"
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "parts/ReducedPart.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+/// A name of a part as a name of a file.
+std::string fileName(std::string name) {
+  for (char& c : name)
+    if (c == '/' || c == '\\' || c == ':') c = '_';
+  return name;
+}
+
+}  // namespace
+
+std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
+                                       io::ExportFormat format) {
+  std::set<std::string> names;
+  std::vector<std::string> files;
+  for (const auto& part : parts) {
+    const std::string name = fileName(part);
+    if (!names.insert(name).second)
+      throw DeckError(
+          "Two parts would be exported into the file " + inQuotes(name) +
+          ": their names differ only in characters that file names cannot hold. Rename one.");
+    files.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
+  }
+  return files;
+}
+
+void exportParts(const std::vector<parts::PartContent>& originals,
+                 const std::vector<reduction::ReducedSubstructure>& reduced,
+                 io::ExportFormat format, const std::string& folder) {
+  if (format == io::ExportFormat::None) return;
+  std::vector<std::string> names;
+  for (const auto& part : reduced) names.push_back(part.name);
+  const auto written = exportedFiles(names, format);
+  parallel::agree([&] {
+    if (parallel::rank() == 0) {
+      std::error_code failed;
+      std::filesystem::create_directories(folder, failed);
+      if (failed)
+        throw FileError("The folder \"" + folder +
+                        "\" for exported parts cannot be made: " + failed.message() + ".");
+    }
+    for (std::size_t p = 0; p < reduced.size(); ++p) {
+      const auto content = parts::reducedContent(originals[p], reduced[p]);
+      for (const auto& law : content.omitted)
+        log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
+                  "\", which a part file cannot hold.");
+      parts::writePart(
+          content, (std::filesystem::path(folder) / written[p]).string(),
+          format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+    }
+  });
+  log::info("exported    " + folder + ": " + join(written, ", "));
+}
+
+void exportCase(const Case& one, io::ExportFormat format, const std::string& folder) {
+  const auto& deck = one.deck();
+  if (!one.reduces())
+    throw DeckError(deck.file() + ": /" + deck.name() +
+                    " has no Reduction list, so there is no reduced part to export. Add one.");
+  announce(one);
+  const auto rest = one.atRest();
+  const auto text = rest->describe();
+  if (!text.empty()) log::info(text);
+  const auto reduced = reduce(one, *rest);
+  log::info(reduction::summaryTable(reduced.parts()));
+  namespace fs = std::filesystem;
+  exportParts(rest->contents(reduced.unreduced.parts), reduced.parts(), format,
+              folder.empty()
+                  ? (fs::path("results") / fs::path(deck.file()).stem() / "parts").string()
+                  : folder);
+}
+
+}  // namespace tooljoint::cases

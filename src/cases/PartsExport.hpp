@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Reduced parts as files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/Case.hpp"
+#include "io/OutputParameters.hpp"
+#include "parts/PartFile.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+
+namespace tooljoint::cases {
+
+/// File (or, ending in "/", folder) of every part, by its name without the characters that file
+/// names cannot hold. DeckError when two are the same.
+std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
+                                       io::ExportFormat format);
+
+/// Writes every reduced part into `folder`: NAME.h5, or a folder NAME; nothing for
+/// ExportFormat::None. Says what was written, and warns of point laws that a file cannot hold.
+/// FileError, ModelError. Collective.
+void exportParts(const std::vector<parts::PartContent>& originals,
+                 const std::vector<reduction::ReducedSubstructure>& reduced,
+                 io::ExportFormat format, const std::string& folder);
+
+/// `tooljoint export`: reduces the parts of a case and writes each with its basis as a part file.
+/// \param folder "" for results/<name of the deck>/parts. DeckError without the list Reduction;
+/// what the stages throw. Collective.
+void exportCase(const Case& one, io::ExportFormat format, const std::string& folder);
+
+}  // namespace tooljoint::cases

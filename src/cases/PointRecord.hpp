@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The channels of one point set along a motion.
+#pragma once
+
+#include <string>
+
+#include "cases/MotionRecord.hpp"
+#include "linalg/blocks/GroupedRows.hpp"
+#include "model/SecondOrderModel.hpp"
+
+namespace tooljoint::cases {
+
+class PointRecord {
+ public:
+  /// The set must outlive the record.
+  explicit PointRecord(const model::PointSet& set);
+
+  /// Evaluates the channels of the law at this sample.
+  void sample(const Sample& sample);
+
+  const model::PointSet& set() const { return *set_; }
+  const std::vector<model::Channel>& channels() const { return channels_; }
+  /// Position of the channel with this name, -1 when the law has none.
+  int find(const std::string& name) const;
+  /// Values of a channel, one per point.
+  const double* values(int channel) const {
+    return values_.data() + static_cast<Eigen::Index>(channel) * set_->law->size();
+  }
+
+ private:
+  const model::PointSet* set_;
+  std::vector<model::Channel> channels_;
+  linalg::GroupedRows rows_;
+  Vector d_, v_, values_;
+};
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A case with its parts reduced and coupled, as its list Reduction asks.
+#pragma once
+
+#include <memory>
+
+#include "cases/Case.hpp"
+#include "estimate/AdaptiveReduction.hpp"
+
+namespace tooljoint::cases {
+
+struct ReducedCase {
+  coupling::ResolvedCoupling unreduced;  ///< the parts before the reduction, and what joins them
+  estimate::Outcome outcome;
+
+  const std::vector<reduction::ReducedSubstructure>& parts() const {
+    return outcome.synthesis.parts;
+  }
+  const coupling::Coupling& coupled() const { return outcome.synthesis.coupled; }
+  const model::SecondOrderModel& model() const { return outcome.synthesis.coupled.model; }
+};
+
+/// Reduces the parts of a case that has the list Reduction. A motion tolerance moves candidates;
+/// \param progress shows a progress bar then. Throws what estimate::synthesise throws. Collective.
+ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress = true);
+
+/// True when the list Reduction asks for the error of the motion, or for modes by it.
+bool estimatesMotion(const Case& one);
+
+/// Watches the motion of the reduced model. All arguments must outlive the estimator.
+std::unique_ptr<estimate::MotionEstimator> motionEstimator(const RestingCase& rest,
+                                                           const ReducedCase& reduced);
+
+}  // namespace tooljoint::cases

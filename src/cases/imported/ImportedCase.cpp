@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/imported/ImportedCase.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <set>
+
+#include "cases/CaseKinds.hpp"
+#include "cases/ListText.hpp"
+#include "cases/ReducedCase.hpp"
+#include "cases/imported/ImportedRecord.hpp"
+#include "cases/imported/MeasuredComponents.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+void append(std::string& text, const double* values, Eigen::Index count) {
+  text.append(reinterpret_cast<const char*>(values),
+              static_cast<std::size_t>(count) * sizeof(double));
+}
+
+void append(std::string& text, const Sparse& matrix) {
+  for (int row = 0; row < matrix.outerSize(); ++row)
+    for (Sparse::InnerIterator it(matrix, row); it; ++it) {
+      text += std::to_string(row) + "," + std::to_string(it.col()) + ";";
+      append(text, &it.value(), 1);
+    }
+}
+
+coupling::Coupling joinUnreduced(const parts::PartsScene& scene) {
+  auto options = scene.coupling;
+  options.assembly = coupling::Assembly::Primal;
+  return coupling::coupleWithPositions(scene.parts, options);
+}
+
+/// Imported parts in the state they start from.
+class RestingParts : public RestingCase {
+ public:
+  RestingParts(std::shared_ptr<const ImportedDeck> lists, std::shared_ptr<const JoinedParts> joined)
+      : lists_(std::move(lists)), joined_(std::move(joined)) {}
+
+  coupling::Coupling full() const override { return joined_->whole; }
+  coupling::ResolvedCoupling parts() const override {
+    return {joined_->scene.parts, joined_->scene.coupling};
+  }
+  Vector rest() const override {
+    const auto& m = model();
+    return m.recoveryOffset + m.recovery * m.initialDisplacement;
+  }
+
+  /// Nothing is known of walls and bits.
+  Measures measures() const override {
+    Measures m;
+    m.nodes = model().recoveryNodes;
+    m.components = measuredComponents(model().componentNames);
+    m.vibrating = m.components.size();
+    m.clearance.assign(m.nodes.size(), std::numeric_limits<double>::infinity());
+    return m;
+  }
+
+  std::string describe() const override { return ""; }
+  void summarise(io::Summary& summary) const override {
+    if (lists_->settings.atRest) summary.set("static.converged", true);
+  }
+
+  /// Group /model (which node of which part a row is), and the displacements at the start.
+  void write(io::ResultsFile& file) const override {
+    writeProfile(file);
+    file.write("/static/displacement", rest(),
+               {model().recoveryNodes.size(), model().componentNames.size()}, "m, rad",
+               "Displacements at the start, in the common frame");
+  }
+
+  void writeProfile(io::ResultsFile& file) const override {
+    std::vector<int> part, node;
+    for (auto number : model().recoveryNodes) {
+      const auto& name = joined_->scene.nodes.at(number).front();
+      part.push_back(name.part + 1);
+      node.push_back(static_cast<int>(name.node));
+    }
+    std::vector<std::string> names, units;
+    for (const auto& one : joined_->scene.parts) names.push_back(one.name);
+    for (const auto& name : model().componentNames) units.push_back(unitOf(name));
+    const std::size_t count = node.size();
+    file.write("/model/part_names", names, "Parts in the order of the deck");
+    file.write("/model/components", model().componentNames, "Components of a node");
+    file.write("/model/component_units", units,
+               "Unit of each component; empty where its name tells neither a translation nor a "
+               "rotation");
+    file.write("/model/part", part, {count}, "1",
+               "Part of each node, counted from 1; the first one of a joined node");
+    file.write("/model/node", node, {count}, "1", "Number of each node in that part");
+  }
+
+  std::unique_ptr<MotionRecord> record(const model::SecondOrderModel& model) const override {
+    return std::make_unique<ImportedRecord>(model, lists_->common.output.hasField("normal_force"));
+  }
+  std::vector<parts::PartContent> contents(const std::vector<model::Substructure>&) const override {
+    return joined_->scene.contents;
+  }
+
+ private:
+  const model::SecondOrderModel& model() const { return joined_->whole.model; }
+
+  std::shared_ptr<const ImportedDeck> lists_;
+  std::shared_ptr<const JoinedParts> joined_;
+};
+
+const bool registered =
+    CaseKinds::instance().add({{"Parts"}, 0, importedSpec, [](const deck::Deck& deck) {
+                                 return std::make_unique<ImportedCase>(ImportedDeck(deck));
+                               }});
+
+/// True when a part neither rests nor starts from its reference state.
+bool startsElsewhere(const model::Substructure& part) {
+  const auto& m = part.model;
+  const Vector rest = part.reference.size() > 0 ? part.reference : Vector(Vector::Zero(m.size()));
+  return !m.initialVelocity.isZero(0.0) || m.initialDisplacement != rest;
+}
+
+}  // namespace
+
+ImportedCase::ImportedCase(ImportedDeck lists)
+    : ImportedCase(std::move(lists), std::make_shared<Shared>()) {}
+
+ImportedCase::ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared)
+    : lists_(std::make_shared<const ImportedDeck>(std::move(lists))), shared_(std::move(shared)) {
+  auto key = list();
+  for (const char* name : {"Reduction", "Transient", "Output"}) key.remove(name, false);
+  for (const auto& analysis : AnalysisLists::instance().lists()) key.remove(analysis.name, false);
+  auto& joined = (*shared_)[canonicalText(key) + formatNumber(lists_->startTime())];
+  if (!joined) {
+    auto fresh = std::make_shared<JoinedParts>();
+    fresh->scene = lists_->build();
+    fresh->whole = joinUnreduced(fresh->scene);
+    joined = fresh;
+  }
+  joined_ = joined;
+  lists_->checkReduction(joined_->scene);
+}
+
+std::unique_ptr<Case> ImportedCase::with(const std::vector<std::string>& overrides) const {
+  ImportedDeck lists(deck::Deck::parse(deck().text(), deck().file(), importedSpec(), overrides));
+  return std::unique_ptr<Case>(new ImportedCase(std::move(lists), shared_));
+}
+
+std::string ImportedCase::files() const {
+  std::string text;
+  for (const auto& content : joined_->scene.contents) {
+    const auto& model = content.part.model;
+    append(text, model.mass);
+    for (const auto& term : model.damping) append(text, term.matrix);
+    for (const auto& term : model.stiffness) append(text, term.matrix);
+    for (const auto& load : model.loads) append(text, load.vector.data(), load.vector.size());
+    append(text, model.recovery);
+  }
+  return text;
+}
+
+int ImportedCase::components() const {
+  return static_cast<int>(joined_->whole.model.componentNames.size());
+}
+
+std::string ImportedCase::describe() const {
+  const auto& scene = joined_->scene;
+  std::set<std::string> files;
+  for (const auto& content : scene.contents) files.insert(content.file);
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "parts       %zu from %zu file%s, %zu nodes, %d dofs, %d when joined",
+                scene.parts.size(), files.size(), files.size() == 1 ? "" : "s", scene.nodes.size(),
+                scene.dofs(), freeDofs());
+  return text;
+}
+
+std::vector<std::string> ImportedCase::remarks() const {
+  auto out = joined_->whole.remarks;
+  for (const auto& content : joined_->scene.contents)
+    for (const auto& law : content.omitted)
+      out.push_back("Part \"" + content.part.name + "\" (" + content.file +
+                    ") had the point law \"" + law +
+                    "\" where it came from; it is not in the file.");
+  return out;
+}
+
+void ImportedCase::summarise(io::Summary& summary) const {
+  summary.set("deck.file", deck().file());
+  summary.set("deck.sha256", deck().sha256());
+  summary.set("model.nodes", nodes());
+  summary.set("model.free_dofs", freeDofs());
+}
+
+CaseOutline ImportedCase::outline() const {
+  const auto& settings = lists_->settings;
+  CaseOutline out;
+  for (std::size_t p = 0; p < joined_->scene.parts.size(); ++p) {
+    const auto& content = joined_->scene.contents[p];
+    const auto& part = joined_->scene.parts[p];
+    std::vector<std::string> sets;
+    for (const auto& set : content.interfaces) sets.push_back(set.name);
+    out.modelled.push_back({true, part.name,
+                            content.file + ": " + std::to_string(part.model.size()) + " dofs, " +
+                                std::to_string(part.interface.size()) + " joined, " +
+                                std::to_string(part.retained.size()) + " retained" +
+                                (sets.empty() ? "" : "; sets " + quotedList(sets))});
+  }
+  out.modelled.push_back(
+      {!settings.joints.empty(), "joints",
+       settings.joints.empty() ? "no Joints in Parts" : join(settings.joints, ", ")});
+  out.modelled.push_back({!settings.loads.empty(), "loads",
+                          std::to_string(settings.loads.size()) + " beside those of the files"});
+  out.rest = {
+      settings.atRest, "equilibrium",
+      settings.atRest ? "of the loads of the start time" : "Initial State is \"From files\""};
+  if (reduces()) out.reduction = reduction().get<std::string>("Basis");
+  const auto& coupling = lists_->common.coupling;
+  out.coupling = {coupling.has_value(), "coupling",
+                  coupling ? coupling::describe(*coupling) : "no Coupling list"};
+  return out;
+}
+
+void ImportedCase::verify() const {
+  const auto rest = solveStatic();
+  if (!reduces() || !moves()) return;
+  const auto basis = reduction::makeBasis(reduction().get<std::string>("Basis"), reduction());
+  const auto& parts = joined_->scene.parts;
+  if (basis->traits().interfaceForces && std::any_of(parts.begin(), parts.end(), startsElsewhere))
+    estimate::synthesise(parts, reduction(), estimate::MotionProbe(), joined_->scene.coupling);
+}
+
+std::shared_ptr<const RestingCase> ImportedCase::solveStatic() const {
+  lists_->requireMass(joined_->scene, joined_->whole.model);
+  if (!joined_->started) {
+    lists_->start(joined_->scene);
+    joined_->whole = joinUnreduced(joined_->scene);
+    joined_->started = true;
+  }
+  return std::make_shared<RestingParts>(lists_, joined_);
+}
+
+}  // namespace tooljoint::cases

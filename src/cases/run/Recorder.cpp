@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/Recorder.hpp"
+
+#include <algorithm>
+
+#include "common/Text.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+constexpr const char* motionSeries = "/transient/motion";
+/// Part of the motion between two flushes of the results file.
+constexpr double flushFraction = 0.1;
+
+}  // namespace
+
+Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
+                   const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file)
+    : record_(std::move(record)),
+      model_(model),
+      file_(file),
+      recovery_(model.recovery),
+      time_(file.series("/transient/time", {}, "s", "Time of the samples")),
+      table_(record_->columns()),
+      flushInterval_(flushFraction * (span.end - span.start)),
+      nextFlush_(span.start + flushInterval_) {
+  const io::Shape shape{model.recoveryNodes.size(), model.componentNames.size()};
+  const auto texts = record_->fields();
+  const auto field = [&](const char* name, const FieldText& text) -> io::TimeSeries* {
+    if (!output.hasField(name)) return nullptr;
+    return &file.series(std::string("/transient/") + name, shape, text.unit, text.longName);
+  };
+  displacementSeries_ = field("displacement", texts[0]);
+  velocitySeries_ = field("velocity", texts[1]);
+  accelerationSeries_ = field("acceleration", texts[2]);
+  for (const auto& channel : record_->channels())
+    channels_.push_back({&file.series(channel.path, channel.shape, channel.unit, channel.longName),
+                         channel.values});
+  if (output.xdmf && record_->picture() != nullptr)
+    pictures_ = std::make_unique<io::XdmfRecorder>(file, *record_->picture(), output.xdmfInterval);
+  addTable();
+}
+
+/// The series of the rows of motion.csv, and the rows that a run before this one has left there.
+void Recorder::addTable() {
+  const auto columns = record_->columns();
+  std::vector<std::string> names, units;
+  for (const auto& column : columns) {
+    names.push_back(column.name);
+    if (std::find(units.begin(), units.end(), column.unit) == units.end())
+      units.push_back(column.unit);
+  }
+  tableSeries_ = &file_.series(motionSeries, {columns.size()}, join(units, ", "),
+                               "Rows of motion.csv: " + join(names, ", "));
+  const auto width = static_cast<std::ptrdiff_t>(columns.size());
+  const auto carried = file_.carried(motionSeries);
+  for (auto row = carried.begin(); row != carried.end(); row += width)
+    table_.row(std::vector<double>(row, row + width));
+}
+
+void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
+  // D = offset + Phi q, D' = Phi q'
+  recovery_.multiply(q, displacement_);
+  displacement_ += model_.recoveryOffset;
+  recovery_.multiply(qDot, velocity_);
+  if (accelerationSeries_) recovery_.multiply(qDDot, acceleration_);
+  record_->sample({t, q, qDot, displacement_, velocity_});
+  table_.row(record_->row());
+  tableSeries_->append(record_->row().data());
+  time_.append(t);
+  if (displacementSeries_) displacementSeries_->append(displacement_.data());
+  if (velocitySeries_) velocitySeries_->append(velocity_.data());
+  if (accelerationSeries_) accelerationSeries_->append(acceleration_.data());
+  for (const auto& channel : channels_) channel.series->append(channel.values);
+  if (pictures_ && pictures_->due(t)) pictures_->append(frame(t));
+  if (t >= nextFlush_) file_.flush();
+  while (t >= nextFlush_) nextFlush_ += flushInterval_;
+}
+
+io::XdmfFrame Recorder::frame(double t) const {
+  io::XdmfFrame out;
+  out.time = t;
+  out.displacement = displacement_.data();
+  out.velocity = velocity_.data();
+  record_->complete(t, out);
+  return out;
+}
+
+void Recorder::save(std::vector<double>& memory) const {
+  record_->save(memory);
+  if (pictures_) pictures_->save(memory);
+}
+
+void Recorder::restore(const double*& memory) {
+  record_->restore(memory);
+  // only which fields a picture has matters here
+  displacement_ = velocity_ = Vector::Zero(1);
+  if (pictures_) pictures_->restore(memory, frame(0.0));
+}
+
+void Recorder::stagePictures(io::OutputFolder& folder) const {
+  if (pictures_) io::stageText(folder.file("results.xdmf"), pictures_->text("results.h5"));
+}
+
+}  // namespace tooljoint::cases

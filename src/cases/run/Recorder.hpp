@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Recovers the samples of a motion and writes them: what every case records, and the channels that
+/// its MotionRecord adds.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/MotionRecord.hpp"
+#include "io/OutputFolder.hpp"
+#include "io/OutputParameters.hpp"
+#include "linalg/blocks/GroupedRows.hpp"
+#include "model/SecondOrderModel.hpp"
+#include "transient/Transient.hpp"
+
+namespace tooljoint::cases {
+
+/// The span of a motion [s].
+struct TimeSpan {
+  double start = 0.0;
+  double end = 0.0;
+};
+
+/// Samples go into time series of the results file, which continue by themselves
+/// (ResultsFile::continueFrom()); save() and restore() are about everything else: extremes, counts,
+/// what is due next.
+class Recorder : public transient::SampleSink {
+ public:
+  /// Opens the series of /transient that the list Output asks for. `model` and `file` must outlive
+  /// the recorder.
+  Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
+           const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file);
+
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+  const MotionRecord& record() const { return *record_; }
+  /// motion.csv, whose rows also stand in /transient/motion, so that a restart has them.
+  void stageTable(io::OutputFolder& folder) const { table_.stage(folder.file("motion.csv")); }
+  /// results.xdmf beside results.h5; nothing without pictures.
+  void stagePictures(io::OutputFolder& folder) const;
+
+ private:
+  struct Series {
+    io::TimeSeries* series;
+    const double* values;
+  };
+  void addTable();
+  io::XdmfFrame frame(double t) const;
+
+  std::unique_ptr<MotionRecord> record_;
+  const model::SecondOrderModel& model_;
+  io::ResultsFile& file_;
+  linalg::GroupedRows recovery_;
+  Vector displacement_, velocity_, acceleration_;
+  io::TimeSeries& time_;
+  io::TimeSeries* displacementSeries_ = nullptr;
+  io::TimeSeries* velocitySeries_ = nullptr;
+  io::TimeSeries* accelerationSeries_ = nullptr;
+  std::vector<Series> channels_;
+  std::unique_ptr<io::XdmfRecorder> pictures_;
+  io::Csv table_;
+  io::TimeSeries* tableSeries_ = nullptr;
+  double flushInterval_;  ///< [s]
+  double nextFlush_;      ///< [s]
+};
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a run tells a person of its reduction and its motion: short blocks of text, one per stage.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/MotionRecord.hpp"
+#include "coupling/assembly/Assembler.hpp"
+#include "estimate/MotionEstimate.hpp"
+#include "reduction/ReducedSubstructure.hpp"
+#include "transient/CostModel.hpp"
+#include "transient/Transient.hpp"
+
+namespace tooljoint::cases {
+
+std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
+                              int fullDofs, int reducedDofs, double wall);
+/// Cost of a step of both models, and which is the cheaper one.
+std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
+/// Assembly, joined dofs, and what the interface reduction kept of them.
+std::string describeCoupling(const coupling::Coupling& coupled);
+std::string describeMotionError(const estimate::MotionEstimate& error);
+/// Integrator, steps and counters, the figures of the case, and the energy balance.
+std::string describeTransient(const transient::TransientReport& report, const MotionRecord& record);
+
+}  // namespace tooljoint::cases

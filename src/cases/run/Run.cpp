@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/Run.hpp"
+
+#include <filesystem>
+
+#include "cases/PartsExport.hpp"
+#include "cases/ReducedCase.hpp"
+#include "cases/run/Report.hpp"
+#include "cases/run/ResultsWriter.hpp"
+#include "common/Parallel.hpp"
+#include "common/Version.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/Stopwatch.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+/// Hands every sample to two sinks.
+class TeeSink : public transient::SampleSink {
+ public:
+  TeeSink(transient::SampleSink& first, transient::SampleSink& second)
+      : first_(first), second_(second) {}
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
+    first_.sample(t, q, qDot, qDDot);
+    second_.sample(t, q, qDot, qDDot);
+  }
+
+ private:
+  transient::SampleSink& first_;
+  transient::SampleSink& second_;
+};
+
+/// One run of one case into one folder.
+class Run {
+ public:
+  Run(const Case& one, const RunOptions& options) : case_(one), files_(options, one) {}
+
+  void go() {
+    case_.summarise(files_.summary());
+    files_.complete([this] { stages(); },
+                    [this] {
+                      if (recorder_) recorder_->stagePictures(files_.folder());
+                    });
+  }
+
+ private:
+  void stages() {
+    log::info("Tooljoint " + programVersion() + ": " + case_.deck().name());
+    announce(case_);
+    comeToRest();
+    if (case_.reduces() && (case_.moves() || case_.reducesWithoutMotion())) reduce();
+    if (!case_.moves()) return;
+    if (case_.reduces()) {
+      parallel::agree([&] { integrate(reduced_.model()); });
+    } else {
+      const auto full = rest_->full().model;
+      parallel::agree([&] { integrate(full); });
+    }
+  }
+
+  void comeToRest() {
+    rest_ = case_.solveStatic();
+    const auto text = rest_->describe();
+    if (!text.empty()) log::info(text);
+    rest_->summarise(files_.summary());
+    parallel::agree([&] {
+      rest_->write(files_.results());
+      if (case_.output().csv) rest_->stageTables(files_.folder());
+      files_.results().flush();
+    });
+    rest_->judge();
+  }
+
+  void reduce() {
+    const Stopwatch watch;
+    reduced_ = cases::reduce(case_, *rest_);
+    const double wall = watch.wall();
+    const auto& outcome = reduced_.outcome;
+    const auto& parts = reduced_.unreduced.parts;
+    const int dofs = reduced_.model().size();
+    if (!outcome.rounds.empty()) log::info(estimate::roundTable(outcome.rounds));
+    log::info(describeReduction(reduced_.parts(), case_.freeDofs(), dofs, wall));
+    log::info(describeCoupling(reduced_.coupled()));
+    for (const auto& remark : reduced_.coupled().remarks) log::warn(remark);
+    if (!outcome.frequencies.empty())
+      log::info(estimate::frequencyTable(outcome.frequencies, parts));
+    auto& summary = files_.summary();
+    summarise(reduced_.parts(), case_.reduction().get<std::string>("Basis"), dofs, wall, summary);
+    if (case_.moves()) {
+      double ratio = 0.0;
+      log::info(predictCost(case_, rest_->full().model, reduced_.model(), &ratio));
+      summary.set("reduction.cost_ratio", ratio);
+    }
+    summarise(reduced_.coupled(), summary);
+    summarise(outcome, parts, summary);
+    if (case_.output().exportFormat != io::ExportFormat::None)
+      exportParts(rest_->contents(parts), reduced_.parts(), case_.output().exportFormat,
+                  (std::filesystem::path(files_.folder().folder()) / "parts").string());
+    estimates_ = estimatesMotion(case_);
+    if (!estimates_) reduced_.unreduced.parts.clear();
+    parallel::agree([&] {
+      if (case_.output().csv) stageBasisTable(reduced_.parts(), files_.folder());
+      if (case_.output().reducedBases) writeBases(reduced_.parts(), files_.results());
+    });
+  }
+
+  void integrate(const model::SecondOrderModel& model) {
+    const auto& list = case_.transient();
+    recorder_ = std::make_unique<Recorder>(
+        rest_->record(model), model, case_.output(),
+        TimeSpan{list.get<double>("Start Time"), list.get<double>("End Time")}, files_.results());
+    if (estimates_ && files_.goesOn())
+      log::warn(
+          "The error of the motion is not estimated in a run that goes on from a checkpoint.");
+    const auto report = estimates_ && !files_.goesOn()
+                            ? integrateEstimating(model)
+                            : files_.integrate(model, list, *recorder_, *recorder_);
+    summarise(report, case_.reduces(), files_.summary());
+    recorder_->record().summarise(files_.summary());
+    files_.requireComplete(report);
+    log::info(describeTransient(report, recorder_->record()));
+    for (const auto& warning : recorder_->record().warnings()) log::warn(warning);
+    if (case_.output().csv) recorder_->stageTable(files_.folder());
+  }
+
+  transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
+    const auto estimator = motionEstimator(*rest_, reduced_);
+    TeeSink both(*recorder_, *estimator);
+    const auto report = files_.integrate(model, case_.transient(), *recorder_, both);
+    const auto error = estimator->result();
+    log::info(describeMotionError(error));
+    summarise(error, files_.summary());
+    return report;
+  }
+
+  const Case& case_;
+  RunFiles files_;
+  std::shared_ptr<const RestingCase> rest_;
+  ReducedCase reduced_;
+  bool estimates_ = false;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace
+
+void announce(const Case& one) {
+  log::info(one.describe());
+  for (const auto& remark : one.remarks()) log::warn(remark);
+}
+
+std::string predictCost(const Case& one, const model::SecondOrderModel& full,
+                        const model::SecondOrderModel& reduced, double* ratio) {
+  const auto options = transient::readOptions(one.transient());
+  const auto costOfFull = transient::costModel(full, options);
+  const auto costOfReduced = transient::costModel(reduced, options);
+  if (ratio != nullptr) *ratio = costOfReduced.total() / costOfFull.total();
+  return describeCost(costOfFull, costOfReduced);
+}
+
+void run(const Case& one, const RunOptions& options) { Run(one, options).go(); }
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/RunFiles.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <sys/resource.h>
+#include <vector>
+
+#include "cases/run/ResultsWriter.hpp"
+#include "cases/run/RunIdentity.hpp"
+#include "common/Parallel.hpp"
+#include "common/Sha256.hpp"
+#include "common/Text.hpp"
+#include "common/Version.hpp"
+#include "common/report/Log.hpp"
+#include "io/ResultsReader.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::cases {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Attribute of a results file: SHA-256 of runIdentity().
+constexpr const char* identityAttribute = "run_sha256";
+
+/// Work of rank 0 whose errors end all ranks alike.
+template <class Work>
+void onFirstRank(const Work& work) {
+  parallel::agree([&] {
+    if (parallel::rank() == 0) work();
+  });
+}
+
+/// Largest resident memory so far, summed over the ranks [MB].
+double peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return parallel::sum(static_cast<double>(usage.ru_maxrss) / 1024.0);
+}
+
+/// Folder of the command line, else of the run that goes on, else of the deck's list "Output", else
+/// results/<deck>.
+std::string resultsFolder(const RunOptions& options, const Case& one) {
+  if (!options.output.empty()) return options.output;
+  if (!options.restart.empty()) return options.restart;
+  if (!one.output().folder.empty()) return one.output().folder;
+  return (fs::path("results") / fs::path(one.deck().file()).stem()).string();
+}
+
+}  // namespace
+
+double expectedBytes(const Case& one) {
+  constexpr double beside = 1e6;  // model, static state, summary
+  if (!one.moves()) return beside;
+  const auto& list = one.transient();
+  const double samples = (list.get<double>("End Time") - list.get<double>("Start Time")) /
+                         list.get<double>("Sampling Interval");
+  const double numbers = static_cast<double>(one.nodes()) * one.components() *
+                         static_cast<double>(one.output().fields.size());
+  return beside + 8.0 * samples * numbers;
+}
+
+RunFiles::RunFiles(const RunOptions& options, const Case& one)
+    : options_(options), deck_(one.deck().file()), identity_(runIdentity(one.deck())) {
+  const auto folderName = resultsFolder(options, one);
+  onFirstRank([&] {
+    if (options_.restart.empty()) return;
+    if (!fs::exists(fs::path(options_.restart) / io::checkpointName))
+      throw FileError(
+          "\"" + options_.restart + "\" holds no " + io::checkpointName +
+          ". --restart goes on from the folder of an interrupted run" +
+          (fs::exists(fs::path(options_.restart) / "interrupted")
+               ? "; an earlier one is in " + (fs::path(options_.restart) / "interrupted").string()
+               : "") +
+          ".");
+    std::error_code different;
+    samePlace_ = fs::equivalent(options_.restart, folderName, different);
+  });
+  parallel::agree([&] {
+    folder_.emplace(folderName, samePlace_ ? io::OldCheckpoint::GoOn : io::OldCheckpoint::SetAside);
+  });
+  if (!options_.restart.empty()) readCheckpoint(folderName);
+  parallel::agree([&] {
+    folder_->requireSpace(expectedBytes(one));
+    const std::string samples = goesOn() && parallel::rank() == 0 ? keepSamples(findSamples()) : "";
+    results_ =
+        std::make_unique<io::ResultsFile>(folder_->file(io::resultsName), provenance(one.deck()),
+                                          io::ResultsOptions{one.output().compression});
+    results_->attribute("/", identityAttribute, sha256(identity_));
+    if (goesOn()) results_->continueFrom(samples, checkpoint_->rows);
+  });
+}
+
+std::string RunFiles::at(const char* name) const {
+  return (fs::path(folder_->folder()) / name).string();
+}
+
+/// All ranks have the bytes of rank 0.
+void RunFiles::readCheckpoint(const std::string& folderName) {
+  const auto file = (fs::path(options_.restart) / io::checkpointName).string();
+  std::string bytes;
+  onFirstRank([&] { bytes = io::readText(file); });
+  parallel::broadcast(bytes);
+  parallel::agree([&] { checkpoint_ = transient::Checkpoint::decode(bytes, file); });
+  if (checkpoint_->run != identity_)
+    throw DeckError("The checkpoint in " + options_.restart +
+                    " belongs to another run than this deck describes: " +
+                    identityDifferences(checkpoint_->run, identity_) +
+                    ". Give the deck, --set and --without of the run that was interrupted.");
+  const auto program = programVersion() + " " + gitHash();
+  if (checkpoint_->program != program)
+    log::warn("The checkpoint was written by the program " + checkpoint_->program + ", this is " +
+              program + ": the numbers may differ from those of one run.");
+  log::info("restart     from t = " + formatNumber(checkpoint_->state.t) + " s of " +
+            options_.restart + (folderName == options_.restart ? "" : " into " + folderName));
+}
+
+/// Why a results file is not the one with the samples of the checkpoint; empty when it is.
+std::string RunFiles::whyNot(const std::string& file) const {
+  if (!fs::exists(file)) return file + " is not there";
+  try {
+    const io::ResultsReader reader(file);
+    if (!reader.hasAttribute("/", identityAttribute) ||
+        reader.textAttribute("/", identityAttribute) != sha256(identity_))
+      return file + " belongs to another run";
+    for (const auto& [path, rows] : checkpoint_->rows) {
+      const auto shape = reader.has(path) ? reader.shape(path) : std::vector<std::size_t>();
+      if (shape.empty() || shape[0] < rows)
+        return file + " holds fewer rows of " + path + " than the checkpoint needs";
+    }
+    return "";
+  } catch (const FileError& error) {
+    return error.what();
+  }
+}
+
+std::string RunFiles::findSamples() const {
+  std::vector<std::string> reasons;
+  for (const std::string& name :
+       {std::string(io::resultsName) + ".part", std::string(io::resultsName),
+        std::string(io::checkpointSamplesName)}) {
+    const auto file = (fs::path(options_.restart) / name).string();
+    reasons.push_back(whyNot(file));
+    if (reasons.back().empty()) return file;
+  }
+  throw FileError("\"" + options_.restart +
+                  "\" holds a checkpoint, but not the samples before it: " + join(reasons, "; ") +
+                  ". Restore them from a copy, or run the deck from the start.");
+}
+
+/// Samples in the output folder get a name that no run writes to; returns it. Finished results of a
+/// run that has computed the same stay.
+std::string RunFiles::keepSamples(const std::string& samples) const {
+  const bool finished =
+      fs::path(samples).filename() == io::resultsName && folder_->hasFinishedResults();
+  if (!samePlace_ || finished || fs::path(samples).filename() == io::checkpointSamplesName)
+    return samples;
+  const auto kept = at(io::checkpointSamplesName);
+  std::error_code error;
+  fs::rename(samples, kept, error);
+  if (error)
+    throw FileError("The samples to go on from, " + samples + ", cannot be renamed to " + kept +
+                    ": " + error.message() + ".");
+  return kept;
+}
+
+/// The samples first: a checkpoint on the disk has them.
+void RunFiles::keep(const transient::Checkpoint& checkpoint, const Recorder& recorder) {
+  results_->flush();
+  if (parallel::rank() != 0) return;
+  transient::Checkpoint whole = checkpoint;
+  whole.run = identity_;
+  recorder.save(whole.recorder);
+  whole.rows = results_->rows();
+  whole.write(at(io::checkpointName));
+  std::error_code ignored;
+  fs::remove(at(io::checkpointSamplesName), ignored);
+  kept_ = true;
+}
+
+transient::TransientReport RunFiles::integrate(const model::SecondOrderModel& model,
+                                               const Teuchos::ParameterList& transient,
+                                               Recorder& recorder, transient::SampleSink& sink) {
+  transient::RunHooks hooks;
+  if (goesOn()) {
+    hooks.resume = &*checkpoint_;
+    const double* memory = checkpoint_->recorder.data();
+    recorder.restore(memory);
+  }
+  hooks.keep = [&](const transient::Checkpoint& checkpoint) { keep(checkpoint, recorder); };
+  return transient::integrate(model, transient, sink, hooks);
+}
+
+void RunFiles::requireComplete(const transient::TransientReport& report) const {
+  if (!report.interrupted) return;
+  throw InterruptedError("Interrupted at " + formatNumber(report.end) +
+                         " s. What was computed so far is in " + folder_->folder() +
+                         "; go on with: tooljoint run " + deck_ + " --restart " +
+                         folder_->folder());
+}
+
+void RunFiles::complete(const std::function<void()>& stages, const std::function<void()>& tables) {
+  try {
+    stages();
+    publish(tables);
+  } catch (const Error& error) {
+    leave(error);
+    throw;
+  }
+}
+
+void RunFiles::publish(const std::function<void()>& tables) {
+  stamp("finished", "");
+  parallel::agree([&] {
+    tables();
+    results_->finish();
+    summary_.set("files", folder_->files());
+    summary_.stage(folder_->file(io::summaryName));
+    folder_->publish();
+    removeCheckpoint();
+  });
+  log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
+}
+
+/// A run that does not converge leaves no checkpoint: from there the same deck would not converge
+/// again.
+void RunFiles::leave(const Error& error) {
+  stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
+  try {
+    results_->close();
+    summary_.set("files", folder_->files());
+    summary_.stage(folder_->file(io::summaryName));
+    folder_->publishUnfinished();
+    if (kept_ && error.code() == ExitCode::NotConverged) removeCheckpoint();
+  } catch (const Error& second) {
+    log::warn(std::string("The results so far could not be kept: ") + second.what());
+  }
+}
+
+void RunFiles::stamp(const std::string& status, const std::string& message) {
+  summary_.set("status", status);
+  if (!message.empty()) summary_.set("message", message);
+  summary_.set("wall_s", watch_.wall());
+  summary_.set("peak_memory_mb", peakMemory());
+  summary_.set("warnings", log::warnings());
+}
+
+void RunFiles::removeCheckpoint() const {
+  if (parallel::rank() != 0) return;
+  std::error_code ignored;
+  for (const char* name : {io::checkpointName, io::checkpointSamplesName})
+    fs::remove(at(name), ignored);
+}
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Hands the nonlinear problems of the path and of the static state to the NOX driver of
+/// this room.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+
+#include "model/NonlinearSolve.hpp"
+
+namespace tooljoint::statics {
+
+/// Solver that takes the sublists `NOX` and `Belos` of `list` (a validated `Path` or `Static` list)
+/// where it has them.
+model::NonlinearSolver noxSolver(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::statics

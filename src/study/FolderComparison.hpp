@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Errors of a finished run against another one, from their results folders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/Metrics.hpp"
+
+namespace tooljoint::study {
+
+struct ComparedFolders {
+  std::string folder;
+  std::string reference;
+};
+
+/// Errors of a motion against a reference inside a window of time.
+struct MotionErrors {
+  std::vector<double> times;  ///< of the samples that were compared [s]
+  ErrorProfile overTime;      ///< eps_t, (45) of Nguyen et al. 2020
+  ErrorProfile overNodes;     ///< eps_n, (46)
+  double dyn = 0.0;           ///< error of the vibration
+};
+
+/// All components of the nodes of a string are compared, the measured ones of imported parts.
+/// FileError; UsageError: the folders hold different scenes or different times in the window, or
+/// the reference does not move in it.
+MotionErrors compareFolders(const ComparedFolders& folders, const Window& window);
+
+}  // namespace tooljoint::study

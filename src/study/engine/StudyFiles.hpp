@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a study leaves in its folder: study.csv, study.h5, summary.json and pictures.
+/// docs/file-formats.md describes all of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/OutputFolder.hpp"
+#include "io/Summary.hpp"
+#include "study/Row.hpp"
+#include "study/engine/StudyPlan.hpp"
+
+namespace tooljoint::study {
+
+/// All rows of a study, reference first, and what they mean together.
+struct StudyResult {
+  const StudyPlan& plan;
+  std::shared_ptr<const cases::RestingCase> rest;  ///< of the reference; null: not found
+  std::vector<StudyRow> rows;
+  std::string machine;
+
+  /// The row of this kind when its run is done, else null.
+  const StudyRow* find(RunKind kind) const;
+};
+
+void stageStudyTable(const StudyResult& result, io::OutputFolder& folder);
+void stageStudyFile(const StudyResult& result, io::OutputFolder& folder);
+void summarise(const StudyResult& result, io::Summary& summary);
+
+/// What the reference is worth, in two lines.
+std::string describeReference(const StudyResult& result);
+
+/// Draws the plots of the files in a folder with the installed script: names of the files made.
+/// When that is not possible, warns with the command to draw them later. Rank 0 only.
+void drawStudy(const std::string& folder);
+
+}  // namespace tooljoint::study

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/engine/StudyPlan.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "cases/CaseLists.hpp"
+#include "cases/ListText.hpp"
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "deck/reading/FileName.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::study {
+
+namespace {
+
+double transientNumber(const cases::Case& scene, const char* name) {
+  return scene.transient().get<double>(name);
+}
+
+/// The lists of a deck that decide what is computed.
+Teuchos::ParameterList computed(const cases::Case& scene) {
+  auto list = scene.list();
+  list.remove("Output", false);
+  if (list.isSublist("Transient"))
+    for (const char* name : {"Progress", "Checkpoint Interval"})
+      list.sublist("Transient").remove(name, false);
+  return list;
+}
+
+/// Files of the basis "User Vectors", whatever part the "%" in their name stands for.
+std::vector<std::string> vectorFiles(const cases::Case& scene) {
+  if (!scene.reduces() || !scene.reduction().isSublist("User Vectors")) return {};
+  const auto& list = scene.reduction().sublist("User Vectors");
+  if (!list.isParameter("File")) return {};
+  const std::filesystem::path pattern(deck::fileName(list, "File"));
+  const auto name = pattern.filename().string();
+  const auto mark = name.find('%');
+  const auto fits = [&](const std::string& file) {
+    if (mark == std::string::npos) return file == name;
+    const auto tail = name.substr(mark + 1);
+    return file.size() + 1 >= name.size() && file.compare(0, mark, name, 0, mark) == 0 &&
+           file.compare(file.size() - tail.size(), tail.size(), tail) == 0;
+  };
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           pattern.has_parent_path() ? pattern.parent_path() : ".", failed))
+    if (entry.is_regular_file() && fits(entry.path().filename().string()))
+      files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+class Planner {
+ public:
+  explicit Planner(const cases::Case& scene) : scene_(scene) {}
+
+  StudyPlan plan() {
+    if (!scene_.list().isSublist("Study"))
+      throw DeckError(scene_.deck().file() + ": /" + scene_.deck().name() +
+                      " has no Study list, so there is nothing to compare. Add one; tooljoint doc "
+                      "Study describes it.");
+    if (!scene_.moves())
+      throw DeckError(scene_.deck().error(
+          "Study", "compares motions, and the scene has no Transient list. Add one."));
+    plan_.settings = readStudy(scene_.list().sublist("Study"));
+    span();
+    auto planned = references(plan_.settings, scene_.reductionLists());
+    for (auto& run : expand(plan_.settings, scene_.reductionLists()))
+      planned.push_back(std::move(run));
+    baseline(planned);
+    for (auto& run : planned) add(std::move(run));
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    compare();
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    return std::move(plan_);
+  }
+
+ private:
+  void fault(const std::string& path, const std::string& sentence) {
+    keep(scene_.deck().error(path, sentence));
+  }
+  void keep(const std::string& line) {
+    if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
+  }
+
+  void span() {
+    plan_.start = transientNumber(scene_, "Start Time");
+    plan_.end = plan_.settings.end.value_or(transientNumber(scene_, "End Time"));
+    const double window =
+        plan_.settings.window.value_or(std::min(defaultWindow, plan_.simulated()));
+    plan_.windowEnd = plan_.start + window;
+    if (!(plan_.end > plan_.start))
+      fault("Study/End Time", "is " + formatNumber(plan_.end) + " s, but the motion starts at " +
+                                  formatNumber(plan_.start) + " s.");
+    else if (plan_.windowEnd > plan_.end * (1.0 + 1e-12))
+      fault("Study/Window", "reaches to " + formatNumber(plan_.windowEnd) +
+                                " s, but the runs end at " + formatNumber(plan_.end) +
+                                " s. Shorten it, or raise Study/End Time.");
+    else if (window < transientNumber(scene_, "Sampling Interval"))
+      fault("Study/Window", "of " + formatNumber(window) +
+                                " s is shorter than Transient/Sampling Interval (" +
+                                formatNumber(transientNumber(scene_, "Sampling Interval")) +
+                                " s): no motion would be compared.");
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+  }
+
+  void add(PlannedRun run) {
+    auto overrides = scene_.deck().overrides();
+    overrides.push_back("!Study");
+    overrides.push_back("Transient/End Time=" + formatNumber(plan_.end));
+    for (const auto& item : run.overrides) overrides.push_back(item.text);
+    try {
+      auto scene = scene_.with(overrides);
+      plan_.runs.push_back({std::move(run), std::move(scene), plan_.runs.size()});
+    } catch (const DeckError& error) {
+      for (const auto& line : split(error.what(), '\n')) relocate(run, line);
+    } catch (const ModelError& error) {
+      throw ModelError(scene_.deck().error(
+          run.source, "makes a model that cannot be built (" + run.label + "): " + error.what()));
+    }
+  }
+
+  /// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the Study list that
+  /// says so.
+  void relocate(const PlannedRun& run, const std::string& line) {
+    for (const auto& item : run.overrides) {
+      const auto place =
+          (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
+      if (line.rfind(place, 0) != 0) continue;
+      fault(item.source, "says " + inQuotes(item.text) + ": " + line.substr(place.size()));
+      return;
+    }
+    fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
+  }
+
+  void baseline(const std::vector<PlannedRun>& planned) {
+    const auto& wanted = plan_.settings.baseline;
+    if (wanted.empty()) return;
+    std::vector<std::string> labels;
+    for (const auto& run : planned)
+      if (run.kind == RunKind::Method) labels.push_back(run.label);
+    if (std::find(labels.begin(), labels.end(), wanted) != labels.end()) return;
+    const auto near = closest(wanted, labels);
+    fault("Study/Baseline", "names no run: there is no " + inQuotes(wanted) + "." +
+                                (near.empty() ? "" : " Did you mean " + inQuotes(near) + "?") +
+                                " The runs are " + quotedList(labels) + ".");
+  }
+
+  /// Runs that can be compared have the same nodes at the same times; those of one method, and of
+  /// the reference, are different.
+  void compare() {
+    const auto& reference = *plan_.runs.front().scene;
+    std::map<std::string, std::size_t> seen;
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
+      auto& run = plan_.runs[i];
+      const auto& source = run.plan.source;
+      if (!run.scene->moves()) {
+        fault(source, "takes the Transient list out: nothing would move.");
+        continue;
+      }
+      if (run.scene->reduces() != run.plan.reduced)
+        fault(source, run.plan.reduced
+                          ? "asks for the reduced model, but its deck has no Reduction list. Add "
+                            "one to the deck or with Set."
+                          : "asks for the full model, but puts a Reduction list back with Set.");
+      if (run.scene->nodes() != reference.nodes())
+        fault(source, "has " + std::to_string(run.scene->nodes()) + " nodes (" + run.plan.label +
+                          "), the reference " + std::to_string(reference.nodes()) +
+                          ": their motions cannot be compared node by node.");
+      if (run.plan.kind == RunKind::Sensitivity) continue;
+      const bool method = run.plan.kind == RunKind::Method;
+      const auto [it, fresh] = seen.emplace(
+          (method ? "" : "reference\n") + cases::canonicalText(computed(*run.scene)), i);
+      const auto& first = plan_.runs[it->second].plan;
+      run.twin = it->second;
+      if (!fresh && (!method || first.source == source))
+        fault(source, "makes the run " + inQuotes(run.plan.label) + ", which is the same as " +
+                          inQuotes(first.label) + ". Change something, or leave it out.");
+    }
+  }
+
+  const cases::Case& scene_;
+  StudyPlan plan_;
+  std::vector<std::string> faults_;
+};
+
+const bool registered = cases::AnalysisLists::instance().add(
+    {"Study", [] { return parameters(); },
+     [](const Teuchos::ParameterList& list) { readStudy(list); },
+     [](const cases::Case& scene) { return describe(planStudy(scene)); }});
+
+}  // namespace
+
+bool StudyPlan::hasStatistics() const {
+  return settings.statistics &&
+         end - windowEnd > 1.5 * transientNumber(*runs.front().scene, "Sampling Interval");
+}
+
+std::size_t StudyPlan::referenceRuns() const {
+  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [](const StudyRun& run) {
+    return run.plan.kind != RunKind::Method;
+  }));
+}
+
+StudyPlan planStudy(const cases::Case& scene) { return Planner(scene).plan(); }
+
+std::string describe(const StudyPlan& plan) {
+  const auto runs = plan.runs.size() - plan.referenceRuns();
+  return std::to_string(runs) + " runs of " + std::to_string(plan.settings.methods.size()) +
+         " methods, each " + std::to_string(plan.settings.repeats) + " times, and " +
+         std::to_string(plan.referenceRuns()) + " of the reference; to " + formatNumber(plan.end) +
+         " s, compared up to " + formatNumber(plan.windowEnd) + " s (tooljoint study)";
+}
+
+std::string contentOf(const cases::Case& scene) {
+  std::string text = cases::canonicalText(computed(scene)) + scene.files();
+  for (const auto& file : vectorFiles(scene)) text += "\n" + io::readText(file);
+  return text;
+}
+
+}  // namespace tooljoint::study

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A study before it runs: every run with the deck it makes, read and checked.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/Case.hpp"
+#include "study/Expansion.hpp"
+#include "study/StudyParameters.hpp"
+
+namespace tooljoint::study {
+
+/// One run and the case its overrides make of the deck.
+struct StudyRun {
+  PlannedRun plan;
+  std::unique_ptr<cases::Case> scene;
+  std::size_t twin = 0;  ///< the first method's run with the same deck, usually itself: lines of
+                         ///< the plots may cross
+};
+
+struct StudyPlan {
+  StudySettings settings;
+  double start = 0.0;      ///< of every run [s]
+  double end = 0.0;        ///< [s]
+  double windowEnd = 0.0;  ///< pointwise errors are taken from start to here [s]
+  std::vector<StudyRun>
+      runs;  ///< reference, check, sensitivity (unless switched off), then the methods
+
+  double simulated() const { return end - start; }
+  /// Two samples at least lie beyond the window, and the deck wants them compared.
+  bool hasStatistics() const;
+  std::size_t referenceRuns() const;  ///< number of runs in front that belong to the reference
+};
+
+/// Reads the deck once for every run. DeckError that points into the Study list: overrides that do
+/// not fit the deck, runs that cannot be compared (other nodes), a window beyond the end, a method
+/// with two runs that are the same. ModelError: a run whose parts make no model.
+StudyPlan planStudy(const cases::Case& scene);
+
+/// "12 runs of 4 methods, ...": for a person.
+std::string describe(const StudyPlan& plan);
+
+/// What decides the numbers of a run: the lists of its deck but Output, and the files they name. On
+/// rank 0 only (reads those files).
+std::string contentOf(const cases::Case& scene);
+
+}  // namespace tooljoint::study

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/engine/StudyRunner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cases/ListText.hpp"
+#include "common/Error.hpp"
+#include "common/Interrupt.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/report/Stopwatch.hpp"
+#include "coupling/CoupledModes.hpp"
+
+namespace tooljoint::study {
+
+namespace {
+
+/// Rows of the recovery for the measured components of the measured nodes.
+std::vector<Eigen::Index> measuredRows(const cases::Measures& measures,
+                                       const model::SecondOrderModel& model) {
+  std::map<std::int64_t, std::size_t> place;
+  for (std::size_t i = 0; i < model.recoveryNodes.size(); ++i) place[model.recoveryNodes[i]] = i;
+  std::vector<Eigen::Index> rows;
+  for (auto node : measures.nodes) {
+    const auto it = place.find(node);
+    if (it == place.end())
+      throw ModelError("Node " + std::to_string(node) +
+                       " of the full model is not recovered by the reduced one, so their motions "
+                       "cannot be compared.");
+    for (int c : measures.components)
+      rows.push_back(static_cast<Eigen::Index>(it->second * model.componentNames.size()) + c);
+  }
+  return rows;
+}
+
+/// Recovers the measured displacements and the bit speed, lets the estimator see the motion if
+/// there is one, and measures how long that takes.
+class HistoryRecorder : public transient::SampleSink {
+ public:
+  HistoryRecorder(const cases::Measures& measures, const model::SecondOrderModel& model,
+                  bool record, estimate::MotionEstimator* estimator)
+      : measures_(measures),
+        model_(model),
+        rows_(measuredRows(measures, model)),
+        record_(record),
+        estimator_(estimator) {
+    history_.nodes = measures.nodes.size();
+    history_.components = measures.components.size();
+    history_.vibrating = measures.vibrating;
+    if (measures.speedRow >= 0) bit_ = Vector(model.recovery.row(measures.speedRow).transpose());
+  }
+
+  void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
+    const Stopwatch watch;
+    if (estimator_ != nullptr) estimator_->sample(t, q, qDot, qDDot);
+    if (record_) {
+      displacement_ = model_.recoveryOffset;
+      displacement_.noalias() += model_.recovery * q;
+      history_.time.push_back(t);
+      if (bit_.size() > 0) history_.bitSpeed.push_back(measures_.turning(t) + bit_.dot(qDot));
+      for (auto row : rows_) history_.displacement.push_back(displacement_(row));
+    }
+    cpu_ += watch.cpu();
+    wall_ += watch.wall();
+  }
+
+  double cpu() const { return cpu_; }
+  double wall() const { return wall_; }
+  RecordedHistory& history() { return history_; }
+
+ private:
+  const cases::Measures& measures_;
+  const model::SecondOrderModel& model_;
+  std::vector<Eigen::Index> rows_;
+  bool record_;
+  estimate::MotionEstimator* estimator_;
+  Vector bit_, displacement_;
+  RecordedHistory history_;
+  double cpu_ = 0.0, wall_ = 0.0;
+};
+
+/// Dofs of the vibration moved by at most `size`, each by another amount.
+model::SecondOrderModel perturbed(model::SecondOrderModel model, const cases::Measures& measures,
+                                  double size) {
+  const auto components = measures.vibration();
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (model.dofs[i].kind == model::DofLabel::Kind::Physical &&
+        std::find(components.begin(), components.end(), model.dofs[i].component) !=
+            components.end())
+      model.initialDisplacement(static_cast<Eigen::Index>(i)) +=
+          size * std::cos(1.7 * static_cast<double>(i));
+  return model;
+}
+
+void countContact(const cases::Measures& measures, const model::SecondOrderModel& model,
+                  Execution& execution) {
+  std::set<std::int64_t> watched;
+  for (const auto& set : model.points)
+    if (set.name == measures.wall) watched.insert(set.entities.begin(), set.entities.end());
+  const auto view = execution.history.view();
+  for (std::size_t node = 0; node < measures.nodes.size(); ++node) {
+    const double clearance = measures.clearance[node];
+    if (!std::isfinite(clearance)) continue;
+    double deepest = -clearance;
+    for (std::size_t i = 0; i < view.samples; ++i)
+      deepest = std::max(deepest, view.radius(i, node) - clearance);
+    execution.maxPenetration = std::max(execution.maxPenetration, deepest);
+    if (deepest > 0.0 && watched.count(measures.nodes[node]) == 0) ++execution.missedNodes;
+  }
+}
+
+/// Reduced model of the case, with what it cost.
+void reduce(const cases::Case& scene, PreparedModel& prepared) {
+  const Stopwatch watch;
+  prepared.reduction = cases::reduce(scene, *prepared.rest, false);
+  prepared.basis = scene.reduction().get<std::string>("Basis");
+  for (const auto& part : prepared.reduction.parts()) prepared.modes += part.modes;
+  prepared.setupCpu = parallel::sum(watch.cpu());
+  prepared.setupWall = parallel::maximum(watch.wall());
+}
+
+Execution integrate(const cases::Case& scene, const cases::Measures& measures,
+                    const model::SecondOrderModel& model, const ExecutionOptions& options,
+                    estimate::MotionEstimator* estimator) {
+  auto transientOptions = transient::readOptions(scene.transient());
+  transientOptions.progress = !options.title.empty();
+  transient::RunHooks hooks;
+  hooks.title = options.title;
+  HistoryRecorder recorder(measures, model, options.record, estimator);
+  Execution execution;
+  double cpu = 0.0, wall = 0.0, setupCpu = 0.0, setupWall = 0.0;
+  bool late = false;
+  parallel::agree([&] {
+    const Stopwatch watch;
+    long looks = 0;
+    hooks.stop = [&] {
+      // the clock costs as much as a few per cent of a short step
+      if (options.timeLimit && ++looks % 64 == 0) late = watch.cpu() > *options.timeLimit;
+      return late || interruptRequested();
+    };
+    execution.report = transient::integrate(model, transientOptions, recorder, hooks);
+    cpu = execution.report.cpu - recorder.cpu();
+    wall = execution.report.wall - recorder.wall();
+    setupCpu = watch.cpu() - execution.report.cpu;
+    setupWall = watch.wall() - execution.report.wall;
+    if (execution.report.interrupted && !late)
+      throw InterruptedError("Interrupted at " + formatNumber(execution.report.end) + " s.");
+  });
+  if (parallel::maximum(late ? 1.0 : 0.0) > 0.0)
+    throw TimeLimitError("It was given up at " + formatNumber(execution.report.end) + " s, after " +
+                         formatNumber(*options.timeLimit) + " s of CPU time (Study/Time Limit).");
+  execution.cpu = parallel::sum(cpu);
+  execution.wall = parallel::maximum(wall);
+  execution.setupCpu = parallel::sum(setupCpu);
+  execution.setupWall = parallel::maximum(setupWall);
+  execution.history = std::move(recorder.history());
+  if (options.record) countContact(measures, model, execution);
+  return execution;
+}
+
+}  // namespace
+
+PreparedModel StudyRunner::prepare(const cases::Case& scene, int frequencies) {
+  PreparedModel prepared;
+  prepared.rest = scene.atRest();
+  prepared.reduced = scene.reduces();
+  if (!prepared.reduced) {
+    prepared.full = prepared.rest->full();
+    return prepared;
+  }
+  reduce(scene, prepared);
+  try {
+    if (frequencies > 0) prepared.modeErrors = compare(scene, prepared, frequencies);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::ModelNotBuilt && error.code() != ExitCode::NotConverged) throw;
+    prepared.notCompared = std::string("The frequencies could not be compared. ") +
+                           error.what();  // the model may move all the same
+  }
+  return prepared;
+}
+
+ModeErrors StudyRunner::compare(const cases::Case& scene, const PreparedModel& prepared,
+                                int frequencies) {
+  auto lists = scene.list();
+  for (const char* name : {"Reduction", "Transient", "Output"}) lists.remove(name, false);
+  const auto key = cases::canonicalText(lists);
+  if (fullModes_.count(key) == 0) {
+    FullModes fresh{prepared.rest->full(), {}};
+    fresh.modes = estimate::modesToCompare(fresh.whole.model, frequencies);
+    fullModes_.emplace(key, std::move(fresh));
+  }
+  const auto& known = fullModes_.at(key);
+  ModeErrors errors;
+  for (const auto& m : estimate::compareModes(
+           known.whole.model, known.modes, frequencies, prepared.reduction.unreduced.parts,
+           prepared.reduction.outcome.synthesis, known.whole.maps)) {
+    errors.full.push_back(m.fullHz());
+    errors.coupled.push_back(m.coupledHz());
+    errors.mac.push_back(m.mac);
+    errors.error.push_back(m.error);
+    if (m.estimated) errors.estimate.push_back(m.estimate);
+    errors.definite.push_back(m.definite ? 1.0 : 0.0);
+  }
+  return errors;
+}
+
+Execution StudyRunner::move(const cases::Case& scene, const PreparedModel& prepared,
+                            const ExecutionOptions& options) const {
+  const auto measures = prepared.rest->measures();
+  if (options.perturbation > 0.0)
+    return integrate(scene, measures, perturbed(prepared.model(), measures, options.perturbation),
+                     options, nullptr);
+  const bool estimates =
+      prepared.reduced && options.record && estimate::readEstimateOptions(scene.reduction()).motion;
+  if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
+  const auto estimator = cases::motionEstimator(*prepared.rest, prepared.reduction);
+  auto execution = integrate(scene, measures, prepared.model(), options, estimator.get());
+  execution.estimatedDyn = estimator->result().error;
+  return execution;
+}
+
+}  // namespace tooljoint::study

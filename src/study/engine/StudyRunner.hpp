@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Runs one case of a study and times its parts.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/Case.hpp"
+#include "cases/ReducedCase.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "study/RowStore.hpp"
+#include "transient/Transient.hpp"
+
+namespace tooljoint::study {
+
+/// The model of a run, full or reduced, before it moves. Times are CPU seconds of all threads,
+/// summed over the ranks, and wall seconds.
+struct PreparedModel {
+  std::shared_ptr<const cases::RestingCase> rest;
+  coupling::Coupling full;       ///< of a full run
+  cases::ReducedCase reduction;  ///< of a reduced one
+  bool reduced = false;
+  std::string basis;
+  long modes = 0;
+  double setupCpu = 0.0, setupWall = 0.0;  ///< reduction and coupling
+  ModeErrors modeErrors;                   ///< what comparing costs is in no time
+  std::string notCompared;  ///< why there are no `modeErrors` although they were asked for
+
+  const model::SecondOrderModel& model() const { return reduced ? reduction.model() : full.model; }
+};
+
+struct ExecutionOptions {
+  std::string title;                ///< of the progress bar; empty: none
+  bool record = true;               ///< keep the motion
+  double perturbation = 0.0;        ///< size of the change of the initial displacements [m]
+  std::optional<double> timeLimit;  ///< CPU time after which the run is given up [s]
+};
+
+/// What one motion gave. Times as above, without the recovery of the recorded motion, which is the
+/// same work for every method.
+struct Execution {
+  transient::TransientReport report;
+  RecordedHistory history;
+  double cpu = 0.0, wall = 0.0;            ///< of the motion, without recording it
+  double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
+  long missedNodes = 0;
+  double maxPenetration = 0.0;
+  std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the
+                                       ///< transient; its time is not in `cpu` and `wall`
+};
+
+/// A run that took more than its time.
+struct TimeLimitError : ConvergenceError {
+  using ConvergenceError::ConvergenceError;
+};
+
+/// All calls are collective.
+class StudyRunner {
+ public:
+  /// Brings the case to rest, and reduces it if its deck says so. With `frequencies` above 0 the
+  /// coupled modes of a reduced model are compared with as many of the full one, which are computed
+  /// once for all runs of the same full model. Throws what the stages throw.
+  PreparedModel prepare(const cases::Case& scene, int frequencies);
+
+  /// Integrates its motion. Throws what transient::integrate throws, InterruptedError, and
+  /// TimeLimitError.
+  Execution move(const cases::Case& scene, const PreparedModel& prepared,
+                 const ExecutionOptions& options) const;
+
+ private:
+  struct FullModes {
+    coupling::Coupling whole;
+    linalg::EigenPairs modes;
+  };
+  ModeErrors compare(const cases::Case& scene, const PreparedModel& prepared, int frequencies);
+  std::map<std::string, FullModes> fullModes_;
+};
+
+}  // namespace tooljoint::study

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A string in its well as a case: the way from its deck to something at rest that can be cut,
+/// reduced and set in motion.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases/Case.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+
+namespace tooljoint::drillstring {
+
+class DrillstringCase : public cases::Case {
+ public:
+  explicit DrillstringCase(Scene scene);
+
+  const deck::Deck& deck() const override { return scene_->deck; }
+  std::unique_ptr<cases::Case> with(const std::vector<std::string>& overrides) const override;
+  std::vector<std::string> reductionLists() const override {
+    return {"Substructures", "Reduction"};
+  }
+  bool reducesWithoutMotion() const override { return false; }
+  const io::OutputSettings& output() const override { return scene_->output; }
+  std::string files() const override;
+  int nodes() const override { return scene_->string.nodeCount(); }
+  int components() const override;
+  int freeDofs() const override { return scene_->freeDofs(); }
+  std::string describe() const override;
+  std::vector<std::string> remarks() const override;
+  void summarise(io::Summary& summary) const override;
+  cases::CaseOutline outline() const override;
+  /// A string that nothing holds along its axis may float: only the static state tells.
+  void verify() const override;
+  /// Path and static state; those of an earlier case when Substructures, Coupling, Reduction,
+  /// Transient and Output alone differ.
+  std::shared_ptr<const cases::RestingCase> solveStatic() const override;
+
+  const Scene& scene() const { return *scene_; }
+
+ private:
+  /// Static states by the lists they depend on.
+  using FoundStates = std::map<std::string, std::shared_ptr<const StaticStage>>;
+
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<FoundStates> found_;
+};
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/Scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "estimate/AdaptiveReduction.hpp"
+#include "parts/PartsParameters.hpp"
+#include "reduction/Reduce.hpp"
+#include "substructures/drillstring/ContactNodes.hpp"
+#include "substructures/drillstring/DrillstringReader.hpp"
+#include "substructures/drillstring/StringModel.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::drillstring {
+
+deck::ListSpec sceneSpec() {
+  deck::ListSpec scene(
+      "Scene",
+      "A scene: a string in a well, what acts on it, and what to compute. Every list but Well and "
+      "Drillstring may be left out, and what is left out is not modelled.");
+  scene.requiredList(well::parameters());
+  scene.requiredList(drillstringParameters());
+  scene.list(supportParameters());
+  scene.list(mud::parameters());
+  scene.list(contact::parameters());
+  scene.list(loads::parameters());
+  scene.list(loads::rotarySpeedParameters());
+  scene.list(loads::dampingParameters());
+  scene.list(path::parameters());
+  scene.list(equilibrium::parameters());
+  scene.list(partitionParameters());
+  scene.list(coupling::parameters());
+  scene.list(parts::parameters());
+  cases::addCommonLists(scene);
+  return scene;
+}
+
+int Scene::freeDofs() const {
+  return static_cast<int>(std::count(held.begin(), held.end(), char{0}));
+}
+
+namespace {
+
+using cases::Faults;
+
+/// What the list Coupling asks of the others.
+void crossCheckCoupling(const Scene& scene, Faults& faults) {
+  const auto& list = scene.list();
+  if (scene.coupling->ownNumbers)
+    faults.add("Coupling/Node Numbers",
+               "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it "
+               "at \"Shared\".");
+  const auto& input = *scene.coupling;
+  if (scene.reduces()) {
+    const auto& reduction = list.sublist("Reduction");
+    const auto estimated = reduction.get<std::string>("Error Estimate");
+    const bool simple = input.assembly == coupling::Assembly::Primal && input.frames.empty() &&
+                        input.constraints.empty() && input.links.empty() && input.hinges.empty();
+    if (!simple && (estimated == "Transient" || estimated == "Both" ||
+                    reduction.isParameter("Motion Tolerance")))
+      faults.add("Coupling",
+                 "gives frames, constraints, links, hinges or dual assembly, and Reduction asks "
+                 "for the error of the motion, "
+                 "which is estimated only where parts are joined by "
+                 "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the "
+                 "\"Motion Tolerance\".");
+  }
+}
+
+/// What only several lists together can tell.
+void crossCheck(const Scene& scene, Faults& faults) {
+  const auto& list = scene.list();
+  if (list.isSublist("Substructures") && !scene.reduces() && !scene.coupling)
+    faults.add("Substructures",
+               "has no effect without a Reduction list. Add one, or leave Substructures out.");
+  if (list.isSublist("Parts"))
+    faults.add("Parts",
+               "makes a scene of its own and cannot stand beside Well and Drillstring. Reduce and "
+               "export the string (tooljoint "
+               "export), and import it there.");
+  if (scene.output.exportFormat != io::ExportFormat::None && !(scene.reduces() && scene.moves()))
+    faults.add("Output/Export Parts",
+               "has no effect without Reduction and Transient. Add them, or use tooljoint export.");
+  if (scene.coupling) crossCheckCoupling(scene, faults);
+  if (scene.reduces() && !scene.moves() && !list.isSublist("Substructures"))
+    faults.add("Reduction",
+               "has neither a Transient list to serve nor Substructures to cut. Add Transient, or "
+               "leave Reduction out.");
+  std::vector<std::string> parts;
+  if (scene.reduces() && faults.none())
+    for (const auto& part : cutParts(scene.string, scene.partition)) parts.push_back(part.name);
+  cases::checkCommonLists(list, {scene.output, scene.coupling}, parts, faults);
+  if (scene.reduces() && list.sublist("Reduction").isParameter("Load Vector Nodes"))
+    for (const int node : list.sublist("Reduction").get<Teuchos::Array<int>>("Load Vector Nodes"))
+      if (std::count(scene.contactPoints.node.begin(), scene.contactPoints.node.end(), node) == 0)
+        faults.add("Reduction/Load Vector Nodes",
+                   "names node " + std::to_string(node) +
+                       ", which cannot touch the wall and so has no point law. Name nodes with "
+                       "contact, or leave the list out for all of them.");
+  if (scene.contact && scene.contact->friction && !scene.rotary.present() && !scene.moves())
+    faults.add("Contact/Friction",
+               "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
+               "Transient, or leave Friction out.");
+  if (scene.loads.weightOnBit < 0.0)
+    faults.add("Loads/Weight On Bit",
+               "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
+                   " N. A weight on bit is positive when it compresses the string.");
+  const auto dofs = scene.held.size() - 6;
+  const auto held = [&](std::size_t dof) { return scene.held[dof] != 0; };
+  if (scene.loads.weightOnBit != 0.0 && held(dofs + 2))
+    faults.add("Loads/Weight On Bit",
+               "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the "
+               "load out.");
+  if (scene.loads.torqueOnBit != 0.0 && held(dofs + 5))
+    faults.add("Loads/Torque On Bit",
+               "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or "
+               "leave the load out.");
+  if (scene.freeDofs() == 0)
+    faults.add("Supports",
+               "hold every dof of the string; nothing is left to compute. Release some.");
+}
+
+}  // namespace
+
+namespace {
+
+/// The parts of the string before they are made.
+std::vector<coupling::PartOutline> outlines(const Scene& scene) {
+  requireKnownNodes(scene.string, scene.partition);
+  std::vector<coupling::PartOutline> parts;
+  for (const auto& range : cutParts(scene.string, scene.partition)) {
+    parts.push_back({range.name, {}});
+    for (int node = range.firstElement + 1; node <= range.lastElement + 2; ++node)
+      parts.back().nodes.push_back(node);
+  }
+  return parts;
+}
+
+/// The same for a basis: a node that two parts have is inner to none.
+std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
+  const auto ranges = cutParts(scene.string, scene.partition);
+  std::vector<reduction::PartOutline> parts;
+  for (std::size_t p = 0; p < ranges.size(); ++p) {
+    reduction::PartOutline part{ranges[p].name, 0, false};
+    for (int node = ranges[p].firstElement; node <= ranges[p].lastElement + 1; ++node) {
+      const auto first = scene.held.begin() + kNodeDofs * node;
+      const auto free = static_cast<int>(std::count(first, first + kNodeDofs, 0));
+      const bool shared = (p > 0 && node == ranges[p].firstElement) ||
+                          (p + 1 < ranges.size() && node == ranges[p].lastElement + 1);
+      part.dofs += free;
+      part.inner = part.inner || (free > 0 && !shared);
+    }
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
+  return readScene(deck::Deck::read(file, sceneSpec(), overrides));
+}
+
+Scene readScene(const deck::Deck& deck) {
+  using cases::listOrDefaults;
+  const auto& list = deck.list();
+  Faults faults(deck, sceneSpec());
+
+  std::optional<well::Well> well;
+  std::optional<DrillString> string;
+  faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
+  if (well) faults.attempt([&] { string = buildDrillString(readDrillstring(deck), *well); });
+  std::optional<mud::Mud> mud;
+  std::optional<contact::ContactSettings> contact;
+  loads::RotarySpeed rotary;
+  loads::LoadsData loads;
+  loads::RayleighDamping damping;
+  SupportSettings supports;
+  path::PathOptions path;
+  equilibrium::StaticOptions statics;
+  PartitionRules partition;
+  if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
+  if (list.isSublist("Contact"))
+    faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
+  faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
+  if (list.isSublist("Loads"))
+    faults.attempt([&] { loads = loads::readLoads(list.sublist("Loads")); });
+  if (list.isSublist("Damping"))
+    faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
+  if (list.isSublist("Supports"))
+    faults.attempt([&] { supports = readSupports(list.sublist("Supports")); });
+  faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
+  faults.attempt(
+      [&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
+  const auto common = cases::readCommonLists(list, faults);
+  const bool explicitSteps =
+      list.isSublist("Transient") && transient::isExplicit(list.sublist("Transient"));
+  faults.attempt([&] {
+    partition = readPartition(listOrDefaults(list, partitionParameters()), explicitSteps);
+  });
+  faults.raise();
+
+  Scene scene{deck,   *well, *string, supports, {},      mud,       contact,      {},
+              rotary, loads, damping, path,     statics, partition, common.output};
+  scene.coupling = common.coupling;
+  if (scene.coupling)
+    faults.attempt(
+        [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });
+  faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
+  faults.raise();
+  if (contact)
+    faults.attempt(
+        [&] { scene.contactPoints = contactPoints(*contact, scene.string, scene.held); });
+  faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
+  if (scene.reduces()) {
+    faults.attempt([&] {
+      requireKnownNodes(scene.string, partition);
+      const auto parts = cutParts(scene.string, partition);
+      const auto options =
+          reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
+      reduction::makeBasis(options.basis, list.sublist("Reduction"))
+          ->checkInput(reductionOutlines(scene));
+      estimate::readEstimateOptions(list.sublist("Reduction"));
+    });
+  }
+  crossCheck(scene, faults);
+  faults.raise();
+  return scene;
+}
+
+}  // namespace tooljoint::drillstring

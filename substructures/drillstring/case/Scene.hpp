@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A deck of a string in its well, read, checked and turned into typed values: what the stages of a
+/// run start from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/CaseLists.hpp"
+#include "substructures/contact/ContactParameters.hpp"
+#include "substructures/drillstring/DrillString.hpp"
+#include "substructures/drillstring/Partition.hpp"
+#include "substructures/drillstring/Supports.hpp"
+#include "substructures/equilibrium/Equilibrium.hpp"
+#include "substructures/loads/Loads.hpp"
+#include "substructures/loads/RotarySpeed.hpp"
+#include "substructures/mud/Mud.hpp"
+#include "substructures/path/Path.hpp"
+#include "substructures/well/Well.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Description of a whole deck: every list any room reads.
+deck::ListSpec sceneSpec();
+
+/// A deck's lists as plain values. What the deck does not have is not here either.
+struct Scene {
+  deck::Deck deck;
+  well::Well well;
+  DrillString string;
+  SupportSettings supports;
+  std::vector<char> held;  ///< 6 per node
+  std::optional<mud::Mud> mud;
+  std::optional<contact::ContactSettings> contact;
+  contact::ContactPoints contactPoints;  ///< empty without contact
+  loads::RotarySpeed rotary;
+  loads::LoadsData loads;
+  loads::RayleighDamping damping;
+  path::PathOptions path;
+  equilibrium::StaticOptions statics;
+  PartitionRules partition;
+  io::OutputSettings output;
+  std::optional<coupling::CouplingInput> coupling =
+      std::nullopt;  ///< null: equal node numbers alone join the parts
+
+  const Teuchos::ParameterList& list() const { return deck.list(); }
+  bool reduces() const { return list().isSublist("Reduction"); }
+  bool moves() const { return list().isSublist("Transient"); }
+  int freeDofs() const;
+};
+
+/// Checks a deck read by sceneSpec(). DeckError (one line per fault of the phase that failed),
+/// FileError. Collective.
+Scene readScene(const deck::Deck& deck);
+/// Reads the file first, with overrides.
+Scene readScene(const std::string& file, const std::vector<std::string>& overrides);
+
+}  // namespace tooljoint::drillstring

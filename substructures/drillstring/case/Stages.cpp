@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/Stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "statics/NoxSolver.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
+
+namespace tooljoint::drillstring {
+
+StaticFriction staticFriction(const Scene& scene) {
+  constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
+  using equilibrium::FrictionRule;
+  if (!scene.contact || !scene.contact->friction)
+    return {0.0, 0.0, "no friction in the Contact list"};
+  if (scene.statics.friction == FrictionRule::None)
+    return {0.0, 0.0, "switched off in Static/Friction"};
+  const double start =
+      scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
+  const double speed = scene.rotary.speed(start);
+  const bool turns = std::abs(speed) > atRest;
+  const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
+  if (direction == 0.0) return {0.0, 0.0, "the string never turns"};
+  if (scene.statics.friction == FrictionRule::Peak) return {direction, 0.0, "peak coefficient"};
+  if (!turns) return {direction, 0.0, "peak coefficient: the string starts from rest"};
+  return {direction, std::abs(speed), "coefficient at the sliding speed Omega R_c"};
+}
+
+namespace {
+
+constexpr const char* kPathReaction = "path reaction";
+
+Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
+  return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
+}
+
+path::PathState bend(const Scene& scene) {
+  path::PathInput input;
+  for (const auto& element : scene.string.elements) {
+    input.sections.push_back(element.section);
+    input.lengths.push_back(element.length);
+  }
+  input.trajectory = &scene.well.trajectory();
+  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
+}
+
+/// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
+equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
+                                     const StringModel& equations, const StaticFriction& friction) {
+  equilibrium::StaticInput input;
+  input.nodes = equations.nodes;
+  input.held = equations.held;
+  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
+  input.geometricStiffness = scene.statics.geometricStiffness;
+  for (int e = 0; e < equations.elements(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    const auto& section = scene.string.elements[i].section;
+    equilibrium::StaticElement element;
+    element.stiffness.setZero();
+    for (const auto& term : equations.stiffness)
+      if (term.law == 0) element.stiffness += term.matrices[i];
+    element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
+    element.length = path.initialLength[i];
+    element.axialRigidity = section.axialRigidity();
+    element.torsionalRigidity = section.torsionalRigidity();
+    const double curvature =
+        std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
+                 scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
+    element.bendingMoment =
+        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
+    input.elements.push_back(element);
+  }
+  input.load = Vector::Zero(kNodeDofs * equations.nodes);
+  for (const auto& load : equations.loads) {
+    if (load.law != 0) continue;
+    if (load.name == kPathReaction)
+      input.pathReaction = load.vector;
+    else
+      input.load += load.vector;
+  }
+  input.direction = friction.direction;
+  if (scene.contactPoints.size() > 0)
+    input.contact = scene.contact->law->atRest(
+        friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
+  return input;
+}
+
+/// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
+/// can touch, is singular. Throws ModelError naming the dof that moves most.
+void requireHeld(const Scene& scene, const StringModel& equations) {
+  const auto model = assemble(equations);
+  Triplets walls;
+  for (int i = 0; i < scene.contactPoints.size(); ++i)
+    for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
+      if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] &&
+          model.dofs[dof].component < 2)
+        walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof),
+                           scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
+  Sparse wall(model.size(), model.size());
+  wall.setFromTriplets(walls.begin(), walls.end());
+  try {
+    linalg::DirectSolver(Sparse(model.stiffnessAt(0.0) + wall), [&](int dof) {
+      return model::describe(model.dofs[static_cast<std::size_t>(dof)], model.componentNames);
+    });
+  } catch (const ModelError& error) {
+    throw ModelError(std::string("The string floats: nothing holds it. ") + error.what() +
+                     " Hold that dof in the Supports list.");
+  }
+}
+
+/// Free in every node of a string: what that lets it do.
+struct FreeMotion {
+  int component;
+  const char* does;
+};
+constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns about its axis"}};
+
+/// A string whose w (or theta_z) no support holds is singular in a straight well only: where it
+/// curves, walls and bending resist sliding, but by far too little for the weight. Said when that
+/// string has no static equilibrium: exit code of a model that floats, not of a solver that failed.
+void explainFailure(const Scene& scene, const ConvergenceError& error) {
+  const auto free = freeDirections(scene);
+  if (free.empty()) return;
+  const auto motion =
+      std::find_if(std::begin(freeMotions), std::end(freeMotions),
+                   [&](const FreeMotion& one) { return one.component == free.front(); });
+  const std::string dof = componentNames()[static_cast<std::size_t>(motion->component)];
+  throw ModelError("The string floats: " + dof + " is free at all of its " +
+                   std::to_string(scene.string.nodeCount()) + " nodes, so that it " + motion->does +
+                   ", which walls and bending cannot hold. Hold " + dof +
+                   " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
+}
+
+}  // namespace
+
+std::vector<int> freeDirections(const Scene& scene) {
+  std::vector<int> free;
+  for (const auto& motion : freeMotions) {
+    bool held = false;
+    for (int node = 0; node < scene.string.nodeCount(); ++node)
+      held = held || scene.held[static_cast<std::size_t>(kNodeDofs * node + motion.component)];
+    if (!held) free.push_back(motion.component);
+  }
+  return free;
+}
+
+StaticStage findEquilibrium(const Scene& scene) {
+  StaticStage stage;
+  stage.friction = staticFriction(scene);
+  stage.path = bend(scene);
+  const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
+  stage.equations = buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
+                                    scene.rotary, scene.loads, scene.damping});
+  requireHeld(scene, stage.equations);
+  const auto input = staticInput(scene, stage.path, stage.equations, stage.friction);
+  try {
+    stage.state = equilibrium::solveStatic(input, scene.statics,
+                                           statics::noxSolver(listOrEmpty(scene, "Static")));
+  } catch (const ConvergenceError& error) {
+    explainFailure(scene, error);
+    throw;
+  }
+  linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement,
+            scene.damping);
+  if (scene.contactPoints.size() > 0) {
+    const auto rotary = scene.rotary;
+    stage.equations.contact.law = scene.contact->law->inMotion(
+        scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
+    for (int node : scene.contactPoints.node) stage.equations.contact.nodes.push_back(node - 1);
+  }
+  return stage;
+}
+
+void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
+  constexpr double worthAWarning = 0.02, wrong = 0.1;  // of the torque scale
+  const auto& state = stage.state;
+  const double defect = state.relativeTorqueDefect();
+  if (defect <= worthAWarning) return;
+  const std::string found = "The displacements of the static state give a torque of " +
+                            formatNumber(std::round(state.topTorque)) +
+                            " N m at the top, loads, friction and supports below give " +
+                            formatNumber(std::round(state.topTorqueEquilibrium())) +
+                            " N m: the balance of torque is off by " +
+                            formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
+                            formatNumber(std::round(state.torqueScale)) + " N m. ";
+  const bool round =
+      std::all_of(scene.string.elements.begin(), scene.string.elements.end(),
+                  [](const Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
+  if (scene.path.prestress == path::Prestress::AxialAndTorque)
+    log::warn(found +
+              "The pre-stress \"Axial and torque\" resists a spin about the curved axis; "
+              "Path/Pre-stress \"Full tangent\" does not.");
+  else if (!round)
+    log::warn(found + "Sections that are not round resist a spin about the curved axis.");
+  else if (defect <= wrong)
+    log::warn(found +
+              "Use more elements per component, or shorter ones where the well bends most.");
+  else
+    throw ConvergenceError(found +
+                           "Use more elements per component, shorter ones where the well bends "
+                           "most; or accept the imbalance "
+                           "with Path/Pre-stress \"Axial and torque\".");
+}
+
+StaticStage solveStatic(const Scene& scene) {
+  auto stage = findEquilibrium(scene);
+  judgeTorqueBalance(scene, stage);
+  return stage;
+}
+
+std::string prestressRemark(const Scene& scene) {
+  if (scene.path.prestress != path::Prestress::AxialAndTorque) return "";
+  for (const double s : scene.string.depths())
+    if (scene.well.trajectory().at(s).curvature.norm() > 0.0)
+      return "Path/Pre-stress is \"Axial and torque\" in a well that bends: the string then "
+             "resists a "
+             "spin about its own curved axis, and torques are wrong. Take \"Full tangent\" (the "
+             "default) unless the published model of Nguyen et al. 2020 is wanted.";
+  return "";
+}
+
+model::SecondOrderModel fullModel(const StaticStage& stage) { return assemble(stage.equations); }
+
+namespace {
+
+NodeState nodeState(const Scene& scene, const StaticStage& stage) {
+  NodeState nodes;
+  const auto count = static_cast<std::size_t>(scene.string.nodeCount());
+  nodes.gap.assign(count, std::numeric_limits<double>::infinity());
+  nodes.candidate.assign(count, 0);
+  for (int node : stage.equations.contact.nodes) {
+    nodes.gap[static_cast<std::size_t>(node)] = -stage.state.gap(node);
+    nodes.candidate[static_cast<std::size_t>(node)] = 1;
+  }
+  std::set<int> loaded;
+  for (const auto& load : loads::pointLoads(scene.loads, scene.rotary, scene.string.depths())) {
+    const int dof = kNodeDofs * (load.node - 1) + load.component;
+    if (load.value != 0.0 && !scene.held[static_cast<std::size_t>(dof)]) loaded.insert(dof);
+  }
+  nodes.loadedDofs.assign(loaded.begin(), loaded.end());
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage) {
+  if (!scene.partition.contactAtRetainedOnly) return stage.equations.contact.nodes;
+  const auto chosen = chosenNodes(scene.string, scene.partition, nodeState(scene, stage));
+  std::vector<int> nodes;
+  std::set_intersection(chosen.begin(), chosen.end(), stage.equations.contact.nodes.begin(),
+                        stage.equations.contact.nodes.end(), std::back_inserter(nodes));
+  return nodes;
+}
+
+std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage) {
+  const auto retained = retainedDofs(scene.string, scene.partition, nodeState(scene, stage));
+  const auto touching = contactNodes(scene, stage);
+  std::vector<model::Substructure> parts;
+  for (const auto& range : cutParts(scene.string, scene.partition))
+    parts.push_back(assemblePart(stage.equations, range, retained, &touching));
+  return parts;
+}
+
+coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage) {
+  auto parts = cut(scene, stage);
+  if (scene.coupling) return coupling::resolve(parts, *scene.coupling);
+  return {std::move(parts), {}};
+}
+
+coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved) {
+  auto options = resolved.options;
+  options.assembly = coupling::Assembly::Primal;
+  return coupling::coupleWithPositions(resolved.parts, options);
+}
+
+model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage) {
+  return scene.coupling ? joinUnreduced(resolvedParts(scene, stage)).model : fullModel(stage);
+}
+
+}  // namespace tooljoint::drillstring

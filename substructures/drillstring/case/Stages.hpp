@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The way of the data as calls, each with a typed value in and a typed value out:
+/// scene -> path -> equations and static state -> parts -> reduced parts -> coupled model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/assembly/Assembler.hpp"
+#include "coupling/input/ResolvedCoupling.hpp"
+#include "model/SecondOrderModel.hpp"
+#include "model/Substructure.hpp"
+#include "substructures/drillstring/StringModel.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/equilibrium/StaticState.hpp"
+#include "substructures/path/PathState.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Name of the point set of the borehole wall.
+constexpr const char* kContactSet = "contact";
+
+/// Friction of the static state, as Static/Friction and the rotary speed decide it.
+struct StaticFriction {
+  double direction = 0.0;  ///< sense of the sliding: +1, -1, or 0 without friction
+  double speed = 0.0;      ///< |Omega| whose coefficient acts [rad/s]; 0: the peak mu_s
+  std::string why;         ///< for the log
+};
+StaticFriction staticFriction(const Scene& scene);
+
+/// The string at rest in its well, and its equations of motion about that state.
+struct StaticStage {
+  path::PathState path;
+  StringModel equations;
+  equilibrium::StaticState state;
+  StaticFriction friction;
+};
+
+/// Components (2: w, 5: theta_z) that are free at every node, so that nothing but walls and bending
+/// holds the string.
+std::vector<int> freeDirections(const Scene& scene);
+
+/// Bends the string into the well and finds its static equilibrium. ConvergenceError, ModelError.
+StaticStage findEquilibrium(const Scene& scene);
+/// Torque at the top against what loads, friction and supports below ask for: above 2 % of the
+/// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
+/// torque", or sections that are not round, always a warning: there the model itself resists a spin
+/// about the curved axis.
+void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
+/// Both in turn.
+StaticStage solveStatic(const Scene& scene);
+
+/// A sentence when the deck takes the pre-stress "Axial and torque" in a well that bends; else "".
+std::string prestressRemark(const Scene& scene);
+
+/// The full model of the string alone, in total displacements.
+model::SecondOrderModel fullModel(const StaticStage& stage);
+/// The full model with what the list Coupling adds, always in primal assembly.
+model::SecondOrderModel fullModel(const Scene& scene, const StaticStage& stage);
+
+/// The parts the deck's Substructures list asks for.
+std::vector<model::Substructure> cut(const Scene& scene, const StaticStage& stage);
+
+/// These parts as the list Coupling wants them, and what joins them.
+coupling::ResolvedCoupling resolvedParts(const Scene& scene, const StaticStage& stage);
+/// Unreduced parts joined, in primal assembly.
+coupling::Coupling joinUnreduced(const coupling::ResolvedCoupling& resolved);
+
+/// Nodes (0-based, increasing) where contact is evaluated in the reduced model.
+std::vector<int> contactNodes(const Scene& scene, const StaticStage& stage);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/StringOutline.hpp"
+
+#include "common/Text.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+
+namespace tooljoint::drillstring {
+
+namespace {
+
+std::string families(const SupportSettings& supports) {
+  std::vector<std::string> names;
+  if (supports.lateral) names.push_back("lateral");
+  if (supports.axial) names.push_back("axial");
+  if (supports.torsional) names.push_back("torsional");
+  return join(names, ", ");
+}
+
+std::vector<cases::OutlineItem> physics(const Scene& scene) {
+  const auto& loads = scene.loads;
+  const bool turns = scene.rotary.present();
+  const bool friction = scene.contact && scene.contact->friction;
+  const auto resting = staticFriction(scene);
+  const bool unbalance = !loads.unbalances.empty() && turns;
+  return {
+      {true, "motions", families(scene.supports) + " dofs"},
+      {loads.gravity != 0.0, "weight",
+       loads.gravity != 0.0 ? "g = " + formatNumber(loads.gravity) + " m/s2"
+                            : "no gravity in Loads"},
+      {scene.mud.has_value(), "mud",
+       scene.mud ? "added mass, damping and buoyancy in every element" : "no Mud list"},
+      {scene.contact.has_value(), "contact",
+       scene.contact ? scene.contact->lawName + " law at " +
+                           std::to_string(scene.contactPoints.size()) + " nodes"
+                     : "no Contact list"},
+      {friction, "friction", friction ? "smoothed Coulomb" : "no Friction in Contact"},
+      {resting.direction != 0.0, "static friction", resting.why},
+      {turns, "gyroscopics", turns ? "matrices times the rotary speed" : "no Rotary Speed list"},
+      {scene.statics.geometricStiffness, "geometric stiffness",
+       scene.statics.geometricStiffness ? "of the static axial force and torque"
+                                        : "switched off in Static"},
+      {scene.damping.present(), "Rayleigh damping",
+       scene.damping.present() ? "" : "no Damping list"},
+      {loads.weightOnBit != 0.0, "weight on bit", formatNumber(loads.weightOnBit) + " N"},
+      {loads.torqueOnBit != 0.0, "torque on bit", formatNumber(loads.torqueOnBit) + " N m"},
+      {unbalance, "mass unbalance",
+       std::to_string(loads.unbalances.size()) +
+           (turns ? " places" : " places, but nothing turns")}};
+}
+
+}  // namespace
+
+cases::CaseOutline outlineOf(const Scene& scene) {
+  cases::CaseOutline out;
+  out.modelled = physics(scene);
+  out.rest = {true, "path and static state", std::to_string(scene.freeDofs()) + " dofs"};
+  if (scene.reduces())
+    out.reduction = std::to_string(cutParts(scene.string, scene.partition).size()) + " parts (" +
+                    scene.partition.rule + "), retained nodes: " + scene.partition.retainedNodes +
+                    ", chosen when the static state is known";
+  out.coupling = {scene.coupling.has_value(), "coupling",
+                  scene.coupling ? coupling::describe(*scene.coupling)
+                                 : "no Coupling list: equal node numbers join the parts"};
+  if (!scene.coupling) return out;
+  std::vector<std::string> names;
+  for (const auto& part : cutParts(scene.string, scene.partition))
+    names.push_back(part.name + " (" + std::to_string(part.firstElement + 1) + " to " +
+                    std::to_string(part.lastElement + 2) + ")");
+  out.notes = {"  parts and their nodes: " + join(names, ", ")};
+  return out;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What `tooljoint check` says of a string.
+#pragma once
+
+#include "cases/Case.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+
+namespace tooljoint::drillstring {
+
+cases::CaseOutline outlineOf(const Scene& scene);
+
+}  // namespace tooljoint::drillstring

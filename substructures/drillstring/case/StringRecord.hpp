@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What is recorded of the motion of a string beside its nodes: rotary speed, normal forces, the
+/// speed of the bit, penetrations, pictures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cases/PointRecord.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+
+namespace tooljoint::drillstring {
+
+/// What a person asks first of a motion.
+struct MotionFigures {
+  long samples = 0;
+  double minBitSpeed = 0.0;  ///< Omega + dtheta_z/dt of the last node [rad/s]
+  double maxBitSpeed = 0.0;
+  double sumBitSpeed = 0.0;
+  double maxPenetration = 0.0;  ///< largest r - j0 of a contact node [m]
+  std::vector<int> missed;  ///< contact nodes (1-based) the reduced model did not look at and that
+                            ///< passed the wall
+  double meanBitSpeed() const {
+    return samples == 0 ? 0.0 : sumBitSpeed / static_cast<double>(samples);
+  }
+};
+
+class StringRecord : public cases::MotionRecord {
+ public:
+  /// The arguments must outlive the record. Nothing is evaluated that is neither written nor
+  /// counted.
+  StringRecord(const Scene& scene, const StaticStage& stage, const model::SecondOrderModel& model);
+
+  void sample(const cases::Sample& sample) override;
+  std::array<cases::FieldText, 3> fields() const override;
+  std::vector<cases::Channel> channels() const override;
+  /// Time, rotary speed, bit speed, axial and angular position of the bit.
+  std::vector<io::Csv::Column> columns() const override;
+  const std::vector<double>& row() const override { return row_; }
+  void save(std::vector<double>& memory) const override;
+  void restore(const double*& memory) override;
+  void summarise(io::Summary& summary) const override;
+  std::string describe() const override;
+  std::vector<std::string> warnings() const override;
+  const io::XdmfScene* picture() const override { return picture_ ? &*picture_ : nullptr; }
+  void complete(double t, io::XdmfFrame& frame) const override;
+
+ private:
+  struct Contact {
+    cases::PointRecord record;
+    int normalForce;  ///< channel
+  };
+  void sampleContact(const cases::Sample& sample);
+  void measureBit(const cases::Sample& sample);
+  void measureWall(const Vector& displacement);
+
+  const Scene& scene_;
+  MotionFigures figures_;
+  bool recordsForce_ = false;
+  std::vector<Contact> contacts_;
+  std::vector<char> watched_;  ///< per node: its contact is evaluated
+  double rotarySpeed_ = 0.0;   ///< [rad/s]
+  Vector normalForce_;         ///< per node [N]
+  std::vector<double> row_;
+  std::optional<io::XdmfScene> picture_;
+};
+
+}  // namespace tooljoint::drillstring

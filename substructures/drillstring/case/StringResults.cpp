@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/StringResults.hpp"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "io/Csv.hpp"
+
+namespace tooljoint::drillstring {
+
+namespace {
+
+std::size_t nodeCount(const Scene& scene) {
+  return static_cast<std::size_t>(scene.string.nodeCount());
+}
+
+std::vector<double> rows(const std::vector<Vector3>& vectors) {
+  std::vector<double> out;
+  for (const auto& v : vectors) out.insert(out.end(), v.data(), v.data() + 3);
+  return out;
+}
+
+/// printf into a string.
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  char buffer[512];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(buffer, sizeof buffer, pattern, arguments);
+  va_end(arguments);
+  return buffer;
+}
+
+}  // namespace
+
+void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
+  const auto nodes = nodeCount(scene);
+  std::vector<double> s, clearance, radius, frames;
+  std::vector<Vector3> axis;
+  for (const auto& node : scene.string.nodes) {
+    s.push_back(node.s);
+    clearance.push_back(node.clearance);
+    radius.push_back(node.contactRadius);
+    axis.push_back(scene.well.at(node.s).position);
+  }
+  for (const auto& frame : stage.path.frame)
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) frames.push_back(frame(row, column));
+  file.write("/model/s", s, {nodes}, "m", "Depth of the nodes along the well");
+  file.write("/model/position", rows(axis), {nodes, 3}, "m",
+             "Well axis at the nodes, global X, Y, Z (down)");
+  file.write("/model/frame", frames, {nodes, 3, 3}, "1",
+             "Nodal frames; columns are the x, y, z axes in global components");
+  file.write("/model/clearance", clearance, {nodes}, "m", "Radial clearance between node and wall");
+  file.write("/model/contact_radius", radius, {nodes}, "m", "Lever arm of the friction torque");
+}
+
+void writePath(const StaticStage& stage, io::ResultsFile& file) {
+  const auto nodes = stage.path.position.size();
+  const auto elements = stage.path.chordLength.size();
+  file.write("/path/position", rows(stage.path.position), {nodes, 3}, "m",
+             "Nodes at the end of the path, global X, Y, Z");
+  file.write("/path/reaction", Matrix(stage.path.reaction.transpose()), "N, N m",
+             "Pre-load R_ipa of the nodes in nodal frames, forces then moments");
+  file.write("/path/axial_force", stage.path.axialForce, {elements}, "N",
+             "Axial force of the elements, tension positive");
+  file.write("/path/torque", stage.path.torque, {elements}, "N m", "Torque of the elements");
+}
+
+void writeStatic(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
+  const auto nodes = nodeCount(scene);
+  const auto elements = stage.path.chordLength.size();
+  const auto& state = stage.state;
+  file.write(
+      "/static/displacement", state.displacement, {nodes, 6}, "m, rad",
+      "Displacements from the path state in nodal frames: u, v, w, theta_x, theta_y, theta_z");
+  file.write("/static/normal_force", state.normalForce, {nodes}, "N",
+             "Normal contact force, positive pushing off the wall");
+  file.write("/static/tangential_force", state.tangentialForce, {nodes}, "N",
+             "Friction force along the direction of rotation");
+  file.write("/static/friction_torque", state.frictionTorque, {nodes}, "N m",
+             "Friction torque about the axis");
+  file.write("/static/axial_force", state.axialForce, {elements}, "N",
+             "Axial force F_apo of the elements, tension positive");
+  file.write("/static/torque", state.torque, {elements}, "N m", "Torque T_apo of the elements");
+}
+
+void writeProfile(const Scene& scene, const StaticStage& stage, io::ResultsFile& file) {
+  const auto& state = stage.state;
+  std::vector<double> s, clearance, radius;
+  for (int i = 0; i < scene.string.nodeCount(); ++i) {
+    const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
+    s.push_back(node.s);
+    clearance.push_back(node.clearance);
+    radius.push_back(std::hypot(state.displacement(6 * i), state.displacement(6 * i + 1)));
+  }
+  const auto elements = static_cast<std::size_t>(state.axialForce.size());
+  file.write("/profile/s", s, {s.size()}, "m", "Depth of the nodes along the well");
+  file.write("/profile/clearance", clearance, {s.size()}, "m",
+             "Radial clearance between node and wall");
+  file.write("/profile/radius", radius, {s.size()}, "m",
+             "Static lateral distance of the nodes from the well axis");
+  file.write("/profile/normal_force", state.normalForce, {s.size()}, "N",
+             "Static normal contact force");
+  file.write("/profile/axial_force", state.axialForce, {elements}, "N",
+             "Static axial force of the elements, tension positive");
+  file.write("/profile/torque", state.torque, {elements}, "N m", "Static torque of the elements");
+}
+
+void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputFolder& folder) {
+  const auto& state = stage.state;
+  io::Csv nodes({{"node", ""},
+                 {"s", "m"},
+                 {"u", "m"},
+                 {"v", "m"},
+                 {"w", "m"},
+                 {"theta_z", "rad"},
+                 {"r", "m"},
+                 {"clearance", "m"},
+                 {"normal_force", "N"},
+                 {"tangential_force", "N"},
+                 {"friction_torque", "N m"}});
+  for (int i = 0; i < scene.string.nodeCount(); ++i) {
+    const auto& node = scene.string.nodes[static_cast<std::size_t>(i)];
+    const auto d = state.displacement.segment<6>(6 * i);
+    nodes.row({i + 1.0, node.s, d(0), d(1), d(2), d(5), std::hypot(d(0), d(1)), node.clearance,
+               state.normalForce(i), state.tangentialForce(i), state.frictionTorque(i)});
+  }
+  nodes.stage(folder.file("static_nodes.csv"));
+  io::Csv elements({{"element", ""},
+                    {"s", "m"},
+                    {"axial_force", "N"},
+                    {"torque", "N m"},
+                    {"path_axial_force", "N"},
+                    {"path_torque", "N m"}});
+  for (int e = 0; e < scene.string.elementCount(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    elements.row({e + 1.0, 0.5 * (scene.string.nodes[i].s + scene.string.nodes[i + 1].s),
+                  state.axialForce(e), state.torque(e), stage.path.axialForce(e),
+                  stage.path.torque(e)});
+  }
+  elements.stage(folder.file("static_elements.csv"));
+}
+
+void summarise(const Scene& scene, io::Summary& summary) {
+  summary.set("deck.file", scene.deck.file());
+  summary.set("deck.sha256", scene.deck.sha256());
+  summary.set("model.nodes", scene.string.nodeCount());
+  summary.set("model.elements", scene.string.elementCount());
+  summary.set("model.free_dofs", scene.freeDofs());
+  summary.set("model.length", scene.string.length());
+}
+
+void summarise(const StaticStage& stage, io::Summary& summary) {
+  const auto& path = stage.path.report;
+  summary.set("path.converged", path.converged);
+  summary.set("path.increments", path.increments);
+  summary.set("path.iterations", path.iterations);
+  summary.set("path.max_position_error", path.maxPositionError);
+  const auto& state = stage.state;
+  summary.set("static.converged", state.report.converged);
+  summary.set("static.iterations", state.report.iterations);
+  summary.set("static.residual", state.report.residual);
+  summary.set("static.contact_nodes", state.contactNodes);
+  summary.set("static.compressed_elements", state.compressedElements);
+  summary.set("static.top_axial_force", state.topAxialForce);
+  summary.set("static.last_element_axial_force", state.lastElementAxialForce);
+  summary.set("static.last_element_torque", state.lastElementTorque);
+  summary.set("static.max_normal_force", state.maxNormalForce);
+  summary.set("static.max_normal_force_node", state.maxNormalForceNode);
+  summary.set("static.total_normal_force", state.totalNormalForce);
+  summary.set("static.top_torque", state.topTorque);
+  summary.set("static.top_torque_equilibrium", state.topTorqueEquilibrium());
+  summary.set("static.torque_balance_defect", state.torqueBalanceDefect());
+  summary.set("static.torque_scale", state.torqueScale);
+  summary.set("static.friction", stage.friction.why);
+  summary.set("static.friction_direction", stage.friction.direction);
+  summary.set("static.friction_speed_rpm", stage.friction.speed * kRpm);
+}
+
+std::string describeScene(const Scene& scene) {
+  std::string text =
+      format("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs",
+             scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
+             scene.well.length(), scene.freeDofs());
+  for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
+  return text;
+}
+
+std::string describeStatic(const StaticStage& stage) {
+  const auto& path = stage.path.report;
+  const auto& s = stage.state;
+  std::string text =
+      format("path        %d iterations in %d load steps, nodes within %.2g m of the axis\n",
+             path.iterations, path.increments, path.maxPositionError);
+  text += format(
+      "static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n",
+      s.report.iterations, s.report.residual, s.contactNodes, s.compressedElements);
+  text += format(
+      "            axial force %.4g kN at the top, %.4g kN in the last element; torque %.4g kN m "
+      "at the top, %.4g kN m in the "
+      "last element\n",
+      s.topAxialForce / 1e3, s.lastElementAxialForce / 1e3, s.topTorque / 1e3,
+      s.lastElementTorque / 1e3);
+  if (s.maxNormalForceNode > 0)
+    text += format("            contact %.4g kN in all, at most %.4g kN at node %d\n",
+                   s.totalNormalForce / 1e3, s.maxNormalForce / 1e3, s.maxNormalForceNode);
+  text += format("            friction: %s", stage.friction.why.c_str());
+  if (stage.friction.speed > 0.0) text += format(", %.4g rpm", stage.friction.speed * kRpm);
+  text += format(
+      "\n            top torque %.4g kN m by the balance of torque, defect %.4g N m (%.2g %% of "
+      "%.4g kN m)",
+      s.topTorqueEquilibrium() / 1e3, s.torqueBalanceDefect(), 100.0 * s.relativeTorqueDefect(),
+      s.torqueScale / 1e3);
+  return text;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the state at rest of a string leaves in results.h5, in the tables, in summary.json and in
+/// the log. docs/file-formats.md describes all of it.
+#pragma once
+
+#include <string>
+
+#include "io/OutputFolder.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+
+namespace tooljoint::drillstring {
+
+constexpr double kRpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
+
+/// Groups /model, /path and /static of the results file.
+void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
+void writePath(const StaticStage& stage, io::ResultsFile& file);
+void writeStatic(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
+/// Group /profile of the file of a study.
+void writeProfile(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
+
+/// static_nodes.csv and static_elements.csv.
+void stageStaticTables(const Scene& scene, const StaticStage& stage, io::OutputFolder& folder);
+
+void summarise(const Scene& scene, io::Summary& summary);
+void summarise(const StaticStage& stage, io::Summary& summary);
+
+/// Lines of the log.
+std::string describeScene(const Scene& scene);
+std::string describeStatic(const StaticStage& stage);
+
+}  // namespace tooljoint::drillstring

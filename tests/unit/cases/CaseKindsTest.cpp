@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Which kind of case reads a deck, and what cases made from one another share.
+#include "cases/CaseKinds.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "cases/imported/ImportedCase.hpp"
+#include "common/Error.hpp"
+#include "io/TextFile.hpp"
+#include "substructures/drillstring/case/DrillstringCase.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+const std::string source = TOOLJOINT_SOURCE_DIR;
+const std::string ofString = source + "/tests/effects/scene.xml";
+const std::string ofParts = source + "/xml/frame.xml";
+
+template <class Kind>
+bool is(const std::unique_ptr<cases::Case>& one) {
+  return dynamic_cast<const Kind*>(one.get()) != nullptr;
+}
+
+TEST(CaseKinds, ListsOfTheDeckDecide) {
+  EXPECT_TRUE(is<drillstring::DrillstringCase>(cases::readCase(ofString, {})));
+  EXPECT_TRUE(is<cases::ImportedCase>(cases::readCase(ofParts, {})));
+}
+
+/// What a deck is refused with.
+std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
+  try {
+    cases::readCase(file, overrides);
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CaseKinds, DeckWithoutAnyOfTheirListsIsReadAsAString) {
+  EXPECT_NE(refusal(ofParts, {"!Parts"}).find("Well"), std::string::npos);
+}
+
+TEST(CaseKinds, OverridesThatTakeListsOutCount) {
+  const auto without = refusal(ofString, {"!Drillstring"});
+  EXPECT_NE(without.find("Drillstring"), std::string::npos) << without;
+}
+
+TEST(CaseKinds, DescriptionIsChosenByTheListsOfTheFile) {
+  std::vector<std::string> seen;
+  int asked = 0;
+  const auto deck = deck::Deck::read(ofParts,
+                                     [&](const std::vector<std::string>& lists) {
+                                       seen = lists;
+                                       ++asked;
+                                       return cases::importedSpec();
+                                     },
+                                     {"!Reduction"});
+  EXPECT_EQ(asked, 1);
+  EXPECT_NE(std::find(seen.begin(), seen.end(), "Parts"), seen.end());
+  EXPECT_EQ(std::find(seen.begin(), seen.end(), "Reduction"), seen.end());
+  EXPECT_EQ(deck.name(), "frame");
+}
+
+TEST(CaseKinds, VariantsOfACaseDoNotReadTheFileAgain) {
+  const auto file = std::filesystem::temp_directory_path() / "tooljoint_variant.xml";
+  std::ofstream(file) << io::readText(ofString);
+  const auto one = cases::readCase(file, {});
+  std::filesystem::remove(file);
+  const auto other = one->with({"!Transient", "!Reduction", "!Substructures"});
+  EXPECT_FALSE(other->moves());
+  EXPECT_EQ(other->nodes(), one->nodes());
+}
+
+TEST(CaseKinds, PartsThatAreSharedAreCheckedForEachReduction) {
+  const auto one = cases::readCase(ofParts, {});
+  EXPECT_NO_THROW(one->with({"Reduction/Load Vectors=None"}));
+  EXPECT_THROW(one->with({"Reduction/Load Vectors=Points", "Reduction/Load Vector Nodes={9999}"}),
+               Error);
+}
+
+TEST(CaseKinds, RecorderMeasuresTranslationsOfParts) {
+  const auto rest = cases::readCase(ofParts, {})->atRest();
+  const auto measures = rest->measures();
+  EXPECT_EQ(measures.components, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(measures.vibration(), measures.components);
+  const auto string = cases::readCase(ofString, {})->atRest()->measures();
+  EXPECT_EQ(string.vibration(), (std::vector<int>{0, 1}));
+}
+
+}  // namespace

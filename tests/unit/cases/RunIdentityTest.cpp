@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a checkpoint is matched with: every input that changes the numbers is in the identity of a
+/// run, nothing else is.
+#include "cases/run/RunIdentity.hpp"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cases/imported/ImportedDeck.hpp"
+#include "io/TextFile.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "tests/unit/io/Scratch.hpp"
+
+namespace {
+
+using namespace tooljoint;
+
+const std::string source = TOOLJOINT_SOURCE_DIR;
+
+std::string ofString(const std::vector<std::string>& overrides) {
+  return cases::runIdentity(
+      deck::Deck::read(source + "/tests/effects/scene.xml", drillstring::sceneSpec(), overrides));
+}
+
+TEST(RunIdentity, hasEveryInput) {
+  const auto same = ofString({});
+  EXPECT_EQ(ofString({}), same);
+  for (const char* change : {"Well/Bore Radius=0.1081",
+                             "Drillstring/Material/Density=7851",
+                             "Drillstring/Components/collar/Elements=5",
+                             "Supports/guide/Dofs=v",
+                             "Mud/Density=1201",
+                             "Contact/Stiffness=1.1e7",
+                             "Contact/Friction/Dynamic=0.21",
+                             "Contact/Intervals/deep/From=13",
+                             "Loads/Weight On Bit=11 kN",
+                             "Loads/Forces/push/Frequency=4",
+                             "Loads/Unbalance/collar/Moment=0.6",
+                             "Rotary Speed/Exponential/Final Speed=121 rpm",
+                             "Damping/Mass Coefficient=0.11",
+                             "Path/Pre-stress=Axial and torque",
+                             "Static/Max Iterations=77",
+                             "Substructures/Rule=Single",
+                             "Reduction/Modes=5",
+                             "Transient/End Time=0.31",
+                             "Transient/Step=0.0011",
+                             "Transient/Sampling Interval=0.0051",
+                             "Transient/Energy Ledger=false",
+                             "Transient/Integrator=RK4",
+                             "Transient/Generalized-alpha/Tolerance=1e-6",
+                             "Output/Fields={displacement}",
+                             "Output/XDMF=false",
+                             "!Mud",
+                             "!Reduction"})
+    EXPECT_NE(ofString({change}), same) << change;
+  for (const char* change : {"Transient/Progress=true", "Transient/Checkpoint Interval=0.01",
+                             "Output/Folder=elsewhere", "Output/CSV=false", "Output/Compression=9"})
+    EXPECT_EQ(ofString({change}), same)
+        << change << ": " << cases::identityDifferences(same, ofString({change}));
+}
+
+/// Where checkpoints come matters to SUNDIALS, which begins anew there.
+TEST(RunIdentity, hasTheCheckpointIntervalWhereItMatters) {
+  const std::string sundials = "Transient/Integrator=SUNDIALS CVODE";
+  EXPECT_NE(ofString({sundials, "Transient/Checkpoint Interval=0.01"}),
+            ofString({sundials, "Transient/Checkpoint Interval=0.02"}));
+}
+
+TEST(RunIdentity, namesWhatDiffers) {
+  const auto same = ofString({});
+  EXPECT_EQ(cases::identityDifferences(same, same), "");
+  EXPECT_EQ(cases::identityDifferences(same, ofString({"Contact/Stiffness=1.5e7"})),
+            "Contact/Stiffness was 1e+07 and is 1.5e+07");
+  const auto fewer = cases::identityDifferences(same, ofString({"!Damping"}));
+  EXPECT_EQ(fewer,
+            "Damping was list and is not given; Damping/Mass Coefficient was 0.1 and is not given; "
+            "Damping/Stiffness Coefficient "
+            "was 0 and is not given");
+}
+
+/// Files count by their content: of a part, of what stands in its folder, and of whatever a pattern
+/// matches.
+TEST(RunIdentity, hasTheContentOfFiles) {
+  const test::Scratch scratch;
+  namespace fs = std::filesystem;
+  fs::copy(source + "/xml/frame", scratch / "frame", fs::copy_options::recursive);
+  fs::copy(source + "/xml/frame.xml", scratch / "frame.xml");
+  const auto now = [&](const std::vector<std::string>& overrides) {
+    return cases::runIdentity(
+        deck::Deck::read(scratch / "frame.xml", cases::importedSpec(), overrides));
+  };
+  const auto change = [&](const std::string& name) {
+    io::writeText(scratch / name, io::readText(scratch / name) + "\n");
+  };
+  auto before = now({});
+  change("frame/arm/K.mtx");
+  EXPECT_EQ(cases::identityDifferences(before, now({})),
+            "the content of the file of Parts/Imported/arm/File/K.mtx has changed");
+  before = now({});
+  change("frame/arm/part.json");
+  EXPECT_NE(now({}), before);
+  const std::vector<std::string> one{"Parts/Imported/arm/File=frame/arm/part.json"};
+  before = now(one);
+  change("frame/arm/M.mtx");
+  EXPECT_NE(now(one), before);
+
+  io::writeText(scratch / "vectors of arm.mtx", "1");
+  io::writeText(scratch / "other.mtx", "1");
+  const std::vector<std::string> user{"Reduction/Basis=User Vectors",
+                                      "Reduction/User Vectors/File=vectors of %.mtx"};
+  before = now(user);
+  change("other.mtx");
+  EXPECT_EQ(now(user), before);
+  change("vectors of arm.mtx");
+  EXPECT_NE(now(user), before);
+}
+
+}  // namespace
