@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "substructures/beam/Element.hpp"
 #include "substructures/contact/ContactLaw.hpp"
@@ -56,7 +57,7 @@ inline Mesh longMesh(std::size_t elements) {
   return mesh;
 }
 
-inline double rotarySpeed(double t) { return 4 * M_PI * (1 - std::exp(-6 * t)); }
+inline double rotarySpeed(double t) { return 4 * constants::pi * (1 - std::exp(-6 * t)); }
 
 /// \param steady  constant rotary speed from the start (no matrix changes with time)
 inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
@@ -111,8 +112,8 @@ inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
     const auto nodal = [&](const beam::Matrix12& a) -> beam::Matrix12 {
       return R.transpose() * a * R;
     };
-    const double area = M_PI * mesh.outer[ez] * mesh.outer[ez];
-    const double added = fluid * (3.0 * area + M_PI * mesh.inner[ez] * mesh.inner[ez]);
+    const double area = constants::pi * mesh.outer[ez] * mesh.outer[ez];
+    const double added = fluid * (3.0 * area + constants::pi * mesh.inner[ez] * mesh.inner[ez]);
     const beam::Matrix12 steel = beam::mass(section, l);
     scatter(m, e, nodal(steel + added * beam::lateralMass(l)));
     scatter(c0, e, nodal(0.03 * steel + 0.5 * beam::lateralMass(l)));
@@ -137,7 +138,7 @@ inline model::SecondOrderModel helicalString(const Mesh& mesh, bool steady) {
     a.setFromTriplets(t.begin(), t.end());
     return a;
   };
-  const auto omega = [steady](double t) { return steady ? 4 * M_PI : rotarySpeed(t); };
+  const auto omega = [steady](double t) { return steady ? 4 * constants::pi : rotarySpeed(t); };
   const int lawOmega = model.lawIndex({"Omega", omega});
   const int lawRoot =
       model.lawIndex({"sqrt|Omega|", [omega](double t) { return std::sqrt(std::abs(omega(t))); }});

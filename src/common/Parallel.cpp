@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <mpi.h>
 
+#include "common/Message.hpp"
+
 namespace tooljoint::parallel {
 namespace {
 
@@ -17,28 +19,6 @@ bool active() {
 }
 
 bool alone() { return size() == 1; }
-
-/// MPI counts are int: long data go in pieces.
-void broadcastBytes(void* data, std::uint64_t bytes, int root) {
-  constexpr std::uint64_t piece = 1U << 30U;
-  auto* at = static_cast<char*>(data);
-  for (std::uint64_t done = 0; done < bytes; done += piece) {
-    MPI_Bcast(at + done, static_cast<int>(std::min(piece, bytes - done)), MPI_BYTE, root,
-              MPI_COMM_WORLD);
-  }
-}
-
-std::uint64_t broadcastCount(std::uint64_t count, int root) {
-  MPI_Bcast(&count, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
-  return count;
-}
-
-template <class Container>
-void broadcastContainer(Container& value, int root) {
-  if (alone()) return;
-  value.resize(broadcastCount(value.size(), root));
-  if (!value.empty()) broadcastBytes(&value[0], value.size() * sizeof(value[0]), root);
-}
 
 double reduce(double value, MPI_Op operation) {
   if (alone()) return value;
@@ -63,32 +43,24 @@ int size() {
   return value;
 }
 
-void broadcast(std::string& value, int root) { broadcastContainer(value, root); }
-void broadcast(std::vector<double>& value, int root) { broadcastContainer(value, root); }
-void broadcast(std::vector<int>& value, int root) { broadcastContainer(value, root); }
-
-void broadcast(Vector& value, int root) {
-  if (alone()) return;
-  value.resize(
-      static_cast<Eigen::Index>(broadcastCount(static_cast<std::uint64_t>(value.size()), root)));
-  broadcastBytes(value.data(), static_cast<std::uint64_t>(value.size()) * sizeof(double), root);
+/// MPI counts are int: long messages go in pieces.
+void broadcastBytes(std::string& bytes, int root) {
+  constexpr std::size_t piece = 1U << 30U;
+  std::uint64_t length = bytes.size();
+  MPI_Bcast(&length, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
+  bytes.resize(length);
+  for (std::size_t done = 0; done < bytes.size(); done += piece)
+    MPI_Bcast(bytes.data() + done, static_cast<int>(std::min(piece, bytes.size() - done)), MPI_BYTE,
+              root, MPI_COMM_WORLD);
 }
 
-void broadcast(Matrix& value, int root) {
-  if (alone()) return;
-  const auto rows = broadcastCount(static_cast<std::uint64_t>(value.rows()), root);
-  const auto cols = broadcastCount(static_cast<std::uint64_t>(value.cols()), root);
-  value.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
-  broadcastBytes(value.data(), rows * cols * sizeof(double), root);
-}
-
-void broadcast(double& value, int root) {
-  if (!alone()) MPI_Bcast(&value, 1, MPI_DOUBLE, root, MPI_COMM_WORLD);
-}
-
-void broadcast(int& value, int root) {
-  if (!alone()) MPI_Bcast(&value, 1, MPI_INT, root, MPI_COMM_WORLD);
-}
+template void broadcast(std::string&, int);
+template void broadcast(std::vector<double>&, int);
+template void broadcast(std::vector<int>&, int);
+template void broadcast(Vector&, int);
+template void broadcast(Matrix&, int);
+template void broadcast(double&, int);
+template void broadcast(int&, int);
 
 double sum(double value) { return reduce(value, MPI_SUM); }
 double maximum(double value) { return reduce(value, MPI_MAX); }

@@ -16,14 +16,12 @@ namespace tooljoint::parallel {
 int rank();
 int size();
 
-/// Every rank ends with the value of `root`, sizes included. Collective.
-void broadcast(std::string& value, int root = 0);
-void broadcast(std::vector<double>& value, int root = 0);
-void broadcast(std::vector<int>& value, int root = 0);
-void broadcast(Vector& value, int root = 0);
-void broadcast(Matrix& value, int root = 0);
-void broadcast(double& value, int root = 0);
-void broadcast(int& value, int root = 0);
+/// Every rank ends with the value of `root`, sizes included. Collective. Ready for std::string,
+/// std::vector<double>, std::vector<int>, Vector, Matrix, double and int; include
+/// common/Message.hpp for any other type that cereal can serialise.
+template <class T>
+void broadcast(T& value, int root = 0);
+void broadcastBytes(std::string& bytes, int root);
 
 /// Sum over the ranks, maximum over the ranks; the result is the same on each. Collective.
 double sum(double value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// SHA-256 after FIPS 180-4, for the provenance of results (nothing secret depends on it).
+/// SHA-256 (FIPS 180-4, computed by OpenSSL), for the provenance of results.
 #pragma once
 
 #include <string>

@@ -6,7 +6,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 namespace tooljoint {
@@ -83,9 +84,7 @@ std::string formatNumber(double value) {
 std::string formatNumber(int value) { return std::to_string(value); }
 
 std::string countText(double count) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), count < 1e6 ? "%.0f" : "%.3g", count);
-  return buffer.data();
+  return count < 1e6 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
 }
 
 std::string trim(std::string_view text) {
@@ -113,9 +112,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
 }
 
 std::string join(const std::vector<std::string>& parts, const std::string& separator) {
-  std::string result;
-  for (std::size_t i = 0; i < parts.size(); ++i) result += (i == 0 ? "" : separator) + parts[i];
-  return result;
+  return fmt::format("{}", fmt::join(parts, separator));
 }
 
 std::string excerpt(std::string_view text, std::size_t most) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <numeric>
 
 #include "common/Error.hpp"
@@ -262,19 +262,14 @@ std::string roundTable(const std::vector<Round>& rounds) {
   std::string text =
       "Modes by tolerance:\n  round   modes   parts kept whole   error of frequencies   error of "
       "motion\n";
-  const auto number = [](double value) {
-    char field[32];
-    std::snprintf(field, sizeof field, value < 0 ? "-" : "%.2e", value);
-    return std::string(field);
-  };
+  const auto number = [](double value) { return value < 0 ? "-" : fmt::format("{:.2e}", value); };
   for (std::size_t i = 0; i < rounds.size(); ++i) {
-    char line[160], note[64] = "";
-    if (rounds[i].reached < 1)
-      std::snprintf(note, sizeof note, ", given up after %.2g of the window", rounds[i].reached);
-    std::snprintf(line, sizeof line, "  %5zu  %6d  %17d  %21s  %16s%s\n", i + 1, rounds[i].modes,
-                  rounds[i].whole, number(rounds[i].frequencyError).c_str(),
-                  number(rounds[i].motionError).c_str(), note);
-    text += line;
+    const Round& round = rounds[i];
+    text += fmt::format("  {:5}  {:6}  {:17}  {:>21}  {:>16}", i + 1, round.modes, round.whole,
+                        number(round.frequencyError), number(round.motionError));
+    if (round.reached < 1)
+      text += fmt::format(", given up after {:.2g} of the window", round.reached);
+    text += "\n";
   }
   return text;
 }

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
+#include <fmt/format.h>
 #include <limits>
 
-#include "common/Parallel.hpp"
+#include "common/Constants.hpp"
+#include "common/Index.hpp"
+#include "common/Message.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/PartResidual.hpp"
 #include "estimate/ResidualFlexibility.hpp"
@@ -16,9 +17,10 @@
 
 namespace tooljoint::estimate {
 
+using constants::twoPi;
+
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
 /// A frequency below this fraction of the largest diagonal one is a rigid body's.
 constexpr double rigid = 1e-7;
 
@@ -27,8 +29,12 @@ struct Share {
   ResidualFlexibility::Step step;
   double work = 0;  ///< D' r
   double mass = 0;  ///< D' M D
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(step.residual, step.inertia, step.stiffness, step.mass, work, mass);
+  }
 };
-constexpr Eigen::Index numbers = sizeof(Share) / sizeof(double);
 
 std::vector<Share> shares(const model::Substructure& part, const reduction::Basis& basis,
                           const Matrix& shapes, const Vector& eigenvalues) {
@@ -50,16 +56,6 @@ std::vector<Share> shares(const model::Substructure& part, const reduction::Basi
     share.mass = shapes.col(j).dot(inertia.col(j));
   }
   return result;
-}
-
-/// The owner's shares on every rank.
-void exchange(std::vector<Share>& values, Eigen::Index count, int owner) {
-  values.resize(static_cast<std::size_t>(count));
-  Vector raw(count * numbers);
-  if (count > 0) std::memcpy(raw.data(), values.data(), sizeof(Share) * values.size());
-  parallel::broadcast(raw, owner);
-  if (count > 0)
-    std::memcpy(static_cast<void*>(values.data()), raw.data(), sizeof(Share) * values.size());
 }
 
 /// The root mu < lambda of m (lambda - mu) = sum_p excess_p(lambda, mu), below every pole:
@@ -165,7 +161,7 @@ std::vector<FrequencyEstimate> estimateFrequencies(const std::vector<model::Subs
         all[p] = shares(parts[p], *synthesis.parts[p].basis, shapes, pairs.values);
       }
   });
-  for (std::size_t p = 0; p < parts.size(); ++p) exchange(all[p], pairs.values.size(), owners[p]);
+  for (std::size_t p = 0; p < parts.size(); ++p) parallel::broadcast(all[p], owners[p]);
 
   const double smallest = smallestEigenvalue(K, M);
   const Vector connectors = workOfConnectors(parts, coupled, pairs.vectors);
@@ -189,14 +185,10 @@ std::string frequencyTable(const std::vector<FrequencyEstimate>& estimates,
     const auto& e = estimates[j];
     Eigen::Index worst = 0;
     if (e.byPart.size() > 0) e.byPart.maxCoeff(&worst);
-    char line[256];
-    std::snprintf(line, sizeof line, "  %4zu  %14.8g  %16.2e   %s%s\n", j + 1, e.frequency(),
-                  e.error,
-                  e.byPart.size() > 0 && e.byPart[worst] > 0
-                      ? parts[static_cast<std::size_t>(worst)].name.c_str()
-                      : "-",
-                  e.definite ? "" : " (a part lacks a mode below this frequency)");
-    text += line;
+    const bool known = e.byPart.size() > 0 && e.byPart[worst] > 0;
+    text += fmt::format("  {:4}  {:14.8g}  {:16.2e}   {}{}\n", j + 1, e.frequency(), e.error,
+                        known ? parts[at(worst)].name : "-",
+                        e.definite ? "" : " (a part lacks a mode below this frequency)");
   }
   return text;
 }

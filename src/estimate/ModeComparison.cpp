@@ -4,10 +4,11 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <map>
 #include <numeric>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/FrequencyEstimate.hpp"
@@ -22,7 +23,7 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexMatrix = Eigen::MatrixXcd;
 using ComplexVector = Eigen::VectorXcd;
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 /// Full modes computed beyond those compared, so that a repeated value is not cut, and coupled
 /// modes beyond the full ones, among which a shape is looked for: the rigid-body motions of one
 /// body.
@@ -366,22 +367,19 @@ std::string comparisonTable(const std::vector<ModeComparison>& modes, bool dampe
              : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
-    char line[240], estimate[16] = "         -";
-    if (m.estimated) std::snprintf(estimate, sizeof estimate, "%10.2e", m.estimate);
+    const std::string estimate = m.estimated ? fmt::format("{:10.2e}", m.estimate) : "         -";
     if (m.coupledMode < 0)
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  no coupled mode is left for it\n", i + 1,
-                    m.fullHz());
+      text += fmt::format("  {:4}  {:14.8g}  no coupled mode is left for it\n", i + 1, m.fullHz());
     else if (damped)
-      std::snprintf(
-          line, sizeof line,
-          "  %4zu %14.8g  %14.8g     %14.8g     %14.8g   %11.4e %11.4e  %10.7f  %10.2e  %s\n",
+      text += fmt::format(
+          "  {:4} {:14.8g}  {:14.8g}     {:14.8g}     {:14.8g}   {:11.4e} {:11.4e}  {:10.7f}  "
+          "{:10.2e}  {}\n",
           i + 1, m.fullHz(), m.fullImHz(), m.coupledHz(), m.coupledImHz(), m.fullDamping(),
           m.coupledDamping(), m.mac, m.error, estimate);
     else
-      std::snprintf(line, sizeof line, "  %4zu  %14.8g  %14.8g  %10.7f  %10.2e  %s%s\n", i + 1,
-                    m.fullHz(), m.coupledHz(), m.mac, m.error, estimate,
-                    m.definite ? "" : "  (a part lacks a mode below)");
-    text += line;
+      text += fmt::format("  {:4}  {:14.8g}  {:14.8g}  {:10.7f}  {:10.2e}  {}{}\n", i + 1,
+                          m.fullHz(), m.coupledHz(), m.mac, m.error, estimate,
+                          m.definite ? "" : "  (a part lacks a mode below)");
   }
   return text;
 }

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::io {
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 
 std::string number(std::size_t value) { return std::to_string(value); }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 
@@ -18,7 +19,7 @@ using deck::ListSpec;
 using deck::Range;
 using Teuchos::ParameterList;
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 
 /// f = c
 class Constant : public TimeLaw {

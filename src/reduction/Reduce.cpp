@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -25,7 +26,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 /// Modes looked at first when the interface decides how many are kept.
 constexpr int firstCandidates = 12;
 

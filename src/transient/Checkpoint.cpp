@@ -3,32 +3,18 @@
 
 #include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/map.hpp>
-#include <cereal/types/string.hpp>
-#include <cereal/types/vector.hpp>
 #include <cstdio>
 #include <sstream>
 
-#include "common/Error.hpp"
+#include "common/Message.hpp"
 #include "common/Sha256.hpp"
 #include "io/TextFile.hpp"
 
 namespace tooljoint::transient {
 
 template <class Archive>
-void save(Archive& archive, const State& state) {
-  archive(state.t);
-  for (const Vector* x : {&state.q, &state.v, &state.a})
-    archive(std::vector<double>(x->begin(), x->end()));
-}
-
-template <class Archive>
-void load(Archive& archive, State& state) {
-  archive(state.t);
-  for (Vector* x : {&state.q, &state.v, &state.a}) {
-    std::vector<double> values;
-    archive(values);
-    *x = Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-  }
+void serialize(Archive& archive, State& state) {
+  archive(state.t, state.q, state.v, state.a);
 }
 
 template <class Archive>

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::beam {
@@ -35,7 +36,7 @@ class Section {
   static Section hollow(double outerRadius, double innerRadius, const Material& material) {
     if (!(innerRadius >= 0.0) || !(outerRadius > innerRadius))
       throw ModelError("A hollow circular section needs 0 <= inner radius < outer radius.");
-    const double pi = std::acos(-1.0);
+    using constants::pi;
     const double outer2 = outerRadius * outerRadius;
     const double inner2 = innerRadius * innerRadius;
     Section s;

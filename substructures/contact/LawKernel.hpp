@@ -20,6 +20,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "model/Friction.hpp"
 #include "substructures/contact/ContactLaw.hpp"
@@ -27,7 +28,7 @@
 
 namespace tooljoint::contact {
 
-inline constexpr double pi = 3.14159265358979323846;
+using constants::pi;
 
 /// atan2(1, -x) = pi/2 + atan(x) without cancellation for large negative x; by its asymptote for
 /// |x| > 32, where the first term left out is below 1e-19.

@@ -7,13 +7,12 @@
 #include <cstddef>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {
 
 constexpr int kDofs = 6;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void check(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;

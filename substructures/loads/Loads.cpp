@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using Teuchos::ParameterList;
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 constexpr double nodeTolerance = 1e-6;  // m
 
 const std::vector<std::string>& componentNames() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "substructures/loads/RotarySpeed.hpp"
 
@@ -14,7 +15,7 @@ using deck::ListSpec;
 using deck::Range;
 using Teuchos::ParameterList;
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 
 /// Omega = Omega_0
 class Constant : public SpeedLaw {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -11,7 +12,7 @@
 namespace tooljoint::mud {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using constants::pi;
 
 /// Above this chi the annulus is a film (gap below 5 % of the radius) and the added-mass theory is
 /// only an extrapolation.

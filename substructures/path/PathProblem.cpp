@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/Index.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::path {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
                          std::vector<Matrix3> reference, const std::vector<int>& held)
     : translations_(translations), state_(std::move(state)), reference_(std::move(reference)) {

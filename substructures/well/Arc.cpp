@@ -2,12 +2,13 @@
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "substructures/well/ArcChain.hpp"
 
 namespace tooljoint::well {
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list, const std::string&) {
   ArcShape shape;

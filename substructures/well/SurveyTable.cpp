@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/DelimitedText.hpp"
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
@@ -12,7 +13,7 @@
 namespace tooljoint::well {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using constants::pi;
 constexpr std::uint64_t largestSurvey = 1U << 26U;  // bytes
 constexpr std::size_t mostFaults = 100;
 const std::string degreeSign = "\u00b0";

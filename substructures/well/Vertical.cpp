@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Teuchos_ParameterList.hpp>
 
+#include "common/Constants.hpp"
 #include "substructures/well/ArcChain.hpp"
 
 namespace tooljoint::well {
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 const bool registered = TrajectoryRegistry::instance().add(
     "Vertical",

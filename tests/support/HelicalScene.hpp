@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "substructures/contact/ContactParameters.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
@@ -21,9 +22,9 @@ namespace tooljoint::testing_ {
 class HelicalScene {
  public:
   HelicalScene()
-      : well_(std::shared_ptr<const well::Trajectory>(
-                  well::helix(85.1, 0.5 * std::acos(-1.0), 170.2)),
-              0.108),
+      : well_(
+            std::shared_ptr<const well::Trajectory>(well::helix(85.1, 0.5 * constants::pi, 170.2)),
+            0.108),
         drillstring(drillstring::buildDrillString(library(), assembly(), well_)) {}
 
   const drillstring::DrillString& string() const { return drillstring; }

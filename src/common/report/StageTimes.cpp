@@ -2,7 +2,7 @@
 #include "common/report/StageTimes.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 #include <vector>
@@ -42,11 +42,8 @@ std::string stageTimes(double least) {
     if (time >= least) all.emplace_back(time, name);
   std::sort(all.rbegin(), all.rend());
   std::string text;
-  for (const auto& [time, name] : all) {
-    char number[32];
-    std::snprintf(number, sizeof number, " %.2f s", time);
-    text += (text.empty() ? "" : ", ") + name + number;
-  }
+  for (const auto& [time, name] : all)
+    text += fmt::format("{}{} {:.2f} s", text.empty() ? "" : ", ", name, time);
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "coupling/assembly/Congruence.hpp"
 #include "coupling/input/ComponentAxes.hpp"
@@ -18,8 +19,6 @@ namespace {
 
 using model::DofLabel;
 using model::SecondOrderModel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A with `more` zero rows and columns.
 Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "coupling/assembly/AlignedParts.hpp"
 #include "coupling/assembly/Congruence.hpp"
@@ -24,8 +25,6 @@ using model::SecondOrderModel;
 
 /// An initial state may violate a constraint by this, relative to the largest value.
 constexpr double agreement = 1e-9;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// From aligned parts to the coupled model.
 class Coupler {

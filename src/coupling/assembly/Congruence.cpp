@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "coupling/assembly/Numbering.hpp"
 
 namespace tooljoint::coupling {
@@ -12,8 +13,6 @@ namespace tooljoint::coupling {
 namespace {
 
 using model::DofLabel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Sparse withoutZeros(Sparse A) {
   A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });

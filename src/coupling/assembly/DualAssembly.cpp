@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/Index.hpp"
 #include "coupling/assembly/Congruence.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 
@@ -16,8 +17,6 @@ using model::DofLabel;
 using model::SecondOrderModel;
 
 const char* const joiningForces = "joining forces";
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Builder {
  public:

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::coupling {
@@ -17,8 +18,6 @@ namespace {
 constexpr double rounding = 1e-11;
 /// A pivot is at least this fraction of the largest coefficient of its row.
 constexpr double smallestPivot = 1e-3;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A row while unknowns are put in: values, and the sizes they were made of.
 struct Accumulator {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "coupling/assembly/Congruence.hpp"
 
@@ -19,8 +20,6 @@ using model::SecondOrderModel;
 
 /// States and recovery rows of shared dofs may differ by this, relative to the largest value.
 constexpr double agreement = 1e-9;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Labeller {
  public:

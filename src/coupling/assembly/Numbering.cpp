@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::coupling {
 
 namespace {
 
 using Graph = std::vector<std::vector<int>>;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Distance of every group from `root`, -1 where there is no way; and the reached groups in the
 /// order of the walk.

@@ -8,14 +8,13 @@
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 
 namespace tooljoint::coupling {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::string nodeName(const PartNode& n) {
   return "node " + std::to_string(n.node) + (n.part.empty() ? "" : " of part \"" + n.part + "\"");

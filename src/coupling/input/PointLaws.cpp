@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "model/Friction.hpp"
 
@@ -14,8 +15,6 @@ namespace tooljoint::coupling {
 namespace {
 
 using model::Channel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require(bool good, const std::string& what, double found, const std::string& expected) {
   if (!good)

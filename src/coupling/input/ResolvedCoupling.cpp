@@ -7,6 +7,7 @@
 #include <set>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "reduction/part/Partition.hpp"
 
@@ -15,8 +16,6 @@ namespace tooljoint::coupling {
 namespace {
 
 using model::DofLabel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr const char* kStaticForce = "static force of released dofs";
 

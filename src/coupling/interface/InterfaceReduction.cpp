@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "coupling/assembly/Congruence.hpp"
 #include "reduction/part/Partition.hpp"
 
@@ -15,8 +16,6 @@ namespace tooljoint::coupling {
 namespace {
 
 using model::DofLabel;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Reducer {
  public:

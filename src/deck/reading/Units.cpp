@@ -7,19 +7,18 @@
 #include <cmath>
 #include <map>
 
+#include "common/Constants.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::deck {
 namespace {
 
-constexpr double pi = 3.141592653589793238462643383279502884;
+using constants::standardGravity;
 constexpr double inch = 0.0254;
 constexpr double foot = 0.3048;
 constexpr double pound = 0.45359237;
-constexpr double gravity = 9.80665;
-constexpr double poundForce = pound * gravity;
+constexpr double poundForce = pound * standardGravity;
 constexpr double gallon = 231.0 * inch * inch * inch;  // US gallon, 231 cubic inches
-constexpr double rotation = 2.0 * pi;
 
 constexpr double barrel = 42.0 * gallon;
 constexpr double waterDensity =
@@ -78,16 +77,16 @@ std::vector<UnitSymbol> makeSymbols() {
   add(time, "min", 60.0, {"minute", "minutes"});
   add(time, "h", 3600.0, {"hr", "hour", "hours"});
   add(angle, "rad", 1.0, {"radian", "radians"});
-  add(angle, "deg", pi / 180.0, {"\u00b0", "degree", "degrees"});
-  add(angle, "rev", rotation);
+  add(angle, "deg", constants::degree, {"\u00b0", "degree", "degrees"});
+  add(angle, "rev", constants::twoPi);
   add(force, "N", 1.0, {"newton"});
   add(force, "daN", 10.0);
   add(force, "kN", 1e3);
   add(force, "MN", 1e6);
   add(force, "lbf", poundForce);
   add(force, "klbf", 1e3 * poundForce, {"kip", "kips"});
-  add(force, "tf", 1e3 * gravity);
-  add(force, "t", 1e3 * gravity, {"tonne", "tonnes"});
+  add(force, "tf", 1e3 * standardGravity);
+  add(force, "t", 1e3 * standardGravity, {"tonne", "tonnes"});
   add(force, "lb", poundForce, {"lbs"});
   add(force, "klb", 1e3 * poundForce, {"klbs"});
   add(torque, "Nm", 1.0);
@@ -103,7 +102,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(density, "ppg", pound / gallon);
   add(density, "pcf", pound / (foot * foot * foot));
   add(density, "sg", waterDensity);
-  add(rotarySpeed, "rpm", rotation / 60.0);
+  add(rotarySpeed, "rpm", constants::rpm);
   add(frequency, "Hz", 1.0);
   add(frequency, "kHz", 1e3);
   add(volume, "l", 1e-3, {"liter", "liters", "litre", "litres"});

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "reduction/selection/ModeChoice.hpp"
@@ -15,13 +17,11 @@ namespace tooljoint::reduction {
 
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 /// A load vector that is this much in the span of the others says nothing new.
 constexpr double dependent = 1e-8;
 /// A frequency below this fraction of the largest diagonal one is a rigid body's.
 constexpr double rigid = 1e-7;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 linalg::EigenPairs modesOf(const Sparse& K, const Sparse& M, const InterfaceOptions& chosen,
                            const linalg::DofNamer& name) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 
@@ -26,7 +27,6 @@ double largest(const Sparse& A) {
 ConstraintModes constraintModes(const model::Substructure& part, const Partition& p,
                                 const Sparse& K) {
   const Stage stage("constraint modes");
-  const auto at = [](int i) { return static_cast<std::size_t>(i); };
   ConstraintModes result;
   result.residuals = Vector::Zero(static_cast<Eigen::Index>(p.kept.size()));
   for (std::size_t j = 0; j < p.kept.size(); ++j)

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 
 namespace tooljoint::reduction {
 
@@ -14,8 +15,6 @@ namespace {
 /// A rigid-body mode of which the kept dofs carry less than this share (in the root of the mass)
 /// does not move them.
 constexpr double notMoved = 1e-6;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 double largestEntry(const Sparse& A) {
   return A.nonZeros() > 0

@@ -7,13 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 
 namespace tooljoint::reduction {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Where more than this fraction of the entries left is not zero, dense matrices are faster.
 constexpr double denseFill = 0.2;

@@ -8,12 +8,11 @@
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 
 namespace tooljoint::reduction {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Disjoint sets of the integers 0 .. n-1.
 class Sets {

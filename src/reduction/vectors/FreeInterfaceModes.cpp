@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/Index.hpp"
 #include "reduction/methods/ReductionMethod.hpp"
 #include "reduction/vectors/FixedInterfaceModes.hpp"
 
@@ -17,8 +18,6 @@ constexpr double noEnergy = 1e-12;
 constexpr double noForce = 1e-7;
 /// Modes looked at for rigid-body modes at least.
 constexpr int lookedAt = 8;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vector embed(const FreeInterfaceMode& mode, const std::vector<int>& link, Eigen::Index size) {
   Vector whole = Vector::Zero(size);

@@ -15,6 +15,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "linalg/Deterministic.hpp"
@@ -26,7 +27,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 
 struct KrylovOptions {
   double frequency = 0;  ///< expansion point [Hz]; with damping s0 = 2 pi f on the real axis

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
@@ -14,8 +15,6 @@
 namespace tooljoint::reduction {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// v' M v below this part of |v|' |M| |v| is rounding: the vector moves no mass.
 constexpr double massless = 1e-14;

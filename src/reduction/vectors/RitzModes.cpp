@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 
 namespace tooljoint::reduction {
 
@@ -15,8 +16,6 @@ namespace {
 /// Vectors whose part that is new is less than this, in the mass norm, are combinations of the
 /// others.
 constexpr double dependent = 1e-10;
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 struct Ritz {
   Matrix shapes;

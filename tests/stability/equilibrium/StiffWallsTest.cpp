@@ -5,6 +5,7 @@
 /// in is what softer walls tend to; where it cannot, the error says why.
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/Scenes.hpp"
 
@@ -39,7 +40,8 @@ TEST(StiffWalls, AKilometreOfStringComesToRest) {
         << stiffness;
     // F_n = k_c (G - 1/(pi^2 lambda)) well inside the wall
     const double k = std::stod(stiffness),
-                 force = k * (stiff.gap(stiff.maxNormalForceNode - 1) - 1.0 / (M_PI * M_PI * 7e11));
+                 force = k * (stiff.gap(stiff.maxNormalForceNode - 1) -
+                              1.0 / (constants::pi * constants::pi * 7e11));
     EXPECT_NEAR(stiff.maxNormalForce, force, 1e-6 * force) << stiffness;
   }
 }
@@ -60,7 +62,7 @@ TEST(StiffWalls, AStringThatTheLawPullsToTheWallComesToRest) {
       settled("inclined_1000m", {"Contact/Stiffness=1e9", "Contact/Stiffness Regularisation=1e6"});
   EXPECT_LE(state.report.residual, tolerance);
   EXPECT_GT(state.contactNodes, 180);  // what rests on the wall without being pulled
-  EXPECT_GE(state.normalForce.minCoeff(), -1e9 / (M_PI * M_PI * 1e6));
+  EXPECT_GE(state.normalForce.minCoeff(), -1e9 / (constants::pi * constants::pi * 1e6));
 }
 
 /// Friction turns what the law pulls to the wall, against the sense in which it turns what lies

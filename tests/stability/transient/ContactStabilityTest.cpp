@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/transient/Models.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
@@ -106,7 +107,7 @@ TEST(ContactStability, sharpFrictionAtOneRpm) {
   for (double vr : {1e-2, 1e-3, 1e-4}) {
     Bores data;
     data.vr = vr;
-    data.speed = [](double) { return 2 * M_PI / 60; };
+    data.speed = [](double) { return 2 * constants::pi / 60; };
     Keep samples;
     const auto report = run(data, samples);
     EXPECT_EQ(report.counters.unconvergedSteps, 0);
@@ -117,7 +118,7 @@ TEST(ContactStability, sharpFrictionAtOneRpm) {
 TEST(ContactStability, spinReversal) {
   Bores data;
   data.vr = 1e-3;
-  data.speed = [](double t) { return 3.0 * std::cos(2 * M_PI * t / 0.2); };
+  data.speed = [](double t) { return 3.0 * std::cos(2 * constants::pi * t / 0.2); };
   Keep samples;
   EXPECT_EQ(run(data, samples).counters.unconvergedSteps, 0);
   expectInside(samples, 0.02);

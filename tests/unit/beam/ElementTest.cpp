@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::beam {
@@ -25,7 +26,7 @@ Eigen::Matrix<double, 12, 6> rigidMotions(double l) {
 }
 
 TEST(Section, HollowCircle) {
-  const double pi = std::acos(-1.0);
+  using constants::pi;
   const Section s = pipe();
   EXPECT_NEAR(s.area(), pi * (0.0635 * 0.0635 - 0.054 * 0.054), 1e-18);
   EXPECT_DOUBLE_EQ(s.polar(), 2.0 * s.inertiaX());

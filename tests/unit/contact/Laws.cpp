@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
@@ -11,7 +12,7 @@ using namespace tooljoint::contact::testing;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 double still(double) { return 0.0; }
 double turning(double) { return 4.0 * pi; }
 
@@ -293,7 +294,7 @@ TEST(StaticContact, OptionsOverrideLambdaFrictionAndDirection) {
 
 TEST(StaticContact, WithoutItsPullALawOnlyPushes) {
   const ContactPoint p = steelOnRock(3e3);
-  const double largest = 1e7 / (M_PI * M_PI * 3e3);
+  const double largest = 1e7 / (constants::pi * constants::pi * 3e3);
   const auto rest = law("Nguyen")->atRest(batch({p}));
   EXPECT_NEAR(rest->largestPull(), largest, 1e-9 * largest);
   EXPECT_EQ(law("Clamped")->atRest(batch({p}))->largestPull(), 0.0);

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 #include <map>
 
+#include "common/Constants.hpp"
+
 using namespace tooljoint::deck;
 
 namespace {
-constexpr double pi = 3.141592653589793238462643383279502884;
+using tooljoint::constants::pi;
 }
 
 struct Quantity {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "SmallScene.hpp"
+#include "common/Constants.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::deck;
@@ -25,8 +26,8 @@ TEST(Validation, AGoodDeckHoldsItsValuesInSi) {
   EXPECT_FALSE(contact.get<bool>("Smooth"));
   const auto& transient = deck.list().sublist("Transient");
   EXPECT_EQ(transient.get<double>("End Time"), 30.0);
-  EXPECT_NEAR(transient.get<double>("Speed"), 4.0 * std::acos(-1.0), 1e-14);
-  EXPECT_NEAR(transient.get<double>("Angle"), 0.5 * std::acos(-1.0), 1e-15);
+  EXPECT_NEAR(transient.get<double>("Speed"), 4.0 * constants::pi, 1e-14);
+  EXPECT_NEAR(transient.get<double>("Angle"), 0.5 * constants::pi, 1e-15);
   EXPECT_EQ(transient.get<Teuchos::Array<int>>("Nodes").toVector(), (std::vector<int>{1, 5}));
   EXPECT_EQ(transient.get<Teuchos::Array<std::string>>("Fields").toVector(),
             (std::vector<std::string>{"w"}));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/beam/Rotation.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "tests/support/PolynomialMotion.hpp"
@@ -20,7 +21,7 @@ using testing_::integral;
 using testing_::PolynomialMotion;
 using testing_::secondMotion;
 
-const double pi = std::acos(-1.0);
+using constants::pi;
 const std::vector<double> depths{0.0, 2.0, 5.0};
 const std::vector<double> bore{0.15, 0.108};      // of the two elements [m]
 const std::vector<double> outer{0.0795, 0.0635};  // [m]

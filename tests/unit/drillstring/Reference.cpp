@@ -2,6 +2,7 @@
 // The string of Nguyen et al. 2020, section 5, against the numbers of the paper.
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/contact/ContactParameters.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "tests/unit/drillstring/Decks.hpp"
@@ -12,7 +13,7 @@ using namespace tooljoint::drillstring::testing;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 DrillString reference() {
   const std::string inside =

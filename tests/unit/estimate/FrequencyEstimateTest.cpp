@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/assembly/Assembler.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
@@ -96,8 +97,8 @@ TEST(FrequencyEstimate, IsExactWhereTheKrylovVectorsAreAllThatIsLeftOut) {
     EXPECT_NEAR(estimate.error, truth, 1e-9 * truth);
     EXPECT_NEAR(estimate.byPart.sum(), truth, 1e-9 * truth);
     EXPECT_GT(estimate.byPart.minCoeff(), 0.05 * truth);
-    EXPECT_NEAR(2.0 * std::acos(-1.0) * estimate.frequency(),
-                frequencies(synthesis.coupled.model, 1)[0], 1e-9 * estimate.frequency());
+    EXPECT_NEAR(constants::twoPi * estimate.frequency(), frequencies(synthesis.coupled.model, 1)[0],
+                1e-9 * estimate.frequency());
   }
 }
 

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <set>
 
+#include "common/Constants.hpp"
+
 namespace {
 
 using namespace tooljoint;
@@ -35,7 +37,7 @@ Eigen::MatrixXcd rotated(double angle) {
 
 TEST(ModeMatching, ARepeatedModeIsASubspace) {
   const Eigen::MatrixXcd own = Matrix::Identity(4, 4).cast<std::complex<double>>();
-  for (double angle : {0.0, 0.4, std::acos(-1.0) / 4, 1.3}) {
+  for (double angle : {0.0, 0.4, constants::pi / 4, 1.3}) {
     const auto matches = matchModes(identity(4), frequencies({1, 2, 2, 3}), own, rotated(angle));
     std::set<int> partners;
     for (const auto& match : matches) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
 
@@ -19,9 +20,11 @@ using testing::springChain;
 constexpr double k = 1e7, m = 2.0;
 
 double heldChain(int n, int j) {
-  return 4.0 * k / m * std::pow(std::sin((j + 1) * M_PI / (2.0 * (n + 1))), 2);
+  return 4.0 * k / m * std::pow(std::sin((j + 1) * constants::pi / (2.0 * (n + 1))), 2);
 }
-double freeChain(int n, int j) { return 4.0 * k / m * std::pow(std::sin(j * M_PI / (2.0 * n)), 2); }
+double freeChain(int n, int j) {
+  return 4.0 * k / m * std::pow(std::sin(j * constants::pi / (2.0 * n)), 2);
+}
 
 bool isDense(const EigenPairs& modes) { return modes.method.find("dense") != std::string::npos; }
 
@@ -103,7 +106,7 @@ TEST(EigenSolver, SimplySupportedBeamInTwoPlanes) {
   expectModes(two, modes, 12);
   // consistent mass and cubic elements: lambda is above by (q l)^4/720, and each comes twice
   for (int j = 0; j < 12; ++j) {
-    const double q = (j / 2 + 1) * M_PI / L, l = L / 150;
+    const double q = (j / 2 + 1) * constants::pi / L, l = L / 150;
     EXPECT_NEAR(modes.values[j] / (EI * std::pow(q, 4)), 1.0 + std::pow(q * l, 4) / 720.0, 1e-6)
         << j;
   }
@@ -172,7 +175,7 @@ TEST(EigenSolver, NegativeEigenvaluesOfABuckledBeamComeFirst) {
     const Pencil buckled = beam(elements, L, EI, 1, false, -P);
     std::vector<double> exact;
     for (int j = 1; j < 40; ++j) {
-      const double q = j * M_PI / L;
+      const double q = j * constants::pi / L;
       exact.push_back(EI * std::pow(q, 4) - P * q * q);
     }
     std::sort(exact.begin(), exact.end());

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
@@ -115,7 +116,7 @@ Shaft membrane(int nx, int ny, bool free) {
 /// Values with Im s >= 0 of s^2 + (alpha + beta omega^2) s + omega^2 = 0 for every omega^2 of the
 /// membrane, by |s|.
 std::vector<std::complex<double>> proportionallyDamped(int nx, int ny, double alpha, double beta) {
-  const double pi = std::acos(-1.0);
+  using constants::pi;
   std::vector<std::complex<double>> values;
   for (int i = 1; i <= nx; ++i)
     for (int j = 1; j <= ny; ++j) {
@@ -150,7 +151,7 @@ TEST(LowestDampedModes, FindEveryCopyOfARepeatedValue) {
     const char* name;
     double alpha, beta, tolerance;
   };
-  const double first = std::sqrt(400.0 * (4 - 4 * std::cos(std::acos(-1.0) / 13)));  // of 12 x 12
+  const double first = std::sqrt(400.0 * (4 - 4 * std::cos(constants::pi / 13)));  // of 12 x 12
   for (const Case& c :
        {Case{"undamped", 0, 0, 1e-10}, Case{"light", 1e-6, 1e-9, 1e-10},
         Case{"proportional", 0.4, 1e-3, 1e-10}, Case{"overdamped", 5 * first, 0, 1e-10},
@@ -211,7 +212,7 @@ TEST(LowestDampedModes, RigidBodyMotionsAreZeroAndListedOnce) {
 TEST(LowestDampedModes, StrongGyroscopicsAreNotDamped) {
   const int nx = 9, n = nx * nx;
   const Shaft plate = membrane(nx, nx, false);
-  const double g = 300.0, pi = std::acos(-1.0);
+  const double g = 300.0, pi = constants::pi;
   const Matrix K = plate.K;
   Matrix both = Matrix::Zero(2 * n, 2 * n), C = Matrix::Zero(2 * n, 2 * n);
   both.topLeftCorner(n, n) = both.bottomRightCorner(n, n) = K;

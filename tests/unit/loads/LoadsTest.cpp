@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
@@ -73,7 +74,7 @@ TEST(Unbalance, AtSteadySpeedIsTheCentrifugalForce) {
   const double t = 30.0;
   EXPECT_NEAR(std::hypot(total(loads, 3, 0, t), total(loads, 3, 1, t)), 0.5 * 144.0, 1e-9);
   EXPECT_NEAR(std::atan2(total(loads, 3, 1, t), total(loads, 3, 0, t)),
-              std::remainder(rotary.angle(t), 2.0 * std::acos(-1.0)), 1e-9);
+              std::remainder(rotary.angle(t), constants::twoPi), 1e-9);
 }
 
 TEST(Unbalance, AllShareTwoLawsWhateverTheirPhase) {
@@ -141,7 +142,7 @@ TEST(NodalForces, HarmonicAndWindowed) {
   loads.forces.push_back(force(2.0, 0.5, 1.0, 3.0));
   const auto list = pointLoads(loads, RotarySpeed(), depths);
   EXPECT_EQ(total(list, 2, 1, 0.999), 0.0);
-  EXPECT_NEAR(total(list, 2, 1, 1.3), 100.0 * std::cos(4.0 * std::acos(-1.0) * 1.3 + 0.5), 1e-12);
+  EXPECT_NEAR(total(list, 2, 1, 1.3), 100.0 * std::cos(4.0 * constants::pi * 1.3 + 0.5), 1e-12);
   EXPECT_EQ(total(list, 2, 1, 3.0), 0.0);
 }
 

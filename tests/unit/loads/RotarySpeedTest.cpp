@@ -11,14 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
 namespace {
 
-const double pi = std::acos(-1.0);
-const double rpm = 2.0 * pi / 60.0;
+using constants::pi;
+using constants::rpm;
 
 Teuchos::ParameterList law(const std::string& name,
                            const std::function<void(Teuchos::ParameterList&)>& fill) {

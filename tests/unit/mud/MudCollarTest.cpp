@@ -5,17 +5,20 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/mud/Mud.hpp"
 
 namespace tooljoint::mud {
 namespace {
 
-const double pi = std::acos(-1.0);
+using constants::pi;
 
 /// The collar of the reference scene in its bore.
 constexpr double outerRadius = 0.0795;
 constexpr double innerRadius = 0.0355;
 constexpr double boreRadius = 0.108;
+/// Gravity along the element [m/s2].
+const Vector3 downElement(0.0, 0.0, 9.81);
 
 const Vector3 downElement(0.0, 0.0, 9.81);
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
@@ -18,7 +19,7 @@
 namespace tooljoint::mud {
 namespace {
 
-const double pi = std::acos(-1.0);
+using constants::pi;
 const double unbounded = std::numeric_limits<double>::infinity();
 
 /// The collar of the reference scene in its bore.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -19,7 +20,7 @@ constexpr double stiffness = 3e4, mass = 0.2;
 /// Bar of linear elements with consistent mass, held at both ends: omega_j^2 = 6 k (1 - c)/(m (2 +
 /// c)), c = cos(j pi/n).
 double hertz(int j) {
-  const double pi = std::acos(-1.0), c = std::cos(j * pi / elements);
+  const double pi = constants::pi, c = std::cos(j * pi / elements);
   return std::sqrt(6.0 * stiffness * (1.0 - c) / (mass * (2.0 + c))) / (2.0 * pi);
 }
 
@@ -45,7 +46,7 @@ TEST(CutOff, IsReportedInHertz) {
   const auto part = reducedBelow(1.01 * hertz(3));
   EXPECT_NEAR(part.report.cutOffHz(), hertz(3), 1e-9 * hertz(3));
   for (int j = 1; j <= 3; ++j)
-    EXPECT_NEAR(part.basis->eigenvalues[j - 1], std::pow(2.0 * std::acos(-1.0) * hertz(j), 2),
+    EXPECT_NEAR(part.basis->eigenvalues[j - 1], std::pow(constants::twoPi * hertz(j), 2),
                 1e-8 * part.basis->eigenvalues[2]);
 }
 

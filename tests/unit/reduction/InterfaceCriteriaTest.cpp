@@ -8,6 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -38,7 +39,8 @@ TEST(InterfaceShares, OfABarAreItsEffectiveMasses) {
   const Vector shares =
       interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMass);
   for (int k = 1; k <= 4; ++k)
-    EXPECT_NEAR(shares[k - 1], 8.0 / std::pow((2 * k - 1) * M_PI, 2), 4e-3 * shares[k - 1]) << k;
+    EXPECT_NEAR(shares[k - 1], 8.0 / std::pow((2 * k - 1) * constants::pi, 2), 4e-3 * shares[k - 1])
+        << k;
 }
 
 // Divided by omega_k^2, which grows as (2k-1)^2: 96 / ((2k-1) pi)^4.
@@ -46,7 +48,9 @@ TEST(InterfaceShares, OfABarWeighLowFrequenciesMoreAsMoments) {
   const Vector shares =
       interfaceShares(bar(), craigBampton(bar(), 4), ModeRule::Kind::InterfaceMoment);
   for (int k = 1; k <= 4; ++k)
-    EXPECT_NEAR(shares[k - 1], 96.0 / std::pow((2 * k - 1) * M_PI, 4), 4e-3 * shares[k - 1]) << k;
+    EXPECT_NEAR(shares[k - 1], 96.0 / std::pow((2 * k - 1) * constants::pi, 4),
+                4e-3 * shares[k - 1])
+        << k;
 }
 
 TEST(InterfaceShares, OfAllModesAreOne) {

@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -107,7 +108,7 @@ TEST(Krylov, AResonanceIsNamed) {
   const double lambda = makeBasis("Craig-Bampton", Teuchos::ParameterList())
                             ->build(part, ModeRequest())
                             .eigenvalues[2];
-  const double hertz = std::sqrt(lambda) / (2 * 3.14159265358979323846);
+  const double hertz = std::sqrt(lambda) / constants::twoPi;
   try {
     build(part, 1, [&](auto& list) { list.set("Expansion Frequency", hertz); });
     FAIL() << "a singular dynamic stiffness was accepted";

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "Problems.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::statics {
@@ -79,7 +80,7 @@ TEST(NewtonSolver, FrictionThatDefeatsFullStepsIsSolvedByBacktracking) {
   chain.residual(x, r);
   EXPECT_LT(r.cwiseAbs().maxCoeff(), 1e-8 * chain.load);
   // in the middle, friction alone holds the load: atan(x/width) = pi/2 load/friction
-  EXPECT_NEAR(x[15], chain.width * std::tan(M_PI / 2 * chain.load / chain.friction), 1e-8);
+  EXPECT_NEAR(x[15], chain.width * std::tan(constants::pi / 2 * chain.load / chain.friction), 1e-8);
 }
 
 /// A string in a hole of stiff, sharp walls, from 1 mm off the axis; 200 iterations allowed.

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 
+#include "common/Constants.hpp"
 #include "model/NonlinearProblem.hpp"
 
 namespace tooljoint::testing {
@@ -63,10 +64,10 @@ struct ContactChain : model::NonlinearProblem {
   ContactChain(int count, double force, double lambda) : n(count), load(force), sharpness(lambda) {}
   int size() const override { return n; }
   double stiffness(double g) const {
-    return contact / M_PI * std::atan2(1.0, -M_PI * sharpness * g);
+    return contact / constants::pi * std::atan2(1.0, -constants::pi * sharpness * g);
   }
   double slope(double g) const {
-    return contact * sharpness / (1.0 + std::pow(M_PI * sharpness * g, 2));
+    return contact * sharpness / (1.0 + std::pow(constants::pi * sharpness * g, 2));
   }
   void residual(const Vector& x, Vector& r) const override {
     r.resize(n);
@@ -103,11 +104,13 @@ struct StringInHole : model::NonlinearProblem {
   explicit StringInHole(int count) : n(count) {}
   int size() const override { return 2 * n; }
   double force(double g) const {
-    return wall / M_PI * (std::atan2(1.0, -M_PI * sharpness * g) * g + 1.0 / (M_PI * sharpness));
+    return wall / constants::pi *
+           (std::atan2(1.0, -constants::pi * sharpness * g) * g +
+            1.0 / (constants::pi * sharpness));
   }
   double slope(double g) const {
-    const double x = M_PI * sharpness * g;
-    return wall / M_PI * (std::atan2(1.0, -x) + x / (1.0 + x * x));
+    const double x = constants::pi * sharpness * g;
+    return wall / constants::pi * (std::atan2(1.0, -x) + x / (1.0 + x * x));
   }
   void residual(const Vector& x, Vector& r) const override {
     r.resize(size());
@@ -172,14 +175,15 @@ struct FrictionChain : model::NonlinearProblem {
     for (int i = 0; i < n; ++i) {
       const double left = i > 0 ? x[i - 1] : 0.0, right = i + 1 < n ? x[i + 1] : 0.0;
       r[i] = spring * (2.0 * x[i] - left - right) +
-             friction * 2.0 / M_PI * std::atan(x[i] / width) - load;
+             friction * 2.0 / constants::pi * std::atan(x[i] / width) - load;
     }
   }
   void jacobian(const Vector& x, Sparse& J) const override {
     Triplets t;
     for (int i = 0; i < n; ++i) {
-      t.emplace_back(i, i,
-                     2.0 * spring + friction * 2.0 / M_PI * width / (width * width + x[i] * x[i]));
+      t.emplace_back(
+          i, i,
+          2.0 * spring + friction * 2.0 / constants::pi * width / (width * width + x[i] * x[i]));
       if (i > 0) t.emplace_back(i, i - 1, -spring);
       if (i + 1 < n) t.emplace_back(i, i + 1, -spring);
     }

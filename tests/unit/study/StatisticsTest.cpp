@@ -8,13 +8,14 @@
 #include <limits>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace {
 
 using namespace tooljoint;
 
-constexpr double pi = 3.14159265358979323846;
+using constants::pi;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Node 1 moves as a sine in u, node 2 stands still at v = 0.5; 4096 samples at 256 Hz.

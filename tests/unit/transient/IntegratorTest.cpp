@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::transient::testing {
@@ -307,7 +308,7 @@ TEST(Integrators, defaultRungeKuttaStepIsBoundedByTheLargestFrequency) {
   const int n = 40;
   const double k = 3e5, m = 2.0;
   const auto model = springChain(n, m, 0.0, k);
-  const double omega = 2 * std::sqrt(k / m) * std::sin(M_PI * n / (2.0 * (n + 1)));
+  const double omega = 2 * std::sqrt(k / m) * std::sin(constants::pi * n / (2.0 * (n + 1)));
   auto report = runFor(model, "RK4", 1.0, 0);
   const double limit = 2.78 / omega;
   EXPECT_LE(report.counters.maxStep, 0.9 * limit * (1 + 1e-9));

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/Transient.hpp"
 
@@ -67,7 +68,7 @@ class Floor final : public model::PointLaw {
                            double* f, double* dfdd, double* dfdv) const override {
     for (int p : active) {
       const double s = step(-d[p]);
-      const double x = M_PI * lambda_ * d[p];
+      const double x = constants::pi * lambda_ * d[p];
       const double slope = -lambda_ / (1 + x * x);  // ds/dd
       f[p] = s * (-k_ * d[p] - c_ * v[p]);
       dfdd[p] = -k_ * s + slope * (-k_ * d[p] - c_ * v[p]);
@@ -101,7 +102,9 @@ class Floor final : public model::PointLaw {
 
  private:
   /// 1 well inside, 0 well outside: atan2(1, -pi lambda g) / pi.
-  double step(double g) const { return std::atan2(1.0, -M_PI * lambda_ * g) / M_PI; }
+  double step(double g) const {
+    return std::atan2(1.0, -constants::pi * lambda_ * g) / constants::pi;
+  }
   double tail() const { return 30.0 / lambda_; }
   int points_;
   double k_, c_, lambda_;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::transient::testing {
@@ -109,7 +110,7 @@ TEST(MassNorm, isTheSameInAllCoordinates) {
 
   Matrix T = Matrix::Zero(2 * n, 3);
   for (int i = 0; i < n; ++i) {
-    const double x = (i + 0.5) / n * M_PI;
+    const double x = (i + 0.5) / n * constants::pi;
     T(2 * i, 0) = 0.3 * std::sin(x), T(2 * i, 1) = 7.0 * std::sin(2 * x),
              T(2 * i, 2) = 100 * std::sin(3 * x);
   }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
+#include "common/Constants.hpp"
 #include "transient/accuracy/StepAccuracy.hpp"
 
 namespace tooljoint::transient::testing {
@@ -32,7 +33,7 @@ double ofVibration(double wh) {
 TEST(StepDoublingError, measuresThePhaseThatAStepLoses) {
   for (double wh : {0.05, 0.2, 0.8}) {
     const double a = 2 * std::atan(wh / 2), b = a - 4 * std::atan(wh / 4);
-    const double kept = 2 * (0.5 - std::sin(0.75 * M_PI) / (1.5 * M_PI));
+    const double kept = 2 * (0.5 - std::sin(0.75 * constants::pi) / (1.5 * constants::pi));
     const double expected =
         std::sqrt(kept * 4 * std::pow(std::sin(b / 2), 2) / (2 * std::sin(a / 2)));
     EXPECT_NEAR(ofVibration(wh), expected, 0.1 * expected) << wh;

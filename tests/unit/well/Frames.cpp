@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 using namespace tooljoint;
@@ -12,7 +13,7 @@ using namespace tooljoint::well;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 std::vector<double> depths(double length, int n) {
   std::vector<double> s;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common/Constants.hpp"
 #include "substructures/well/Trajectory.hpp"
 
 using namespace tooljoint;
@@ -14,7 +15,7 @@ using namespace tooljoint::well;
 
 namespace {
 
-const double degree = 3.14159265358979323846 / 180.0;
+using constants::degree;
 
 /// A CSV file that is removed at the end of the test.
 class CsvFile {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/well/Trajectory.hpp"
 
 using namespace tooljoint;
@@ -10,7 +11,7 @@ using namespace tooljoint::well;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 const double degree = pi / 180.0;
 
 /// Tangent and curvature are the derivatives of the position, the tangent has unit length, and

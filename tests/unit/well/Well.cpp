@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "deck/Deck.hpp"
 
 using namespace tooljoint;
@@ -11,7 +12,7 @@ using namespace tooljoint::well;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 /// The well of a deck whose list Well holds `inside`.
 Well fromDeck(const std::string& inside) {

@@ -10,13 +10,14 @@
 #include <complex>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "tests/support/StraightBeam.hpp"
 
 namespace tooljoint::beam {
 namespace {
 
+using constants::pi;
 using testing_::StraightBeam;
-const double pi = std::acos(-1.0);
 const std::vector<int> lateral{0, 1, 3, 4};
 
 Section slender() {

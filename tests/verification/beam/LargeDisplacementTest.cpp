@@ -6,14 +6,15 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "tests/support/DirectNewton.hpp"
 #include "tests/support/FrameProblem.hpp"
 
 namespace tooljoint::beam {
 namespace {
 
+using constants::pi;
 using testing_::FrameProblem;
-const double pi = std::acos(-1.0);
 
 /// Cantilever along z with E I = 1, E S = 1e8, length 1.
 FrameProblem cantilever(int elements) {

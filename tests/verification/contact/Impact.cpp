@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
 using namespace tooljoint;
@@ -13,7 +14,7 @@ using namespace tooljoint::contact;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 
 /// u, v, theta_z and their rates.
 using Motion = std::array<double, 6>;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cases/CaseKinds.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "estimate/AdaptiveReduction.hpp"
@@ -113,7 +114,7 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
       for (int i = 0; i < 20; ++i)
         worst =
             std::max(worst, std::abs(outcome.frequencies[static_cast<std::size_t>(i)].frequency() *
-                                         6.28318530717958647692 / reduction::signedOmega(full[i]) -
+                                         constants::twoPi / reduction::signedOmega(full[i]) -
                                      1.0));
       std::printf(
           "%-24s tolerance %.0e: %d modes in %zu rounds, %d of %d dofs, error %.1e, estimate "

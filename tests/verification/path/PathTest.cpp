@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/path/PathProblem.hpp"
 #include "substructures/well/Frames.hpp"
 #include "tests/support/DirectNewton.hpp"
@@ -14,7 +15,7 @@
 namespace tooljoint::path {
 namespace {
 
-const double pi = std::acos(-1.0);
+using constants::pi;
 
 beam::Section pipe() {
   return beam::Section::hollow(0.0635, 0.054, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear();

@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -54,7 +55,7 @@ TEST(EnhancedCraigBampton, OrderOfAccuracyAgainstTheClosedForm) {
       omegas(checks::synthesise(humarBar(), "Enhanced Craig-Bampton", 2).coupled.model);
   const double factors[3] = {1e4, 1e2, 1e1};
   for (int n = 1; n <= 3; ++n) {
-    const double theta = (2 * n - 1) * 3.14159265358979323846 / 16;
+    const double theta = (2 * n - 1) * constants::pi / 16;
     const double exact = 8 * std::sqrt(6 * (1 - std::cos(theta)) / (2 + std::cos(theta)));
     const double before = plain[n - 1] / exact - 1, after = enhanced[n - 1] / exact - 1;
     EXPECT_GT(after, -1e-12);

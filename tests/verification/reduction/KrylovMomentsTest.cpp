@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -15,7 +16,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
 
 /// A part as dense blocks: kept dofs C, interior I.
 struct Blocks {

@@ -5,6 +5,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "coupling/assembly/Assembler.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
@@ -16,7 +17,7 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-constexpr double pi = 3.14159265358979323846;
+using constants::pi;
 
 ReductionOptions modes(int count) {
   ReductionOptions options;

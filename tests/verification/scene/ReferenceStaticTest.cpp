@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace {
@@ -43,7 +44,7 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
   const auto scene = reference();
   const auto& state = sourcePrestress().state;
   constexpr double gravity = 9.81, mud = 1200, steel = 7900, weightOnBit = 1e4, radius = 85.1,
-                   turned = 0.5 * M_PI, length = 170.2;
+                   turned = 0.5 * constants::pi, length = 170.2;
   const double drop = std::sqrt(length * length - std::pow(radius * turned, 2)),
                pitch = drop / turned;
   const double curvature = radius / (radius * radius + pitch * pitch), down = drop / length,
@@ -53,8 +54,8 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
   for (auto element = scene.string.elements.rbegin(); element != scene.string.elements.rend();
        ++element) {
     const auto& section = element->section;
-    const double in = M_PI * std::pow(section.innerRadius(), 2),
-                 out = M_PI * std::pow(section.outerRadius(), 2);
+    const double in = constants::pi * std::pow(section.innerRadius(), 2),
+                 out = constants::pi * std::pow(section.outerRadius(), 2);
     const double weight = gravity * (steel * (out - in) - mud * out + mud * in);
     middle = tension + 0.5 * weight * down * element->length;
     compressed += middle < 0;

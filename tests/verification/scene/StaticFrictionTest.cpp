@@ -5,13 +5,14 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace {
 
 using namespace tooljoint;
 
-const double rpm = std::acos(-1.0) / 30.0;
+using constants::rpm;
 
 drillstring::Scene scene(std::vector<std::string> overrides) {
   overrides.insert(overrides.begin(),
@@ -69,7 +70,7 @@ TEST(StaticFriction, ActsWithItsCoefficient) {
   };
   // eq. (9) of Nguyen et al. 2020 at v = Omega R_c = 4 pi 0.084 m/s, v_r = 0.1 m/s, mu_s = 0.3,
   // mu_d = 0.25
-  const double v = 4.0 * std::acos(-1.0) * 0.084, xi = std::sqrt(1.0 - 0.25 / 0.3),
+  const double v = 4.0 * constants::pi * 0.084, xi = std::sqrt(1.0 - 0.25 / 0.3),
                c = (1.0 - xi) / (2.0 * 0.1 * 0.25), q = 1.0 / (1.0 + c * v);
   const double sliding = v / 0.2 * ((1.0 - xi) * q + (1.0 + xi) * q * q);
   EXPECT_NEAR(sliding, 0.27, 0.02);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
@@ -89,7 +90,7 @@ TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
   double tension = -50e3, torque = 0.0;
   const auto& elements = scene.string.elements;
   const double mu =
-      std::abs(scene.contactPoints.slidingAt(120.0 * std::acos(-1.0) / 30.0).muStatic.front());
+      std::abs(scene.contactPoints.slidingAt(120.0 * constants::pi / 30.0).muStatic.front());
   double s = scene.string.length();
   for (auto element = elements.rbegin(); element != elements.rend(); ++element) {
     const int pieces = 20;

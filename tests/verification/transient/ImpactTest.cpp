@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../../unit/transient/Models.hpp"
+#include "common/Constants.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::transient::testing {
@@ -19,7 +20,7 @@ TEST(Impact, reboundSpeedOfADampedStop) {
   model.initialVelocity[0] = -v;
   addFloor(model, k, c, 7e11);
   const double omega = std::sqrt(k / m), zeta = c / (2 * m * omega);
-  const double expected = v * std::exp(-M_PI * zeta / std::sqrt(1 - zeta * zeta));
+  const double expected = v * std::exp(-constants::pi * zeta / std::sqrt(1 - zeta * zeta));
   for (const auto& [integrator, step] :
        {std::pair<std::string, double>{"RK4", 2e-6}, {"Generalized-alpha", 5e-6}}) {
     Keep samples;

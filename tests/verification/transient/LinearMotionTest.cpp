@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "../../unit/transient/Models.hpp"
+#include "common/Constants.hpp"
 #include "substructures/beam/Element.hpp"
 
 namespace tooljoint::transient::testing {
@@ -133,8 +134,8 @@ TEST(LinearMotion, chainFollowsItsModes) {
       for (int j = 1; j <= n; ++j) {
         Vector shape(n);
         for (int i = 0; i < n; ++i)
-          shape[i] = std::sqrt(2.0 / (n + 1)) * std::sin((i + 1) * j * M_PI / (n + 1));
-        const double omega = 2 * std::sqrt(k / m) * std::sin(j * M_PI / (2.0 * (n + 1)));
+          shape[i] = std::sqrt(2.0 / (n + 1)) * std::sin((i + 1) * j * constants::pi / (n + 1));
+        const double omega = 2 * std::sqrt(k / m) * std::sin(j * constants::pi / (2.0 * (n + 1)));
         const double zeta = 0.5 * c / k * omega;
         const double wd = omega * std::sqrt(1 - zeta * zeta);
         const double a = shape.dot(model.initialDisplacement), b = shape.dot(model.initialVelocity);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
 #include "tests/support/Scenes.hpp"
@@ -32,7 +33,7 @@ TransientOptions steps(double h, double end) {
 
 /// 10 Hz: 100 steps a period, 20, 2.
 TEST(StepAccuracy, refusesStepsThatLoseTheVibration) {
-  const double w = 2 * 3.14159265358979 * 10;
+  const double w = 2 * constants::pi * 10;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
   NoSamples sink;
   EXPECT_NO_THROW(integrate(model, steps(1e-3, 1.0), sink));
@@ -50,7 +51,7 @@ TEST(StepAccuracy, refusesStepsThatLoseTheVibration) {
 
 /// Too short for steps to be taken twice: nothing is said of what was not measured.
 TEST(StepAccuracy, refusesShortRunsByTheLocalErrorAlone) {
-  const double w = 2 * 3.14159265358979 * 10;
+  const double w = 2 * constants::pi * 10;
   NoSamples sink;
   try {
     integrate(oscillator(1.0, 0.0, w * w, 1e-3, 0.0), steps(5e-2, 3.0), sink);
@@ -93,7 +94,7 @@ TEST(StepAccuracy, judgesVibrationByTheStepsOfAPeriod) {
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
   const auto said = [&](double r, bool accept, StepErrors* errors) {
     const double h = std::sqrt(12 * r) / w;
-    auto o = steps(h, 300 * 2 * M_PI / w);
+    auto o = steps(h, 300 * 2 * constants::pi / w);
     o.own.set("Spectral Radius", 1.0);
     o.own.set("Phase Correction", false);
     o.own.set("Accept Coarse Steps", accept);

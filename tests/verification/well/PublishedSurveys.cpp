@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "common/Constants.hpp"
 #include "substructures/well/Frames.hpp"
 
 using namespace tooljoint;
@@ -11,7 +12,7 @@ using namespace tooljoint::well;
 
 namespace {
 
-const double pi = 3.14159265358979323846;
+using constants::pi;
 const double degree = pi / 180.0;
 const double foot = 0.3048;
 
