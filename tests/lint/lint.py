@@ -4,6 +4,7 @@
 
     lint.py PROJECT         prints file:line: what is wrong, exit code 1 if anything is
     lint.py --self-test     shows that each rule catches what it is for
+    lint.py --rooms         prints the table of rooms for docs/architecture.md
 """
 import pathlib
 import re
@@ -12,16 +13,13 @@ import subprocess
 import sys
 import tempfile
 
+import rooms
+
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
 ROOMS = ["src", "substructures", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
 TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
-TOOLKIT_ROOMS_FOR_PARTS = {"model", "common", "deck", "linalg", "statics"}
-# What a case is made of: the rooms that the way from a deck to a case needs beside them.
-TOOLKIT_ROOMS_FOR_CASES = TOOLKIT_ROOMS_FOR_PARTS | {"cases", "coupling", "estimate", "io", "parts", "reduction", "transient"}
-ABOVE_CASES = {"app", "cases", "response", "study"}  # rooms of src/ that work on any case
-ABOVE_STUDY = {"app", "study"}
 # Spelt so that this file does not contain them.
 FORBIDDEN = [re.compile(word) for word in [r"\bTO" r"DO\b", r"\bFIX" r"ME\b", r"\bXX" r"X\b", r"(?i)\bnot " r"implemented\b", r"(?i)\bplace" r"holder\b",
                                            r"(?<![\w.])/wo" r"rk/"]]
@@ -31,33 +29,6 @@ INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 def is_source(path):
     return path.suffix in SOURCES or path.name in ("CMakeLists.txt", "quickstart", "run")
-
-
-def include_problem(parts, included):
-    """Why a file at `parts` (path in pieces) may not include `included`, or None."""
-    target = included.removeprefix("tooljoint/").removeprefix("../").split("/")
-    room = toolkit_room(target)
-    if parts[0] == "src" and parts[1] != "app" and target[0] == "substructures":
-        return "the toolkit (src/) includes nothing of substructures/"
-    if parts[:2] != ("src", "app") and room == "app":
-        return "nothing but the program includes src/app/"
-    if parts[0] == "src" and room == "cases" and parts[1] not in ABOVE_CASES:
-        return "only app, cases, response and study include src/cases/"
-    if parts[0] == "src" and room == "study" and parts[1] not in ABOVE_STUDY:
-        return "only app and study include src/study/"
-    if parts[0] != "substructures" or room is None:
-        return None
-    if parts[:3] == ("substructures", "drillstring", "case"):
-        return None if room in TOOLKIT_ROOMS_FOR_CASES else "substructures/drillstring/case/ includes nothing of src/ that works on cases"
-    return None if room in TOOLKIT_ROOMS_FOR_PARTS else "substructures/ includes only model, common, deck, linalg and statics of src/"
-
-
-def toolkit_room(target):
-    """The room of src/ that an included path (in pieces) belongs to, or None for other headers."""
-    if target[0] == "src" and len(target) > 1:
-        target = target[1:]
-    rooms = TOOLKIT_ROOMS_FOR_CASES | ABOVE_CASES
-    return target[0] if len(target) > 1 and target[0] in rooms else None
 
 
 def lint_file(root, path):
@@ -83,7 +54,7 @@ def lint_file(root, path):
         if toolkit and (match := FOREIGN.search(line)):
             yield number, f"says \"{match.group(0)}\": the toolkit has never heard of it"
         if path.suffix in (".cpp", ".hpp") and (match := INCLUDE.match(line)):
-            if problem := include_problem(parts, match.group(1)):
+            if problem := rooms.include_problem(parts, match.group(1)):
                 yield number, f"includes {match.group(1)}: {problem}"
 
 
@@ -103,31 +74,41 @@ def modes(root):
             yield f"{path.relative_to(root)}:1: is not executable: chmod +x"
 
 
+def house(root):
+    """The table of rooms in docs/architecture.md is that of rooms.py."""
+    page = root / "docs" / "architecture.md"
+    if page.is_file() and rooms.table() not in page.read_text(encoding="utf-8"):
+        yield "docs/architecture.md:1: has not the table of rooms that lint.py --rooms prints"
+
+
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
         files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
-    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)] + list(modes(root))
+    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)] + list(modes(root)) + list(house(root))
     return complaints, len(files)
 
 
 def self_test():
     spdx = "// SPDX-License-Identifier: BSD-3-Clause\n"
     cases = {  # file, text, part of the complaint (None: no complaint)
-        "src/io/A.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "includes nothing of substructures"),
-        "src/io/B.cpp": (spdx + '#include "app/commands/Commands.hpp"\n', "nothing but the program"),
-        "src/io/N.cpp": (spdx + '#include "cases/Case.hpp"\n', "only app, cases"),
-        "src/cases/O.cpp": (spdx + '#include "study/Row.hpp"\n', "only app and study"),
+        "src/io/A.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "src/io may not include substructures/beam"),
+        "src/io/B.cpp": (spdx + '#include "app/commands/Commands.hpp"\n', "src/io may not include src/app"),
+        "src/io/N.cpp": (spdx + '#include "cases/Case.hpp"\n', "src/io may not include src/cases"),
+        "src/cases/O.cpp": (spdx + '#include "study/Row.hpp"\n', "src/cases may not include src/study"),
         "src/study/P.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
         "src/io/C.cpp": (spdx + "// a drill" + "string\n", "never heard"),
         "src/io/D.cpp": (spdx + "// a Drill" + " pipe\n", "never heard"),
         "src/app/E.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n// drill' + "string\n", None),
-        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "only model, common, deck, linalg and statics"),
-        "substructures/drillstring/Q.cpp": (spdx + '#include "cases/Case.hpp"\n', "only model, common, deck, linalg and statics"),
+        "substructures/beam/F.cpp": (spdx + '#include "transient/Transient.hpp"\n', "substructures/beam may not include src/transient"),
+        "substructures/drillstring/Q.cpp": (spdx + '#include "cases/Case.hpp"\n', "substructures/drillstring may not include src/cases"),
         "substructures/drillstring/case/R.cpp": (spdx + '#include "cases/Case.hpp"\n', None),
-        "substructures/drillstring/case/S.cpp": (spdx + '#include "study/Row.hpp"\n', "that works on cases"),
-        "substructures/beam/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/path/PathState.hpp"\n#include <vector>\n', None),
+        "substructures/drillstring/case/S.cpp": (spdx + '#include "study/Row.hpp"\n', "may not include src/study"),
+        "substructures/path/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/beam/Section.hpp"\n#include <vector>\n', None),
+        "substructures/beam/T.cpp": (spdx + '#include "substructures/path/PathState.hpp"\n', "substructures/beam may not include substructures/path"),
+        "src/attic/U.cpp": (spdx + '#include "common/Error.hpp"\n', "is not in tests/lint/rooms.py"),
+        "docs/architecture.md": ("an old table\n", "lint.py --rooms"),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),
         "cmake/I.cmake": ("# SPDX-License-Identifier: BSD-3-Clause\n# TO" + "DO later\n", "says"),
         "docs/J.md": ("see /wo" + "rk/main\n", "says"),
@@ -154,6 +135,9 @@ def self_test():
 def main():
     if sys.argv[1:] == ["--self-test"]:
         return self_test()
+    if sys.argv[1:] == ["--rooms"]:
+        print(rooms.table(), end="")
+        return 0
     complaints, count = lint(pathlib.Path(sys.argv[1]).resolve())
     print("\n".join(complaints))
     print(f"{count} files read, {len(complaints)} complaints.")

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rooms of the house and what each may include. docs/architecture.md shows this table (`lint.py --rooms`)."""
+
+GROUND = "common deck linalg model statics"
+MODELS = f"{GROUND} coupling io reduction"
+CASES = f"{MODELS} estimate parts transient"
+
+# Room: (rooms of its own side it may include, in words what it holds). src/ never includes substructures/, but for app.
+TOOLKIT = {
+    "common": ("", "errors, log, ranks, text, constants"),
+    "deck": ("common", "from XML to checked values, the manual, registries"),
+    "linalg": ("common", "Trilinos solvers, block-sparse kernels"),
+    "model": ("common deck linalg", "SecondOrderModel, Substructure, laws"),
+    "statics": ("common linalg model", "NOX drivers"),
+    "io": ("common deck", "files: HDF5, XDMF, CSV, Matrix Market, summary.json"),
+    "reduction": ("common deck io linalg model", "from a part to its reduced model"),
+    "coupling": ("common deck linalg model reduction", "from parts to one model"),
+    "transient": ("common coupling deck io linalg model", "time integration"),
+    "parts": (MODELS, "parts from files and into files"),
+    "estimate": (f"{MODELS} transient", "errors of a reduced model, without the full one"),
+    "cases": (CASES, "a case; run, record, restart, check"),
+    "study": (f"{CASES} cases", "speed against error over many runs"),
+    "app": (f"{CASES} cases study", "the program, a file for each command"),
+}
+# Room: (rooms of substructures/, rooms of src/, what it holds)
+DRILLSTRING = {
+    "well": ("", GROUND, "trajectories, surveys, bore"),
+    "beam": ("", GROUND, "sections, elements, rotations"),
+    "loads": ("", GROUND, "gravity, forces, unbalance, rotary speed"),
+    "contact": ("", GROUND, "the borehole wall"),
+    "mud": ("beam", GROUND, "added mass, drag, flow"),
+    "path": ("beam well", GROUND, "bending of the string into the well"),
+    "equilibrium": ("beam contact", GROUND, "the static state"),
+    "drillstring": ("beam contact loads mud path well", GROUND, "components, mesh, supports, equations"),
+    "drillstring/case": ("beam contact drillstring equilibrium loads mud path well", f"{CASES} cases", "from a deck to a case"),
+}
+
+
+def room_of(path):
+    """(side, room) of a path in pieces, or None for what is no room."""
+    if len(path) < 3 or path[0] not in ("src", "substructures"):
+        return None
+    if path[0] == "substructures" and len(path) > 3 and "/".join(path[1:3]) in DRILLSTRING:
+        return path[0], "/".join(path[1:3])
+    return path[0], path[1]
+
+
+def included_room(included):
+    """(side, room) of an included path, or None for headers of other projects."""
+    path = included.removeprefix("tooljoint/").removeprefix("../").split("/")
+    if path[0] not in ("src", "substructures"):
+        path = ["src", *path]
+    found = room_of(path)
+    known = found and found[1] in (TOOLKIT if found[0] == "src" else DRILLSTRING)
+    return found if known else None
+
+
+def include_problem(path, included):
+    """Why a file at `path` (in pieces) may not include `included`, or None."""
+    room, target = room_of(path), included_room(included)
+    if room is None or target is None or room == target:
+        return None
+    side, name = room
+    if name not in (TOOLKIT if side == "src" else DRILLSTRING):
+        return f"the room {side}/{name} is not in tests/lint/rooms.py"
+    if side == "src":
+        allowed = {("src", other) for other in TOOLKIT[name][0].split()}
+        if name == "app":
+            allowed |= {("substructures", other) for other in DRILLSTRING}
+    else:
+        own, toolkit, _ = DRILLSTRING[name]
+        allowed = {("substructures", other) for other in own.split()} | {("src", other) for other in toolkit.split()}
+    return None if target in allowed else f"{side}/{name} may not include {'/'.join(target)} (tests/lint/rooms.py)"
+
+
+def table():
+    """Both sides as Markdown."""
+    lines = ["| Room | holds | may include |", "|---|---|---|"]
+    for name, (rooms, holds) in TOOLKIT.items():
+        extra = ", substructures/" if name == "app" else ""
+        lines.append(f"| src/{name} | {holds} | {', '.join(sorted(rooms.split())) or '-'}{extra} |")
+    for name, (own, toolkit, holds) in DRILLSTRING.items():
+        lines.append(f"| substructures/{name} | {holds} | {', '.join(sorted(own.split()) + ['src/{' + ','.join(sorted(toolkit.split())) + '}'])} |")
+    return "\n".join(lines) + "\n"
