@@ -28,7 +28,7 @@ PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
 FACTOR = 3.0          # an estimate is to lie within this factor of the true error
 ROUNDING = 1e-9       # true errors of frequencies below this are rounding
-STEPS = 5e-5          # dyn below this is what the tolerance of the steps leaves, with all modes kept too
+STEPS = 5e-5          # a vibration error below this is what the tolerance of the steps leaves, with all modes kept too
 STUDIES = {"helical": ("reference scene", "cms_variants"), "frame": ("frame", "cms_variants_frame")}
 # scene, window [s], what the motion is run with, how many modes the deck asks for
 SCENES = [("helical_170m", 3, [], "Cut-off Frequency"), ("helical_170m_source", 3, [], "Modes"), ("stress_170m", 3, [], "Cut-off Frequency"),
@@ -116,12 +116,12 @@ def shown(run, column, form="{:.1e}"):
 
 def table(study):
     """One row for each run."""
-    rows = ["| run | dofs | largest error of 20 frequencies | least MAC | dyn | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|---|"]
+    rows = ["| run | dofs | largest error of 20 frequencies | least MAC | vibration error | CPU [s] per simulated s | reduction [s] |", "|---|---|---|---|---|---|---|"]
     for run in study.all:
         if run.kind != "check" and run.kind != "sensitivity":
             setup = shown(run, "setup_cpu", "{:.2g}") if run.reduced else ""
             label = "full model, the reference" if run.kind == "reference" else run.label
-            rows.append(f"| {label} | {run.row['reduced_dofs'] or '-'} | {shown(run, 'frequency_error')} | {shown(run, 'least_mac', '{:.2f}')} | {shown(run, 'dyn')} "
+            rows.append(f"| {label} | {run.row['reduced_dofs'] or '-'} | {shown(run, 'frequency_error')} | {shown(run, 'least_mac', '{:.2f}')} | {shown(run, 'vibration_error')} "
                         f"| {shown(run, 'cpu_per_simulated_s', '{:.3g}')} | {setup} |")
     return "\n".join(rows) + "\n"
 
@@ -150,8 +150,8 @@ def frequency_ratios(run):
 
 
 def motion_ratio(run):
-    """estimate / dyn; None where either means nothing."""
-    return run.number("estimated_dyn") / run.number("dyn") if run.row["estimated_dyn"] and run.number("dyn") > STEPS else None
+    """estimate / vibration error; None where either means nothing."""
+    return run.number("estimated_vibration_error") / run.number("vibration_error") if run.row["estimated_vibration_error"] and run.number("vibration_error") > STEPS else None
 
 
 def estimate_rows(study, scene):
@@ -173,7 +173,7 @@ def estimate_rows(study, scene):
             count[5].append(ratio)
             if outside(ratio):
                 count[4] += 1
-                exceptions.append(f"| {scene} | {run.label} | dyn | {run.number('dyn'):.1e} | {run.number('estimated_dyn'):.1e} | {ratio:.3g} | |")
+                exceptions.append(f"| {scene} | {run.label} | vibration error | {run.number('vibration_error'):.1e} | {run.number('estimated_vibration_error'):.1e} | {ratio:.3g} | |")
     span = lambda values: f"{min(values):.2g} to {max(values):.2g}" if values else "-"
     rows = [f"| {scene} | {line} | {c[0]} | {c[1]} | {span(c[2])} | {c[3]} | {c[4]} | {span(c[5])} |" for line, c in counts.items() if c[0] + c[3] > 0]
     return rows, exceptions
@@ -193,9 +193,9 @@ def tolerance_frequency(bench, scene, count, tolerance):
     return f"| {scene} | {tolerance} | {dofs} of {full} | {estimated:.1e} | {error:.1e} | {'yes' if met else '**no**'} |", met
 
 
-def dyn_between(bench, folder, reference, end):
+def vibration_error_between(bench, folder, reference, end):
     done = subprocess.run([bench.program, "compare", str(folder), str(reference), "--to", str(end), "--json"], stdout=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)["dyn"]
+    return json.loads(done.stdout)["vibration_error"]
 
 
 def tolerance_motion(bench, scene, end, more, count, tolerance):
@@ -210,9 +210,9 @@ def tolerance_motion(bench, scene, end, more, count, tolerance):
     if reason:
         return f"| {scene} | 0 to {end} s | {tolerance} | failed: {reason} | | | no |", False
     summary = json.loads((folder / "summary.json").read_text())
-    dyn, estimate = dyn_between(bench, folder, full, end), summary["reduction"]["estimate"]["motion_error"]
-    met = dyn <= float(tolerance)
-    return (f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of {summary['model']['free_dofs']} | {cell(estimate)} | {dyn:.1e} "
+    vibration_error, estimate = vibration_error_between(bench, folder, full, end), summary["reduction"]["estimate"]["motion_error"]
+    met = vibration_error <= float(tolerance)
+    return (f"| {scene} | 0 to {end} s | {tolerance} | {summary['reduction']['reduced_dofs']} of {summary['model']['free_dofs']} | {cell(estimate)} | {vibration_error:.1e} "
             f"| {'yes' if met else '**no**'} |", met)
 
 
@@ -221,7 +221,7 @@ def scene_section(name, steps):
         study = bench.study(name)
         figure(study, f"cms_variants_{name}")
         own, timed = study.companion("check"), study.companion("reference")
-        cost = f"The steps alone ({steps}) cost a dyn of {own.number('dyn'):.1e} against RK4." if own else "The check of the reference failed."
+        cost = f"The steps alone ({steps}) cost a vibration error of {own.number('vibration_error'):.1e} against RK4." if own else "The check of the reference failed."
         return (f"Machine: {machine()}; the reference took {timed.number('cpu'):.3g} s. {cost}\n\n![errors](figures/cms_variants_{name}.png)\n\n" + table(study) + "\n"
                 + failures(study))
     return write
@@ -241,7 +241,7 @@ def tolerance_section(bench):
     rows = ["| scene | tolerance | dofs | largest estimate | largest true error | met |", "|---|---|---|---|---|---|"]
     for scene, _, _, count in SCENES:
         rows += [tolerance_frequency(bench, scene, count, tolerance)[0] for tolerance in FREQUENCY_TOLERANCES]
-    motions = ["| scene | window | tolerance | dofs | estimated dyn | dyn | met |", "|---|---|---|---|---|---|---|"]
+    motions = ["| scene | window | tolerance | dofs | estimated vibration error | vibration error | met |", "|---|---|---|---|---|---|---|"]
     for scene, end, more, count in SCENES:
         motions.append(tolerance_motion(bench, scene, end, more, count, MOTION_TOLERANCE)[0])
     return f"The lowest {FREQUENCIES} coupled frequencies:\n\n" + "\n".join(rows) + "\n\nThe motion:\n\n" + "\n".join(motions) + "\n"
@@ -270,8 +270,8 @@ def short_test(bench):
             wrong = [ratio for *_, ratio in frequency_ratios(run) if outside(ratio)]
             if wrong:
                 faults.append(f"{run.label}: estimates of frequencies off by the factors {', '.join(f'{ratio:.2g}' for ratio in wrong)}")
-            if not run.row["estimated_dyn"] or outside(motion_ratio(run) or 1.0):
-                faults.append(f"{run.label}: dyn {run.row['dyn']}, estimate {run.row['estimated_dyn']}")
+            if not run.row["estimated_vibration_error"] or outside(motion_ratio(run) or 1.0):
+                faults.append(f"{run.label}: vibration error {run.row['vibration_error']}, estimate {run.row['estimated_vibration_error']}")
     for line in chosen:
         mine = [run.number("frequency_error") for run in reduced_runs(study) if run.line == line]
         if len(mine) != 2 or not mine[1] < mine[0]:

@@ -160,7 +160,7 @@ class Labels:
 
 def ordered(runs):
     """Runs of a line in the order of the deck, failed ones skipped."""
-    return [run for run in runs if run.number("dyn") > 0 and run.number("cpu_per_simulated_s") > 0]
+    return [run for run in runs if run.number("vibration_error") > 0 and run.number("cpu_per_simulated_s") > 0]
 
 
 def published(study):
@@ -171,11 +171,11 @@ def published(study):
 
 
 def draw_speed(study):
-    """dyn against CPU time per simulated second: down and left is better."""
+    """vibration error against CPU time per simulated second: down and left is better."""
     figure, axes = plt.subplots(figsize=(10.5, 7))
     axes.set_xscale("log"), axes.set_yscale("log")
     xs = [run.number("cpu_per_simulated_s") for run in study.methods]
-    ys = [run.number("dyn") for run in study.methods]
+    ys = [run.number("vibration_error") for run in study.methods]
     if not xs:
         return None
     others = list(published(study))
@@ -195,29 +195,29 @@ def draw_speed(study):
     labels = Labels(axes)
     for name, runs in study.lines.items():
         runs = ordered(runs)
-        x, y = [r.number("cpu_per_simulated_s") for r in runs], [r.number("dyn") for r in runs]
+        x, y = [r.number("cpu_per_simulated_s") for r in runs], [r.number("vibration_error") for r in runs]
         axes.plot(x, y, marker=study.marker[name], markersize=5, linewidth=1.6, color=study.colour[name], linestyle="--" if runs and runs[0].reduced else "-",
                   markeredgecolor="white", markeredgewidth=0.6, zorder=3)
         if runs:
             labels.occupy(x, y)
     baseline = next((run for run in study.methods if run.label == study.attribute("baseline", "")), None)
     if baseline:
-        axes.plot(baseline.number("cpu_per_simulated_s"), baseline.number("dyn"), "o", markersize=13, markerfacecolor="none", markeredgecolor="black",
+        axes.plot(baseline.number("cpu_per_simulated_s"), baseline.number("vibration_error"), "o", markersize=13, markerfacecolor="none", markeredgecolor="black",
                   markeredgewidth=1, zorder=4)
     draw_published(axes, labels, others)
     for name, runs in study.lines.items():
         runs = ordered(runs)
         if runs:
-            labels.put(wrapped(name), [(r.number("cpu_per_simulated_s"), r.number("dyn")) for r in runs], study.colour[name], size=9.5, weight="bold")
+            labels.put(wrapped(name), [(r.number("cpu_per_simulated_s"), r.number("vibration_error")) for r in runs], study.colour[name], size=9.5, weight="bold")
     if baseline:
-        labels.put("baseline", [(baseline.number("cpu_per_simulated_s"), baseline.number("dyn"))], "black", size=8, reach=(12, 20, 32))
+        labels.put("baseline", [(baseline.number("cpu_per_simulated_s"), baseline.number("vibration_error"))], "black", size=8, reach=(12, 20, 32))
     for name, runs in study.lines.items():
         runs = ordered(runs)
         for run in ([runs[0], runs[-1]] if len(runs) > 1 else []):
-            labels.put(short(run.value), [(run.number("cpu_per_simulated_s"), run.number("dyn"))], study.colour[name], size=7.5, reach=(6, 10, 16), limit=60)
+            labels.put(short(run.value), [(run.number("cpu_per_simulated_s"), run.number("vibration_error"))], study.colour[name], size=7.5, reach=(6, 10, 16), limit=60)
     logarithmic(axes.xaxis), logarithmic(axes.yaxis, percent)
     axes.set_xlabel(f"CPU time per simulated second [s]  ({study.machine()})")
-    axes.set_ylabel(f"dyn: error of the vibration, {study.window()[0]:g} to {study.window()[1]:g} s")
+    axes.set_ylabel(f"vibration error, {study.window()[0]:g} to {study.window()[1]:g} s")
     axes.set_title(f"Speed against error: {study.attribute('deck_name', '')}")
     note = "solid: full model, dashed: reduced"
     if study.failed:
@@ -267,7 +267,7 @@ def sweeps_modes(run):
 
 
 def draw_modes(study):
-    """dyn against the number of modes."""
+    """vibration error against the number of modes."""
     lines = {name: [run for run in runs if sweeps_modes(run)] for name, runs in study.lines.items()}
     lines = {name: runs for name, runs in lines.items() if len({run.row["modes"] for run in runs}) > 1}
     if not lines:
@@ -275,24 +275,24 @@ def draw_modes(study):
     figure, axes = plt.subplots(figsize=(8.5, 5.5))
     axes.set_yscale("log")
     most = max(run.number("modes") for runs in lines.values() for run in runs)
-    errors = [run.number("dyn") for runs in lines.values() for run in runs]
+    errors = [run.number("vibration_error") for runs in lines.values() for run in runs]
     axes.set_xlim(-0.03 * most, 1.12 * most)
     axes.set_ylim(min(errors) / 2, max(errors) * 2)
     figure.canvas.draw()
     labels = Labels(axes)
     for name, runs in lines.items():
         runs = sorted(runs, key=lambda run: run.number("modes"))
-        x, y = [run.number("modes") for run in runs], [run.number("dyn") for run in runs]
+        x, y = [run.number("modes") for run in runs], [run.number("vibration_error") for run in runs]
         axes.plot(x, y, marker=study.marker[name], markersize=5.5, linewidth=1.6, color=study.colour[name], markeredgecolor="white", markeredgewidth=0.6)
         labels.occupy(x, y)
     for name, runs in lines.items():
-        labels.put(wrapped(name), [(run.number("modes"), run.number("dyn")) for run in runs], study.colour[name], weight="bold")
+        labels.put(wrapped(name), [(run.number("modes"), run.number("vibration_error")) for run in runs], study.colour[name], weight="bold")
     own = float(study.attribute("self_error", 0.0))
     if own > axes.get_ylim()[0]:
         axes.axhspan(axes.get_ylim()[0], own, color="#d9d9d9", alpha=0.6, linewidth=0, zorder=0)
     logarithmic(axes.yaxis, percent)
     axes.set_xlabel("modes, all parts together")
-    axes.set_ylabel(f"dyn, {study.window()[0]:g} to {study.window()[1]:g} s")
+    axes.set_ylabel(f"vibration error, {study.window()[0]:g} to {study.window()[1]:g} s")
     axes.set_title("Error against the number of modes")
     return figure
 
@@ -310,11 +310,11 @@ def draw_bases(study):
             lines.setdefault(run.line, []).append(run)
     if len(lines) < 2 or len({run.row["reduced_dofs"] for runs in lines.values() for run in runs}) < 2:
         return None
-    dofs, dyn, cpu = (lambda run, name=name: run.number(name) for name in ("reduced_dofs", "dyn", "cpu_per_simulated_s"))
+    dofs, vibration_error, cpu = (lambda run, name=name: run.number(name) for name in ("reduced_dofs", "vibration_error", "cpu_per_simulated_s"))
     setup, error = (lambda run: run.number("setup_cpu")), (lambda run: max(run.number("frequency_error"), 1e-12) if run.row["frequency_error"] else math.nan)
     count = int(study.attribute("frequencies", 0))
-    motion, shapes = "dyn of the motion", f"largest error of {count} frequencies"
-    plots = [(cpu, dyn, "CPU time per simulated second [s]", motion), (dofs, dyn, "reduced dofs", motion)]
+    motion, shapes = "vibration error of the motion", f"largest error of {count} frequencies"
+    plots = [(cpu, vibration_error, "CPU time per simulated second [s]", motion), (dofs, vibration_error, "reduced dofs", motion)]
     if any(run.row["frequency_error"] for runs in lines.values() for run in runs):
         plots += [(setup, error, "CPU time of the reduction [s]", shapes), (dofs, error, "reduced dofs", shapes)]
     figure, grid = plt.subplots(len(plots) // 2, 2, figsize=(11, 2.4 + 3.6 * len(plots) / 2), squeeze=False, constrained_layout=True)
@@ -327,7 +327,7 @@ def draw_bases(study):
         axes.set_yscale("log"), axes.set_xlabel(xlabel), axes.set_ylabel(ylabel)
         if x is not dofs:
             axes.set_xscale("log"), logarithmic(axes.xaxis)
-    full = known([run for run in study.methods if not run.reduced], cpu, dyn)
+    full = known([run for run in study.methods if not run.reduced], cpu, vibration_error)
     if full:
         grid[0, 0].plot(*zip(*sorted(full)), "k.", label="full model")
     for axes in grid[0]:
@@ -370,7 +370,7 @@ def draw_error_over_time(study):
     own = np.median(check.curve("eps_t")) if check and len(check.curve("eps_t")) else None
     floor = max(min(positive), (own or 0) / 3, max(positive) * 1e-8)
     for index, (axes, (name, runs)) in enumerate(zip(grid, lines.items())):
-        runs = sorted(runs, key=lambda run: run.number("dyn"))
+        runs = sorted(runs, key=lambda run: run.number("vibration_error"))
         for run, colour in zip(runs, shades(study.colour[name], len(runs))):
             axes.semilogy(run.curve("error_time"), np.maximum(run.curve("eps_t"), floor / 2), linewidth=1, color=colour)
         if check and len(check.curve("eps_t")):
@@ -391,9 +391,9 @@ def draw_error_over_time(study):
 
 
 def representative(runs, enough=0.01):
-    """The fastest run of a line whose dyn is at most 1 %, or else its most accurate one."""
-    good = [run for run in runs if run.number("dyn") <= enough]
-    return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(runs, key=lambda run: run.number("dyn"))
+    """The fastest run of a line whose vibration error is at most 1 %, or else its most accurate one."""
+    good = [run for run in runs if run.number("vibration_error") <= enough]
+    return min(good, key=lambda run: run.number("cpu_per_simulated_s")) if good else min(runs, key=lambda run: run.number("vibration_error"))
 
 
 def draw_bit_speed(study):
@@ -413,7 +413,7 @@ def draw_bit_speed(study):
             axes.set_ylabel("bit speed [rpm]")
         if index >= len(study.lines) - columns:
             axes.set_xlabel("time [s]")
-    figure.suptitle("Bit speed: the fastest run of each method with dyn up to 1 % (else its best) over the reference (grey); shaded: window of errors",
+    figure.suptitle("Bit speed: the fastest run of each method with vibration error up to 1 % (else its best) over the reference (grey); shaded: window of errors",
                     x=0.01, ha="left", fontsize=10, fontweight="bold")
     return figure
 
@@ -451,7 +451,7 @@ def draw_statistics(study):
     else:
         spectrum.set_visible(False)
     key.legend(handles=handles, loc="center", ncol=2, fontsize=8)
-    duty.set_title(f"Beyond {study.window()[1]:g} s: the fastest run of each method with dyn up to 1 % (else its best), the reference in grey")
+    duty.set_title(f"Beyond {study.window()[1]:g} s: the fastest run of each method with vibration error up to 1 % (else its best), the reference in grey")
     return figure
 
 

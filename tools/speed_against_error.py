@@ -40,14 +40,14 @@ class Study:
         self.reference = self.summary["reference"]
 
     def done(self, *lines, model=None):
-        return [row for row in self.rows if row["kind"] == "method" and row["status"] == "done" and row["dyn"] and
+        return [row for row in self.rows if row["kind"] == "method" and row["status"] == "done" and row["vibration_error"] and
                 (not lines or row["line"] in lines) and (model is None or row["model"] == model)]
 
     def baseline(self):
         return next((row for row in self.done() if row["label"] == BASELINE), None)
 
     def fastest(self, rows, error):
-        fit = [row for row in rows if float(row["dyn"]) <= error]
+        fit = [row for row in rows if float(row["vibration_error"]) <= error]
         return min(fit, key=lambda row: float(row["cpu [s]"]), default=None)
 
 
@@ -69,12 +69,12 @@ def against(study, rows, others, error, what):
     mine, other = study.fastest(rows, error), study.fastest(others, error)
     if mine is None or other is None:
         return f"{what}: no run of {'ours' if mine is None else 'the other method'} is within {percent(error)}"
-    return f"{what}: **{cpu(other) / cpu(mine):.3g}x** ({mine['label']}, {cpu(mine):.3g} s, dyn {percent(mine['dyn'])}; {other['label']}, {cpu(other):.3g} s, dyn {percent(other['dyn'])})"
+    return f"{what}: **{cpu(other) / cpu(mine):.3g}x** ({mine['label']}, {cpu(mine):.3g} s, vibration error {percent(mine['vibration_error'])}; {other['label']}, {cpu(other):.3g} s, vibration error {percent(other['vibration_error'])})"
 
 
 def time_at(rows, error):
     """CPU time at an error, log-log between the runs on either side of it; None without such runs."""
-    points = sorted((float(row["dyn"]), cpu(row)) for row in rows)
+    points = sorted((float(row["vibration_error"]), cpu(row)) for row in rows)
     for (low, slow), (high, fast) in zip(points, points[1:]):
         if low <= error <= high:
             part = math.log(error / low) / math.log(high / low)
@@ -110,22 +110,22 @@ def speed_targets(studies):
         study = studies["helical"]
         base = [study.baseline()]
         for error, target in ((1e-2, "40 [100]"), (2.5e-3, "20 [50]")):
-            lines.append((f"full model, reference scene, dyn <= {percent(error)}, against RK4 adaptive", target, against(study, implicit(study), base, error, "CPU time")))
+            lines.append((f"full model, reference scene, vibration error <= {percent(error)}, against RK4 adaptive", target, against(study, implicit(study), base, error, "CPU time")))
     if "stress" in studies:
         study = studies["stress"]
-        lines.append(("stress scene, dyn <= 0.5 %, against RK4 adaptive", "20 [60]", against(study, implicit(study), [study.baseline()], 5e-3, "CPU time")))
+        lines.append(("stress scene, vibration error <= 0.5 %, against RK4 adaptive", "20 [60]", against(study, implicit(study), [study.baseline()], 5e-3, "CPU time")))
         for name, line, target in (("ARKODE ESDIRK4", "SUNDIALS ARKODE ESDIRK4, full", "5 [20]"), ("CVODE BDF of orders 1 and 2", "SUNDIALS CVODE BDF2, full", "50 [200]")):
-            lines.append((f"stress scene, dyn = 1 %, against {name}", target, against_at(implicit_lines(study), study.done(line), 1e-2)))
-        lines.append(("stress scene, dyn <= 1 %, against CVODE BDF as it comes (orders 1 to 5)", "50 [200]", against(study, implicit(study), study.done("SUNDIALS CVODE BDF5, full"), 1e-2, "CPU time")))
+            lines.append((f"stress scene, vibration error = 1 %, against {name}", target, against_at(implicit_lines(study), study.done(line), 1e-2)))
+        lines.append(("stress scene, vibration error <= 1 %, against CVODE BDF as it comes (orders 1 to 5)", "50 [200]", against(study, implicit(study), study.done("SUNDIALS CVODE BDF5, full"), 1e-2, "CPU time")))
     if "helical" in studies:
         study = studies["helical"]
         row = study.fastest(implicit(study), 1e-2)
         if row is not None:
-            lines.append((f"reference scene, dyn <= 1 %, {study.reference['end']:g} s", "10 [25]", f"**{1 / float(row['cpu_per_simulated_s']):.3g}x** real time on one core ({row['label']}, dyn {percent(row['dyn'])})"))
+            lines.append((f"reference scene, vibration error <= 1 %, {study.reference['end']:g} s", "10 [25]", f"**{1 / float(row['cpu_per_simulated_s']):.3g}x** real time on one core ({row['label']}, vibration error {percent(row['vibration_error'])})"))
         lines += basis_target(study)
     for name, target in (("helical", "0.9 [1.2]"), ("vertical", "3 [5]"), ("inclined", "1.5 [2.5]")):
         if name in studies:
-            lines.append((f"reduced against the best full-model implicit run of the same dyn, {name} scene", target, reduced_target(studies[name])))
+            lines.append((f"reduced against the best full-model implicit run of the same vibration error, {name} scene", target, reduced_target(studies[name])))
     return lines
 
 
@@ -136,18 +136,18 @@ def basis_target(study):
         return []
     poor, good = rows["Least squares"], rows["Keep static"]
     return [("static state kept against least squares, eta = 180", "20 [40]",
-             f"dyn **{float(poor['dyn']) / float(good['dyn']):.3g}x** smaller ({percent(good['dyn'])} against {percent(poor['dyn'])}) at {cpu(good) / cpu(poor):.2f} of the cost")]
+             f"vibration error **{float(poor['vibration_error']) / float(good['vibration_error']):.3g}x** smaller ({percent(good['vibration_error'])} against {percent(poor['vibration_error'])}) at {cpu(good) / cpu(poor):.2f} of the cost")]
 
 
 def reduced_target(study):
-    """Time of the full-model curve, interpolated at the dyn of the reduced run, over that of the reduced run: the best within 2 %, and within 5 % if better."""
+    """Time of the full-model curve, interpolated at the vibration error of the reduced run, over that of the reduced run: the best within 2 %, and within 5 % if better."""
     rows = [row for row in study.done(model="reduced") if row["integrator"] == "Generalized-alpha" and row["speedup_best_full"] and "Nguyen" not in row["line"]]
     factor = lambda row: float(row["speedup_best_full"])
-    best = [max((row for row in rows if float(row["dyn"]) <= error), key=factor, default=None) for error in (2e-2, 5e-2)]
+    best = [max((row for row in rows if float(row["vibration_error"]) <= error), key=factor, default=None) for error in (2e-2, 5e-2)]
     if best[1] is None:
-        return f"no reduced run within {percent(5e-2)} has a full run of the same dyn"
+        return f"no reduced run within {percent(5e-2)} has a full run of the same vibration error"
     shown = [row for i, row in enumerate(best) if row is not None and row not in best[:i]]
-    return "; ".join(f"**{factor(row):.2f}x** ({row['label']}, {row['reduced_dofs']} dofs, {cpu(row):.3g} s, dyn {percent(row['dyn'])})" for row in shown)
+    return "; ".join(f"**{factor(row):.2f}x** ({row['label']}, {row['reduced_dofs']} dofs, {cpu(row):.3g} s, vibration error {percent(row['vibration_error'])})" for row in shown)
 
 
 def cost(results, name):
@@ -184,8 +184,8 @@ def study_section(name, study, folder):
     reference = study.reference
     text = [f"## {title}\n", f"`tooljoint study xml/{deck}.xml`. "
             f"Reference: {reference['integrator']} with steps of {1e6 * reference['max_step']:.3g} us ({reference['cpu_s']:.3g} s CPU); another method at a tight step differs from it by "
-            f"dyn {reference['self_error']['dyn']:.2g} over {reference['window_begin']:g} to {reference['window_end']:g} s, and a start moved by {reference['sensitivity']['perturbation']:g} m changes it by "
-            f"dyn {reference['sensitivity']['dyn']:.2g} there and by {reference['sensitivity']['at_end']:.2g} m at {reference['end']:g} s.\n"]
+            f"vibration error {reference['self_error']['vibration_error']:.2g} over {reference['window_begin']:g} to {reference['window_end']:g} s, and a start moved by {reference['sensitivity']['perturbation']:g} m changes it by "
+            f"vibration error {reference['sensitivity']['vibration_error']:.2g} there and by {reference['sensitivity']['at_end']:.2g} m at {reference['end']:g} s.\n"]
     for figure in ("speed", "modes"):
         source = folder / f"study_{figure}.svg"
         if source.exists():
@@ -200,10 +200,10 @@ def study_section(name, study, folder):
             lines.append([row["label"], row["reduced_dofs"], "", "", "", "", "", "", "", f"{row['status']}: {row['reason']}"])
             continue
         troubles = [f"{row[key]} {key.split('_')[0]}" for key in ("halved", "rejected", "unconverged_steps", "missed_nodes") if row[key] not in ("", "0")]
-        lines.append([row["label"], row["reduced_dofs"], percent(row["dyn"]) if row["dyn"] else "", percent(row["eps_n_max"]) if row["eps_n_max"] else "", f"{float(row['cpu_per_simulated_s']):.3g}",
+        lines.append([row["label"], row["reduced_dofs"], percent(row["vibration_error"]) if row["vibration_error"] else "", percent(row["eps_n_max"]) if row["eps_n_max"] else "", f"{float(row['cpu_per_simulated_s']):.3g}",
                       f"{100 * float(row['cpu_spread']):.0f} %", f"{float(row['speedup_baseline']):.3g}" if row["speedup_baseline"] else "",
                       f"{float(row['speedup_best_full']):.2f}" if row["speedup_best_full"] else "", row["steps"], "; ".join(troubles)])
-    text.append(table(["run", "dofs", "dyn", "eps_n max", "CPU s per simulated s", "spread", "against the baseline", "against the best full run of its dyn", "steps", "remarks"], lines))
+    text.append(table(["run", "dofs", "vibration_error", "eps_n max", "CPU s per simulated s", "spread", "against the baseline", "against the best full run of its vibration_error", "steps", "remarks"], lines))
     return "\n".join(text)
 
 
@@ -216,7 +216,7 @@ def document(studies, work, results):
     lines = [[what, target, measured] for what, target, measured in speed_targets(studies) + benchmark_targets(results)]
     missing = [STUDIES[name][0] for name in STUDIES if name not in studies]
     text = ["# Speed against error\n",
-            "Written by `tools/speed_against_error.py`, which reruns all of it. Every time stands beside its error; a run that failed stays in its table with the reason. dyn is the largest error of the lateral "
+            "Written by `tools/speed_against_error.py`, which reruns all of it. Every time stands beside its error; a run that failed stays in its table with the reason. vibration error is the largest error of the lateral "
             "displacements over the stated window, relative to how far the string moved ([file formats](file-formats.md)); beyond the window, where neighbouring motions part, the studies compare statistics. "
             "Times are CPU seconds of the time integration on one core, the shortest of interleaved repeats; \"spread\" is how much longer the longest was. The baseline is "
             f"`{BASELINE}` on the full model, which is as block-tridiagonal, and whose matrices and contact kernels are as fast, as those of the implicit runs.\n",

@@ -5,7 +5,7 @@ rewrites the table of docs/theory.md.
 
     tools/step_accuracy.py --program build/release/tooljoint [--work results/step_accuracy]
 
-Each run of 2 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8; dyn is what `tooljoint
+Each run of 2 s stands beside one of the same model with steps of 0.125 ms and a tolerance of 1e-8; the vibration error is what `tooljoint
 compare` prints. Runs that are already in the work folder are not repeated; all of them take some
 ten minutes.
 """
@@ -60,14 +60,14 @@ class Run:
             transient = json.loads(summary.read_text())["transient"]
             self.local, self.halving = transient["local_error"] or 0.0, transient["halving_error"] or 0.0
 
-    def dyn(self, options, reference):
+    def vibration_error(self, options, reference):
         done = subprocess.run([options.program, "compare", str(self.folder), str(reference.folder), "--to", "2", "--json"],
                               stdout=subprocess.PIPE, text=True, check=True)
-        return json.loads(done.stdout)["dyn"]
+        return json.loads(done.stdout)["vibration_error"]
 
 
 def measured(options, cases):
-    """(dyn, run) of all runs that finished, and those that did not."""
+    """(vibration error, run) of all runs that finished, and those that did not."""
     rows, ended = [], []
     for case in cases:
         for model in MODELS:
@@ -76,8 +76,8 @@ def measured(options, cases):
                 for tolerance in TOLERANCES:
                     run = Run(options, case, model, step, tolerance)
                     if run.finished:
-                        rows.append((run.dyn(options, reference), run))
-                        print(f"{run.name}: dyn {100 * rows[-1][0]:.3g} %, R {100 * run.local:.3g} %, D {100 * run.halving:.3g} %, {run.verdict}")
+                        rows.append((run.vibration_error(options, reference), run))
+                        print(f"{run.name}: vibration error {100 * rows[-1][0]:.3g} %, R {100 * run.local:.3g} %, D {100 * run.halving:.3g} %, {run.verdict}")
                     else:
                         ended.append(run)
                         print(f"{run.name}: ended before its time")
@@ -92,15 +92,15 @@ def span(values):
 def line(title, rows):
     verdicts = [run.verdict for _, run in rows]
     counts = ", ".join(f"{verdicts.count(v)} {v}" for v in ("silent", "warned", "refused") if v in verdicts)
-    return (f"| {title} | {len(rows)} | {span([dyn for dyn, _ in rows])} | {span([run.local for _, run in rows])} | {span([run.halving for _, run in rows])} | "
+    return (f"| {title} | {len(rows)} | {span([vibration_error for vibration_error, _ in rows])} | {span([run.local for _, run in rows])} | {span([run.halving for _, run in rows])} | "
             f"{counts} |")
 
 
 def table(options):
-    lines = ["| | runs | dyn | R | D | |", "|---|---|---|---|---|---|"]
+    lines = ["| | runs | vibration error | R | D | |", "|---|---|---|---|---|---|"]
     rows, ended = measured(options, SCENES)
     for low, high in BANDS:
-        band = [(dyn, run) for dyn, run in rows if low <= dyn < high]
+        band = [(vibration_error, run) for vibration_error, run in rows if low <= vibration_error < high]
         if band:
             lines.append(line("scenes", band))
     rows, more = measured(options, STICKING)

@@ -162,7 +162,7 @@ int run(int argc, char** argv) {
 
   app::CompareOptions comparison;
   auto* compareCommand = program.add_subcommand(
-      "compare", "errors eps_t, eps_n and dyn of one run against a reference run");
+      "compare", "errors eps_t, eps_n and the vibration error of one run against a reference run");
   compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
   compareCommand
       ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
@@ -171,7 +171,7 @@ int run(int argc, char** argv) {
   compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
   compareCommand
       ->add_option("--fail-above", comparison.failAbove,
-                   "end with exit code 4 when dyn is larger than this")
+                   "end with exit code 4 when the vibration error is larger than this")
       ->check(CLI::NonNegativeNumber);
   compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });

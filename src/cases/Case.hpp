@@ -28,7 +28,7 @@ struct Measures {
   std::vector<std::int64_t> nodes;  ///< in the order of all histories
   std::vector<int> components;      ///< of a node
   std::size_t vibrating =
-      0;  ///< how many of them, from the first on, are the vibration that dyn measures
+      0;  ///< how many of them, from the first on, are the vibration that vibration error measures
   std::vector<double> clearance;  ///< per node [m]; infinite where nothing can be touched
   std::string wall;               ///< point set of what can be touched; "" for none
   int speedRow =

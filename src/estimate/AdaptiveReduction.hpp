@@ -32,7 +32,7 @@ struct Round {
   int modes = 0;  ///< of all parts
   double frequencyError =
       -1;  ///< largest estimate over the window; negative when it was not looked at
-  double motionError = -1;  ///< estimate of dyn, likewise
+  double motionError = -1;  ///< estimate of the vibration error, likewise
   double reached = 1;       ///< fraction of the window of the motion that was looked at
   int whole = 0;            ///< parts that are not reduced
 };

@@ -22,7 +22,7 @@ struct MotionOptions {
 /// What is known at the end of a motion.
 struct MotionEstimate {
   double error = 0;  ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the
-                     ///< estimate of dyn
+                     ///< estimate of the vibration error
   double largest =
       0;  ///< the same for the worst sample, against the mean of |x - x_static| over the samples
   Vector byPart;  ///< size of the motion that each part leaves out, squared, as a fraction of the

@@ -56,11 +56,12 @@ void declareCriteria(deck::ListSpec& list) {
             "As many modes of each substructure as the estimated relative errors of the coupled "
             "frequencies need to stay below this; which "
             "frequencies: \"Estimated Frequencies\" or \"Estimated Below\".");
-  list.real("Motion Tolerance", "", deck::Optional{}, tolerance,
-            "As many modes as the estimated error dyn of the transient needs to stay below this, "
-            "alone or with \"Frequency Tolerance\"; the "
-            "transient is run once for every round of the choice, up to where it fails. A part "
-            "that would get nearly all of its modes is kept whole.");
+  list.real(
+      "Motion Tolerance", "", deck::Optional{}, tolerance,
+      "As many modes as the estimated vibration error of the transient needs to stay below this, "
+      "alone or with \"Frequency Tolerance\"; the "
+      "transient is run once for every round of the choice, up to where it fails. A part "
+      "that would get nearly all of its modes is kept whole.");
   list.real("Tolerance Safety", "", 1.5, Range::atLeast(1.0),
             "What an estimate is multiplied by before it is compared with a tolerance; that of the "
             "motion, which is less sharp, by twice "
@@ -69,7 +70,7 @@ void declareCriteria(deck::ListSpec& list) {
   list.choice("Error Estimate", std::string("None"), {"None", "Frequencies", "Transient", "Both"},
               "Errors that are estimated a posteriori, from residuals: of the coupled frequencies "
               "about the static state, of the motion "
-              "(dyn, while it is computed), or of both.");
+              "(its vibration error, while it is computed), or of both.");
   list.integer("Estimated Frequencies", 20, Range::atLeast(1),
                "How many of the lowest coupled frequencies estimates and tolerances look at.")
       .expert();

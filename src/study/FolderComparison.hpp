@@ -20,7 +20,7 @@ struct MotionErrors {
   std::vector<double> times;  ///< of the samples that were compared [s]
   ErrorProfile overTime;      ///< eps_t, (45) of Nguyen et al. 2020
   ErrorProfile overNodes;     ///< eps_n, (46)
-  double dyn = 0.0;           ///< error of the vibration
+  double vibration = 0.0;     ///< error of the vibration
 };
 
 /// All components of the nodes of a string are compared, the measured ones of imported parts.

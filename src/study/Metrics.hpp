@@ -58,9 +58,10 @@ ErrorProfile errorOverTime(const HistoryView& history, const HistoryView& refere
 ErrorProfile errorOverNodes(const HistoryView& history, const HistoryView& reference,
                             const Window& window = {});
 
-/// dyn = sqrt(sum |x - x_ref|^2) / sqrt(sum |x_ref - x_static|^2) over all nodes and samples of the
-/// window, x the vibrating components (u and v of a string), with the static displacements of the
-/// reference, nodes x components. Error(Internal) when the reference does not move in them.
+/// vibration error = sqrt(sum |x - x_ref|^2) / sqrt(sum |x_ref - x_static|^2) over all nodes and
+/// samples of the window, x the vibrating components (u and v of a string), with the static
+/// displacements of the reference, nodes x components. Error(Internal) when the reference does not
+/// move in them.
 double vibrationError(const HistoryView& history, const HistoryView& reference,
                       const std::vector<double>& staticReference, const Window& window = {});
 

@@ -121,9 +121,10 @@ std::string StudyRow::toJson() const {
   eachNumber(*this, [&](const char* key, const auto& value) { json[key] = value; });
   json["step_or_tolerance"] = orNull(stepOrTolerance);
   json["energy_residual"] = orNull(energyResidual);
-  json["estimated_dyn"] = orNull(estimatedDyn);
-  json["errors"] = errors ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->dyn}
-                          : Json(nullptr);
+  json["estimated_vibration_error"] = orNull(estimatedVibration);
+  json["errors"] = errors
+                       ? Json{errors->epsTMax, errors->epsTMean, errors->epsNMax, errors->vibration}
+                       : Json(nullptr);
   json["statistics"] = statistics
                            ? Json{statistics->bitSpeed, statistics->dutyMax, statistics->dutyMean,
                                   statistics->lateralRms, statistics->spectrum}
@@ -139,7 +140,7 @@ void StudyRow::fromJson(const std::string& text) {
     eachNumber(*this, [&](const char* key, auto& value) { take(json, key, value); });
     take(json, "step_or_tolerance", stepOrTolerance);
     take(json, "energy_residual", energyResidual);
-    take(json, "estimated_dyn", estimatedDyn);
+    take(json, "estimated_vibration_error", estimatedVibration);
     errors.reset();
     statistics.reset();
     if (const auto& e = json.at("errors"); !e.is_null())
@@ -160,7 +161,7 @@ std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string&
   for (const auto& row : rows) {
     if (!row.done() || row.plan.kind != RunKind::Method || !row.errors) continue;
     if (!row.plan.reduced)
-      full.push_back({row.plan.line, row.errors->dyn, row.cpuPerSimulatedSecond()});
+      full.push_back({row.plan.line, row.errors->vibration, row.cpuPerSimulatedSecond()});
     if (row.plan.label == baseline) baselineCost = row.cpuPerSimulatedSecond();
   }
   std::vector<Ratios> out(rows.size());
@@ -169,7 +170,7 @@ std::vector<Ratios> ratios(const std::vector<StudyRow>& rows, const std::string&
     const double cost = row.cpuPerSimulatedSecond();
     if (!row.done() || row.plan.kind != RunKind::Method || !row.errors || !(cost > 0.0)) continue;
     if (baselineCost > 0.0) out[i].baseline = baselineCost / cost;
-    if (const auto best = bestCostAt(row.errors->dyn, full)) out[i].bestFull = *best / cost;
+    if (const auto best = bestCostAt(row.errors->vibration, full)) out[i].bestFull = *best / cost;
   }
   return out;
 }

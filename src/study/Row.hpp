@@ -17,7 +17,7 @@ struct PointwiseErrors {
   double epsTMax = 0.0;
   double epsTMean = 0.0;
   double epsNMax = 0.0;
-  double dyn = 0.0;
+  double vibration = 0.0;
 };
 
 /// The lowest modes of the full model, one entry each, and the coupled modes of the same shape.
@@ -63,9 +63,9 @@ struct StudyRow {
        factorisations = 0, rightHandSides = 0;
   double minStep = 0.0, maxStep = 0.0;
   std::optional<double> energyResidual;
-  std::optional<PointwiseErrors> errors;  ///< none for the reference itself
-  std::optional<double>
-      estimatedDyn;  ///< of dyn, without the reference; where Reduction/Error Estimate asks for it
+  std::optional<PointwiseErrors> errors;     ///< none for the reference itself
+  std::optional<double> estimatedVibration;  ///< of vibration error, without the reference; where
+                                             ///< Reduction/Error Estimate asks for it
   std::optional<StatisticsDifference> statistics;
   double maxPenetration = 0.0;
   long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact
@@ -89,7 +89,8 @@ struct StudyRow {
 /// What is derived from all rows together.
 struct Ratios {
   std::optional<double> baseline;  ///< time of the baseline / time of this run
-  std::optional<double> bestFull;  ///< time of the best full run at the same dyn / time of this run
+  std::optional<double>
+      bestFull;  ///< time of the best full run at the same vibration error / time of this run
 };
 
 /// The ratios of every row; those of rows that are not done, or have nothing to be compared with,

@@ -31,8 +31,8 @@ const std::vector<io::Csv::Column>& columns() {
                                                 {"eps_t_max", ""},
                                                 {"eps_t_mean", ""},
                                                 {"eps_n_max", ""},
-                                                {"dyn", ""},
-                                                {"estimated_dyn", ""},
+                                                {"vibration_error", ""},
+                                                {"estimated_vibration_error", ""},
                                                 {"cpu", "s"},
                                                 {"cpu_spread", ""},
                                                 {"repeats", ""},
@@ -93,9 +93,9 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
                          row.status, row.reason});
   const auto* e = known && row.errors ? &*row.errors : nullptr;
   for (auto member : {&PointwiseErrors::epsTMax, &PointwiseErrors::epsTMean,
-                      &PointwiseErrors::epsNMax, &PointwiseErrors::dyn})
+                      &PointwiseErrors::epsNMax, &PointwiseErrors::vibration})
     out.push_back(e != nullptr ? formatNumber(e->*member) : std::string());
-  out.push_back(known ? text(row.estimatedDyn) : "");
+  out.push_back(known ? text(row.estimatedVibration) : "");
   number(row.bestCpu()), number(row.spread()), number(row.cpu.size()),
       number(row.cpuPerSimulatedSecond()), number(row.bestWall());
   number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
@@ -144,13 +144,14 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
                                        [](const StudyRow& row) { return row.modeErrors.known(); });
   char line[512];
   std::snprintf(line, sizeof line, "%-*s %6s %s%9s %9s %9s %10s %7s %9s %9s  %s",
-                static_cast<int>(width), "run", "dofs", frequencies ? "frequency " : "", "dyn",
-                "eps_t max", "eps_n max", "CPU s / s", "spread", "baseline", "best full", "counts");
+                static_cast<int>(width), "run", "dofs", frequencies ? "frequency " : "",
+                "vibration_error", "eps_t max", "eps_n max", "CPU s / s", "spread", "baseline",
+                "best full", "counts");
   std::string out = line;
   double own = 0.0;  // error of the reference
   bool beyond = false;
   for (const auto& row : rows)
-    if (row.plan.kind == RunKind::Check && row.done() && row.errors) own = row.errors->dyn;
+    if (row.plan.kind == RunKind::Check && row.done() && row.errors) own = row.errors->vibration;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& row = rows[i];
     if (!row.done()) {
@@ -160,9 +161,9 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
     }
     char error[3][16] = {"-", "-", "-"};
     if (row.errors) {
-      const bool below = row.plan.kind == RunKind::Method && row.errors->dyn < own;
+      const bool below = row.plan.kind == RunKind::Method && row.errors->vibration < own;
       beyond = beyond || below;
-      std::snprintf(error[0], sizeof error[0], "%.2e%s", row.errors->dyn, below ? "*" : "");
+      std::snprintf(error[0], sizeof error[0], "%.2e%s", row.errors->vibration, below ? "*" : "");
       std::snprintf(error[1], sizeof error[1], "%.2e", row.errors->epsTMax);
       std::snprintf(error[2], sizeof error[2], "%.2e", row.errors->epsNMax);
     }

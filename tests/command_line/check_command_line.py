@@ -72,19 +72,19 @@ def comparisons(times):
     asked = tooljoint("compare", "reduced", "full", "--json")
     found = json.loads(asked.stdout)
     expect("compare --json prints JSON and nothing else", found["window"] == {"begin": whole[0], "end": whole[-1], "samples": len(whole)}, asked.stdout)
-    line = f"eps_t max {found['eps_t']['max']:.4e} mean {found['eps_t']['mean']:.4e}, eps_n max {found['eps_n']['max']:.4e}, dyn {found['dyn']:.4e}"
-    expect("with the numbers of the line for people", line in said.stdout and found["dyn"] > 0, f"{line}\n{said.stdout}")
+    line = f"eps_t max {found['eps_t']['max']:.4e} mean {found['eps_t']['mean']:.4e}, eps_n max {found['eps_n']['max']:.4e}, vibration error {found['vibration_error']:.4e}"
+    expect("with the numbers of the line for people", line in said.stdout and found["vibration_error"] > 0, f"{line}\n{said.stdout}")
     inner = [t for t in whole if 0.05 - 1e-9 <= t <= 0.12 + 1e-9]
     part = json.loads(tooljoint("compare", "reduced", "full", "--from", "0.0499", "--to", "0.1201", "--json").stdout)
     expect("a window between samples is that of the samples in it", part["window"] == {"begin": inner[0], "end": inner[-1], "samples": len(inner)}, str(part))
     for factor, code in ((0.99, 4), (1.01, 0)):
-        limit = repr(factor * found["dyn"])
+        limit = repr(factor * found["vibration_error"])
         done = tooljoint("compare", "reduced", "full", "--fail-above", limit, ranks=2 if code else 1)
-        expect(f"--fail-above {factor} dyn: exit code {code}", done.returncode == code, f"({done.returncode}) {done.stderr}")
-        expect(f"--fail-above {factor} dyn: the errors are printed all the same", done.stdout == said.stdout, done.stdout)
-        expect(f"--fail-above {factor} dyn: the limit is named {code // 4} times", done.stderr.count("of --fail-above") == code // 4, done.stderr)
+        expect(f"--fail-above {factor} vibration errors: exit code {code}", done.returncode == code, f"({done.returncode}) {done.stderr}")
+        expect(f"--fail-above {factor} vibration errors: the errors are printed all the same", done.stdout == said.stdout, done.stdout)
+        expect(f"--fail-above {factor} vibration errors: the limit is named {code // 4} times", done.stderr.count("of --fail-above") == code // 4, done.stderr)
     same = json.loads(tooljoint("compare", "full", "full", "--fail-above", "0", "--json").stdout)
-    expect("a run is its own equal", same["dyn"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
+    expect("a run is its own equal", same["vibration_error"] == same["eps_t"]["max"] == same["eps_n"]["max"] == 0.0, str(same))
     for arguments, code, sentence in ((["reduced", "full", "--fail-above", "-1"], 1, "--fail-above"), (["reduced", "full", "--from", "7", "--to", "9"], 1, "full holds 0 samples"),
                                       (["brief", "full"], 1, f"brief holds {len(times['brief'])} samples from 0 to 0.1 s and full holds {len(whole)} samples from 0 to 0.2 s"),
                                       (["reduced", "nowhere"], 5, "nowhere"), (["reduced", "parts"], 1, "hold the motion of different scenes")):

@@ -60,20 +60,20 @@ def whole_study():
     failed = found["too coarse"]
     expect("a run that fails is a row with its reason", failed["status"] == "failed" and "blew up" in failed["reason"] and failed["cpu_s"] is None)
     methods = [row for row in found.values() if row["kind"] == "method" and row["status"] == "done"]
-    expect("every other one has errors and times", len(methods) == 12 and all(row[key] > 0 for row in methods for key in ("dyn", "eps_t_max", "eps_n_max", "cpu_s", "steps")))
+    expect("every other one has errors and times", len(methods) == 12 and all(row[key] > 0 for row in methods for key in ("vibration_error", "eps_t_max", "eps_n_max", "cpu_s", "steps")))
     expect("reduced ones have errors of frequencies, full ones none", all((row["frequency_error"] is not None) == (row["model"] == "reduced") for row in methods))
-    expect("and an estimate of dyn where it was asked for", all((row["estimated_dyn"] is not None) == (row["model"] == "reduced" and not re.search("interfaces|dual", row["label"])) for row in methods))
+    expect("and an estimate of the vibration error where it was asked for", all((row["estimated_vibration_error"] is not None) == (row["model"] == "reduced" and not re.search("interfaces|dual", row["label"])) for row in methods))
     reference = summary("whole")["reference"]
-    expect("the error of the reference is known and below all others", 0 < reference["self_error"]["dyn"] < min(row["dyn"] for row in methods))
+    expect("the error of the reference is known and below all others", 0 < reference["self_error"]["vibration_error"] < min(row["vibration_error"] for row in methods))
     expect("so is its sensitivity", 0 < reference["sensitivity"]["at_end"] < 1e-8)
     for line in ("CMS, Craig-Bampton, Modes {}", "CMS, Rubin, Modes {}"):
         few, many = found[line.format(4)], found[line.format(12)]
-        expect(f"more modes, less error ({line[:-9]})", few["dyn"] > 2 * many["dyn"] and few["frequency_error"] > 10 * many["frequency_error"])
+        expect(f"more modes, less error ({line[:-9]})", few["vibration_error"] > 2 * many["vibration_error"] and few["frequency_error"] > 10 * many["frequency_error"])
     few, many = found["reduced interfaces, Modes 8"], found["reduced interfaces, Modes 16"]
     expect("more interface modes too", few["frequency_error"] > 10 * many["frequency_error"] and few["reduced_dofs"] + 8 == many["reduced_dofs"])
     primal, dual = found["CMS, Craig-Bampton, Modes 12"], found["dual"]
-    expect("parts joined by forces move as those joined by their dofs, and are more", near(dual["dyn"], primal["dyn"], 1e-4) and dual["reduced_dofs"] > primal["reduced_dofs"],
-           f"({dual['dyn']:.5e}, {primal['dyn']:.5e})")
+    expect("parts joined by forces move as those joined by their dofs, and are more", near(dual["vibration_error"], primal["vibration_error"], 1e-4) and dual["reduced_dofs"] > primal["reduced_dofs"],
+           f"({dual['vibration_error']:.5e}, {primal['vibration_error']:.5e})")
     expect("own vectors are a basis of the study", found["own vectors"]["basis"] == "User Vectors" and found["own vectors"]["reduced_dofs"] == 70)
     expect("nothing is said of a bit", found["full, Step 2 ms"]["bit_speed_difference_rpm"] is None and found["full, Step 2 ms"]["lateral_rms_difference"] > 0 and table("whole/study.csv")[3]["bit_speed_p50"] == "")
 
@@ -88,14 +88,14 @@ def same_as_separate_calls():
         ran = tooljoint("run", DECK, "--output", "alone", *settings(*overrides))
         expect(f"{label}: the run succeeds", ran.returncode == 0, ran.stderr[-300:] if ran.returncode else "")
         said = tooljoint("compare", "alone", "alone_reference", "--to", "0.4").stdout
-        numbers = {name: float(value) for name, value in re.findall(r"(eps_t max|mean|eps_n max|dyn) (\S+?)(?:,|\s|$)", said)}
-        for name, key in (("dyn", "dyn"), ("eps_t max", "eps_t_max"), ("mean", "eps_t_mean"), ("eps_n max", "eps_n_max")):
+        numbers = {name: float(value) for name, value in re.findall(r"(eps_t max|mean|eps_n max|vibration error) (\S+?)(?:,|\s|$)", said)}
+        for name, key in (("vibration error", "vibration_error"), ("eps_t max", "eps_t_max"), ("mean", "eps_t_mean"), ("eps_n max", "eps_n_max")):
             expect(f"{label}: {key} is that of `compare`", near(row[key], numbers[name], 1e-3), f"({row[key]:.4e}, {numbers[name]:.4e})")
         alone = summary("alone")
         expect(f"{label}: dofs and modes are those of the run", row["reduced_dofs"] == alone["reduction"]["reduced_dofs"]
                and row["modes"] == sum(part["modes"] for part in alone["reduction"]["substructures"]))
         estimate = (alone["reduction"]["estimate"] or {}).get("motion_error")
-        expect(f"{label}: there is an estimate of dyn where the run has one", (row["estimated_dyn"] is None) == (estimate is None))
+        expect(f"{label}: there is an estimate of the vibration error where the run has one", (row["estimated_vibration_error"] is None) == (estimate is None))
         tooljoint("modes", DECK, "--output", "alone", "--count", "10", *settings(*overrides))
         modes = table("alone/modes.csv")
         worst, mac = max(abs(float(mode["error"])) for mode in modes), min(float(mode["mac"]) for mode in modes)
@@ -113,7 +113,7 @@ def again():
     expect("and fewer have a smaller error", after["CMS, Rubin, Modes 4"]["frequency_error"] < before["CMS, Rubin, Modes 4"]["frequency_error"])
     done = tooljoint("study", DECK, "--output", "ranks", "--set", "Study/Repeats=1", ranks=2)
     two = rows("ranks")
-    same = all(before[label]["status"] == row["status"] and (row["dyn"] is None or near(row["dyn"], before[label]["dyn"], 1e-5))
+    same = all(before[label]["status"] == row["status"] and (row["vibration_error"] is None or near(row["vibration_error"], before[label]["vibration_error"], 1e-5))
                and (row["frequency_error"] is None or abs(row["frequency_error"] - before[label]["frequency_error"]) < 1e-9) for label, row in two.items() if row["kind"] == "method")
     expect("two ranks give the same rows", done.returncode == 0 and len(two) == 16 and same, done.stderr[-300:] if done.returncode else "")
 

@@ -65,23 +65,23 @@ def whole_study():
     expect("datasets have the units of docs/file-formats.md", not wrong and len(met) > 15, f"({len(met)} kinds) {'; '.join(wrong)}")
     failed = found["RK4, too coarse"]
     expect("the failed run has its reason and no numbers", failed["status"] == "failed" and "blew up" in failed["reason"] and failed["cpu_s"] is None)
-    expect("its line in study.csv too", listed["RK4, too coarse"]["status"] == "failed" and listed["RK4, too coarse"]["dyn"] == "")
+    expect("its line in study.csv too", listed["RK4, too coarse"]["status"] == "failed" and listed["RK4, too coarse"]["vibration_error"] == "")
     methods = [row for row in found.values() if row["kind"] == "method" and row["status"] == "done"]
-    whole = all(math.isfinite(row[key]) and row[key] > 0 for row in methods for key in ("dyn", "eps_t_max", "eps_n_max", "cpu_s", "cpu_per_simulated_s", "steps"))
+    whole = all(math.isfinite(row[key]) and row[key] > 0 for row in methods for key in ("vibration_error", "eps_t_max", "eps_n_max", "cpu_s", "cpu_per_simulated_s", "steps"))
     expect("no speed without its error on the same row", len(methods) == 9 and whole)
     expect("the lateral statistics are there", all(row["spectrum_difference_db"] is not None for row in methods))
     reference = summary("whole")["reference"]
-    own = reference["self_error"]["dyn"]
-    expect("the error of the reference is known and below all others", 0 < own < min(row["dyn"] for row in methods), f"({own:.1e})")
+    own = reference["self_error"]["vibration_error"]
+    expect("the error of the reference is known and below all others", 0 < own < min(row["vibration_error"] for row in methods), f"({own:.1e})")
     expect("so is its sensitivity", 1e-11 < reference["sensitivity"]["at_end"] < 1e-8, f"({reference['sensitivity']['at_end']:.1e})")
-    steps = [found[f"Generalized-alpha, full, Step {step} ms"]["dyn"] for step in ("0.2", "0.5", "1")]
+    steps = [found[f"Generalized-alpha, full, Step {step} ms"]["vibration_error"] for step in ("0.2", "0.5", "1")]
     order = math.log(steps[2] / steps[0]) / math.log(5.0)
     expect("errors grow with the step, at an order between one and two", 1.0 < order < 2.2 and steps[0] < steps[1] < steps[2], f"({order:.2f})")
     for state in ("Keep static", "Least squares"):
-        errors = [found[f"Craig-Bampton, {state}, Modes {modes}"]["dyn"] for modes in (0, 2, 8)]
+        errors = [found[f"Craig-Bampton, {state}, Modes {modes}"]["vibration_error"] for modes in (0, 2, 8)]
         expect(f"more modes, less error ({state})", errors[0] > errors[1] > errors[2])
     expect("the kept static state is better than the projected one",
-           all(found[f"Craig-Bampton, Keep static, Modes {m}"]["dyn"] < found[f"Craig-Bampton, Least squares, Modes {m}"]["dyn"] for m in (0, 2, 8)))
+           all(found[f"Craig-Bampton, Keep static, Modes {m}"]["vibration_error"] < found[f"Craig-Bampton, Least squares, Modes {m}"]["vibration_error"] for m in (0, 2, 8)))
     best = found["Generalized-alpha, full, Step 1 ms"]
     expect("the baseline is 1, and so is the best full run at its own error", best["speedup_baseline"] == 1 and abs(best["speedup_best_full"] - 1) < 1e-12)
 
@@ -92,9 +92,9 @@ def same_as_separate_runs():
     for folder, step in (("run_reference", "2e-5"), ("run_method", "1e-3")):
         tooljoint("run", DECK, "--output", folder, *common, "--set", f"Transient/Step={step}")
     said = tooljoint("compare", "run_method", "run_reference", "--to", "0.2").stdout
-    compared = {key: float(value) for key, value in re.findall(r"(dyn|max) (\d\.\d+e[+-]\d+)", said)}
+    compared = {key: float(value) for key, value in re.findall(r"(vibration error|max) (\d\.\d+e[+-]\d+)", said)}
     row = rows("whole")["Generalized-alpha, full, Step 1 ms"]
-    expect("dyn is that of `tooljoint compare` of two runs", abs(compared["dyn"] / row["dyn"] - 1) < 1e-3, f"({compared['dyn']}, {row['dyn']:.4e})")
+    expect("the vibration error is that of `tooljoint compare` of two runs", abs(compared["vibration error"] / row["vibration_error"] - 1) < 1e-3, f"({compared['vibration error']}, {row['vibration_error']:.4e})")
 
 
 def goes_on():
@@ -130,7 +130,7 @@ def interrupted():
     after = rows("broken")
     expect("it goes on", done.returncode == 0 and known(done) >= 6, f"({known(done)} known)")
     expect("and ends with all rows, the first ones as they were", summary("broken")["status"] == "finished" and len(after) == 13
-           and all(after[label]["dyn"] == row["dyn"] and after[label]["cpu_s"] == row["cpu_s"] for label, row in kept.items()))
+           and all(after[label]["vibration_error"] == row["vibration_error"] and after[label]["cpu_s"] == row["cpu_s"] for label, row in kept.items()))
 
 
 def failures():
@@ -150,7 +150,7 @@ def failures():
 def two_ranks():
     done = tooljoint("study", DECK, "--output", "ranks", "--set", "Study/Repeats=1", ranks=2)
     one, two = rows("broken"), rows("ranks")
-    same = all(one[label]["status"] == row["status"] and (row["dyn"] is None or abs(row["dyn"] / one[label]["dyn"] - 1) < 1e-5)
+    same = all(one[label]["status"] == row["status"] and (row["vibration_error"] is None or abs(row["vibration_error"] / one[label]["vibration_error"] - 1) < 1e-5)
                for label, row in two.items() if row["kind"] == "method")
     expect("two ranks give the same rows", done.returncode == 0 and len(two) == 13 and same, done.stderr[-300:] if done.returncode else "")
 

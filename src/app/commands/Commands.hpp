@@ -31,7 +31,7 @@ struct CompareOptions {
   std::string reference;
   double begin = 0.0;
   double end = 3.0;
-  std::optional<double> failAbove;  ///< largest dyn that is accepted
+  std::optional<double> failAbove;  ///< largest vibration error that is accepted
   bool json = false;                ///< print JSON in the place of the line for people
 };
 
@@ -52,10 +52,10 @@ void modes(const RunOptions& options);
 /// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file,
 /// to be imported elsewhere.
 void exportReduced(const RunOptions& options);
-/// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and dyn of one run
-/// against another, and the window of the samples that were compared. FileError; UsageError: the
-/// folders hold different scenes or different times in the window, or the reference does not move
-/// in it; ConvergenceError: dyn is above options.failAbove.
+/// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and the vibration error
+/// of one run against another, and the window of the samples that were compared. FileError;
+/// UsageError: the folders hold different scenes or different times in the window, or the reference
+/// does not move in it; ConvergenceError: the vibration error is above options.failAbove.
 void compare(const CompareOptions& options);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);

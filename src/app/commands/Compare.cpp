@@ -23,20 +23,21 @@ void compare(const CompareOptions& options) {
           {"samples", errors.times.size()}}},
         {"eps_t", {{"max", errors.overTime.max()}, {"mean", errors.overTime.mean()}}},
         {"eps_n", {{"max", errors.overNodes.max()}}},
-        {"dyn", errors.dyn}};
+        {"vibration_error", errors.vibration}};
     log::info(report.dump(2));
   } else {
     char line[256];
-    std::snprintf(
-        line, sizeof line,
-        "window %g to %g s (%zu samples): eps_t max %.4e mean %.4e, eps_n max %.4e, dyn %.4e",
-        errors.times.front(), errors.times.back(), errors.times.size(), errors.overTime.max(),
-        errors.overTime.mean(), errors.overNodes.max(), errors.dyn);
+    std::snprintf(line, sizeof line,
+                  "window %g to %g s (%zu samples): eps_t max %.4e mean %.4e, eps_n max %.4e, "
+                  "vibration error %.4e",
+                  errors.times.front(), errors.times.back(), errors.times.size(),
+                  errors.overTime.max(), errors.overTime.mean(), errors.overNodes.max(),
+                  errors.vibration);
     log::info(line);
   }
-  if (options.failAbove && errors.dyn > *options.failAbove)
-    throw ConvergenceError("The vibration error dyn of " + options.folder + " is " +
-                           formatNumber(errors.dyn) + ", more than the " +
+  if (options.failAbove && errors.vibration > *options.failAbove)
+    throw ConvergenceError("The vibration error of " + options.folder + " is " +
+                           formatNumber(errors.vibration) + ", more than the " +
                            formatNumber(*options.failAbove) +
                            " of --fail-above. Reduce Transient/Step, or keep more modes.");
 }

@@ -72,7 +72,8 @@ std::string describeCoupling(const coupling::Coupling& coupled) {
 
 std::string describeMotionError(const estimate::MotionEstimate& error) {
   return format(
-      "estimate    error of the motion by the reduction: dyn %.2e, worst sample %.2e, from %ld "
+      "estimate    error of the motion by the reduction: vibration error %.2e, worst sample %.2e, "
+      "from %ld "
       "samples in %.2f s",
       error.error, error.largest, error.samples, error.wall);
 }

@@ -107,7 +107,7 @@ void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared,
   row.rightHandSides = c.rightHandSides;
   row.minStep = c.minStep, row.maxStep = c.maxStep;
   if (report.hasEnergy) row.energyResidual = report.energy.residual();
-  row.estimatedDyn = execution.estimatedDyn;
+  row.estimatedVibration = execution.estimatedVibration;
   row.maxPenetration = execution.maxPenetration;
   row.missedNodes = execution.missedNodes;
   const auto& history = row.plan.kind == RunKind::Reference ? *reference_ : execution.history;

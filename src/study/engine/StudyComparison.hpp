@@ -20,7 +20,7 @@ class StudyComparison {
   explicit StudyComparison(const StudyPlan& plan) : plan_(plan) {}
 
   /// The motion to compare with, of a case at rest. ConvergenceError when it does not move within
-  /// the window: dyn divides by that motion.
+  /// the window: vibration error divides by that motion.
   void setReference(const cases::RestingCase& resting, RecordedHistory history);
   const RecordedHistory& reference() const { return *reference_; }
 

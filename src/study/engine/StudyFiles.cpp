@@ -110,8 +110,8 @@ io::SummaryRow summaryRow(const StudyRow& row, const Ratios& ratios) {
     out.set("eps_t_max", row.errors->epsTMax)
         .set("eps_t_mean", row.errors->epsTMean)
         .set("eps_n_max", row.errors->epsNMax)
-        .set("dyn", row.errors->dyn);
-  if (row.estimatedDyn) out.set("estimated_dyn", *row.estimatedDyn);
+        .set("vibration_error", row.errors->vibration);
+  if (row.estimatedVibration) out.set("estimated_vibration_error", *row.estimatedVibration);
   if (ratios.baseline) out.set("speedup_baseline", *ratios.baseline);
   if (ratios.bestFull) out.set("speedup_best_full", *ratios.bestFull);
   if (row.statistics && !row.curves.statistics.bitSpeed.empty())
@@ -157,9 +157,9 @@ void stageStudyFile(const StudyResult& result, io::OutputFolder& folder) {
   file.attribute("/", "baseline", result.plan.settings.baseline);
   file.attribute("/", "perturbation", result.plan.settings.perturbation);
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors)
-    file.attribute("/", "self_error", check->errors->dyn);
+    file.attribute("/", "self_error", check->errors->vibration);
   if (const auto* moved = result.find(RunKind::Sensitivity); moved != nullptr && moved->errors)
-    file.attribute("/", "sensitivity", moved->errors->dyn);
+    file.attribute("/", "sensitivity", moved->errors->vibration);
   file.attribute("/", "frequencies", result.plan.settings.frequencies);
   if (result.rest) result.rest->writeProfile(file);
   for (std::size_t i = 0; i < result.rows.size(); ++i)
@@ -183,13 +183,13 @@ void summarise(const StudyResult& result, io::Summary& summary) {
       summary.set("reference.energy_residual", *reference->energyResidual);
   }
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors) {
-    summary.set("reference.self_error.dyn", check->errors->dyn);
+    summary.set("reference.self_error.vibration_error", check->errors->vibration);
     summary.set("reference.self_error.eps_t_max", check->errors->epsTMax);
     summary.set("reference.self_error.eps_n_max", check->errors->epsNMax);
   }
   if (const auto* moved = result.find(RunKind::Sensitivity); moved != nullptr && moved->errors) {
     summary.set("reference.sensitivity.perturbation", result.plan.settings.perturbation);
-    summary.set("reference.sensitivity.dyn", moved->errors->dyn);
+    summary.set("reference.sensitivity.vibration_error", moved->errors->vibration);
     summary.set("reference.sensitivity.at_window_end", growthAt(*moved, result.plan.windowEnd));
     summary.set("reference.sensitivity.at_end", growthAt(*moved, result.plan.end));
   }
@@ -202,10 +202,11 @@ std::string describeReference(const StudyResult& result) {
   char line[256];
   std::string text;
   if (const auto* check = result.find(RunKind::Check); check != nullptr && check->errors) {
-    std::snprintf(line, sizeof line,
-                  "reference   own error, against its check: dyn %.2e, eps_t at most %.2e, eps_n "
-                  "at most %.2e",
-                  check->errors->dyn, check->errors->epsTMax, check->errors->epsNMax);
+    std::snprintf(
+        line, sizeof line,
+        "reference   own error, against its check: vibration error %.2e, eps_t at most %.2e, eps_n "
+        "at most %.2e",
+        check->errors->vibration, check->errors->epsTMax, check->errors->epsNMax);
     text = line;
   } else {
     text = "reference   own error unknown: its check failed";
@@ -213,10 +214,10 @@ std::string describeReference(const StudyResult& result) {
   if (const auto* moved = result.find(RunKind::Sensitivity); moved != nullptr && moved->errors) {
     std::snprintf(line, sizeof line,
                   "\n            a change of %.0e m at the start is one of %.1e m at %g s and of "
-                  "%.1e m at %g s: dyn %.1e over the window",
+                  "%.1e m at %g s: vibration error %.1e over the window",
                   result.plan.settings.perturbation, growthAt(*moved, result.plan.windowEnd),
                   result.plan.windowEnd, growthAt(*moved, result.plan.end), result.plan.end,
-                  moved->errors->dyn);
+                  moved->errors->vibration);
     text += line;
   }
   return text;

@@ -45,7 +45,8 @@ void StudyProgress::report(std::size_t run, const StudyRow& row, const std::vect
   if (row.status == "failed")
     std::snprintf(line, sizeof line, "failed: %.360s", row.reason.c_str());
   else if (parallel::rank() == 0)
-    std::snprintf(line, sizeof line, "%.3g s CPU, dyn %.2e", row.cpu.back(), row.errors->dyn);
+    std::snprintf(line, sizeof line, "%.3g s CPU, vibration error %.2e", row.cpu.back(),
+                  row.errors->vibration);
   log::info("run " + std::to_string(done) + " of " + std::to_string(all) + "  " + row.plan.label +
             ": " + line + (done < all ? "; about " + duration(left) + " left" : ""));
 }

@@ -217,7 +217,7 @@ Execution StudyRunner::move(const cases::Case& scene, const PreparedModel& prepa
   if (!estimates) return integrate(scene, measures, prepared.model(), options, nullptr);
   const auto estimator = cases::motionEstimator(*prepared.rest, prepared.reduction);
   auto execution = integrate(scene, measures, prepared.model(), options, estimator.get());
-  execution.estimatedDyn = estimator->result().error;
+  execution.estimatedVibration = estimator->result().error;
   return execution;
 }
 

@@ -48,8 +48,8 @@ struct Execution {
   double setupCpu = 0.0, setupWall = 0.0;  ///< of the model in kernel form
   long missedNodes = 0;
   double maxPenetration = 0.0;
-  std::optional<double> estimatedDyn;  ///< where Reduction/Error Estimate asks for that of the
-                                       ///< transient; its time is not in `cpu` and `wall`
+  std::optional<double> estimatedVibration;  ///< where Reduction/Error Estimate asks for that of
+                                             ///< the transient; its time is not in `cpu` and `wall`
 };
 
 /// A run that took more than its time.

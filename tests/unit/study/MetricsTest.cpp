@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// eps_t, eps_n and dyn on histories small enough to work out by hand.
+/// eps_t, eps_n and vibration error on histories small enough to work out by hand.
 #include "study/Metrics.hpp"
 
 #include <cmath>

@@ -17,16 +17,16 @@ namespace {
 
 using namespace tooljoint;
 
-study::StudyRow row(const std::string& line, bool reduced, double dyn, double cpu) {
+study::StudyRow row(const std::string& line, bool reduced, double vibration, double cpu) {
   study::StudyRow r;
   r.plan.line = line;
-  r.plan.label = line + ", " + formatNumber(dyn);
+  r.plan.label = line + ", " + formatNumber(vibration);
   r.plan.reduced = reduced;
   r.status = "done";
   r.simulated = 2.0;
   r.cpu = {1.5 * cpu, cpu};
   r.wall = {cpu, 2.0 * cpu};
-  r.errors = study::PointwiseErrors{0.1 * dyn, 0.05 * dyn, 0.2 * dyn, dyn};
+  r.errors = study::PointwiseErrors{0.1 * vibration, 0.05 * vibration, 0.2 * vibration, vibration};
   return r;
 }
 
@@ -55,7 +55,7 @@ TEST(StudyRow, ComesBackFromItsText) {
   EXPECT_EQ(back.basis, r.basis);
   EXPECT_EQ(back.energyResidual, r.energyResidual);
   EXPECT_FALSE(back.stepOrTolerance);
-  EXPECT_EQ(back.errors->dyn, r.errors->dyn);
+  EXPECT_EQ(back.errors->vibration, r.errors->vibration);
   EXPECT_EQ(back.statistics->spectrum, 5.0);
   EXPECT_EQ(back.curves.errorOverTime, r.curves.errorOverTime);
   EXPECT_EQ(back.modeErrors.coupled, r.modeErrors.coupled);

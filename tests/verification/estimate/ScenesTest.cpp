@@ -128,8 +128,8 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
 }
 
 /// |(u, v) - (u, v)_ref| / |(u, v)_ref - (u, v)_static|.
-double dyn(const std::vector<Vector>& motion, const std::vector<Vector>& reference,
-           const Vector& rest) {
+double vibration(const std::vector<Vector>& motion, const std::vector<Vector>& reference,
+                 const Vector& rest) {
   double error = 0, size = 0;
   for (std::size_t i = 0; i < reference.size(); ++i)
     for (Eigen::Index row = 0; row < rest.size(); ++row)
@@ -183,10 +183,11 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
     Watched watched(parts, outcome.synthesis, rest);
     const auto report = transient::integrate(outcome.synthesis.coupled.model,
                                              scene.list().sublist("Transient"), watched);
-    const double truth = dyn(watched.columns(), reference, rest);
+    const double truth = vibration(watched.columns(), reference, rest);
     const auto estimate = watched.result();
-    std::printf("cut-off %3s Hz: dyn %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n", cutOff,
-                truth, estimate.error, estimate.error / truth, estimate.wall, report.wall);
+    std::printf(
+        "cut-off %3s Hz: vibration error %.2e, estimated %.2e (%.2f times), %.2f of %.2f s\n",
+        cutOff, truth, estimate.error, estimate.error / truth, estimate.wall, report.wall);
     EXPECT_GT(estimate.error, truth / 3.0) << cutOff;
     if (estimate.error > 0.05) continue;
     EXPECT_LT(estimate.error, truth * 3.0) << cutOff;
@@ -195,7 +196,7 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   EXPECT_GE(counted, 4);
 }
 
-/// dyn of a scene with as many modes as the tolerance takes, against the full model.
+/// vibration error of a scene with as many modes as the tolerance takes, against the full model.
 double chosen(const Case& c, const std::vector<Vector>& reference, double tolerance) {
   const Vector rest = c.stage.state.displacement;
   char choice[64];
@@ -210,10 +211,11 @@ double chosen(const Case& c, const std::vector<Vector>& reference, double tolera
         return estimate::watchMotion(estimator, synthesis.coupled.model,
                                      transient::readOptions(transient), limit);
       });
-  const double truth = dyn(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
-  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, dyn %.1e\n", tolerance,
-              outcome.rounds.back().modes, outcome.rounds.size(), outcome.rounds.back().motionError,
-              truth);
+  const double truth =
+      vibration(testing_::move(scene, outcome.synthesis.coupled.model), reference, rest);
+  std::printf("tolerance %.0e: %d modes in %zu rounds, estimate %.1e, vibration error %.1e\n",
+              tolerance, outcome.rounds.back().modes, outcome.rounds.size(),
+              outcome.rounds.back().motionError, truth);
   return truth;
 }
 

@@ -139,9 +139,9 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
       }
 }
 
-/// D of a kilometre hanging, its first two seconds, which is measured in contact: dyn beside 0.125
-/// ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with steps of 1 ms. Other gravity (9.80 to 9.83
-/// m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
+/// D of a kilometre hanging, its first two seconds, which is measured in contact: vibration error
+/// beside 0.125 ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with steps of 1 ms. Other gravity
+/// (9.80 to 9.83 m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
 TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
     const auto scene = drillstring::readScene(
