@@ -7,12 +7,21 @@
 
 namespace tooljoint::drillstring {
 
-namespace {
-
 using beam::Matrix12;
 using beam::Vector12;
 
-constexpr const char* kRayleigh = "Rayleigh damping";
+namespace {
+
+constexpr const char* kConstant = "1";  ///< name of the law of what is constant in time
+
+bool isZero(const ElementTerm& term) {
+  return std::all_of(term.matrices.begin(), term.matrices.end(),
+                     [](const Matrix12& m) { return m.isZero(0.0); });
+}
+
+void removeZeroTerms(std::vector<ElementTerm>& terms) {
+  terms.erase(std::remove_if(terms.begin(), terms.end(), isZero), terms.end());
+}
 
 /// What one element contributes is formed in its own frame and turned to the nodal frames by R' X
 /// R.
@@ -23,20 +32,19 @@ class Builder {
     model_.held = input.held;
     model_.state = Vector::Zero(kNodeDofs * model_.nodes);
     model_.mass.reserve(input.string.elements.size());
+    out_.stiffness.assign(input.string.elements.size(), Matrix12::Zero());
+    out_.load = Vector::Zero(kNodeDofs * model_.nodes);
   }
 
-  StringModel build() {
+  PathEquations build() {
     for (int e = 0; e < in_.string.elementCount(); ++e) addElement(e);
+    for (const auto i : distributed_) out_.load += model_.loads[i].vector;
     addNodalLoads();
-    const auto zero = [](const ElementTerm& term) {
-      return std::all_of(term.matrices.begin(), term.matrices.end(),
-                         [](const Matrix12& m) { return m.isZero(0.0); });
-    };
-    model_.damping.erase(std::remove_if(model_.damping.begin(), model_.damping.end(), zero),
-                         model_.damping.end());
-    model_.stiffness.erase(std::remove_if(model_.stiffness.begin(), model_.stiffness.end(), zero),
-                           model_.stiffness.end());
-    return std::move(model_);
+    // formed first of all damping terms, element by element
+    if (in_.damping.present() && !isZero(model_.damping.front())) out_.rayleigh = 0;
+    removeZeroTerms(model_.damping);
+    removeZeroTerms(model_.stiffness);
+    return std::move(out_);
   }
 
  private:
@@ -53,16 +61,16 @@ class Builder {
     const Matrix12 structuralMass = nodal(beam::mass(section, length));
     const Matrix12 stiffness = prestressedStiffness(e, turn);
     model_.mass.push_back(structuralMass);
-    add(model_.stiffness, "structure", "1", e, stiffness);
+    addStiffness("structure", kConstant, e, stiffness);
     if (in_.damping.present())
-      add(model_.damping, kRayleigh, "1", e,
+      add(model_.damping, "Rayleigh damping", kConstant, e,
           in_.damping.massCoefficient * structuralMass +
               in_.damping.stiffnessCoefficient * stiffness);
 
     // weight rho S g along global Z (down); the mud adds its buoyancy
     const Vector3 gravity = triad.transpose() * Vector3(0.0, 0.0, in_.loads.gravity);
     if (in_.loads.gravity != 0.0)
-      addLoad("weight", "1", e,
+      addLoad("weight", kConstant, e,
               turn.transpose() * beam::distributedLoad(section.massPerLength() * gravity, length));
     if (in_.rotary.present()) addRotation(e, section, length, nodal, turn);
     if (in_.mud != nullptr) addMud(e, section, length, gravity, nodal, turn);
@@ -92,7 +100,7 @@ class Builder {
                    const Matrix12& turn) {
     const Matrix12 coupling = nodal(beam::gyroscopic(section, length));
     add(model_.damping, "gyroscopic", "Omega", e, coupling.transpose() - coupling);
-    add(model_.stiffness, "spin-up", "dOmega/dt", e, coupling.transpose());
+    addStiffness("spin-up", "dOmega/dt", e, coupling.transpose());
     addLoad("spin-up", "dOmega/dt", e, -(turn.transpose() * beam::spinLoad(section, length)));
     count("gyroscopic matrices");
   }
@@ -106,23 +114,34 @@ class Builder {
     const auto mud = in_.mud->element(section, bore, length, gravity);
     model_.mass.back() += nodal(mud.mass);
     for (const auto& term : mud.damping)
-      if (term.law == "1" || in_.rotary.present())
+      if (term.law == kConstant || in_.rotary.present())
         add(model_.damping, term.name, term.law, e, nodal(term.matrix));
     for (const auto& term : mud.stiffness)
-      if (term.law == "1" || in_.rotary.present())
-        add(model_.stiffness, term.name, term.law, e, nodal(term.matrix));
-    addLoad("mud", "1", e, turn.transpose() * mud.load);
+      if (term.law == kConstant || in_.rotary.present())
+        addStiffness(term.name, term.law, e, nodal(term.matrix));
+    addLoad("mud", kConstant, e, turn.transpose() * mud.load);
   }
 
   /// R_ipa, weight and torque on bit, unbalances and nodal forces.
   void addNodalLoads() {
     Vector reaction = Eigen::Map<const Vector>(in_.path.reaction.data(), in_.path.reaction.size());
-    if (reaction.any()) model_.loads.push_back({"path reaction", 0, reaction});
+    if (reaction.any()) {
+      const int constant = model_.lawIndex(model::ScalarLaw::one());
+      model_.loads.push_back({"path reaction", constant, reaction});
+      out_.pathReaction = std::move(reaction);
+    }
     for (const auto& load : loads::pointLoads(in_.loads, in_.rotary, in_.string.depths())) {
       Vector vector = Vector::Zero(kNodeDofs * model_.nodes);
       vector(kNodeDofs * (load.node - 1) + load.component) = load.value;
-      model_.loads.push_back({load.name, model_.lawIndex(load.law), vector});
+      if (load.law.name == kConstant) out_.load += vector;
+      model_.loads.push_back({load.name, model_.lawIndex(load.law), std::move(vector)});
     }
+  }
+
+  void addStiffness(const std::string& name, const std::string& law, int e,
+                    const Matrix12& matrix) {
+    add(model_.stiffness, name, law, e, matrix);
+    if (law == kConstant) out_.stiffness[static_cast<std::size_t>(e)] += matrix;
   }
 
   void add(std::vector<ElementTerm>& terms, const std::string& name, const std::string& law, int e,
@@ -142,6 +161,7 @@ class Builder {
     auto load = std::find_if(model_.loads.begin(), model_.loads.end(),
                              [&](const NodalLoad& l) { return l.name == name; });
     if (load == model_.loads.end()) {
+      if (law == kConstant) distributed_.push_back(model_.loads.size());
       model_.loads.push_back(
           {name, model_.lawIndex(in_.rotary.scalar(law)), Vector::Zero(kNodeDofs * model_.nodes)});
       load = std::prev(model_.loads.end());
@@ -150,25 +170,31 @@ class Builder {
   }
 
   const EquationInput& in_;
-  StringModel model_;
+  PathEquations out_;
+  StringModel& model_ = out_.model;
+  std::vector<std::size_t> distributed_;  ///< positions of the constant loads of the elements
 };
 
 }  // namespace
 
-StringModel buildEquations(const EquationInput& input) { return Builder(input).build(); }
+PathEquations buildEquations(const EquationInput& input) { return Builder(input).build(); }
 
-void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness,
-               const Vector& state, const loads::RayleighDamping& damping) {
+StringModel linearise(const PathEquations& equations,
+                      const std::vector<Matrix12>& staticGeometricStiffness, const Vector& state,
+                      const loads::RayleighDamping& damping, ContactBatch contact) {
+  StringModel model = equations.model;
   model.state = state;
+  model.contact = std::move(contact);
   const bool any = std::any_of(staticGeometricStiffness.begin(), staticGeometricStiffness.end(),
-                               [](const beam::Matrix12& m) { return !m.isZero(0.0); });
-  if (!any) return;
-  model.stiffness.push_back({"static geometric", 0, staticGeometricStiffness});
-  if (damping.stiffnessCoefficient == 0.0) return;
-  for (auto& term : model.damping)
-    if (term.name == kRayleigh)
-      for (std::size_t e = 0; e < term.matrices.size(); ++e)
-        term.matrices[e] += damping.stiffnessCoefficient * staticGeometricStiffness[e];
+                               [](const Matrix12& m) { return !m.isZero(0.0); });
+  if (!any) return model;
+  model.stiffness.push_back(
+      {"static geometric", model.lawIndex(model::ScalarLaw::one()), staticGeometricStiffness});
+  if (!equations.rayleigh) return model;
+  auto& term = model.damping[*equations.rayleigh];
+  for (std::size_t e = 0; e < term.matrices.size(); ++e)
+    term.matrices[e] += damping.stiffnessCoefficient * staticGeometricStiffness[e];
+  return model;
 }
 
 }  // namespace tooljoint::drillstring

@@ -4,6 +4,9 @@
 /// built.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "substructures/drillstring/DrillString.hpp"
 #include "substructures/drillstring/StringModel.hpp"
 #include "substructures/loads/Loads.hpp"
@@ -25,14 +28,27 @@ struct EquationInput {
   const loads::RayleighDamping& damping;
 };
 
+/// The equations at the path state, and what of them the static state balances.
+struct PathEquations {
+  /// M, C, K and all loads. No static geometric stiffness and no contact; the state is zero.
+  StringModel model;
+  std::vector<beam::Matrix12> stiffness;  ///< K_pa: the stiffness of each element that is constant
+                                          ///< in time, in nodal frames
+  Vector load;          ///< F_s: the loads that are constant in time, without R_ipa [N, N m]
+  Vector pathReaction;  ///< R_ipa; empty where it is zero [N, N m]
+  std::optional<std::size_t> rayleigh;  ///< position of the Rayleigh damping in model.damping
+};
+
 /// M, C and K at the path state (K_pa = K_a + K_gpa + K_fe, or the corotational tangent where the
 /// path state carries one), the loads F_s, R_ipa, F_u and -dOmega/dt F_thetaz (Nguyen et al. 2020,
-/// equations 19 and 27). No static geometric stiffness and no contact yet; the state is zero.
-StringModel buildEquations(const EquationInput& input);
+/// equations 19 and 27).
+PathEquations buildEquations(const EquationInput& input);
 
-/// Adds the geometric stiffness K_gpo(D_s) (and its share of the Rayleigh damping) and makes D_s
-/// the state the motion starts from.
-void linearise(StringModel& model, const std::vector<beam::Matrix12>& staticGeometricStiffness,
-               const Vector& state, const loads::RayleighDamping& damping);
+/// The equations of motion about the static state D_s, where the motion starts: with the geometric
+/// stiffness K_gpo(D_s), its share of the Rayleigh damping, and contact.
+StringModel linearise(const PathEquations& equations,
+                      const std::vector<beam::Matrix12>& staticGeometricStiffness,
+                      const Vector& state, const loads::RayleighDamping& damping,
+                      ContactBatch contact = {});
 
 }  // namespace tooljoint::drillstring

@@ -62,7 +62,7 @@ void addContact(const StringModel& string, const FreeDofs& dofs,
   }
   if (points.empty()) return;
   model::PointSet set;
-  set.name = "contact";
+  set.name = kContactSet;
   const bool all = points.size() == string.contact.nodes.size();
   set.law = all ? string.contact.law : string.contact.law->subset(points);
   Triplets triplets;

@@ -21,6 +21,8 @@
 namespace tooljoint::drillstring {
 
 constexpr int kNodeDofs = 6;
+/// Name of the point set of the borehole wall.
+constexpr const char* kContactSet = "contact";
 
 /// Element matrices of one origin in nodal frames, times a law of time.
 struct ElementTerm {

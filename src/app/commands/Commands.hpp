@@ -16,10 +16,11 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< "PATH=VALUE", or "!PATH" for a list taken out
   std::vector<std::string> without;    ///< lists taken out before the other overrides
   std::string output;                  ///< results folder; empty: results/<name of the deck>
-  bool cost = false;            ///< `check` also settles and reduces, to predict what a step costs
-  bool fresh = false;           ///< `study` forgets the runs it has done before
-  std::string restart;          ///< folder of an interrupted run; empty: start anew
-  int modeCount = 20;           ///< frequencies listed by `modes`
+  bool cost = false;    ///< `check` also solves for the state at rest and reduces, to compare
+                        ///< the cost of a step
+  bool fresh = false;   ///< `study` forgets the runs it has done before
+  std::string restart;  ///< folder of an interrupted run; empty: start anew
+  int modeCount = 20;   ///< frequencies listed by `modes`
   std::string format = "hdf5";  ///< files of `export`: "hdf5" or "mtx"
   std::optional<double>
       modeTime;  ///< when `modes` looks at the laws of time [s]; the end of the motion

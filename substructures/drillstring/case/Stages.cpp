@@ -35,8 +35,6 @@ StaticFriction staticFriction(const Scene& scene) {
 
 namespace {
 
-constexpr const char* kPathReaction = "path reaction";
-
 Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
   return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
 }
@@ -51,21 +49,20 @@ path::PathState bend(const Scene& scene) {
   return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
 }
 
-/// K_pa per element, F_s and R_ipa from the terms of the equations that are constant in time.
+/// What the static equilibrium is made of.
 equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
-                                     const StringModel& equations, const StaticFriction& friction) {
+                                     const PathEquations& equations,
+                                     const StaticFriction& friction) {
   equilibrium::StaticInput input;
-  input.nodes = equations.nodes;
-  input.held = equations.held;
+  input.nodes = equations.model.nodes;
+  input.held = equations.model.held;
   input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
   input.geometricStiffness = scene.statics.geometricStiffness;
-  for (int e = 0; e < equations.elements(); ++e) {
+  for (int e = 0; e < equations.model.elements(); ++e) {
     const auto i = static_cast<std::size_t>(e);
     const auto& section = scene.string.elements[i].section;
     equilibrium::StaticElement element;
-    element.stiffness.setZero();
-    for (const auto& term : equations.stiffness)
-      if (term.law == 0) element.stiffness += term.matrices[i];
+    element.stiffness = equations.stiffness[i];
     element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
     element.length = path.initialLength[i];
     element.axialRigidity = section.axialRigidity();
@@ -77,19 +74,23 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
         section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
     input.elements.push_back(element);
   }
-  input.load = Vector::Zero(kNodeDofs * equations.nodes);
-  for (const auto& load : equations.loads) {
-    if (load.law != 0) continue;
-    if (load.name == kPathReaction)
-      input.pathReaction = load.vector;
-    else
-      input.load += load.vector;
-  }
+  input.load = equations.load;
+  input.pathReaction = equations.pathReaction;
   input.direction = friction.direction;
   if (scene.contactPoints.size() > 0)
     input.contact = scene.contact->law->atRest(
         friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
   return input;
+}
+
+ContactBatch contactInMotion(const Scene& scene) {
+  ContactBatch contact;
+  if (scene.contactPoints.size() == 0) return contact;
+  const auto rotary = scene.rotary;
+  contact.law = scene.contact->law->inMotion(scene.contactPoints,
+                                             [rotary](double t) { return rotary.speed(t); });
+  for (int node : scene.contactPoints.node) contact.nodes.push_back(node - 1);
+  return contact;
 }
 
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
@@ -156,10 +157,10 @@ StaticStage findEquilibrium(const Scene& scene) {
   stage.friction = staticFriction(scene);
   stage.path = bend(scene);
   const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
-  stage.equations = buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
-                                    scene.rotary, scene.loads, scene.damping});
-  requireHeld(scene, stage.equations);
-  const auto input = staticInput(scene, stage.path, stage.equations, stage.friction);
+  const auto equations = buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
+                                         scene.rotary, scene.loads, scene.damping});
+  requireHeld(scene, equations.model);
+  const auto input = staticInput(scene, stage.path, equations, stage.friction);
   try {
     stage.state = equilibrium::solveStatic(input, scene.statics,
                                            statics::noxSolver(listOrEmpty(scene, "Static")));
@@ -167,14 +168,8 @@ StaticStage findEquilibrium(const Scene& scene) {
     explainFailure(scene, error);
     throw;
   }
-  linearise(stage.equations, stage.state.geometricStiffness, stage.state.displacement,
-            scene.damping);
-  if (scene.contactPoints.size() > 0) {
-    const auto rotary = scene.rotary;
-    stage.equations.contact.law = scene.contact->law->inMotion(
-        scene.contactPoints, [rotary](double t) { return rotary.speed(t); });
-    for (int node : scene.contactPoints.node) stage.equations.contact.nodes.push_back(node - 1);
-  }
+  stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
+                              scene.damping, contactInMotion(scene));
   return stage;
 }
 

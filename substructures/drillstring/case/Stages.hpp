@@ -18,9 +18,6 @@
 
 namespace tooljoint::drillstring {
 
-/// Name of the point set of the borehole wall.
-constexpr const char* kContactSet = "contact";
-
 /// Friction of the static state, as Static/Friction and the rotary speed decide it.
 struct StaticFriction {
   double direction = 0.0;  ///< sense of the sliding: +1, -1, or 0 without friction

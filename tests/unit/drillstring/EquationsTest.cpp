@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
+#include <string>
 
 #include "common/Constants.hpp"
 #include "substructures/beam/Rotation.hpp"
@@ -98,9 +100,10 @@ struct Scene {
   }
   void turn() { rotary = loads::RotarySpeed(std::make_shared<Rising>()); }
 
-  StringModel equations() const {
+  PathEquations atPath() const {
     return buildEquations({string, well, path, held, mud, rotary, loads, damping});
   }
+  StringModel equations() const { return atPath().model; }
 
   /// Nodal dofs of a motion given in element axes.
   Vector dofs(const PolynomialMotion& motion) const {
@@ -291,13 +294,13 @@ TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
   scene.mud = &mud;
   scene.prestress();
   scene.damping = {0.3, 2e-4};
-  StringModel model = scene.equations();
+  const PathEquations equations = scene.atPath();
   const auto rayleigh = [](const PolynomialMotion& a, const PolynomialMotion& b, double z,
                            std::size_t e) {
     return 0.3 * kinetic(a, b, z, e) +
            2e-4 * (strain(a, b, z, e) + geometric(a, b, z, axialForce[e], torque[e]));
   };
-  const auto before = assemble(model);
+  const auto before = assemble(equations.model);
   expectTerm(scene, before, before.damping, "Rayleigh damping", "1", alongString(rayleigh));
 
   // K_gpo(D_s) = F_apo K_gF + T_apo K_gT in the nodal frames
@@ -312,8 +315,9 @@ TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
                     turn);
   }
   const Vector state = Vector::LinSpaced(18, 0.1, 1.8);
-  linearise(model, still, state, scene.damping);
+  const StringModel model = linearise(equations, still, state, scene.damping);
   EXPECT_EQ(model.state, state);
+  EXPECT_EQ(equations.model.state, Vector::Zero(18)) << "the equations at the path state stay";
   const auto after = assemble(model);
   const double added = alongString([&](const auto& a, const auto& b, double z, std::size_t e) {
     return geometric(a, b, z, force[e], moment[e]);
@@ -403,6 +407,40 @@ TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
              (nodes.array() * scene.path.reaction.array()).sum());
   expectLoad(scene, model, "weight on bit", "1", -1e4 * d(14));
   expectLoad(scene, model, "torque on bit", "1", -5e3 * d(17));
+}
+
+/// F_s and K_pa have what is constant in time and nothing of the rotation; R_ipa stands alone.
+TEST(Equations, StaticStateBalancesWhatIsConstantInTime) {
+  Scene scene;
+  const mud::Mud mud(fluid());
+  scene.mud = &mud;
+  scene.turn();
+  scene.prestress();
+  scene.loads.gravity = gravity;
+  scene.loads.weightOnBit = 1e4;
+  scene.path.reaction = Matrix::Random(6, 3);
+  const PathEquations turning = scene.atPath();
+  const std::set<std::string> constant{"weight", "mud", "weight on bit"};
+  Vector load = Vector::Zero(18);
+  std::size_t found = 0;
+  for (const auto& one : turning.model.loads)
+    if (constant.count(one.name) > 0) {
+      load += one.vector;
+      ++found;
+    }
+  EXPECT_EQ(found, constant.size());
+  EXPECT_LT(found + 1, turning.model.loads.size()) << "there are loads of the rotation too";
+  EXPECT_EQ(turning.load, load);
+  EXPECT_EQ(turning.pathReaction, Vector(Eigen::Map<const Vector>(scene.path.reaction.data(), 18)));
+  for (std::size_t e = 0; e < 2; ++e) {
+    beam::Matrix12 stiffness = beam::Matrix12::Zero();
+    for (const auto& term : turning.model.stiffness)
+      if (turning.model.laws[static_cast<std::size_t>(term.law)].name == "1")
+        stiffness += term.matrices[e];
+    EXPECT_EQ(turning.stiffness[e], stiffness);
+  }
+  scene.path.reaction.setZero();
+  EXPECT_EQ(scene.atPath().pathReaction.size(), 0);
 }
 
 // -------------------------------------------------------------------------------------------------
