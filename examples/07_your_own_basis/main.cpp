@@ -12,6 +12,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "coupling/Synthesis.hpp"
 #include "linalg/Deterministic.hpp"
+#include "reduction/methods/BasisBuilder.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/drillstring/case/Stages.hpp"
@@ -22,45 +23,32 @@ using namespace tooljoint;
 using namespace tooljoint::reduction;
 class RandomSubspace : public ReductionMethod {
  public:
-  explicit RandomSubspace(int steps) : steps_(steps) {}
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
+  explicit RandomSubspace(const Teuchos::ParameterList& list) : steps_(list.get<int>("Steps")) {}
+  Basis build(const PartView& part, const ModeRequest& request) const override {
     if (request.kind != ModeRequest::Kind::Count)
       throw DeckError("The basis \"Random Subspace\" needs a number of modes: give \"Modes\".");
-    const Partition p = partition(part);
-    const Sparse K = constantStiffness(part.model);
-    const ConstraintModes constraint = constraintModes(part, p, K);
-    std::vector<std::vector<int>> whole(1);  // all interior dofs, in one group
-    for (int i = 0; i < static_cast<int>(p.interior.size()); ++i) whole[0].push_back(i);
-    const Sparse KII = block(K, p.interior, p.interior),
-                 MII = block(part.model.mass, p.interior, p.interior);
-    OrthonormalSet set(MII, 1e-10, "Part \"" + part.name + "\": ");
-    std::vector<ModalVector> vectors;
-    if (request.count > 0 && !p.interior.empty()) {
-      const linalg::DirectSolver solver(KII, namer(part, p.interior));
-      Matrix X = linalg::scatteredNumbers(KII.rows(),
-                                          std::min<Eigen::Index>(request.count + 4, KII.rows()), 1);
-      for (int step = 0; step < steps_; ++step) X = solver.solve(MII * X);
-      for (Eigen::Index j = 0; j < X.cols(); ++j) set.add(X.col(j));
-      double defect = 0;  // of orthonormality
-      vectors = ritzVectors(symmetricPart(KII), MII, set.basis(), 0, "random", defect);
-      vectors.resize(std::min(vectors.size(), static_cast<std::size_t>(request.count)));
-    }
-    return fixedInterfaceBasis(part, p, constraint, whole, vectors);
+    const Sparse& M = part.interiorMass();
+    Matrix X =
+        linalg::scatteredNumbers(M.rows(), std::min<Eigen::Index>(request.count + 4, M.rows()), 1);
+    for (int step = 0; step < steps_; ++step) X = part.solveInterior(M * X);
+    OrthonormalSet set(M, 1e-10, part.who());
+    for (Eigen::Index j = 0; j < X.cols(); ++j) set.add(X.col(j));
+    InteriorVectors vectors;
+    vectors.groups = {part.partition().interior};
+    addRitzVectors(part.symmetricInteriorStiffness(), M, set.basis(), 0, "random", vectors);
+    vectors.kept = std::min(request.count, sizeOf(vectors.vectors));
+    return fixedInterfaceBasis(part, vectors);
   }
 
  private:
   int steps_;
 };
-const bool registered = MethodRegistry::instance().add(
+const bool registered = addMethod<RandomSubspace>(
     "Random Subspace",
-    {"Constraint modes and a random subspace of the interior (Halko, Martinsson and Tropp 2011).",
-     deck::ListSpec("Random Subspace", "")
-         .integer("Steps", 2, deck::Range::atLeast(1),
-                  "Inverse steps that draw the vectors towards low modes."),
-     [](const Teuchos::ParameterList& list) {
-       return std::unique_ptr<ReductionMethod>(
-           new RandomSubspace(list.isParameter("Steps") ? list.get<int>("Steps") : 2));
-     }});
+    "Constraint modes and a random subspace of the interior (Halko, Martinsson and Tropp 2011).",
+    deck::ListSpec("Random Subspace", "")
+        .integer("Steps", 2, deck::Range::atLeast(1),
+                 "Inverse steps that draw the vectors towards low modes."));
 
 int run(const std::string& deck) {
   const drillstring::Scene scene = drillstring::readScene(deck, {});

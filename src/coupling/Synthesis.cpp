@@ -12,16 +12,21 @@ namespace tooljoint::coupling {
 
 namespace {
 
-/// Couples reduced parts and lets the basis improve them.
-Synthesis join(const std::vector<model::Substructure>& parts,
-               const reduction::ReductionMethod& basis, const reduction::ReductionOptions& options,
-               CouplingOptions coupling, std::vector<reduction::ReducedSubstructure> reduced) {
+constexpr int rounds = 10;
+
+}  // namespace
+
+Synthesis synthesise(const std::vector<model::Substructure>& parts,
+                     const reduction::ReductionMethod& basis,
+                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
+                     const CouplingOptions& given) {
+  CouplingOptions coupling = given;
   Synthesis result;
-  result.parts = std::move(reduced);
+  result.parts = reduction::reduceAll(parts, basis, options, cache);
   for (const auto& part : result.parts)
-    if (part.boundary && part.boundary->forces > 0) coupling.assembly = Assembly::Dual;
+    if (part.derivedInterface && part.derivedInterface->forces > 0)
+      coupling.assembly = Assembly::Dual;
   result.coupled = coupleWithPositions(result.parts, coupling);
-  constexpr int rounds = 10;
   for (int round = 0; round <= rounds; ++round) {
     std::vector<reduction::Basis> bases;
     for (const auto& part : result.parts) {
@@ -30,13 +35,13 @@ Synthesis join(const std::vector<model::Substructure>& parts,
     }
     bool improved = false;
     parallel::agree([&] {
-      improved = basis.augment(result.coupled.model, result.coupled.positions, parts, bases);
+      improved = basis.augment(result.coupled.model, result.coupled.positions, cache.views, bases);
     });
     if (!improved) {
       parallel::agree([&] {
-        condenseDependent(
-            result.coupled,
-            basis.dependentCoordinates(result.coupled.model, result.coupled.maps, parts, bases));
+        condenseDependent(result.coupled,
+                          basis.dependentCoordinates(result.coupled.model, result.coupled.maps,
+                                                     cache.views, bases));
       });
       if (options.interface)
         parallel::agree([&] { reduceInterfaces(result.coupled, *options.interface); });
@@ -44,7 +49,7 @@ Synthesis join(const std::vector<model::Substructure>& parts,
     }
     parallel::agree([&] {
       for (std::size_t p = 0; p < parts.size(); ++p)
-        result.parts[p] = reduction::reduce(parts[p], bases[p], options, static_cast<int>(p));
+        result.parts[p] = reduction::reduce(cache.views[p], bases[p], options, static_cast<int>(p));
     });
     result.coupled = coupleWithPositions(result.parts, coupling);
   }
@@ -52,19 +57,12 @@ Synthesis join(const std::vector<model::Substructure>& parts,
                          std::to_string(rounds) + " rounds of improvement with the coupled model.");
 }
 
-}  // namespace
-
 Synthesis synthesise(const std::vector<model::Substructure>& parts,
                      const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, const CouplingOptions& coupling) {
-  return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options));
-}
-
-Synthesis synthesise(const std::vector<model::Substructure>& parts,
-                     const reduction::ReductionMethod& basis,
-                     const reduction::ReductionOptions& options, reduction::ReductionCache& cache,
-                     const CouplingOptions& coupling) {
-  return join(parts, basis, options, coupling, reduction::reduceAll(parts, basis, options, cache));
+  reduction::ReductionCache none;
+  none.remembers = false;
+  return synthesise(parts, basis, options, none, coupling);
 }
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts,

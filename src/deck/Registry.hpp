@@ -12,12 +12,13 @@
 #include <vector>
 
 #include "common/Error.hpp"
+#include "deck/Defaults.hpp"
 #include "deck/ListSpec.hpp"
 
 namespace tooljoint::deck {
 
-/// Registry of the variants of Base, created from Args... (usually a `const
-/// Teuchos::ParameterList&` with the variant's own parameters first).
+/// Registry of the variants of Base, created from Args...: first a `const Teuchos::ParameterList&`
+/// with the variant's own parameters, in which the registry fills in the defaults of absent ones.
 template <class Base, class... Args>
 class Registry {
  public:
@@ -51,7 +52,7 @@ class Registry {
   }
 
   std::unique_ptr<Base> make(const std::string& name, Args... args) const {
-    return find(name).make(std::forward<Args>(args)...);
+    return makeFrom(find(name), std::forward<Args>(args)...);
   }
 
   std::vector<std::string> names() const {
@@ -63,6 +64,16 @@ class Registry {
   const std::map<std::string, Entry>& entries() const { return entries_; }
 
  private:
+  template <class... Others>
+  static std::unique_ptr<Base> makeFrom(const Entry& entry, const Teuchos::ParameterList& list,
+                                        Others&&... others) {
+    std::unique_ptr<Base> made;
+    withDefaults(entry.parameters, list, [&](const Teuchos::ParameterList& filled) {
+      made = entry.make(filled, std::forward<Others>(others)...);
+    });
+    return made;
+  }
+
   std::map<std::string, Entry> entries_;
 };
 

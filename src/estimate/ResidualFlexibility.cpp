@@ -16,7 +16,7 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   std::vector<int> columns;
   for (int k = 0; k < basis.modes(); ++k)
     if (basis.modeKind[static_cast<std::size_t>(k)] != reduction::followingKind)
-      columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
+      columns.push_back(static_cast<int>(basis.partition.boundary.size()) + k);
   truncated_ = std::max(0, size - static_cast<int>(columns.size()));
   if (truncated_ == 0) return;
   stiffness_ = reduction::block(stiffness, interior_, interior_);

@@ -30,7 +30,7 @@ std::vector<DofLabel> coordinateLabels(const PartContent& original,
                                        const reduction::ReducedSubstructure& reduced) {
   std::vector<DofLabel> labels;
   int modes = 0;
-  for (int i : reduced.basis->partition.kept) {
+  for (int i : reduced.basis->partition.boundary) {
     const auto& label = original.part.model.dofs[static_cast<std::size_t>(i)];
     labels.push_back(label.kind == DofLabel::Kind::Modal ? DofLabel::modal(0, modes++) : label);
   }
@@ -42,13 +42,13 @@ std::vector<DofLabel> coordinateLabels(const PartContent& original,
 
 PartContent reducedContent(const PartContent& original,
                            const reduction::ReducedSubstructure& reduced) {
-  if (reduced.boundary)
+  if (reduced.derivedInterface)
     throw ModelError("Part \"" + reduced.name + "\" cannot be exported: its basis \"" +
                      reduced.report.basis +
                      "\" does not have the interface dofs among its coordinates, so there is "
                      "nothing that others could be joined to. Take "
                      "another basis, Craig-Bampton for instance.");
-  const auto& kept = reduced.basis->partition.kept;
+  const auto& kept = reduced.basis->partition.boundary;
   if (reduced.basis->vectors.rows() != original.part.model.size())
     throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
   PartContent out;

@@ -14,6 +14,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/methods/WholePart.hpp"
 #include "reduction/project/BasisChecks.hpp"
 #include "reduction/project/Distribution.hpp"
@@ -31,24 +32,22 @@ using constants::twoPi;
 constexpr int firstCandidates = 12;
 
 /// Modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
-int buckledModes(const model::Substructure& part, const Basis& basis) {
+int buckledModes(const PartView& part, const Basis& basis) {
   const auto modes = basis.eigenvalues.size();
   if ((basis.eigenvalues.array() < 0).count() == 0) return 0;
   const Eigen::Index first = basis.vectors.cols() - basis.forces() - modes;
   const Matrix shapes = Matrix(basis.vectors).middleCols(first, modes);
-  const Matrix inertia = part.model.mass * shapes;
+  const Matrix inertia = part.mass() * shapes;
   const Vector energies =
       basis.eigenvalues.cwiseProduct(shapes.cwiseProduct(inertia).colwise().sum().transpose());
-  const auto rounding =
-      linalg::areRounding(energies, shapes, symmetricPart(constantStiffness(part.model)));
+  const auto rounding = linalg::areRounding(energies, shapes, part.symmetricStiffness());
   int buckled = 0;
   for (Eigen::Index k = 0; k < modes; ++k)
-    buckled += basis.eigenvalues[k] < 0 && !rounding[static_cast<std::size_t>(k)] ? 1 : 0;
+    buckled += basis.eigenvalues[k] < 0 && !rounding[at(k)] ? 1 : 0;
   return buckled;
 }
 
-ReducedCore makeCore(const model::Substructure& part, const Basis& basis,
-                     const ReductionOptions& options) {
+ReducedCore makeCore(const PartView& part, const Basis& basis, const ReductionOptions& options) {
   ReducedCore core;
   core.basis = basis;
   {
@@ -56,12 +55,12 @@ ReducedCore makeCore(const model::Substructure& part, const Basis& basis,
     core.matrices = projectMatrices(part, basis);
   }
   BasisReport& report = core.report;
-  report.part = part.name;
+  report.part = part.part().name;
   report.basis = options.basis;
   report.method = basis.method;
-  report.interface = static_cast<int>(basis.partition.interface.size()) + basis.forces();
-  report.retained = static_cast<int>(basis.partition.retained.size());
-  report.interior = static_cast<int>(basis.partition.interior.size()) - basis.forces();
+  report.interface = sizeOf(basis.partition.interface) + basis.forces();
+  report.retained = sizeOf(basis.partition.retained);
+  report.interior = sizeOf(basis.partition.interior) - basis.forces();
   report.modes = basis.modes();
   report.negativeModes = buckledModes(part, basis);
   std::vector<BasisRow> rows = std::move(core.basis.rows);
@@ -71,13 +70,10 @@ ReducedCore makeCore(const model::Substructure& part, const Basis& basis,
   report.stiffnessDefect = core.matrices.stiffnessDefect;
   report.structureEnforced = core.matrices.structureEnforced;
   report.remarks = basis.remarks;
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    if (rows[j].kind != "constraint") continue;
-    const double stiffness = core.matrices.constantStiffness.coeff(static_cast<Eigen::Index>(j),
-                                                                   static_cast<Eigen::Index>(j));
-    const double mass =
-        core.matrices.mass.coeff(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(j));
-    rows[j].eigenvalue = mass > 0 ? stiffness / mass : 0;
+  for (int j = 0; j < sizeOf(rows); ++j) {
+    if (rows[at(j)].kind != "constraint") continue;
+    const double mass = core.matrices.mass.coeff(j, j);
+    rows[at(j)].eigenvalue = mass > 0 ? core.matrices.constantStiffness.coeff(j, j) / mass : 0;
   }
   report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   if (basis.orthonormal && !report.structureEnforced && report.modes > 0)
@@ -171,6 +167,17 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
   }
 }
 
+/// The views of these parts in a cache.
+const std::vector<PartView>& viewsOf(const std::vector<model::Substructure>& parts,
+                                     ReductionCache& cache) {
+  const auto same = [](const PartView& view, const model::Substructure& part) {
+    return &view.part() == &part;
+  };
+  if (!std::equal(cache.views.begin(), cache.views.end(), parts.begin(), parts.end(), same))
+    cache.views.assign(parts.begin(), parts.end());
+  return cache.views;
+}
+
 /// The reduction of a list of parts by the ranks of MPI_COMM_WORLD.
 class Team {
  public:
@@ -180,6 +187,7 @@ class Team {
         basis_(basis),
         options_(options),
         cache_(cache),
+        views_(viewsOf(parts, cache)),
         requests_(initialRequests(parts, options)),
         cores_(parts.size()) {
     if (cache_.classes.empty()) {
@@ -214,10 +222,10 @@ class Team {
       chooseByInterface();
     parallel::agree([&] {
       forOwned([&](std::size_t p) {
-        if (!isWhole(bases_[p])) addLoadVectors(parts_[p], options_.loadVectors, bases_[p]);
+        if (!isWhole(bases_[p])) addLoadVectors(views_[p], options_.loadVectors, bases_[p]);
       });
       forOwned([&](std::size_t p) {
-        cores_[p] = std::make_shared<const ReducedCore>(makeCore(parts_[p], bases_[p], options_));
+        cores_[p] = std::make_shared<const ReducedCore>(makeCore(views_[p], bases_[p], options_));
       });
     });
     exchange();
@@ -265,7 +273,7 @@ class Team {
                             "\" has no modes with fixed interface for an interface criterion to "
                             "choose from. Give \"Modes\", or take "
                             "the basis \"Craig-Bampton\".");
-          const Vector shares = interfaceShares(parts_[p], bases_[p], rule.kind);
+          const Vector shares = interfaceShares(views_[p], bases_[p], rule.kind);
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
           const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();
           if (keep.empty() &&
@@ -274,7 +282,7 @@ class Team {
                         shares.size() > 0 && shares.sum() > 0 ? 1 : 0);
           else if (keep.empty()) {
             requests_[p].count *= 2;
-            bases_[p] = basis_.build(parts_[p], requests_[p]);
+            bases_[p] = basis_.build(views_[p], requests_[p]);
             continue;
           }
           bases_[p].remarks.clear();  // they were about the number looked at
@@ -296,8 +304,8 @@ class Team {
       forOwned([&](std::size_t p) {
         if (wanted[p])
           bases_[p] = requests_[p].kind == ModeRequest::Kind::Whole
-                          ? wholePart(parts_[p])
-                          : basis_.build(parts_[p], requests_[p]);
+                          ? wholePart(views_[p])
+                          : basis_.build(views_[p], requests_[p]);
       });
     });
   }
@@ -340,7 +348,7 @@ class Team {
           if (!bases_[p].removable) {
             requests_[p].count = counts[p];
             requests_[p].pairTolerance = 0;  // pairs are whole already
-            bases_[p] = basis_.build(parts_[p], requests_[p]);
+            bases_[p] = basis_.build(views_[p], requests_[p]);
             return;
           }
           bases_[p].remarks.clear();  // they were about the number asked of this part alone
@@ -370,6 +378,7 @@ class Team {
   const ReductionMethod& basis_;
   const ReductionOptions& options_;
   ReductionCache& cache_;
+  const std::vector<PartView>& views_;
   std::vector<ModeRequest> requests_;
   std::vector<int> representative_;  ///< first identical part
   std::vector<int>
@@ -380,20 +389,19 @@ class Team {
 
 }  // namespace
 
-ReducedSubstructure reduce(const model::Substructure& part, const Basis& basis,
+ReducedSubstructure reduce(const PartView& part, const Basis& basis,
                            const ReductionOptions& options, int index) {
   ReducedSubstructure reduced;
-  ReducedModels(part, std::make_shared<const ReducedCore>(makeCore(part, basis, options)), options)
-      .make(part, index, reduced);
+  ReducedModels(part.part(), std::make_shared<const ReducedCore>(makeCore(part, basis, options)),
+                options)
+      .make(part.part(), index, reduced);
   return reduced;
 }
 
 std::vector<BasisRow> ReducedSubstructure::basisRows() const {
   std::vector<BasisRow> rows = *report.rows;
-  const std::size_t kept = basis->partition.kept.size();
-  for (std::size_t j = 0; j < kept && j < rows.size(); ++j)
-    if (rows[j].kind == "constraint")
-      rows[j].name = model::describe(model.dofs[j], model.componentNames);
+  for (int j = 0; j < std::min(sizeOf(basis->partition.boundary), sizeOf(rows)); ++j)
+    if (rows[at(j)].kind == "constraint") rows[at(j)].name = model::dofName(model, j);
   return rows;
 }
 
@@ -402,7 +410,7 @@ std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure
                                            const ReductionOptions& options) {
   ReductionCache none;
   none.remembers = false;
-  return Team(parts, basis, options, none).run();
+  return reduceAll(parts, basis, options, none);
 }
 
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,

@@ -56,7 +56,7 @@ std::unique_ptr<ReductionMethod> makeBasis(const std::string& name,
 /// are projected full, unsymmetric parts included (Nguyen et al. 2020, (43)); stiffness terms that
 /// are constant in time become one term, every other one stays a term with its own law. `index`
 /// numbers the part in the labels of its modes.
-ReducedSubstructure reduce(const model::Substructure& part, const Basis& basis,
+ReducedSubstructure reduce(const PartView& part, const Basis& basis,
                            const ReductionOptions& options, int index);
 
 /// Reduces all parts. Every rank passes the same parts and gets the same result; each part is
@@ -67,17 +67,19 @@ std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options);
 
-/// What rounds of reduction of the same parts share: which parts are identical, and every part
-/// reduced so far by its number of modes. The same on every rank.
+/// What rounds of reduction of the same parts share: what was computed of them, which of them are
+/// identical, and every part reduced so far by its number of modes. The same on every rank but for
+/// what the views hold.
 struct ReductionCache {
   bool remembers = true;
-  std::vector<int> classes;  ///< findIdenticalParts; empty before the first round
+  std::vector<PartView> views;  ///< one for each part
+  std::vector<int> classes;     ///< findIdenticalParts; empty before the first round
   std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>>
       cores;  ///< by class and number of modes asked for
 };
 
-/// The same with what earlier rounds have reduced: only parts whose number of modes is new are.
-/// Needs ModeRule::Kind::PerPart.
+/// The same with what earlier rounds have reduced: only parts whose number of modes is new are,
+/// where the cache remembers them, which needs ModeRule::Kind::PerPart.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options, ReductionCache& cache);

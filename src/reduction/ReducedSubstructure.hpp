@@ -15,7 +15,7 @@ namespace tooljoint::reduction {
 
 /// Interface of a reduced part whose displacement is not among its coordinates: u_b = rows q +
 /// offset.
-struct Boundary {
+struct DerivedInterface {
   std::vector<model::DofLabel> dofs;  ///< what is joined, labels of the part
   Sparse rows;                        ///< dofs x coordinates
   Vector offset;                      ///< u_b at q = 0: the static state, or zero
@@ -40,8 +40,9 @@ struct ReducedSubstructure {
   std::shared_ptr<const Basis>
       basis;  ///< one for all identical parts; its rows stand in the report
   BasisReport report;
-  std::optional<Boundary> boundary;  ///< only where the basis does not have the interface dofs as
-                                     ///< coordinates; then `interface` is 0
+  std::optional<DerivedInterface>
+      derivedInterface;  ///< only where the basis does not have the interface dofs as coordinates;
+                         ///< then `interface` is 0
 
   int size() const { return model.size(); }
   /// report.rows with the names of the dofs of this part: those of the report are of the first of

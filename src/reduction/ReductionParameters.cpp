@@ -44,7 +44,7 @@ void declareCriteria(deck::ListSpec& list) {
   const auto fraction = Range{0.0, 1.0, true, false};
   const auto tolerance = Range{0.0, 0.5, true, false};
   list.real("Effective Interface Mass", "", deck::Optional{}, fraction,
-            "The modes of each substructure that couple most to its kept dofs, until they hold "
+            "The modes of each substructure that couple most to its boundary dofs, until they hold "
             "this fraction of the coupling mass (Kammer and "
             "Triller 1996).")
       .expert();

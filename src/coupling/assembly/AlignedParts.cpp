@@ -2,7 +2,6 @@
 #include "coupling/assembly/AlignedParts.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -11,6 +10,7 @@
 #include "common/Text.hpp"
 #include "coupling/assembly/Congruence.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "coupling/input/DofLookup.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {
@@ -20,6 +20,15 @@ namespace {
 using model::DofLabel;
 using model::SecondOrderModel;
 
+AlignedPart unchanged(const std::string& name, const SecondOrderModel& model) {
+  AlignedPart part;
+  part.name = name;
+  part.model = &model;
+  part.coordinates = model.size();
+  part.offset = Vector::Zero(model.size());
+  return part;
+}
+
 /// A with `more` zero rows and columns.
 Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {
   Sparse out = A;
@@ -28,7 +37,7 @@ Sparse extended(const Sparse& A, Eigen::Index rows, Eigen::Index columns) {
 }
 
 /// Puts the interface dofs of a part that has them not as coordinates behind its coordinates.
-void appendBoundary(const reduction::Boundary& boundary, AlignedPart& alignedPart) {
+void appendInterface(const reduction::DerivedInterface& boundary, AlignedPart& alignedPart) {
   auto m = std::make_shared<SecondOrderModel>(*alignedPart.model);
   const Eigen::Index n = m->size(), all = n + static_cast<Eigen::Index>(boundary.dofs.size());
   if (boundary.rows.rows() != all - n || boundary.rows.cols() != n ||
@@ -61,18 +70,15 @@ void appendBoundary(const reduction::Boundary& boundary, AlignedPart& alignedPar
 std::vector<AlignedPart> alignParts(const std::vector<reduction::ReducedSubstructure>& parts) {
   std::vector<AlignedPart> alignedParts;
   for (const auto& part : parts) {
-    AlignedPart alignedPart;
-    alignedPart.name = part.name;
-    alignedPart.model = &part.model;
+    AlignedPart alignedPart = unchanged(part.name, part.model);
     alignedPart.reduced = true;
-    alignedPart.coordinates = part.model.size();
-    alignedPart.offset = Vector::Zero(part.model.size());
-    const auto& kept = part.boundary ? part.basis->partition.retained : part.basis->partition.kept;
+    const auto& known =
+        part.derivedInterface ? part.basis->partition.retained : part.basis->partition.boundary;
     for (int i = 0; i < part.interface + part.retained; ++i) {
       (i < part.interface ? alignedPart.interface : alignedPart.retained).push_back(i);
-      if (part.offset.size() > 0) alignedPart.offset[i] = part.offset[kept[at(i)]];
+      if (part.offset.size() > 0) alignedPart.offset[i] = part.offset[known[at(i)]];
     }
-    if (part.boundary) appendBoundary(*part.boundary, alignedPart);
+    if (part.derivedInterface) appendInterface(*part.derivedInterface, alignedPart);
     alignedParts.push_back(std::move(alignedPart));
   }
   return alignedParts;
@@ -82,13 +88,9 @@ std::vector<AlignedPart> alignParts(const std::vector<model::Substructure>& part
   std::vector<AlignedPart> alignedParts;
   for (const auto& part : parts) {
     reduction::checkPart(part);
-    AlignedPart alignedPart;
-    alignedPart.name = part.name;
-    alignedPart.model = &part.model;
-    alignedPart.coordinates = part.model.size();
+    AlignedPart alignedPart = unchanged(part.name, part.model);
     alignedPart.interface = part.interface;
     alignedPart.retained = part.retained;
-    alignedPart.offset = Vector::Zero(part.model.size());
     alignedParts.push_back(std::move(alignedPart));
   }
   return alignedParts;
@@ -118,13 +120,12 @@ void alignComponents(std::vector<AlignedPart>& alignedParts) {
       const int row = i / width * width + to[at(i % width)];
       offset[row] = m->recoveryOffset[i];
       order.emplace_back(row, i, 1.0);
-      for (model::SharedSparse::InnerIterator it(m->recovery, i); it; ++it)
-        rows.emplace_back(row, static_cast<int>(it.col()), it.value());
+      forEachInRow(m->recovery.sparse(), i,
+                   [&](int column, double value) { rows.emplace_back(row, column, value); });
     }
-    m->recovery.setFromTriplets(rows.begin(), rows.end());
+    m->recovery = sparse(m->recovery.rows(), m->recovery.cols(), rows);
     m->recoveryOffset = offset;
-    alignedPart.recoveryTurn = Sparse(m->recovery.rows(), m->recovery.rows());
-    alignedPart.recoveryTurn.setFromTriplets(order.begin(), order.end());
+    alignedPart.recoveryTurn = sparse(m->recovery.rows(), m->recovery.rows(), order);
     m->componentNames = first;
     alignedPart.own = m;
     alignedPart.model = m.get();
@@ -205,9 +206,7 @@ class Turning {
  private:
   void checkNodes() const {
     for (const auto& [node, axes] : frames_.nodes()) {
-      bool known = std::find(alignedPart_.model->recoveryNodes.begin(),
-                             alignedPart_.model->recoveryNodes.end(),
-                             node) != alignedPart_.model->recoveryNodes.end();
+      bool known = contains(alignedPart_.model->recoveryNodes, node);
       for (const auto& label : alignedPart_.model->dofs)
         known = known || (label.kind == DofLabel::Kind::Physical && label.entity == node);
       if (!known)
@@ -231,9 +230,7 @@ class Turning {
           turnVector(node, positions, vector, *axes, entries, turned);
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (!turned[i]) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-    Sparse T(static_cast<Eigen::Index>(dofs.size()), static_cast<Eigen::Index>(dofs.size()));
-    T.setFromTriplets(entries.begin(), entries.end());
-    return T;
+    return sparse(sizeOf(dofs), sizeOf(dofs), entries);
   }
 
   /// One of the two vectors of a node: the components the names have, among those the dofs the part
@@ -245,23 +242,18 @@ class Turning {
     for (int a = 0; a < 3; ++a)
       if (vector[at(a)] >= 0 && positions.count(vector[at(a)]) > 0) have.push_back(a);
     if (have.empty()) return;
-    Matrix R(have.size(), have.size());
-    for (std::size_t i = 0; i < have.size(); ++i)
-      for (std::size_t j = 0; j < have.size(); ++j)
-        R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = axes(have[j], have[i]);
-    const auto position = [&](std::size_t i) { return positions.at(vector[at(have[i])]); };
+    const Matrix R = Matrix(axes(have, have)).transpose();
+    const auto position = [&](int i) { return positions.at(vector[at(have[at(i)])]); };
     if ((R * R.transpose() - Matrix::Identity(R.rows(), R.cols())).cwiseAbs().maxCoeff() > 1e-8) {
       refusePartial(node, positions, vector, have);
-      for (std::size_t i = 0; i < have.size(); ++i)
+      for (int i = 0; i < sizeOf(have); ++i)
         alignedPart_.unturned.insert(alignedPart_.model->dofs[at(position(i))]);
       return;
     }
-    for (std::size_t i = 0; i < have.size(); ++i) {
+    for (int i = 0; i < sizeOf(have); ++i) {
       turned[at(position(i))] = 1;
-      for (std::size_t j = 0; j < have.size(); ++j) {
-        const double value = R(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-        if (value != 0.0) entries.emplace_back(position(i), position(j), value);
-      }
+      for (int j = 0; j < sizeOf(have); ++j)
+        if (R(i, j) != 0.0) entries.emplace_back(position(i), position(j), R(i, j));
     }
   }
 
@@ -271,14 +263,12 @@ class Turning {
     const auto& names = alignedPart_.model->componentNames;
     std::vector<std::string> missing;
     for (int a = 0; a < 3; ++a)
-      if (std::find(have.begin(), have.end(), a) == have.end())
+      if (!contains(have, a))
         missing.push_back(vector[at(a)] >= 0 ? names[at(vector[at(a)])]
                                              : "component along axis " + std::to_string(a + 1));
     for (int a : have) {
       const int position = positions.at(vector[at(a)]);
-      if (std::find(alignedPart_.interface.begin(), alignedPart_.interface.end(), position) ==
-          alignedPart_.interface.end())
-        continue;
+      if (!contains(alignedPart_.interface, position)) continue;
       throw ModelError("The frame of node " + std::to_string(node) + " of part \"" +
                        alignedPart_.name + "\" mixes " + names[at(vector[at(a)])] + " with " +
                        quotedList(missing) +
@@ -308,8 +298,7 @@ class Turning {
       for (int c = 0; c < width; ++c)
         if (!done[at(c)]) entries.emplace_back(first + c, first + c, 1.0);
     }
-    Sparse R(m.recovery.rows(), m.recovery.rows());
-    R.setFromTriplets(entries.begin(), entries.end());
+    const Sparse R = sparse(m.recovery.rows(), m.recovery.rows(), entries);
     m.recovery = R * m.recovery;
     m.recoveryOffset = R * m.recoveryOffset;
     alignedPart_.recoveryTurn =
@@ -325,14 +314,8 @@ class Turning {
 
 void turn(std::vector<AlignedPart>& alignedParts, const std::vector<Frame>& frames) {
   std::map<std::string, PartFrames> byPart;
-  std::vector<std::string> names;
-  for (const auto& alignedPart : alignedParts) names.push_back(alignedPart.name);
   for (const auto& frame : frames) {
-    if (std::find(names.begin(), names.end(), frame.part) == names.end()) {
-      const auto meant = closest(frame.part, names);
-      throw ModelError("A frame names part \"" + frame.part + "\", but there is no such part." +
-                       (meant.empty() ? "" : " Did you mean \"" + meant + "\"?"));
-    }
+    partNumber(namesOf(alignedParts), frame.part, "A frame");
     checkRotation(frame);
     byPart[frame.part].set(frame);
   }

@@ -28,12 +28,12 @@ struct AlignedPart {
   std::set<model::DofLabel>
       unturned;  ///< dofs with a frame that could not be turned: nothing may be attached to them
 
-  // Of parts with reduction::Boundary: the interface dofs stand behind the coordinates of the part,
-  // without mass or stiffness.
+  // Of parts with reduction::DerivedInterface: the interface dofs stand behind the coordinates of
+  // the part, without mass or stiffness.
   int coordinates = 0;  ///< of the part itself
   Sparse boundaryRows;  ///< u_b = rows q + offset; no rows without Boundary
   int forces = 0;       ///< the last so many coordinates of the part
-  Vector staticForces;  ///< reduction::Boundary::staticForces, in the frames of the part
+  Vector staticForces;  ///< reduction::DerivedInterface::staticForces, in the frames of the part
 };
 
 std::vector<AlignedPart> alignParts(const std::vector<reduction::ReducedSubstructure>& parts);

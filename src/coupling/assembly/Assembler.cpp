@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Assembler.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "coupling/assembly/LabelAssembly.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/DofLookup.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::coupling {
 
@@ -77,8 +77,7 @@ class Coupler {
     for (const auto& dof : connections_.released)
       for (const auto& place : lookup.find(dof, "A release")) {
         const AlignedPart& alignedPart = alignedParts_[at(place.part)];
-        if (std::find(alignedPart.interface.begin(), alignedPart.interface.end(), place.dof) ==
-            alignedPart.interface.end())
+        if (!contains(alignedPart.interface, place.dof))
           throw ModelError("A release names " + describe(dof) +
                            ", which is no interface dof of part \"" + alignedPart.name +
                            "\", so nothing is joined to it.");
@@ -147,8 +146,7 @@ class Coupler {
         const auto& first = connector.rows[at(p * width)];
         set.entities.push_back(first.empty() ? 0 : first.front().dof.node);
       }
-      set.rows = Sparse(rows, labelled_.model.mass.rows());
-      set.rows.setFromTriplets(entries.begin(), entries.end());
+      set.rows = sparse(rows, labelled_.model.mass.rows(), entries);
       labelled_.model.points.push_back(set);
     }
   }
@@ -210,13 +208,12 @@ class Coupler {
       for (int j = 0; j < alignedPart.boundaryRows.rows(); ++j) {
         const int dof = alignedPart.coordinates + j;
         ConstraintRow row{"interface of part \"" + alignedPart.name + "\" in " +
-                              model::describe(alignedPart.model->dofs[at(dof)],
-                                              alignedPart.model->componentNames),
+                              model::dofName(*alignedPart.model, dof),
                           {{labelled_.columns[p][at(dof)], 1.0}},
                           0.0};
-        for (Sparse::InnerIterator it(alignedPart.boundaryRows, j); it; ++it)
-          row.entries.emplace_back(labelled_.columns[p][at(static_cast<int>(it.col()))],
-                                   -it.value());
+        forEachInRow(alignedPart.boundaryRows, j, [&](int column, double value) {
+          row.entries.emplace_back(labelled_.columns[p][at(column)], -value);
+        });
         rows_.push_back(row);
       }
     }
@@ -247,12 +244,11 @@ class Coupler {
           size = std::max(size, std::abs(factor * y[other]));
         }
         if (std::abs(y[solved.unknown] - value) <= agreement * size) continue;
-        throw ModelError(
-            "The initial " + std::string(velocity ? "velocity" : "displacement") + " of " +
-            model::describe(labelled_.model.dofs[at(solved.unknown)],
-                            labelled_.model.componentNames) +
-            " is " + formatNumber(y[solved.unknown]) + ", but the " + rows_[at(solved.row)].name +
-            " asks for " + formatNumber(value) + ". Parts that meet must start from one state.");
+        throw ModelError("The initial " + std::string(velocity ? "velocity" : "displacement") +
+                         " of " + model::dofName(labelled_.model, solved.unknown) + " is " +
+                         formatNumber(y[solved.unknown]) + ", but the " +
+                         rows_[at(solved.row)].name + " asks for " + formatNumber(value) +
+                         ". Parts that meet must start from one state.");
       }
     };
     check(labelled_.model.initialDisplacement, false);
@@ -262,36 +258,21 @@ class Coupler {
   /// y = L z + offset.
   void enforcePrimal(const Elimination& elimination) {
     out_.model = std::move(labelled_.model);
-    const auto all = static_cast<Eigen::Index>(out_.model.dofs.size());
+    const int all = sizeOf(out_.model.dofs);
     offset_ = Vector::Zero(all);
     map_ = Sparse(all, all);
     map_.setIdentity();
     if (elimination.solved.empty()) return;
-    std::vector<int> to(at(static_cast<int>(all)), 0);
-    for (const auto& solved : elimination.solved) to[at(solved.unknown)] = -1;
-    Substitution s;
-    for (std::size_t y = 0; y < to.size(); ++y)
-      if (to[y] == 0) {
-        to[y] = static_cast<int>(s.dofs.size());
-        s.dofs.push_back(out_.model.dofs[y]);
-      }
-    const auto kept = static_cast<Eigen::Index>(s.dofs.size());
+    std::vector<char> keep(at(all), 1);
     Triplets entries;
-    s.initialDisplacement.resize(kept);
-    s.initialVelocity.resize(kept);
-    for (std::size_t y = 0; y < to.size(); ++y)
-      if (to[y] >= 0) {
-        entries.emplace_back(static_cast<int>(y), to[y], 1.0);
-        s.initialDisplacement[to[y]] = out_.model.initialDisplacement[static_cast<Eigen::Index>(y)];
-        s.initialVelocity[to[y]] = out_.model.initialVelocity[static_cast<Eigen::Index>(y)];
-      }
     for (const auto& solved : elimination.solved) {
+      keep[at(solved.unknown)] = 0;
       for (const auto& [other, factor] : solved.rest)
-        entries.emplace_back(solved.unknown, to[at(other)], factor);
+        entries.emplace_back(solved.unknown, other, factor);
       offset_[solved.unknown] = solved.value;
     }
-    s.map = Sparse(all, kept);
-    s.map.setFromTriplets(entries.begin(), entries.end());
+    Substitution s;
+    keepOnly(out_.model, keep, entries, 0, s);
     s.offset = offset_;
     substitute(out_.model, s);
     map_ = s.map;
@@ -318,14 +299,11 @@ class Coupler {
       const AlignedPart& alignedPart = alignedParts_[p];
       const auto& columns = labelled_.columns[p];
       Triplets entries;
-      Vector local(static_cast<Eigen::Index>(columns.size()));
-      for (int i = 0; i < static_cast<int>(columns.size()); ++i) {
-        local[i] = offset_[columns[at(i)]];
-        for (Sparse::InnerIterator it(map, columns[at(i)]); it; ++it)
-          entries.emplace_back(i, static_cast<int>(it.col()), it.value());
-      }
-      Sparse own(local.size(), map.cols());
-      own.setFromTriplets(entries.begin(), entries.end());
+      Vector local = offset_(columns);
+      for (int i = 0; i < sizeOf(columns); ++i)
+        forEachInRow(map, columns[at(i)],
+                     [&](int column, double value) { entries.emplace_back(i, column, value); });
+      Sparse own = sparse(local.size(), map.cols(), entries);
       if (alignedPart.turn.rows() > 0) {
         own = Sparse(alignedPart.turn * own);
         local = alignedPart.turn * local;
@@ -344,10 +322,8 @@ class Coupler {
     for (const auto& joint : labelled_.joints)
       for (const auto& place : joint.places)
         if (position[at(column(place))] >= 0) out_.interface.push_back(position[at(column(place))]);
-    std::sort(out_.interface.begin(), out_.interface.end());
-    out_.interface.erase(std::unique(out_.interface.begin(), out_.interface.end()),
-                         out_.interface.end());
-    out_.joinedDofs = static_cast<int>(out_.interface.size());
+    makeUnique(out_.interface);
+    out_.joinedDofs = sizeOf(out_.interface);
   }
 
   std::vector<AlignedPart> alignedParts_;
@@ -363,9 +339,8 @@ class Coupler {
 }  // namespace
 
 bool Coupling::boolean() const {
-  return std::all_of(positions.begin(), positions.end(), [](const auto& part) {
-    return std::find(part.begin(), part.end(), -1) == part.end();
-  });
+  return std::none_of(positions.begin(), positions.end(),
+                      [](const auto& part) { return contains(part, -1); });
 }
 
 Coupling coupleWithPositions(const std::vector<reduction::ReducedSubstructure>& parts,
@@ -390,9 +365,9 @@ SecondOrderModel couple(const std::vector<model::Substructure>& parts,
 int halfBandwidth(const SecondOrderModel& model) {
   int width = 0;
   forEachMatrix(model, [&](const Sparse& A) {
-    for (int i = 0; i < A.outerSize(); ++i)
-      for (Sparse::InnerIterator it(A, i); it; ++it)
-        if (it.value() != 0.0) width = std::max(width, std::abs(i - static_cast<int>(it.col())));
+    forEachEntry(A, [&](int i, int j, double value) {
+      if (value != 0.0) width = std::max(width, std::abs(i - j));
+    });
   });
   return width;
 }

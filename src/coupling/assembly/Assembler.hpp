@@ -64,9 +64,9 @@ struct Coupling {
 ///
 /// which means B q = g and lambda_1 = lambda_2, half of the force each, S its stiffness at that
 /// dof. Multipliers carry the node number of that dof, so that block solvers keep them together.
-/// The start has the multipliers that belong to it. Parts with reduction::Boundary have interface
-/// displacements that are no coordinates, u_b = B_p q_p; where their coordinates hold interface
-/// forces (dual Craig-Bampton), these become the multipliers.
+/// The start has the multipliers that belong to it. Parts with reduction::DerivedInterface have
+/// interface displacements that are no coordinates, u_b = B_p q_p; where their coordinates hold
+/// interface forces (dual Craig-Bampton), these become the multipliers.
 ///
 /// Throws ModelError, naming parts and dofs: labels that join nothing, stand twice in a part or
 /// mean an inner dof of another part, different component names, reference or initial states that

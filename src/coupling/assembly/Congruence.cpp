@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Congruence.hpp"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -14,11 +13,6 @@ namespace {
 
 using model::DofLabel;
 
-Sparse withoutZeros(Sparse A) {
-  A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
-  return A;
-}
-
 DofLabel groupOf(const DofLabel& label) {
   if (label.kind == DofLabel::Kind::Physical) return DofLabel::physical(label.entity, 0);
   if (label.kind == DofLabel::Kind::Interface) return DofLabel::interfaceMode(label.entity, 0);
@@ -29,13 +23,10 @@ DofLabel groupOf(const DofLabel& label) {
 
 Sparse moveColumns(const Sparse& A, const std::vector<int>& column, Eigen::Index columns) {
   Triplets entries;
-  for (int i = 0; i < A.outerSize(); ++i)
-    for (Sparse::InnerIterator it(A, i); it; ++it)
-      if (it.value() != 0.0)
-        entries.emplace_back(i, column[at(static_cast<int>(it.col()))], it.value());
-  Sparse moved(A.rows(), columns);
-  moved.setFromTriplets(entries.begin(), entries.end());
-  return moved;
+  forEachEntry(A, [&](int i, int j, double value) {
+    if (value != 0.0) entries.emplace_back(i, column[at(j)], value);
+  });
+  return sparse(A.rows(), columns, entries);
 }
 
 void substitute(model::SecondOrderModel& model, const Substitution& substitution) {
@@ -81,17 +72,15 @@ std::vector<int> narrowNumbering(const model::SecondOrderModel& model) {
   }
   std::vector<std::pair<int, int>> edges;
   forEachMatrix(model, [&](const Sparse& A) {
-    for (int i = 0; i < A.outerSize(); ++i)
-      for (Sparse::InnerIterator it(A, i); it; ++it) {
-        const int a = group[at(i)], b = group[at(static_cast<int>(it.col()))];
-        if (it.value() != 0.0 && a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
-      }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    forEachEntry(A, [&](int i, int j, double value) {
+      const int a = group[at(i)], b = group[at(j)];
+      if (value != 0.0 && a != b) edges.emplace_back(std::min(a, b), std::max(a, b));
+    });
+    makeUnique(edges);
   });
   std::vector<int> position(model.dofs.size());
   next = 0;
-  for (int g : cuthillMcKee(static_cast<int>(members.size()), edges)) {
+  for (int g : cuthillMcKee(sizeOf(members), edges)) {
     auto& dofs = members[at(g)];
     std::sort(dofs.begin(), dofs.end(),
               [&](int a, int b) { return model.dofs[at(a)] < model.dofs[at(b)]; });
@@ -101,20 +90,17 @@ std::vector<int> narrowNumbering(const model::SecondOrderModel& model) {
 }
 
 void renumber(model::SecondOrderModel& model, const std::vector<int>& position) {
-  const auto n = static_cast<Eigen::Index>(position.size());
+  const int n = sizeOf(position);
   changeEachMatrix(model, [&](model::SharedSparse& A) {
     Triplets entries;
-    for (int i = 0; i < A.outerSize(); ++i)
-      for (model::SharedSparse::InnerIterator it(A, i); it; ++it)
-        if (it.value() != 0.0)
-          entries.emplace_back(position[at(i)], position[at(static_cast<int>(it.col()))],
-                               it.value());
-    A = Sparse(n, n);
-    A.setFromTriplets(entries.begin(), entries.end());
+    forEachEntry(A, [&](int i, int j, double value) {
+      if (value != 0.0) entries.emplace_back(position[at(i)], position[at(j)], value);
+    });
+    A = sparse(n, n, entries);
   });
   const auto move = [&](Vector& x) {
     Vector moved(n);
-    for (int i = 0; i < n; ++i) moved[position[at(i)]] = x[i];
+    moved(position) = x;
     x = moved;
   };
   for (auto& load : model.loads) move(load.vector);
@@ -128,17 +114,37 @@ void renumber(model::SecondOrderModel& model, const std::vector<int>& position) 
 }
 
 std::vector<int> positionsOf(const Sparse& map) {
-  std::vector<int> positions(at(static_cast<int>(map.rows())), -1);
+  std::vector<int> positions(at(map.rows()), -1);
   for (int i = 0; i < map.rows(); ++i) {
     int entries = 0;
-    for (Sparse::InnerIterator it(map, i); it; ++it)
-      if (it.value() != 0.0) {
-        ++entries;
-        positions[at(i)] = it.value() == 1.0 ? static_cast<int>(it.col()) : -1;
-      }
+    forEachInRow(map, i, [&](int column, double value) {
+      if (value == 0.0) return;
+      ++entries;
+      positions[at(i)] = value == 1.0 ? column : -1;
+    });
     if (entries != 1) positions[at(i)] = -1;
   }
   return positions;
+}
+
+std::vector<int> keepOnly(const model::SecondOrderModel& model, const std::vector<char>& keep,
+                          Triplets entries, int more, Substitution& s) {
+  std::vector<int> column(keep.size() + at(more), -1), kept;
+  for (int i = 0; i < sizeOf(keep); ++i)
+    if (keep[at(i)]) {
+      column[at(i)] = sizeOf(kept);
+      kept.push_back(i);
+      s.dofs.push_back(model.dofs[at(i)]);
+    }
+  for (int k = 0; k < more; ++k) column[keep.size() + at(k)] = sizeOf(kept) + k;
+  for (auto& entry : entries) entry = {entry.row(), column[at(entry.col())], entry.value()};
+  for (int j = 0; j < sizeOf(kept); ++j) entries.emplace_back(kept[at(j)], j, 1.0);
+  s.map = sparse(sizeOf(keep), sizeOf(kept) + more, entries);
+  s.offset = Vector::Zero(sizeOf(keep));
+  s.initialDisplacement = s.initialVelocity = Vector::Zero(s.map.cols());
+  s.initialDisplacement.head(sizeOf(kept)) = model.initialDisplacement(kept);
+  s.initialVelocity.head(sizeOf(kept)) = model.initialVelocity(kept);
+  return column;
 }
 
 }  // namespace tooljoint::coupling

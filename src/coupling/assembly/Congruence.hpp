@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "common/Indexing.hpp"
 #include "model/SecondOrderModel.hpp"
 
 namespace tooljoint::coupling {
@@ -21,6 +22,13 @@ struct Substitution {
 /// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery
 /// follow.
 void substitute(model::SecondOrderModel& model, const Substitution& substitution);
+
+/// Fills `s` with the coordinates that stay, keep[i] != 0, as they are, and `more` new ones behind
+/// them, whose dofs are for the caller to add. `entries` say what the others are: row and column
+/// are coordinates of the model, or the number of coordinates and more for the new ones. Returns
+/// the new number of every coordinate, -1 for those that do not stay.
+std::vector<int> keepOnly(const model::SecondOrderModel& model, const std::vector<char>& keep,
+                          Triplets entries, int more, Substitution& s);
 
 /// Position of every dof in a numbering by a Cuthill-McKee walk over groups: the dofs of a node
 /// together, with the forces on them; the modes of an interface together; every mode of a part by

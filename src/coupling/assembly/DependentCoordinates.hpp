@@ -13,4 +13,7 @@ namespace tooljoint::coupling {
 /// dependent coordinates. ModelError for a model with multipliers.
 void condenseDependent(Coupling& coupling, const reduction::DependentCoordinates& dependent);
 
+/// Coordinates of the parts after old coupled dofs = map * new ones.
+void changeCoordinates(Coupling& coupling, const Sparse& map);
+
 }  // namespace tooljoint::coupling

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/DualAssembly.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "common/Index.hpp"
 #include "coupling/assembly/Congruence.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::coupling {
 
@@ -57,36 +57,22 @@ class Builder {
   /// y = S (x, lambda): interface displacements that are no coordinates are rows of their part, u_b
   /// = B_p q_p.
   void dropInterfacesThatAreNoCoordinates() {
-    std::vector<int> column(at(all_), -1);
-    for (int y = 0; y < all_; ++y)
-      if (virtual_[at(y)] < 0) column[at(y)] = coordinates_++;
-    const int size = coordinates_ + count();
+    std::vector<char> keep(at(all_), 1);
     Triplets entries;
-    Substitution s;
-    s.initialDisplacement = Vector::Zero(size);
-    s.initialVelocity = Vector::Zero(size);
     for (int y = 0; y < all_; ++y) {
-      if (virtual_[at(y)] >= 0) {
-        const auto& from = labelled_.columns[at(owner_[at(y)])];
-        for (Sparse::InnerIterator it(alignedParts_[at(owner_[at(y)])].boundaryRows,
-                                      virtual_[at(y)]);
-             it; ++it)
-          entries.emplace_back(y, column[at(from[at(static_cast<int>(it.col()))])], it.value());
-        continue;
-      }
-      entries.emplace_back(y, column[at(y)], 1.0);
-      s.dofs.push_back(labelled_.model.dofs[at(y)]);
-      s.initialDisplacement[column[at(y)]] = labelled_.model.initialDisplacement[y];
-      s.initialVelocity[column[at(y)]] = labelled_.model.initialVelocity[y];
+      if (virtual_[at(y)] < 0) continue;
+      keep[at(y)] = 0;
+      const auto& from = labelled_.columns[at(owner_[at(y)])];
+      forEachInRow(alignedParts_[at(owner_[at(y)])].boundaryRows, virtual_[at(y)],
+                   [&](int j, double value) { entries.emplace_back(y, from[at(j)], value); });
     }
+    Substitution s;
+    column_ = keepOnly(labelled_.model, keep, entries, count(), s);
+    coordinates_ = sizeOf(s.dofs);
     for (const auto& solved : solved_)
       for (const std::int8_t which : {1, 2}) s.dofs.push_back(labelOf(solved.unknown, which));
-    s.map = Sparse(all_, size);
-    s.map.setFromTriplets(entries.begin(), entries.end());
-    s.offset = Vector::Zero(all_);
     substitute(out_.model, s);
     out_.map = s.map;
-    column_ = std::move(column);
   }
 
   /// A multiplier stands with the node of its dof, or with the modes of a part whose interface is
@@ -123,19 +109,15 @@ class Builder {
                                   alignedParts_[at(owner_[at(solved.unknown)])].name,
                                   labelled_.model.dofs[at(solved.unknown)], scale});
     }
-    labelRows_ = Sparse(count(), all_);
-    labelRows_.setFromTriplets(rows.begin(), rows.end());
-    const Sparse B = labelRows_ * out_.map;
-    for (int k = 0; k < B.outerSize(); ++k)
-      for (Sparse::InnerIterator it(B, k); it; ++it) {
-        if (it.value() == 0.0) continue;
-        entries.emplace_back(coordinates_ + k, static_cast<int>(it.col()), -it.value());
-        entries.emplace_back(static_cast<int>(it.col()), coordinates_ + k, -it.value());
-      }
+    labelRows_ = sparse(count(), all_, rows);
+    forEachEntry(Sparse(labelRows_ * out_.map), [&](int k, int j, double value) {
+      if (value == 0.0) return;
+      entries.emplace_back(coordinates_ + k, j, -value);
+      entries.emplace_back(j, coordinates_ + k, -value);
+    });
     const int size = coordinates_ + count();
-    Sparse joining(size, size);
-    joining.setFromTriplets(entries.begin(), entries.end());
-    if (count() > 0) out_.model.stiffness.push_back({joiningForces, joining, 0});
+    if (count() > 0)
+      out_.model.stiffness.push_back({joiningForces, sparse(size, size, entries), 0});
     if (!values.isZero(0.0)) {
       Vector load = Vector::Zero(size);
       load.tail(count()) = -values;
@@ -179,55 +161,39 @@ class Builder {
     return flexibility > 0.0 ? 1.0 / flexibility : 0.0;
   }
 
+  /// Entry (j, i) of T, from the common frame to the part's, for interface forces.
+  static double turned(const AlignedPart& part, int j, int i) {
+    const int n = part.coordinates;
+    return part.turn.rows() > 0 ? part.turn.coeff(n + j, n + i) : i == j ? 1.0 : 0.0;
+  }
+
   /// Coordinates that are interface forces of a part are what the multipliers make them: g = T C'
   /// lambda, T from the common frame to the part's.
   void putForcesInPlace() {
-    std::vector<char> replaced(at(coordinates_ + count()), 0);
+    std::vector<char> keep(at(coordinates_ + count()), 1);
     Triplets entries;
     for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
       const AlignedPart& alignedPart = alignedParts_[p];
       if (alignedPart.forces == 0) continue;
       const int n = alignedPart.coordinates, first = n - alignedPart.forces;
-      Sparse toCommon(alignedPart.forces, all_);
       Triplets rows;
       for (int j = 0; j < alignedPart.forces; ++j)
-        for (int i = 0; i < alignedPart.forces; ++i) {
-          const double value = alignedPart.turn.rows() > 0 ? alignedPart.turn.coeff(n + j, n + i)
-                               : i == j                    ? 1.0
-                                                           : 0.0;
-          if (value != 0.0) rows.emplace_back(j, labelled_.columns[p][at(n + i)], value);
-        }
-      toCommon.setFromTriplets(rows.begin(), rows.end());
-      const Sparse C = labelRows_.transpose();
+        for (int i = 0; i < alignedPart.forces; ++i)
+          if (const double value = turned(alignedPart, j, i); value != 0.0)
+            rows.emplace_back(j, labelled_.columns[p][at(n + i)], value);
+      const Sparse toCommon = sparse(alignedPart.forces, all_, rows), C = labelRows_.transpose();
       const Sparse g = toCommon * C;  // forces x multipliers
       for (int j = 0; j < alignedPart.forces; ++j) {
         const int x = column_[at(labelled_.columns[p][at(first + j)])];
-        replaced[at(x)] = 1;
-        for (Sparse::InnerIterator it(g, j); it; ++it)
-          entries.emplace_back(x, coordinates_ + static_cast<int>(it.col()), it.value());
+        keep[at(x)] = 0;
+        forEachInRow(g, j, [&](int column, double value) {
+          entries.emplace_back(x, coordinates_ + column, value);
+        });
       }
     }
-    if (std::find(replaced.begin(), replaced.end(), 1) == replaced.end()) return;
+    if (!contains(keep, 0)) return;
     Substitution s;
-    int next = 0;
-    std::vector<int> to(replaced.size(), -1);
-    for (std::size_t x = 0; x < replaced.size(); ++x)
-      if (!replaced[x]) {
-        to[x] = next++;
-        s.dofs.push_back(out_.model.dofs[x]);
-      }
-    for (auto& entry : entries) entry = Triplet(entry.row(), to[at(entry.col())], entry.value());
-    s.initialDisplacement.resize(next);
-    s.initialVelocity.resize(next);
-    for (std::size_t x = 0; x < replaced.size(); ++x)
-      if (!replaced[x]) {
-        entries.emplace_back(static_cast<int>(x), to[x], 1.0);
-        s.initialDisplacement[to[x]] = out_.model.initialDisplacement[static_cast<Eigen::Index>(x)];
-        s.initialVelocity[to[x]] = out_.model.initialVelocity[static_cast<Eigen::Index>(x)];
-      }
-    s.map = Sparse(static_cast<Eigen::Index>(replaced.size()), next);
-    s.map.setFromTriplets(entries.begin(), entries.end());
-    s.offset = Vector::Zero(static_cast<Eigen::Index>(replaced.size()));
+    const std::vector<int> to = keepOnly(out_.model, keep, entries, 0, s);
     substitute(out_.model, s);
     out_.map = Sparse(out_.map * s.map);
     for (auto& multiplier : out_.multipliers) {
@@ -236,9 +202,9 @@ class Builder {
     }
   }
 
-  /// Forces of the static state load the parts (reduction::Boundary). What they leave where parts
-  /// meet is no force between parts but what the static state lacks to equilibrium, and is taken
-  /// back.
+  /// Forces of the static state load the parts (reduction::DerivedInterface). What they leave where
+  /// parts meet is no force between parts but what the static state lacks to equilibrium, and is
+  /// taken back.
   void returnImbalance() {
     Vector total = Vector::Zero(all_);
     for (std::size_t p = 0; p < alignedParts_.size(); ++p) {
@@ -247,10 +213,7 @@ class Builder {
       for (int j = 0; j < alignedPart.staticForces.size(); ++j) {
         for (int i = 0; i < alignedPart.forces; ++i)
           total[labelled_.columns[p][at(n + i)]] +=
-              (alignedPart.turn.rows() > 0 ? alignedPart.turn.coeff(n + j, n + i)
-               : i == j                    ? 1.0
-                                           : 0.0) *
-              alignedPart.staticForces[j];
+              turned(alignedPart, j, i) * alignedPart.staticForces[j];
       }
     }
     for (const auto& solved : solved_) {
@@ -274,7 +237,7 @@ class Builder {
     SecondOrderModel& m = out_.model;
     const Eigen::Index n = m.mass.rows();
     const Vector mass = m.mass.diagonal(), stiffness = diagonalStiffness();
-    std::vector<char> bare(static_cast<std::size_t>(n), 0);
+    std::vector<char> bare(at(n), 0);
     for (const auto& multiplier : out_.multipliers)
       for (int i : {multiplier.first, multiplier.second})
         bare[at(i)] = mass[i] == 0.0 && stiffness[i] == 0.0;
@@ -282,32 +245,27 @@ class Builder {
                m.dampingAt(0.0) * m.initialVelocity - m.stiffnessAt(0.0) * m.initialDisplacement;
     double fastest = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (bare[static_cast<std::size_t>(i)]) r[i] = 0.0;
+      if (bare[at(i)]) r[i] = 0.0;
       if (mass[i] > 0) fastest = std::max(fastest, std::abs(stiffness[i]) / mass[i]);
     }
-    if (r.isZero(0.0) || std::find(bare.begin(), bare.end(), 1) == bare.end()) return;
+    if (r.isZero(0.0) || !contains(bare, 1)) return;
     Triplets entries;
+    forEachEntry(m.mass, [&](int i, int j, double value) { entries.emplace_back(i, j, value); });
     for (int i = 0; i < n; ++i) {
-      for (model::SharedSparse::InnerIterator it(m.mass, i); it; ++it)
-        entries.emplace_back(i, static_cast<int>(it.col()), it.value());
       if (mass[i] == 0.0 && !bare[at(i)])
         entries.emplace_back(
             i, i, stiffness[i] != 0.0 && fastest > 0 ? std::abs(stiffness[i]) / fastest : 1.0);
     }
     for (const auto& term : m.stiffness) {
       if (term.name != joiningForces) continue;
-      for (int i = 0; i < n; ++i)
-        for (model::SharedSparse::InnerIterator it(term.matrix, i); it; ++it)
-          if (bare[at(i)] != 0 || bare[at(static_cast<int>(it.col()))] != 0)
-            entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+      forEachEntry(term.matrix, [&](int i, int j, double value) {
+        if (bare[at(i)] != 0 || bare[at(j)] != 0) entries.emplace_back(i, j, value);
+      });
     }
-    Sparse saddle(n, n);
-    saddle.setFromTriplets(entries.begin(), entries.end());
-    const linalg::DirectSolver solver(
-        saddle, [&](int i) { return model::describe(m.dofs[at(i)], m.componentNames); });
+    const linalg::DirectSolver solver(sparse(n, n, entries), model::namer(m));
     const Vector x = solver.solve(r);
     for (Eigen::Index i = 0; i < n; ++i)
-      if (bare[static_cast<std::size_t>(i)]) m.initialDisplacement[i] = x[i];
+      if (bare[at(i)]) m.initialDisplacement[i] = x[i];
   }
 
   const std::vector<AlignedPart>& alignedParts_;

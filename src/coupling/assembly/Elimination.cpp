@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Elimination.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Indexing.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::coupling {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/LabelAssembly.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -113,8 +112,7 @@ class Labeller {
         if (fresh) out_.model.dofs.push_back(label);
         out_.columns[at(p)].push_back(it->second);
       }
-    stands_.resize(out_.model.dofs.size());
-    for (int i = 0; i < size(); ++i) stands_[at(i)] = i;
+    stands_ = range(size());
     for (const auto& joint : out_.joints)
       for (const auto& place : joint.places)
         stands_[at(column(place))] = column(joint.places.front());
@@ -125,17 +123,13 @@ class Labeller {
   /// L_p' A L_p as entries.
   void scatter(int p, const Sparse& A, Triplets& entries) const {
     const auto& to = out_.columns[at(p)];
-    for (int i = 0; i < A.outerSize(); ++i)
-      for (Sparse::InnerIterator it(A, i); it; ++it)
-        if (it.value() != 0.0)
-          entries.emplace_back(to[at(i)], to[at(static_cast<int>(it.col()))], it.value());
+    forEachEntry(A, [&](int i, int j, double value) {
+      if (value != 0.0) entries.emplace_back(to[at(i)], to[at(j)], value);
+    });
   }
 
   Sparse square(const Triplets& entries) const {
-    Sparse A(size(), size());
-    A.setFromTriplets(entries.begin(), entries.end());
-    A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
-    return A;
+    return withoutZeros(sparse(size(), size(), entries));
   }
 
   /// Law of a part as an index of the coupled model.
@@ -255,12 +249,11 @@ class Labeller {
       out_.model.recoveryNodes.push_back(node);
       for (int c = 0; c < components; ++c, ++row) {
         out_.model.recoveryOffset[row] = part(where.part).recoveryOffset[where.firstRow + c];
-        for (Sparse::InnerIterator it(rows[at(where.part)], where.firstRow + c); it; ++it)
-          entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+        forEachInRow(rows[at(where.part)], where.firstRow + c,
+                     [&](int column, double value) { entries.emplace_back(row, column, value); });
       }
     }
-    out_.model.recovery = Sparse(row, size());
-    out_.model.recovery.setFromTriplets(entries.begin(), entries.end());
+    out_.model.recovery = sparse(row, size(), entries);
   }
 
   /// Whether the dof of a node is released in one of the parts, so that its motion differs.
@@ -274,8 +267,8 @@ class Labeller {
   /// A row in the dofs that stand for joints.
   Eigen::SparseVector<double> standing(const Sparse& rows, int row) const {
     Eigen::SparseVector<double> out(size());
-    for (Sparse::InnerIterator it(rows, row); it; ++it)
-      out.coeffRef(stands_[at(static_cast<int>(it.col()))]) += it.value();
+    forEachInRow(rows, row,
+                 [&](int column, double value) { out.coeffRef(stands_[at(column)]) += value; });
     return out;
   }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Numbering.hpp"
 
-#include <algorithm>
-#include <cstddef>
-
 #include "common/Index.hpp"
+#include "common/Indexing.hpp"
 
 namespace tooljoint::coupling {
 
@@ -68,10 +66,7 @@ std::vector<int> cuthillMcKee(int size, const std::vector<std::pair<int, int>>& 
     graph[at(a)].push_back(b);
     graph[at(b)].push_back(a);
   }
-  for (auto& neighbours : graph) {
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  }
+  for (auto& neighbours : graph) makeUnique(neighbours);
   for (auto& neighbours : graph)
     std::stable_sort(neighbours.begin(), neighbours.end(),
                      [&](int a, int b) { return graph[at(a)].size() < graph[at(b)].size(); });

@@ -2,15 +2,14 @@
 #include "coupling/input/Connections.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "coupling/input/DofLookup.hpp"
 
 namespace tooljoint::coupling {
 
@@ -131,7 +130,7 @@ class Numberer {
     const std::int64_t first = numbers.empty() ? 0 : numbers.front();
     for (auto& nodes : nodes_)
       for (auto& [node, number] : nodes)
-        if (std::find(numbers.begin(), numbers.end(), number) != numbers.end()) number = first;
+        if (contains(numbers, number)) number = first;
     for (std::size_t p = 0; p < nodes_.size(); ++p) {
       std::int64_t before = -1;
       for (const auto& [node, number] : nodes_[p]) {
@@ -162,9 +161,7 @@ class Numberer {
     for (auto& part : out) {
       for (int i = 0; i < part.model.size(); ++i) {
         const auto& label = part.model.dofs[at(i)];
-        if (owners.at(label) < 2 ||
-            std::find(part.interface.begin(), part.interface.end(), i) != part.interface.end())
-          continue;
+        if (owners.at(label) < 2 || contains(part.interface, i)) continue;
         part.interface.insert(std::lower_bound(part.interface.begin(), part.interface.end(), i), i);
         part.retained.erase(std::remove(part.retained.begin(), part.retained.end(), i),
                             part.retained.end());
@@ -175,16 +172,7 @@ class Numberer {
 
  private:
   std::size_t part(const PartNode& n) const {
-    std::vector<std::string> names;
-    for (const auto& one : parts_) names.push_back(one.name);
-    const auto it = std::find(names.begin(), names.end(), n.part);
-    if (it == names.end()) {
-      const auto meant = closest(n.part, names);
-      throw ModelError("A joint names part \"" + n.part + "\", but there is no such part." +
-                       (meant.empty() ? " The parts are " + quotedList(names) + "."
-                                      : " Did you mean \"" + meant + "\"?"));
-    }
-    const auto p = static_cast<std::size_t>(it - names.begin());
+    const std::size_t p = at(partNumber(namesOf(parts_), n.part, "A joint"));
     if (nodes_[p].count(n.node) == 0)
       throw ModelError("A joint names " + nodeName(n) + ", but the part has no such node.");
     return p;

@@ -11,6 +11,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "coupling/input/DofLookup.hpp"
 
 namespace tooljoint::coupling {
 
@@ -235,12 +236,7 @@ class NameCheck {
 
   void part(const std::string& path, const std::string& name) {
     if (name.empty() || findPart(name)) return;
-    std::vector<std::string> known;
-    for (const auto& one : parts_) known.push_back(one.name);
-    const auto meant = closest(name, known);
-    add(path, "names part " + inQuotes(name) + ", but there is no such part." +
-                  (meant.empty() ? " The parts are " + quotedList(known) + "."
-                                 : " Did you mean " + inQuotes(meant) + "?"));
+    faults_.push_back(path + noSuchPart(name, namesOf(parts_)));
   }
   void node(const std::string& path, const PartNode& n) {
     part(path, n.part);
@@ -256,7 +252,7 @@ class NameCheck {
     }
   }
   void component(const std::string& path, const std::string& name) {
-    if (name.empty() || std::find(names_.begin(), names_.end(), name) != names_.end()) return;
+    if (name.empty() || contains(names_, name)) return;
     add(path, "names the component " + inQuotes(name) + ", but the components of a node are " +
                   quotedList(names_) + ".");
   }
@@ -271,8 +267,7 @@ class NameCheck {
     return it == parts_.end() ? nullptr : &*it;
   }
   static bool has(const PartOutline& part, std::int64_t node) {
-    return part.nodes.empty() ||
-           std::find(part.nodes.begin(), part.nodes.end(), node) != part.nodes.end();
+    return part.nodes.empty() || contains(part.nodes, node);
   }
   void add(const std::string& path, const std::string& sentence) {
     faults_.push_back(path + " " + sentence);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/input/DofLookup.hpp"
 
-#include <algorithm>
-
 #include "common/Error.hpp"
+#include "common/Indexing.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::coupling {
@@ -17,15 +16,18 @@ std::string describe(const PartDof& dof) {
 
 DofLookup::DofLookup(const std::vector<AlignedPart>& alignedParts) : alignedParts_(alignedParts) {}
 
-int DofLookup::partNumber(const std::string& name, const std::string& who) const {
-  std::vector<std::string> names;
-  for (const auto& alignedPart : alignedParts_) names.push_back(alignedPart.name);
-  const auto it = std::find(names.begin(), names.end(), name);
-  if (it != names.end()) return static_cast<int>(it - names.begin());
+std::string noSuchPart(const std::string& name, const std::vector<std::string>& names) {
   const auto meant = closest(name, names);
-  throw ModelError(who + " names part \"" + name + "\", but there is no such part." +
-                   (meant.empty() ? " The parts are " + quotedList(names) + "."
-                                  : " Did you mean \"" + meant + "\"?"));
+  return " names part \"" + name + "\", but there is no such part." +
+         (meant.empty() ? " The parts are " + quotedList(names) + "."
+                        : " Did you mean \"" + meant + "\"?");
+}
+
+int partNumber(const std::vector<std::string>& names, const std::string& name,
+               const std::string& who) {
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it == names.end()) throw ModelError(who + noSuchPart(name, names));
+  return static_cast<int>(it - names.begin());
 }
 
 int DofLookup::component(const std::string& name, const std::string& who) const {
@@ -36,8 +38,8 @@ int DofLookup::component(const std::string& name, const std::string& who) const 
 }
 
 bool DofLookup::hasNode(int part, std::int64_t node) const {
-  const auto& m = *alignedParts_[static_cast<std::size_t>(part)].model;
-  return std::find(m.recoveryNodes.begin(), m.recoveryNodes.end(), node) != m.recoveryNodes.end() ||
+  const auto& m = *alignedParts_[at(part)].model;
+  return contains(m.recoveryNodes, node) ||
          std::any_of(m.dofs.begin(), m.dofs.end(), [&](const DofLabel& label) {
            return label.kind == DofLabel::Kind::Physical && label.entity == node;
          });
@@ -45,15 +47,12 @@ bool DofLookup::hasNode(int part, std::int64_t node) const {
 
 std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& who) const {
   const auto label = DofLabel::physical(dof.node, component(dof.component, who));
-  std::vector<int> parts;
-  if (!dof.part.empty())
-    parts.push_back(partNumber(dof.part, who));
-  else
-    for (std::size_t p = 0; p < alignedParts_.size(); ++p) parts.push_back(static_cast<int>(p));
+  std::vector<int> parts = range(sizeOf(alignedParts_));
+  if (!dof.part.empty()) parts = {partNumber(namesOf(alignedParts_), dof.part, who)};
   std::vector<DofPosition> places;
   bool nodeKnown = false;
   for (int p : parts) {
-    const AlignedPart& alignedPart = alignedParts_[static_cast<std::size_t>(p)];
+    const AlignedPart& alignedPart = alignedParts_[at(p)];
     nodeKnown = nodeKnown || hasNode(p, dof.node);
     const auto& dofs = alignedPart.model->dofs;
     const auto it = std::find(dofs.begin(), dofs.end(), label);

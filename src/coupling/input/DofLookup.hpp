@@ -28,12 +28,26 @@ class DofLookup {
   const model::ComponentNames& names() const { return alignedParts_.front().model->componentNames; }
 
  private:
-  int partNumber(const std::string& name, const std::string& who) const;
   int component(const std::string& name, const std::string& who) const;
   bool hasNode(int part, std::int64_t node) const;
 
   const std::vector<AlignedPart>& alignedParts_;
 };
+
+/// Names of parts of any kind.
+template <class Parts>
+std::vector<std::string> namesOf(const Parts& parts) {
+  std::vector<std::string> names;
+  for (const auto& part : parts) names.push_back(part.name);
+  return names;
+}
+
+/// ` names part "pip", but there is no such part. Did you mean "pipe"?`
+std::string noSuchPart(const std::string& name, const std::vector<std::string>& names);
+
+/// Index of `name` among `names`. ModelError where it is none of them; `who` opens the message.
+int partNumber(const std::vector<std::string>& names, const std::string& name,
+               const std::string& who);
 
 /// `u of node 4 of part "beam"`.
 std::string describe(const PartDof& dof);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/input/PointLaws.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Indexing.hpp"
 #include "common/Text.hpp"
 #include "model/Friction.hpp"
 

@@ -2,7 +2,6 @@
 #include "coupling/input/ResolvedCoupling.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -120,10 +119,7 @@ class Planner {
     });
   }
   static void retain(model::Substructure& part, int position) {
-    const auto in = [&](const std::vector<int>& list) {
-      return std::find(list.begin(), list.end(), position) != list.end();
-    };
-    if (in(part.interface) || in(part.retained)) return;
+    if (contains(part.interface, position) || contains(part.retained, position)) return;
     part.retained.insert(std::lower_bound(part.retained.begin(), part.retained.end(), position),
                          position);
   }
@@ -183,8 +179,7 @@ class Planner {
       for (const auto& component : names()) {
         bool joined = false;
         everywhere({second.part, second.node, component}, [&](model::Substructure& part, int i) {
-          joined = joined || std::find(part.interface.begin(), part.interface.end(), i) !=
-                                 part.interface.end();
+          joined = joined || contains(part.interface, i);
         });
         if (joined) release({second, component});
       }

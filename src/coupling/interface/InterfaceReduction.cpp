@@ -2,13 +2,14 @@
 #include "coupling/interface/InterfaceReduction.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "coupling/assembly/Congruence.hpp"
+#include "coupling/assembly/DependentCoordinates.hpp"
+#include "model/DofNames.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {
@@ -49,8 +50,9 @@ class Reducer {
       for (const auto& set : model_.points)
         for (int r = 0; r < set.rows.outerSize(); ++r)
           if (!throughModes(set.rows, r))
-            for (Sparse::InnerIterator it(set.rows, r); it; ++it)
-              if (it.value() != 0.0) loaded[at(static_cast<int>(it.col()))] = 1;
+            forEachInRow(set.rows, r, [&](int column, double value) {
+              if (value != 0.0) loaded[at(column)] = 1;
+            });
     std::vector<char> joined(model_.dofs.size(), 0);
     for (int i : coupling_.interface) joined[at(i)] = !loaded[at(i)];
     for (int i = 0; i < model_.size(); ++i) (joined[at(i)] ? reduced_ : others_).push_back(i);
@@ -59,23 +61,22 @@ class Reducer {
   /// Whether the coordinate belongs to an inner dof of a reduced part, which the joined dofs only
   /// carry along.
   bool throughModes(const Sparse& rows, int r) const {
-    for (Sparse::InnerIterator it(rows, r); it; ++it)
-      if (it.value() != 0.0 &&
-          model_.dofs[at(static_cast<int>(it.col()))].kind == DofLabel::Kind::Modal)
-        return true;
-    return false;
+    bool found = false;
+    forEachInRow(rows, r, [&](int column, double value) {
+      found = found || (value != 0.0 && model_.dofs[at(column)].kind == DofLabel::Kind::Modal);
+    });
+    return found;
   }
 
   /// Interfaces: the sets of parts that a dof joins, in the order of their first dof.
   std::vector<int> groups(int& count) const {
     std::vector<std::vector<int>> partsOf(model_.dofs.size());
     for (std::size_t p = 0; p < coupling_.maps.size(); ++p)
-      for (int i = 0; i < coupling_.maps[p].outerSize(); ++i)
-        for (Sparse::InnerIterator it(coupling_.maps[p], i); it; ++it) {
-          auto& parts = partsOf[at(static_cast<int>(it.col()))];
-          if (parts.empty() || parts.back() != static_cast<int>(p))
-            parts.push_back(static_cast<int>(p));
-        }
+      forEachEntry(coupling_.maps[p], [&](int, int column, double) {
+        auto& parts = partsOf[at(column)];
+        if (parts.empty() || parts.back() != static_cast<int>(p))
+          parts.push_back(static_cast<int>(p));
+      });
     std::map<std::vector<int>, int> number;
     std::vector<int> group;
     for (int i : reduced_)
@@ -92,47 +93,34 @@ class Reducer {
     problem.mass = reduction::symmetricPart(reduction::block(model_.mass, reduced_, reduced_));
     problem.coupling = reduction::block(K, reduced_, others_);
     problem.interface = groups(problem.interfaces);
-    problem.loads.resize(static_cast<Eigen::Index>(reduced_.size()),
-                         static_cast<Eigen::Index>(model_.loads.size()));
-    for (std::size_t j = 0; j < model_.loads.size(); ++j)
-      for (std::size_t i = 0; i < reduced_.size(); ++i)
-        problem.loads(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            model_.loads[j].vector[reduced_[i]];
-    problem.name = [this](int i) {
-      return model::describe(model_.dofs[at(reduced_[at(i)])], model_.componentNames);
-    };
+    problem.loads.resize(sizeOf(reduced_), sizeOf(model_.loads));
+    for (int j = 0; j < sizeOf(model_.loads); ++j)
+      problem.loads.col(j) = model_.loads[at(j)].vector(reduced_);
+    problem.name = model::namer(model_, reduced_);
     return problem;
   }
 
   /// Old coordinates from (others, modes).
   void apply(const reduction::InterfaceProblem& problem,
              const reduction::InterfaceVectors& vectors) {
-    const auto kept = static_cast<int>(others_.size()),
-               modes = static_cast<int>(vectors.vectors.cols());
+    const auto modes = static_cast<int>(vectors.vectors.cols());
+    const int kept = sizeOf(others_);
+    std::vector<char> keep(at(model_.size()), 1);
+    for (int i : reduced_) keep[at(i)] = 0;
     Triplets entries;
+    for (int i = 0; i < sizeOf(reduced_); ++i)
+      for (int k = 0; k < modes; ++k)
+        if (vectors.vectors(i, k) != 0.0)
+          entries.emplace_back(reduced_[at(i)], model_.size() + k, vectors.vectors(i, k));
+    forEachEntry(vectors.attached, [&](int i, int j, double value) {
+      entries.emplace_back(reduced_[at(i)], others_[at(j)], value);
+    });
     Substitution s;
-    s.initialDisplacement = Vector::Zero(kept + modes);
-    s.initialVelocity = Vector::Zero(kept + modes);
-    for (int j = 0; j < kept; ++j) {
-      entries.emplace_back(others_[at(j)], j, 1.0);
-      s.dofs.push_back(model_.dofs[at(others_[at(j)])]);
-      s.initialDisplacement[j] = model_.initialDisplacement[others_[at(j)]];
-      s.initialVelocity[j] = model_.initialVelocity[others_[at(j)]];
-    }
+    keepOnly(model_, keep, entries, modes, s);
     std::vector<int> next(at(std::max(1, problem.interfaces)), 0);
     for (int k = 0; k < modes; ++k)
       s.dofs.push_back(
           DofLabel::interfaceMode(vectors.interface[at(k)], next[at(vectors.interface[at(k)])]++));
-    for (int i = 0; i < static_cast<int>(reduced_.size()); ++i) {
-      for (int k = 0; k < modes; ++k)
-        if (vectors.vectors(i, k) != 0.0)
-          entries.emplace_back(reduced_[at(i)], kept + k, vectors.vectors(i, k));
-      for (Sparse::InnerIterator it(vectors.attached, i); it; ++it)
-        entries.emplace_back(reduced_[at(i)], static_cast<int>(it.col()), it.value());
-    }
-    s.map = Sparse(model_.size(), kept + modes);
-    s.map.setFromTriplets(entries.begin(), entries.end());
-    s.offset = Vector::Zero(model_.size());
     s.initialDisplacement.tail(modes) =
         fit(problem, vectors, model_.initialDisplacement, s.initialDisplacement.head(kept));
     s.initialVelocity.tail(modes) =
@@ -141,10 +129,7 @@ class Reducer {
     const auto position = narrowNumbering(model_);
     renumber(model_, position);
     const Sparse map = moveColumns(s.map, position, s.map.cols());
-    for (std::size_t p = 0; p < coupling_.maps.size(); ++p) {
-      coupling_.maps[p] = Sparse(coupling_.maps[p] * map);
-      coupling_.positions[p] = positionsOf(coupling_.maps[p]);
-    }
+    changeCoordinates(coupling_, map);
     coupling_.interface.clear();
     for (std::size_t i = 0; i < model_.dofs.size(); ++i)
       if (model_.dofs[i].kind == DofLabel::Kind::Interface)
@@ -155,10 +140,7 @@ class Reducer {
   /// u_C).
   Vector fit(const reduction::InterfaceProblem& problem, const reduction::InterfaceVectors& vectors,
              const Vector& state, const Vector& others) const {
-    Vector u(static_cast<Eigen::Index>(reduced_.size()));
-    for (std::size_t i = 0; i < reduced_.size(); ++i)
-      u[static_cast<Eigen::Index>(i)] = state[reduced_[i]];
-    u -= vectors.attached * others;
+    const Vector u = Vector(state(reduced_)) - vectors.attached * others;
     if (u.isZero(0.0) || vectors.vectors.cols() == 0) return Vector::Zero(vectors.vectors.cols());
     const Matrix weighted = problem.mass * vectors.vectors;
     return (vectors.vectors.transpose() * weighted).ldlt().solve(weighted.transpose() * u);

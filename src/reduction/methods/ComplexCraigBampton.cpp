@@ -8,14 +8,13 @@
 /// displacement halves as a real basis of a second-order model: F. Tisseur, K. Meerbergen, The
 /// quadratic eigenvalue problem, SIAM Rev. 43 (2001) 235-286, section 3.10 and 5.2.
 #include <Teuchos_ParameterList.hpp>
-#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
-#include <utility>
 
 #include "common/Error.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "reduction/methods/BasisBuilder.hpp"
+#include "reduction/part/InteriorStatics.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
@@ -24,29 +23,21 @@ namespace {
 
 using Complex = std::complex<double>;
 
-struct ComplexOptions {
-  double time = 0;  ///< of the laws of damping and stiffness [s]
-  double tolerance = 1e-6;
-};
+/// The quadratic pencil of one interior block and the vectors taken of it.
+struct DampedBlock {
+  const InteriorBlock* block;
+  Sparse C, K;
+  std::unique_ptr<OrthonormalSet> set = {};
+  Matrix floating = {};  ///< zero-energy modes; computed when it floats
 
-/// The quadratic pencil of one link and the vectors taken of it.
-struct Link {
-  int index = 0;  ///< into Partition::links
-  bool floats = false;
-  linalg::DofNamer name;
-  Sparse M, C, K, symmetricK;
-  std::unique_ptr<OrthonormalSet> set;
-  Matrix floating;  ///< zero-energy modes; computed when it floats
-
-  int size() const { return static_cast<int>(M.rows()); }
   /// Its modes are real: nothing damps, gyrates or follows.
   bool conservative() const { return C.norm() == 0.0 && nearlySymmetric(K, 1e-13); }
 };
 
-/// One complex mode of one link.
+/// One complex mode of one interior block.
 struct ComplexMode {
   Complex value;  ///< s [1/s]
-  Link* link = nullptr;
+  DampedBlock* home = nullptr;
   Eigen::VectorXcd shape;
   double residual = 0;
 };
@@ -66,49 +57,42 @@ Matrix halves(const Eigen::VectorXcd& phi, const Sparse& M) {
 
 class ComplexCraigBampton : public ReductionMethod {
  public:
-  explicit ComplexCraigBampton(const ComplexOptions& options) : options_(options) {}
+  explicit ComplexCraigBampton(const Teuchos::ParameterList& list)
+      : time_(list.get<double>("Time")), tolerance_(list.get<double>("Independence")) {}
 
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
-    const Partition p = partition(part);
-    const ConstraintModes constraint = constraintModes(part, p, constantStiffness(part.model));
-    const int interior = static_cast<int>(p.interior.size());
-    std::vector<Link> links = makeLinks(part, p);
+  Basis build(const PartView& part, const ModeRequest& request) const override {
+    const int interior = sizeOf(part.partition().interior);
+    std::vector<DampedBlock> blocks = makeBlocks(part);
     Taken taken;
     // Modes come by |s|; each gives one vector or two, so that as many as vectors are asked for,
     // and two to see the cut, are enough or all.
-    for (int perLink = firstCount(links, request, interior);;
-         perLink = std::min(2 * perLink, interior)) {
-      auto modes = compute(part, links, perLink);
-      taken = take(part, links, modes, request);
-      if (taken.enough || perLink >= interior) break;
+    for (int perBlock = firstCount(blocks, request, interior);;
+         perBlock = std::min(2 * perBlock, interior)) {
+      taken = take(part, blocks, compute(part, blocks, perBlock), request);
+      if (taken.enough || perBlock >= interior) break;
     }
-    std::vector<ModalVector> vectors;
-    double orthogonality = 0;
-    for (const auto& link : links) {
-      double defect = 0;
-      for (auto& vector : ritzVectors(link.symmetricK, link.M, link.set->basis(), link.index,
-                                      "complex mode", defect)) {
-        vector.residual = taken.residual;
-        vectors.push_back(vector);
-      }
-      orthogonality = std::max(orthogonality, defect);
-    }
-    const int found = static_cast<int>(vectors.size());
-    if (request.kind == ModeRequest::Kind::All && found < interior)
+    InteriorVectors vectors;
+    vectors.groups = part.blockPositions();
+    for (int i = 0; i < sizeOf(blocks); ++i)
+      addRitzVectors(blocks[at(i)].block->symmetricStiffness, blocks[at(i)].block->mass,
+                     blocks[at(i)].set->basis(), i, "complex mode", vectors);
+    for (auto& vector : vectors.vectors) vector.residual = taken.residual;
+    vectors.keepAll();
+    const int found = vectors.kept;
+    vectors.complete = found == interior;
+    if (request.kind == ModeRequest::Kind::All && !vectors.complete)
       throw ConvergenceError(
           who(part) + "the halves of all of them span " + std::to_string(found) + " of " +
           std::to_string(interior) +
           " interior dofs. Lower \"Independence\", or take the basis \"Craig-Bampton\".");
-    Basis basis = fixedInterfaceBasis(part, p, constraint, p.links, std::move(vectors));
-    basis.orthogonality = orthogonality;
-    basis.method = std::to_string(taken.modes) + " complex modes";
+    vectors.method = std::to_string(taken.modes) + " complex modes";
     if (request.kind == ModeRequest::Kind::Count && found != request.count)
-      basis.remarks.push_back(
+      vectors.remarks.push_back(
           "asked for " + std::to_string(request.count) + " vectors, kept " +
-          (found == interior ? "all " + std::to_string(interior) + " there are"
-                             : std::to_string(found) +
-                                   " so as not to part the halves of a mode or a close pair"));
-    return basis;
+          (vectors.complete ? "all " + std::to_string(interior) + " there are"
+                            : std::to_string(found) +
+                                  " so as not to part the halves of a mode or a close pair"));
+    return fixedInterfaceBasis(part, vectors);
   }
 
  private:
@@ -118,50 +102,43 @@ class ComplexCraigBampton : public ReductionMethod {
     double residual = 0;
   };
 
-  static std::string who(const model::Substructure& part) {
-    return "Part \"" + part.name + "\", complex fixed-interface modes: ";
-  }
+  static std::string who(const PartView& part) { return part.who("complex fixed-interface modes"); }
 
-  std::vector<Link> makeLinks(const model::Substructure& part, const Partition& p) const {
-    const Sparse C = part.model.dampingAt(options_.time), K = part.model.stiffnessAt(options_.time);
-    const Sparse constant = symmetricPart(constantStiffness(part.model));
-    std::vector<Link> links(p.links.size());
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const auto inner = positionsOf(p, p.links[i]);
-      Link& link = links[i];
-      link.index = static_cast<int>(i);
-      link.floats = p.ends[i].empty();
-      link.name = namer(part, inner);
-      link.M = block(part.model.mass, inner, inner);
-      link.C = block(C, inner, inner);
-      link.K = block(K, inner, inner);
-      link.symmetricK = block(constant, inner, inner);
-      if (link.floats) link.floating = floatingModes(link.symmetricK, link.M, link.name);
+  std::vector<DampedBlock> makeBlocks(const PartView& part) const {
+    const Sparse C = part.model().dampingAt(time_), K = part.model().stiffnessAt(time_);
+    std::vector<DampedBlock> blocks;
+    for (int i = 0; i < part.blocks(); ++i) {
+      const InteriorBlock& b = part.interiorBlock(i);
+      blocks.push_back(
+          {&b, block(C, b.positions, b.positions), block(K, b.positions, b.positions)});
+      if (b.floats()) blocks.back().floating = floatingModes(b);
     }
-    return links;
+    return blocks;
   }
 
-  static int firstCount(const std::vector<Link>& links, const ModeRequest& request, int interior) {
+  static int firstCount(const std::vector<DampedBlock>& blocks, const ModeRequest& request,
+                        int interior) {
     int count = interior;
     if (request.kind == ModeRequest::Kind::Count)
       count = request.count == 0 ? 0 : request.count + 2;
     if (request.kind == ModeRequest::Kind::Below) {
       count = 2;
-      for (const auto& link : links)
-        count = std::max(count, 2 + linalg::eigenvaluesBelow(link.symmetricK, link.M,
+      for (const auto& damped : blocks)
+        count = std::max(count, 2 + linalg::eigenvaluesBelow(damped.block->symmetricStiffness,
+                                                             damped.block->mass,
                                                              request.omegaMax * request.omegaMax));
     }
     return std::min(count, interior);
   }
 
-  /// Up to `count` modes of every link (all of them where that is its size), by |s|.
-  static std::vector<ComplexMode> compute(const model::Substructure& part, std::vector<Link>& links,
+  /// Up to `count` modes of every block (all of them where that is its size), by |s|.
+  static std::vector<ComplexMode> compute(const PartView& part, std::vector<DampedBlock>& blocks,
                                           int count) {
     std::vector<ComplexMode> modes;
-    for (auto& link : links) {
+    for (auto& damped : blocks) {
       if (count == 0) break;
       try {
-        append(link, std::min(count, link.size()), modes);
+        append(damped, std::min(count, damped.block->size()), modes);
       } catch (const Error& error) {
         if (error.code() == ExitCode::NotConverged)
           throw ConvergenceError(who(part) + error.what());
@@ -174,38 +151,38 @@ class ComplexCraigBampton : public ReductionMethod {
     return modes;
   }
 
-  static void append(Link& link, int count, std::vector<ComplexMode>& modes) {
-    if (link.conservative()) {
+  static void append(DampedBlock& damped, int count, std::vector<ComplexMode>& modes) {
+    const InteriorBlock& b = *damped.block;
+    if (damped.conservative()) {
       linalg::EigenOptions options;
-      options.name = link.name;
-      const auto pairs = linalg::lowestModes(symmetricPart(link.K), link.M, count, options);
+      options.name = b.name;
+      const auto pairs = linalg::lowestModes(symmetricPart(damped.K), b.mass, count, options);
       for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
-        modes.push_back({std::sqrt(Complex(-pairs.values[k])), &link,
+        modes.push_back({std::sqrt(Complex(-pairs.values[k])), &damped,
                          pairs.vectors.col(k).cast<Complex>(), pairs.residuals[k]});
       return;
     }
-    const auto found = count == link.size()
-                           ? linalg::dampedModes(Matrix(link.M), Matrix(link.C), Matrix(link.K))
-                           : linalg::lowestDampedModes(link.M, link.C, link.K, count, link.name);
+    const auto found = count == b.size()
+                           ? linalg::dampedModes(Matrix(b.mass), Matrix(damped.C), Matrix(damped.K))
+                           : linalg::lowestDampedModes(b.mass, damped.C, damped.K, count, b.name);
     for (Eigen::Index k = 0; k < found.values.size(); ++k)
       if (found.values[k].imag() >= 0)
-        modes.push_back({found.values[k], &link, found.vectors.col(k), found.residuals[k]});
+        modes.push_back({found.values[k], &damped, found.vectors.col(k), found.residuals[k]});
   }
 
   /// Modes by |s| until their halves answer the request.
-  Taken take(const model::Substructure& part, std::vector<Link>& links,
+  Taken take(const PartView& part, std::vector<DampedBlock>& blocks,
              const std::vector<ComplexMode>& modes, const ModeRequest& request) const {
     Taken taken;
     int vectors = 0;
-    for (auto& link : links) {
-      link.set = std::make_unique<OrthonormalSet>(link.M, options_.tolerance, who(part));
+    for (auto& damped : blocks) {
+      damped.set = std::make_unique<OrthonormalSet>(damped.block->mass, tolerance_, who(part));
       const bool wanted = request.kind != ModeRequest::Kind::Count || request.count > 0;
-      for (Eigen::Index k = 0; wanted && k < link.floating.cols(); ++k)
-        vectors += link.set->add(link.floating.col(k)) ? 1 : 0;
+      for (Eigen::Index k = 0; wanted && k < damped.floating.cols(); ++k)
+        vectors += damped.set->add(damped.floating.col(k)) ? 1 : 0;
     }
-    Vector squares(static_cast<Eigen::Index>(modes.size()));
-    for (std::size_t k = 0; k < modes.size(); ++k)
-      squares[static_cast<Eigen::Index>(k)] = std::norm(modes[k].value);
+    Vector squares(sizeOf(modes));
+    for (int k = 0; k < sizeOf(modes); ++k) squares[k] = std::norm(modes[at(k)].value);
     std::size_t last = modes.size();  // one past the last mode taken
     for (std::size_t k = 0; k < last; ++k) {
       const bool full =
@@ -229,15 +206,16 @@ class ComplexCraigBampton : public ReductionMethod {
   /// Number of the halves of a mode that are new; one shorter than `tolerance` beside the other is
   /// rounding.
   int addHalves(const ComplexMode& mode) const {
-    OrthonormalSet& set = *mode.link->set;
-    const Matrix parts = halves(mode.shape, mode.link->M);
+    OrthonormalSet& set = *mode.home->set;
+    const Matrix parts = halves(mode.shape, mode.home->block->mass);
     int added = set.add(parts.col(0)) ? 1 : 0;
-    if (set.norm(parts.col(1)) > options_.tolerance * set.norm(parts.col(0)))
+    if (set.norm(parts.col(1)) > tolerance_ * set.norm(parts.col(0)))
       added += set.add(parts.col(1)) ? 1 : 0;
     return added;
   }
 
-  ComplexOptions options_;
+  double time_;  ///< of the laws of damping and stiffness [s]
+  double tolerance_;
 };
 
 deck::ListSpec ownParameters() {
@@ -255,18 +233,11 @@ deck::ListSpec ownParameters() {
   return list;
 }
 
-const bool registered = MethodRegistry::instance().add(
+const bool registered = addMethod<ComplexCraigBampton>(
     "Complex Craig-Bampton",
-    {"Constraint modes and the real and imaginary halves of complex fixed-interface modes, for "
-     "damped and gyroscopic parts (Hasselman and Kaplan 1974; Craig "
-     "and Ni 1989).",
-     ownParameters(), [](const Teuchos::ParameterList& given) {
-       Teuchos::ParameterList list(given);  // an absent list has no defaults
-       ComplexOptions options;
-       options.time = list.get("Time", options.time);
-       options.tolerance = list.get("Independence", options.tolerance);
-       return std::unique_ptr<ReductionMethod>(new ComplexCraigBampton(options));
-     }});
+    "Constraint modes and the real and imaginary halves of complex fixed-interface modes, for "
+    "damped and gyroscopic parts (Hasselman and Kaplan 1974; Craig and Ni 1989).",
+    ownParameters());
 
 }  // namespace
 

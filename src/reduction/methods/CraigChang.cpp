@@ -5,7 +5,6 @@
 /// (1976) 1633-1635; On the use of attachment modes in substructure coupling for dynamic analysis,
 /// AIAA/ASME 18th SDM Conference (1977) B, 89-99. In physical interface coordinates as Martinez et
 /// al. (1984).
-#include <Teuchos_ParameterList.hpp>
 #include <utility>
 
 #include "reduction/methods/FreeInterfaceBasis.hpp"
@@ -18,22 +17,18 @@ namespace {
 /// modal coordinates being the amplitudes of the free-interface modes.
 class CraigChang : public ReductionMethod {
  public:
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
+  Basis build(const PartView& part, const ModeRequest& request) const override {
     FreeInterfaceBasis free = freeInterfaceBasis(part, request);
     toModeAmplitudes(part, free);
     return std::move(free.basis);
   }
 };
 
-const bool registered = MethodRegistry::instance().add(
+const bool registered = addMethod<CraigChang>(
     "Craig-Chang",
-    {"Free-interface modes and residual attachment modes (Craig and Chang 1976, 1977): the space "
-     "of \"Rubin\", with the amplitudes of the free-interface modes "
-     "as coordinates beside the interface dofs.",
-     deck::ListSpec("Craig-Chang", "Craig-Chang has no parameters of its own."),
-     [](const Teuchos::ParameterList&) {
-       return std::unique_ptr<ReductionMethod>(new CraigChang);
-     }});
+    "Free-interface modes and residual attachment modes (Craig and Chang 1976, 1977): the space of "
+    "\"Rubin\", with the amplitudes of the free-interface modes as coordinates beside the "
+    "interface dofs.");
 
 }  // namespace
 

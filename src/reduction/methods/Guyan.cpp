@@ -4,10 +4,8 @@
 /// (1965) 380; B. Irons, Structural eigenvalue problems: elimination of unwanted variables, AIAA
 /// Journal 3 (1965) 961-962. Further master dofs after Henshell and Ong (1975).
 #include <Teuchos_ParameterList.hpp>
-#include <algorithm>
 
-#include "reduction/methods/ReductionMethod.hpp"
-#include "reduction/part/ConstraintModes.hpp"
+#include "reduction/methods/BasisBuilder.hpp"
 #include "reduction/part/MasterDofs.hpp"
 
 namespace tooljoint::reduction {
@@ -18,44 +16,33 @@ namespace {
 /// like retained ones.
 class Guyan : public ReductionMethod {
  public:
-  explicit Guyan(bool automatic) : automatic_(automatic) {}
+  explicit Guyan(const Teuchos::ParameterList& list)
+      : automatic_(list.get<std::string>("Masters") == "Automatic") {}
 
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
+  Basis build(const PartView& part, const ModeRequest& request) const override {
     Basis basis;
-    const Partition own = partition(part);
-    model::Substructure condensed = part;
+    PartView condensed = part;
     if (automatic_) {
-      const MasterRanking ranking =
-          rankMasters(part, own, symmetricPart(constantStiffness(part.model)));
+      const MasterRanking ranking = rankMasters(part);
       const int masters = count(ranking, request);
-      condensed.retained.insert(condensed.retained.end(), ranking.positions.begin(),
-                                ranking.positions.begin() + masters);
-      std::sort(condensed.retained.begin(), condensed.retained.end());
+      std::vector<int> retained = part.partition().retained;
+      retained.insert(retained.end(), ranking.positions.begin(),
+                      ranking.positions.begin() + masters);
+      std::sort(retained.begin(), retained.end());
+      condensed = part.withBoundary(part.partition().interface, retained);
       basis.candidates = ranking.ratios;
       basis.complete = true;
-      remark(request, masters, static_cast<int>(own.interior.size()), basis);
+      remark(request, masters, sizeOf(part.partition().interior), basis);
     } else if (request.kind != ModeRequest::Kind::Count || request.count > 0) {
       basis.remarks.push_back(
           "static condensation without masters: the number of modes asked for is not used");
     }
-    basis.partition = partition(condensed);
+    const ConstraintModes& constraint = condensed.constraintModes();
+    basis.partition = condensed.partition();
+    basis.vectors = constraint.vectors;
     basis.removable = false;
     basis.method = "static condensation";
-    const Partition& p = basis.partition;
-    const ConstraintModes constraint = constraintModes(part, p, constantStiffness(part.model));
-    for (std::size_t j = 0; j < p.kept.size(); ++j) {
-      BasisRow row;
-      row.kind = "constraint";
-      row.name = model::describe(part.model.dofs[static_cast<std::size_t>(p.kept[j])],
-                                 part.model.componentNames);
-      row.residual = constraint.residuals[static_cast<Eigen::Index>(j)];
-      const bool retained =
-          std::find(part.retained.begin(), part.retained.end(), p.kept[j]) != part.retained.end();
-      row.why = j < p.interface.size() ? "interface dof" : retained ? "retained dof" : "master dof";
-      basis.rows.push_back(row);
-    }
-    basis.vectors = Sparse(p.size, static_cast<Eigen::Index>(p.kept.size()));
-    basis.vectors.setFromTriplets(constraint.entries.begin(), constraint.entries.end());
+    addConstraintRows(part, basis.partition, constraint.residuals, basis, "master dof");
     return basis;
   }
 
@@ -95,13 +82,9 @@ deck::ListSpec parameters() {
   return list;
 }
 
-const bool registered = MethodRegistry::instance().add(
-    "Guyan",
-    {"Static condensation on interface, retained and master dofs (Guyan 1965; Irons 1965).",
-     parameters(), [](const Teuchos::ParameterList& list) {
-       return std::unique_ptr<ReductionMethod>(new Guyan(
-           !list.isParameter("Masters") || list.get<std::string>("Masters") == "Automatic"));
-     }});
+const bool registered = addMethod<Guyan>(
+    "Guyan", "Static condensation on interface, retained and master dofs (Guyan 1965; Irons 1965).",
+    parameters());
 
 }  // namespace
 

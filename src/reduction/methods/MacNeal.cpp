@@ -2,7 +2,6 @@
 /// \file
 /// Free-interface modes with residual flexibility but no residual mass: R. H. MacNeal, A hybrid
 /// method of component mode synthesis, Computers and Structures 1 (1971) 581-601.
-#include <Teuchos_ParameterList.hpp>
 #include <utility>
 
 #include "reduction/methods/FreeInterfaceBasis.hpp"
@@ -21,7 +20,7 @@ class MacNeal : public ReductionMethod {
  public:
   MethodTraits traits() const override { return {false, false, false, false}; }
 
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
+  Basis build(const PartView& part, const ModeRequest& request) const override {
     FreeInterfaceBasis free = freeInterfaceBasis(part, request);
     const Matrix amplitudes = toModeAmplitudes(part, free);
     const Sparse shapes = Matrix(free.shapes).sparseView(), p = amplitudes.sparseView();
@@ -30,13 +29,10 @@ class MacNeal : public ReductionMethod {
   }
 };
 
-const bool registered = MethodRegistry::instance().add(
+const bool registered = addMethod<MacNeal>(
     "MacNeal",
-    {"Free-interface modes with the residual flexibility of all others, but not their "
-     "mass and damping (MacNeal 1971): the mass is singular, "
-     "and only implicit integrators run it.",
-     deck::ListSpec("MacNeal", "MacNeal has no parameters of its own."),
-     [](const Teuchos::ParameterList&) { return std::unique_ptr<ReductionMethod>(new MacNeal); }});
+    "Free-interface modes with the residual flexibility of all others, but not their mass and "
+    "damping (MacNeal 1971): the mass is singular, and only implicit integrators run it.");
 
 }  // namespace
 

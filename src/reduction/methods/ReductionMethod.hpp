@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The interface of a reduction basis. A variant is one file that adds itself to
-/// deck::Registry<Basis, const Teuchos::ParameterList&>.
+/// The interface of a reduction method. A variant is one file that adds itself with addMethod.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "deck/Registry.hpp"
-#include "model/Substructure.hpp"
-#include "reduction/part/Partition.hpp"
+#include "reduction/part/PartView.hpp"
 #include "reduction/project/BasisReport.hpp"
 #include "reduction/selection/ModeChoice.hpp"
 
@@ -20,12 +21,12 @@ class ParameterList;
 namespace tooljoint::reduction {
 
 /// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the
-/// kept dofs are the identity and zero, so that interface dofs stay what they are and parts are
+/// boundary dofs are the identity and zero, so that interface dofs stay what they are and parts are
 /// joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs
 /// among the interior ones: q = (retained dofs, modal coordinates, forces).
 struct Basis {
   Partition partition;
-  Sparse vectors;                     ///< Phi: dofs x (kept + modes), structural zeros absent
+  Sparse vectors;                     ///< Phi: dofs x (boundary + modes), structural zeros absent
   std::vector<std::string> modeKind;  ///< one per modal column
   Vector eigenvalues;                 ///< omega^2 of the modal columns [rad^2/s^2], increasing
   Vector candidates;                  ///< omega^2 of all modes computed, kept ones first
@@ -34,17 +35,17 @@ struct Basis {
       false;  ///< the modal columns are meant to be mass-orthonormal and to diagonalise sym(K)
   Sparse inertial;  ///< what mass and damping are projected on where that is not `vectors`
                     ///< (MacNeal); empty: `vectors`
-  std::vector<int> boundary;  ///< positions of interface dofs that are not kept: the last columns
-                              ///< are then the forces on them, one each (dual bases)
-  bool removable = true;      ///< modal columns may be left out one by one; otherwise a basis with
-                              ///< fewer modes is another one
+  std::vector<int> forceDofs;  ///< positions of interface dofs that are no coordinates: the last
+                               ///< columns are then the forces on them, one each (dual bases)
+  bool removable = true;       ///< modal columns may be left out one by one; otherwise a basis with
+                               ///< fewer modes is another one
   std::vector<BasisRow> rows;
   double orthogonality = 0;
   std::string method;
   std::vector<std::string> remarks;
 
   int modes() const { return static_cast<int>(eigenvalues.size()); }
-  int forces() const { return static_cast<int>(boundary.size()); }
+  int forces() const { return static_cast<int>(forceDofs.size()); }
 };
 
 /// Keep only the first `modes` modal columns of `basis`; the rows of the others are marked dropped
@@ -81,14 +82,14 @@ struct PartOutline {
 };
 
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on
-/// several ranks.
+/// several ranks. What the stages of a method need of a part is computed once, by its PartView.
 class ReductionMethod {
  public:
   virtual ~ReductionMethod() = default;
 
   /// Basis of one part. Throws ModelError (the interior is a mechanism, the mass is indefinite) or
   /// ConvergenceError.
-  virtual Basis build(const model::Substructure& part, const ModeRequest& request) const = 0;
+  virtual Basis build(const PartView& part, const ModeRequest& request) const = 0;
 
   /// Second hook, for families that need the assembled interface: improve the bases of all parts
   /// given the coupled reduced model, `positions[p][i]` being the coupled dof of reduced coordinate
@@ -96,15 +97,14 @@ class ReductionMethod {
   /// The default has nothing to improve.
   virtual bool augment(const model::SecondOrderModel& coupled,
                        const std::vector<std::vector<int>>& positions,
-                       const std::vector<model::Substructure>& parts,
-                       std::vector<Basis>& bases) const;
+                       const std::vector<PartView>& parts, std::vector<Basis>& bases) const;
 
   /// Third hook, after the last improvement: coordinates that are no unknowns of the coupled model
   /// but follow the others. maps[p] are the coordinates of part p in coupled dofs. The default has
   /// none.
   virtual DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
                                                     const std::vector<Sparse>& maps,
-                                                    const std::vector<model::Substructure>& parts,
+                                                    const std::vector<PartView>& parts,
                                                     const std::vector<Basis>& bases) const;
 
   virtual MethodTraits traits() const { return {}; }
@@ -119,5 +119,20 @@ class ReductionMethod {
 };
 
 using MethodRegistry = deck::Registry<ReductionMethod, const Teuchos::ParameterList&>;
+
+/// Registers a method under its name in the deck. `doc`: one sentence and the source it follows.
+/// Method is made from the list of its own parameters, defaults filled in, or from nothing where it
+/// has none. `const bool registered = addMethod<Method>("Name", "...", parameters());`
+template <class Method>
+bool addMethod(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
+  return MethodRegistry::instance().add(
+      name, {doc, std::move(parameters),
+             [](const Teuchos::ParameterList& list) -> std::unique_ptr<ReductionMethod> {
+               if constexpr (std::is_default_constructible_v<Method>)
+                 return static_cast<void>(list), std::make_unique<Method>();
+               else
+                 return std::make_unique<Method>(list);
+             }});
+}
 
 }  // namespace tooljoint::reduction

@@ -5,7 +5,6 @@
 /// with physical interface coordinates as D. R. Martinez, T. G. Carne, D. L. Gregory, A. K. Miller,
 /// Combined experimental/analytical modeling using component mode synthesis, AIAA/ASME 25th SDM
 /// Conference (1984), paper 84-0941.
-#include <Teuchos_ParameterList.hpp>
 
 #include "reduction/methods/FreeInterfaceBasis.hpp"
 
@@ -15,18 +14,16 @@ namespace {
 
 class Rubin : public ReductionMethod {
  public:
-  Basis build(const model::Substructure& part, const ModeRequest& request) const override {
+  Basis build(const PartView& part, const ModeRequest& request) const override {
     return freeInterfaceBasis(part, request).basis;
   }
 };
 
-const bool registered = MethodRegistry::instance().add(
+const bool registered = addMethod<Rubin>(
     "Rubin",
-    {"Free-interface modes, rigid-body ones always among them, with the residual "
-     "flexibility and residual mass of all others (Rubin 1975); "
-     "interface dofs stay coordinates (Martinez et al. 1984).",
-     deck::ListSpec("Rubin", "Rubin has no parameters of its own."),
-     [](const Teuchos::ParameterList&) { return std::unique_ptr<ReductionMethod>(new Rubin); }});
+    "Free-interface modes, rigid-body ones always among them, with the residual flexibility and "
+    "residual mass of all others (Rubin 1975); interface dofs stay coordinates (Martinez et al. "
+    "1984).");
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace tooljoint::reduction {
 /// The basis Phi = I (up to order): interior dofs are kept like retained ones, so that the part is
 /// exact and its matrices are as sparse as they were. With all n modes of its interior it would be
 /// exact too, but full: n^2 entries instead of some n.
-Basis wholePart(const model::Substructure& part);
+Basis wholePart(const PartView& part);
 
 /// True for such a basis.
 bool isWhole(const Basis& basis);

@@ -6,70 +6,51 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
-#include "linalg/trilinos/DirectSolver.hpp"
+#include "reduction/part/PartView.hpp"
 
 namespace tooljoint::reduction {
 
-namespace {
-
-double largest(const Sparse& A) {
-  double value = 0.0;
-  for (int i = 0; i < A.outerSize(); ++i) {
-    double row = 0.0;
-    for (Sparse::InnerIterator it(A, i); it; ++it) row += std::abs(it.value());
-    value = std::max(value, row);
-  }
-  return value;
+ConstraintModeBuilder::ConstraintModeBuilder(const Partition& partition)
+    : partition_(partition), residuals_(Vector::Zero(sizeOf(partition.boundary))) {
+  for (int j = 0; j < sizeOf(partition.boundary); ++j)
+    entries_.emplace_back(partition.boundary[at(j)], j, 1.0);
 }
 
-}  // namespace
-
-ConstraintModes constraintModes(const model::Substructure& part, const Partition& p,
-                                const Sparse& K) {
-  const Stage stage("constraint modes");
-  ConstraintModes result;
-  result.residuals = Vector::Zero(static_cast<Eigen::Index>(p.kept.size()));
-  for (std::size_t j = 0; j < p.kept.size(); ++j)
-    result.entries.emplace_back(p.kept[j], static_cast<int>(j), 1.0);
-
-  for (std::size_t link = 0; link < p.links.size(); ++link) {
-    if (p.ends[link].empty()) continue;  // floats: no motion of a kept dof reaches it
-    std::vector<int> inner;
-    std::vector<int> outer;
-    for (int i : p.links[link]) inner.push_back(p.interior[at(i)]);
-    for (int j : p.ends[link]) outer.push_back(p.kept[at(j)]);
-    const Sparse KII = block(K, inner, inner);
-    const Matrix KIC = block(K, inner, outer);
-    Matrix phi;
-    try {
-      const linalg::DirectSolver solver(KII, [&](int i) {
-        return model::describe(part.model.dofs[at(inner[at(i)])], part.model.componentNames);
-      });
-      phi = solver.solve(-KIC);  // K_II phi_C = -K_IC
-    } catch (const ModelError& error) {
-      throw ModelError("Part \"" + part.name + "\": its interior is a mechanism while its " +
-                       std::to_string(p.kept.size()) +
-                       " interface and retained dofs are held, so it has no constraint modes. "
-                       "Retain more dofs there, or cut the "
-                       "part elsewhere. " +
-                       error.what());
-    }
-    const Matrix defect = KII * phi + KIC;
-    const double norm = largest(KII);
-    for (std::size_t j = 0; j < outer.size(); ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
-      const double scale =
-          norm * phi.col(column).cwiseAbs().maxCoeff() + KIC.col(column).cwiseAbs().maxCoeff();
-      double& residual = result.residuals[p.ends[link][j]];
-      if (scale > 0.0)
-        residual = std::max(residual, defect.col(column).cwiseAbs().maxCoeff() / scale);
-      for (std::size_t i = 0; i < inner.size(); ++i) {
-        const double value = phi(static_cast<Eigen::Index>(i), column);
-        if (value != 0.0) result.entries.emplace_back(inner[i], p.ends[link][j], value);
-      }
-    }
+void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, const Matrix& phi,
+                                const std::vector<int>& inner, const std::vector<int>& touched) {
+  const Matrix defect = KII * phi + KIC;
+  double norm = 0;
+  for (int i = 0; i < KII.outerSize(); ++i) {
+    double row = 0;
+    forEachInRow(KII, i, [&](int, double value) { row += std::abs(value); });
+    norm = std::max(norm, row);
   }
-  return result;
+  for (int j = 0; j < sizeOf(touched); ++j) {
+    const double scale = norm * phi.col(j).cwiseAbs().maxCoeff() + KIC.col(j).cwiseAbs().maxCoeff();
+    double& residual = residuals_[touched[at(j)]];
+    if (scale > 0.0) residual = std::max(residual, defect.col(j).cwiseAbs().maxCoeff() / scale);
+    for (int i = 0; i < sizeOf(inner); ++i)
+      if (phi(i, j) != 0.0) entries_.emplace_back(inner[at(i)], touched[at(j)], phi(i, j));
+  }
+}
+
+ConstraintModes ConstraintModeBuilder::result() const {
+  return {sparse(partition_.size, residuals_.size(), entries_), residuals_};
+}
+
+ConstraintModes constraintModes(const PartView& part) {
+  const Stage stage("constraint modes");
+  ConstraintModeBuilder modes(part.partition());
+  for (int i = 0; i < part.blocks(); ++i) {
+    const InteriorBlock& b = part.interiorBlock(i);
+    if (b.floats()) continue;  // no motion of a boundary dof reaches it
+    std::vector<int> outer;
+    for (int j : b.touched) outer.push_back(part.partition().boundary[at(j)]);
+    const Matrix KIC = block(part.stiffness(), b.positions, outer);
+    const Matrix phi = part.solveBlock(i, -KIC);  // K_II phi_C = -K_IC
+    modes.add(b.stiffness, KIC, phi, b.positions, b.touched);
+  }
+  return modes.result();
 }
 
 }  // namespace tooljoint::reduction

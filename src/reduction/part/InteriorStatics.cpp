@@ -7,37 +7,46 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 
 namespace tooljoint::reduction {
 
 namespace {
 
-/// A rigid-body mode of which the kept dofs carry less than this share (in the root of the mass)
-/// does not move them.
+/// A rigid-body mode of which the boundary dofs carry less than this share (in the root of the
+/// mass) does not move them.
 constexpr double notMoved = 1e-6;
-
-double largestEntry(const Sparse& A) {
-  return A.nonZeros() > 0
-             ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff()
-             : 0.0;
-}
-
-Matrix rows(const Matrix& A, const std::vector<int>& which) {
-  Matrix out(static_cast<Eigen::Index>(which.size()), A.cols());
-  for (std::size_t i = 0; i < which.size(); ++i)
-    out.row(static_cast<Eigen::Index>(i)) = A.row(which[i]);
-  return out;
-}
+/// Energy below this part of |phi|' |K| |phi| is rounding.
+constexpr double zeroEnergy = 1e-12;
+/// A rigid body has six ways to float; a block may be a body with joints inside, so more are looked
+/// at when these are not all.
+constexpr int floatingCandidates = 8;
 
 }  // namespace
 
+Matrix floatingModes(const InteriorBlock& block) {
+  linalg::EigenOptions options;
+  options.name = block.name;
+  const Sparse absolute = block.symmetricStiffness.cwiseAbs();
+  for (int count = std::min(floatingCandidates, block.size());;
+       count = std::min(2 * count, block.size())) {
+    const auto pairs =
+        linalg::lowestFiniteModes(block.symmetricStiffness, block.mass, count, options);
+    std::vector<int> found;
+    for (int k = 0; k < pairs.count(); ++k) {
+      const Vector shape = pairs.vectors.col(k).cwiseAbs();
+      if (std::abs(pairs.values[k]) <= zeroEnergy * shape.dot(absolute * shape)) found.push_back(k);
+    }
+    if (sizeOf(found) < count || count == block.size()) return pairs.vectors(Eigen::all, found);
+  }
+}
+
 Sparse bordered(const Sparse& A, const Matrix& U, const Matrix& W) {
-  const double size = largestEntry(A) > 0 ? largestEntry(A) : 1.0;
+  const double largest = largestEntry(A), size = largest > 0 ? largest : 1.0;
   const auto n = static_cast<int>(A.rows());
   Triplets entries;
-  for (int i = 0; i < A.outerSize(); ++i)
-    for (Sparse::InnerIterator it(A, i); it; ++it)
-      entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+  forEachEntry(A, [&](int i, int j, double value) { entries.emplace_back(i, j, value); });
   for (int k = 0; k < U.cols(); ++k) {
     const double u = size / U.col(k).cwiseAbs().maxCoeff(),
                  w = size / W.col(k).cwiseAbs().maxCoeff();
@@ -46,74 +55,60 @@ Sparse bordered(const Sparse& A, const Matrix& U, const Matrix& W) {
       if (W(i, k) != 0.0) entries.emplace_back(n + k, i, w * W(i, k));
     }
   }
-  Sparse out(n + U.cols(), n + U.cols());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  return sparse(n + U.cols(), n + U.cols(), entries);
 }
 
-InteriorStatics::InteriorStatics(const model::Substructure& part, const Partition& partition,
-                                 const Sparse& K, const FreeInterfaceModes& modes)
-    : partition_(partition),
-      KII_(block(K, partition.interior, partition.interior)),
-      KIC_(block(K, partition.interior, partition.kept)),
-      MII_(block(part.model.mass, partition.interior, partition.interior)) {
-  const Vector mass = part.model.mass.diagonal();
-  keptMass_.resize(static_cast<Eigen::Index>(partition.kept.size()));
-  for (Eigen::Index j = 0; j < keptMass_.size(); ++j)
-    keptMass_[j] = std::sqrt(mass[partition.kept[at(j)]]);
+InteriorStatics::InteriorStatics(const PartView& part, const InteriorVectors& modes) : part_(part) {
   findMechanisms(modes);
-  factor(part);
+  if (mechanisms_.cols() > 0) factor();
 }
 
-/// Combinations of the rigid-body modes of each free link that are zero on its kept dofs: right
-/// singular vectors of the kept rows.
-void InteriorStatics::findMechanisms(const FreeInterfaceModes& modes) {
-  const auto interior = static_cast<Eigen::Index>(partition_.interior.size());
-  mechanisms_.resize(interior, 0);
-  carriers_.resize(partition_.size, 0);
-  for (int link = 0; link < static_cast<int>(modes.links.size()); ++link) {
-    FreeInterfaceModes own;
-    own.links = modes.links;
-    for (const auto& mode : modes.modes)
-      if (mode.rigid && mode.link == link) own.modes.push_back(mode);
-    if (own.modes.empty()) continue;
-    const Matrix all = own.columns(static_cast<int>(own.modes.size()), partition_.size);
-    Matrix combined = rows(all, partition_.interior);
-    if (keptMass_.size() > 0) {
-      const Matrix moved = keptMass_.asDiagonal() * rows(all, partition_.kept);
+/// Combinations of the rigid-body modes of each free block that are zero on its boundary dofs:
+/// right singular vectors of the boundary rows.
+void InteriorStatics::findMechanisms(const InteriorVectors& modes) {
+  const Partition& p = part_.partition();
+  const Vector mass = part_.mass().diagonal();
+  const Vector boundaryMass = mass(p.boundary).cwiseSqrt();
+  mechanisms_.resize(sizeOf(p.interior), 0);
+  carriers_.resize(p.size, 0);
+  for (int group = 0; group < sizeOf(modes.groups); ++group) {
+    std::vector<int> own;
+    for (int k = 0; k < sizeOf(modes.vectors); ++k)
+      if (modes.vectors[at(k)].rigid && modes.vectors[at(k)].group == group) own.push_back(k);
+    if (own.empty()) continue;
+    const Matrix all = modes.columns(own, p.size);
+    Matrix combined = all(p.interior, Eigen::all);
+    if (!p.boundary.empty()) {
+      const Matrix moved = boundaryMass.asDiagonal() * all(p.boundary, Eigen::all);
       const Eigen::JacobiSVD<Matrix> svd(moved, Eigen::ComputeFullV);
       Eigen::Index rank = 0;
       while (rank < svd.singularValues().size() && svd.singularValues()[rank] > notMoved) ++rank;
       combined = (combined * svd.matrixV().rightCols(all.cols() - rank)).eval();
-      carriers_.conservativeResize(partition_.size, carriers_.cols() + rank);
+      carriers_.conservativeResize(p.size, carriers_.cols() + rank);
       carriers_.rightCols(rank) = all * svd.matrixV().leftCols(rank);
     }
-    mechanisms_.conservativeResize(interior, mechanisms_.cols() + combined.cols());
+    mechanisms_.conservativeResize(combined.rows(), mechanisms_.cols() + combined.cols());
     mechanisms_.rightCols(combined.cols()) = combined;
   }
 }
 
-void InteriorStatics::factor(const model::Substructure& part) {
-  if (partition_.interior.empty()) return;
-  const Matrix MN = MII_ * mechanisms_;
+void InteriorStatics::factor() {
+  const Sparse &K = part_.interiorStiffness(), &M = part_.interiorMass();
+  const Matrix MN = M * mechanisms_;
+  const auto& interior = part_.partition().interior;
   const auto name = [&](int i) {
-    if (i >= static_cast<int>(partition_.interior.size()))
-      return std::string("a rigid-body motion of the interior");
-    return model::describe(part.model.dofs[at(partition_.interior[at(i)])],
-                           part.model.componentNames);
+    return i < sizeOf(interior) ? part_.dofName(interior[at(i)])
+                                : std::string("a rigid-body motion of the interior");
   };
   try {
-    solver_ = std::make_unique<linalg::DirectSolver>(
-        mechanisms_.cols() > 0 ? bordered(KII_, MN, MN) : KII_, name);
-    if (mechanisms_.cols() == 0) return;
-    mechanisms_ -= solve(
-        KII_ * mechanisms_);  // N to the accuracy of K_II: the modes have that of the eigensolver
-    const Eigen::LLT<Matrix> gram(mechanisms_.transpose() * (MII_ * mechanisms_));
+    solver_ = std::make_unique<linalg::DirectSolver>(bordered(K, MN, MN), name);
+    // N to the accuracy of K_II: the modes have that of the eigensolver
+    mechanisms_ -= solve(K * mechanisms_);
+    const Eigen::LLT<Matrix> gram(mechanisms_.transpose() * (M * mechanisms_));
     mechanisms_ = gram.matrixU().solve<Eigen::OnTheRight>(mechanisms_).eval();
   } catch (const ModelError& error) {
-    throw ModelError("Part \"" + part.name +
-                     "\": the stiffness of its interior is singular while its " +
-                     std::to_string(partition_.kept.size()) +
+    throw ModelError(part_.who() + "the stiffness of its interior is singular while its " +
+                     std::to_string(part_.partition().boundary.size()) +
                      " interface and retained dofs are held, and that is no rigid-body motion. "
                      "Retain a dof that moves then, or check the part's stiffness. " +
                      error.what());
@@ -122,29 +117,21 @@ void InteriorStatics::factor(const model::Substructure& part) {
 
 Matrix InteriorStatics::solve(const Matrix& loads) const {
   if (loads.rows() == 0 || loads.cols() == 0) return loads;
-  if (solver_->size() == loads.rows()) return solver_->solve(loads);
+  if (!solver_) return part_.solveInterior(loads);
   Matrix extended = Matrix::Zero(solver_->size(), loads.cols());
   extended.topRows(loads.rows()) = loads;
   return solver_->solve(extended).topRows(loads.rows());
 }
 
 ConstraintModes InteriorStatics::constraintModes() const {
-  ConstraintModes result;
-  const auto kept = static_cast<Eigen::Index>(partition_.kept.size());
-  result.residuals = Vector::Zero(kept);
-  for (int j = 0; j < kept; ++j) result.entries.emplace_back(partition_.kept[at(j)], j, 1.0);
-  if (partition_.interior.empty() || kept == 0) return result;
-  const Matrix KIC = KIC_;
-  const Matrix phi = solve(-KIC);  // K_II phi_C = -K_IC
-  const Matrix defect = KII_ * phi + KIC;
-  const double norm = (KII_.cwiseAbs() * Vector::Ones(KII_.cols())).maxCoeff();
-  for (int j = 0; j < kept; ++j) {
-    const double scale = norm * phi.col(j).cwiseAbs().maxCoeff() + KIC.col(j).cwiseAbs().maxCoeff();
-    if (scale > 0.0) result.residuals[j] = defect.col(j).cwiseAbs().maxCoeff() / scale;
-    for (Eigen::Index i = 0; i < phi.rows(); ++i)
-      if (phi(i, j) != 0.0) result.entries.emplace_back(partition_.interior[at(i)], j, phi(i, j));
+  const Partition& p = part_.partition();
+  if (!solver_) return part_.constraintModes();
+  ConstraintModeBuilder modes(p);
+  if (!p.boundary.empty()) {
+    const Matrix KIC = block(part_.stiffness(), p.interior, p.boundary);
+    modes.add(part_.interiorStiffness(), KIC, solve(-KIC), p.interior, range(sizeOf(p.boundary)));
   }
-  return result;
+  return modes.result();
 }
 
 }  // namespace tooljoint::reduction

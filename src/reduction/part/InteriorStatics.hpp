@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static answers of the interior of a part while its kept dofs are held, also of interiors that
-/// are still free to move then.
+/// Static answers of the interior of a part while its boundary dofs are held, also of interiors
+/// that are still free to move then.
 #pragma once
 
 #include <memory>
 
-#include "linalg/trilinos/DirectSolver.hpp"
-#include "reduction/part/ConstraintModes.hpp"
-#include "reduction/vectors/FreeInterfaceModes.hpp"
+#include "reduction/part/PartView.hpp"
+#include "reduction/vectors/InteriorVectors.hpp"
 
 namespace tooljoint::reduction {
 
-/// K_II^-1 of a part. Rigid-body modes of the free part that vanish on all kept dofs are mechanisms
-/// N of the interior: then K_II is singular, and the self-equilibrated generalised inverse is taken
-/// in its place,
+/// K_II^-1 of a part. Rigid-body modes of the free part that vanish on all boundary dofs are
+/// mechanisms N of the interior: then K_II is singular, and the self-equilibrated generalised
+/// inverse is taken in its place,
 ///
 ///     [K_II  M_II N; N' M_II  0] (x, mu) = (f, 0):   x is M-orthogonal to N, and the part of f
 ///     that would move N is balanced by its inertia.
 class InteriorStatics {
  public:
-  /// Factors. ModelError, naming part and dof, when K_II is singular otherwise.
-  /// \param K constantStiffness of the part
-  InteriorStatics(const model::Substructure& part, const Partition& partition, const Sparse& K,
-                  const FreeInterfaceModes& modes);
+  /// \param modes freeInterfaceModes of the part
+  /// ModelError, naming part and dof, when K_II is singular otherwise.
+  InteriorStatics(const PartView& part, const InteriorVectors& modes);
 
   /// Interior x columns of the loads.
   Matrix solve(const Matrix& loads) const;
@@ -31,20 +29,22 @@ class InteriorStatics {
   ConstraintModes constraintModes() const;
   /// N, interior x mechanisms, M-orthonormal; usually without columns.
   const Matrix& mechanisms() const { return mechanisms_; }
-  /// The other rigid-body modes of the free part, those that move kept dofs, dofs of the part x
+  /// The other rigid-body modes of the free part, those that move boundary dofs, dofs of the part x
   /// modes.
   const Matrix& carriers() const { return carriers_; }
 
  private:
-  void findMechanisms(const FreeInterfaceModes& modes);
-  void factor(const model::Substructure& part);
+  void findMechanisms(const InteriorVectors& modes);
+  void factor();
 
-  Partition partition_;
-  Sparse KII_, KIC_, MII_;
+  PartView part_;
   Matrix mechanisms_, carriers_;
-  std::unique_ptr<linalg::DirectSolver> solver_;
-  Vector keptMass_;  ///< sqrt of the diagonal of M
+  std::unique_ptr<linalg::DirectSolver> solver_;  ///< with mechanisms; otherwise that of the part
 };
+
+/// Zero-energy modes of a block that touches no boundary dof, mass-orthonormal: the ways it floats.
+/// Empty when it does not.
+Matrix floatingModes(const InteriorBlock& block);
 
 /// A with dense borders: [A U; W' 0], U and W scaled to the size of A.
 Sparse bordered(const Sparse& A, const Matrix& U, const Matrix& W);

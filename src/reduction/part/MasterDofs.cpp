@@ -2,7 +2,6 @@
 #include "reduction/part/MasterDofs.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <limits>
 #include <set>
 #include <utility>
@@ -139,10 +138,9 @@ class DenseCondensation {
     M_ = Matrix::Zero(n, n);
     std::vector<int> place(
         dofs_.empty() ? 0 : at(*std::max_element(dofs_.begin(), dofs_.end())) + 1, -1);
+    for (Eigen::Index i = 0; i < n; ++i) place[at(dofs_[at(i)])] = static_cast<int>(i);
     for (Eigen::Index i = 0; i < n; ++i)
-      place[at(dofs_[static_cast<std::size_t>(i)])] = static_cast<int>(i);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (const auto& entry : rows.row(dofs_[static_cast<std::size_t>(i)]))
+      for (const auto& entry : rows.row(dofs_[at(i)]))
         if (at(entry.dof) < place.size() && place[at(entry.dof)] >= 0) {
           K_(i, place[at(entry.dof)]) = entry.k;
           M_(i, place[at(entry.dof)]) = entry.m;
@@ -155,20 +153,20 @@ class DenseCondensation {
       Eigen::Index e = -1;
       double largest = 0;
       for (Eigen::Index i = 0; i < k_.size(); ++i) {
-        if (!open_[static_cast<std::size_t>(i)]) continue;
+        if (!open_[at(i)]) continue;
         const double ratio = ratioOf(k_[i], m_[i]);
         if (e < 0 || ratio > largest || (ratio == largest && dof(i) > dof(e)))
           e = i, largest = ratio;
       }
       order.add(dof(e), largest);
-      open_[static_cast<std::size_t>(e)] = 0;
+      open_[at(e)] = 0;
       if (k_[e] > 0) eliminate(e);
       if (pending_ == together) update();
     }
   }
 
  private:
-  int dof(Eigen::Index i) const { return dofs_[static_cast<std::size_t>(i)]; }
+  int dof(Eigen::Index i) const { return dofs_[at(i)]; }
 
   void eliminate(Eigen::Index e) {
     const auto n = K_.rows();
@@ -176,7 +174,7 @@ class DenseCondensation {
     Vector k = K_.col(e) - A * A.row(e).transpose();
     Vector m = M_.col(e) + T * Y.row(e).transpose() + Y * T.row(e).transpose();
     for (Eigen::Index i = 0; i < n; ++i)
-      if (!open_[static_cast<std::size_t>(i)]) k[i] = m[i] = 0;
+      if (!open_[at(i)]) k[i] = m[i] = 0;
     const double pivot = k_[e];
     A_.col(pending_) = k / std::sqrt(pivot);
     T_.col(pending_) = -k / pivot;
@@ -193,7 +191,7 @@ class DenseCondensation {
     M_.noalias() += Y_ * T_.transpose();
     std::vector<Eigen::Index> keep;
     for (Eigen::Index i = 0; i < K_.rows(); ++i)
-      if (open_[static_cast<std::size_t>(i)]) keep.push_back(i);
+      if (open_[at(i)]) keep.push_back(i);
     std::vector<int> dofs;
     for (std::size_t j = 0; j < keep.size(); ++j) {
       const auto to = static_cast<Eigen::Index>(j);
@@ -232,19 +230,18 @@ class DenseCondensation {
 
 }  // namespace
 
-MasterRanking rankMasters(const model::Substructure& part, const Partition& p,
-                          const Sparse& symmetricK) {
+MasterRanking rankMasters(const PartView& part) {
   const Stage stage("choice of masters");
-  // Kept dofs are never condensed, and their rows change nothing among the others.
-  SparseCondensation left(block(symmetricK, p.interior, p.interior),
-                          block(part.model.mass, p.interior, p.interior));
+  const auto& interior = part.partition().interior;
+  // Boundary dofs are never condensed, and their rows change nothing among the others.
+  SparseCondensation left(part.symmetricInteriorStiffness(), part.interiorMass());
   const auto ratio = [&](int i) {
     const auto entry = left.diagonal(i);
     return ratioOf(entry.k, entry.m);
   };
   std::set<std::pair<double, int>> queue;
-  std::vector<double> current(p.interior.size());
-  for (int i = 0; i < static_cast<int>(current.size()); ++i) {
+  std::vector<double> current(interior.size());
+  for (int i = 0; i < sizeOf(current); ++i) {
     current[at(i)] = ratio(i);
     queue.insert({current[at(i)], i});
   }
@@ -266,10 +263,9 @@ MasterRanking rankMasters(const model::Substructure& part, const Partition& p,
 
   MasterRanking ranking;
   for (auto it = order.dofs.rbegin(); it != order.dofs.rend(); ++it)
-    ranking.positions.push_back(p.interior[at(*it)]);
+    ranking.positions.push_back(interior[at(*it)]);
   std::reverse(order.ratios.begin(), order.ratios.end());
-  ranking.ratios =
-      Eigen::Map<const Vector>(order.ratios.data(), static_cast<Eigen::Index>(order.ratios.size()));
+  ranking.ratios = Eigen::Map<const Vector>(order.ratios.data(), sizeOf(order.ratios));
   return ranking;
 }
 

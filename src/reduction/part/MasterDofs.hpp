@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "reduction/part/Partition.hpp"
+#include "reduction/part/PartView.hpp"
 
 namespace tooljoint::reduction {
 
@@ -21,8 +21,7 @@ struct MasterRanking {
 /// is condensed statically, the ratios are those of what is left, and so on; the last ones are the
 /// masters. Ratios are made increasing: each counts at most as much as the one eliminated after it
 /// lets it. Dofs without mass come first, dofs whose remaining stiffness is not positive last.
-/// \param symmetricK symmetricPart of constantStiffness
-MasterRanking rankMasters(const model::Substructure& part, const Partition& partition,
-                          const Sparse& symmetricK);
+/// With the symmetric part of the constant stiffness.
+MasterRanking rankMasters(const PartView& part);
 
 }  // namespace tooljoint::reduction

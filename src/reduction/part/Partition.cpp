@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/part/Partition.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <numeric>
 #include <string>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::reduction {
 
@@ -17,7 +15,7 @@ namespace {
 /// Disjoint sets of the integers 0 .. n-1.
 class Sets {
  public:
-  explicit Sets(int n) : parent_(at(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Sets(int n) : parent_(range(n)) {}
   int find(int i) {
     while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
     return i;
@@ -41,8 +39,7 @@ void checkPositions(const model::Substructure& part, const std::vector<int>& pos
         "Part \"" + part.name + "\": position " + std::to_string(i) + " of its " + kind + " dofs ";
     if (i < 0 || i >= n) throw ModelError(who + "is outside its " + std::to_string(n) + " dofs.");
     if (seen[at(i)])
-      throw ModelError(who + "(" +
-                       model::describe(part.model.dofs[at(i)], part.model.componentNames) +
+      throw ModelError(who + "(" + model::dofName(part.model, i) +
                        ") is named twice among its interface and retained dofs.");
     if (i < last) throw ModelError(who + "is out of order; positions must increase.");
     seen[at(i)] = 1;
@@ -50,53 +47,41 @@ void checkPositions(const model::Substructure& part, const std::vector<int>& pos
   }
 }
 
-/// Calls visit(row, column) for every entry of A that is not zero.
-template <class Visit>
-void forEachEntry(const Sparse& A, const Visit& visit) {
-  for (int row = 0; row < A.outerSize(); ++row)
-    for (Sparse::InnerIterator it(A, row); it; ++it)
-      if (it.value() != 0.0) visit(row, static_cast<int>(it.col()));
+/// Index of every dof in a list of positions, -1 where it is not in it.
+std::vector<int> inverse(const std::vector<int>& positions, int size) {
+  std::vector<int> index(at(size), -1);
+  for (int i = 0; i < sizeOf(positions); ++i) index[at(positions[at(i)])] = i;
+  return index;
 }
 
-void findLinks(const model::Substructure& part, Partition& p) {
-  constexpr int none = -1;
-  std::vector<int> interiorIndex(at(p.size), none);
-  std::vector<int> keptIndex(at(p.size), none);
-  for (std::size_t i = 0; i < p.interior.size(); ++i)
-    interiorIndex[at(p.interior[i])] = static_cast<int>(i);
-  for (std::size_t i = 0; i < p.kept.size(); ++i) keptIndex[at(p.kept[i])] = static_cast<int>(i);
-
-  const Sparse K = constantStiffness(part.model);
-  Sets sets(static_cast<int>(p.interior.size()));
-  const auto join = [&](int row, int column) {
-    const int i = interiorIndex[at(row)];
-    const int j = interiorIndex[at(column)];
-    if (i != none && j != none) sets.join(i, j);
+void findBlocks(const model::SecondOrderModel& model, const Sparse& K, Partition& p) {
+  const std::vector<int> interior = inverse(p.interior, p.size),
+                         boundary = inverse(p.boundary, p.size);
+  Sets sets(sizeOf(p.interior));
+  const auto join = [&](int row, int column, double value) {
+    const int i = interior[at(row)], j = interior[at(column)];
+    if (value != 0.0 && i >= 0 && j >= 0) sets.join(i, j);
   };
   forEachEntry(K, join);
-  forEachEntry(part.model.mass, join);
+  forEachEntry(model.mass, join);
 
-  std::vector<int> linkOfRoot(p.interior.size(), none);
-  for (int i = 0; i < static_cast<int>(p.interior.size()); ++i) {
-    int& link = linkOfRoot[at(sets.find(i))];
-    if (link == none) {
-      link = static_cast<int>(p.links.size());
-      p.links.emplace_back();
+  std::vector<int> blockOf(p.interior.size(), -1);
+  for (int i = 0; i < sizeOf(p.interior); ++i) {
+    int& number = blockOf[at(sets.find(i))];
+    if (number < 0) {
+      number = sizeOf(p.blocks);
+      p.blocks.emplace_back();
     }
-    p.links[at(link)].push_back(i);
+    p.blocks[at(number)].push_back(i);
   }
 
-  p.ends.resize(p.links.size());
-  forEachEntry(K, [&](int row, int column) {
+  p.touched.resize(p.blocks.size());
+  forEachEntry(K, [&](int row, int column, double value) {
     for (const auto& [inner, outer] : {std::pair{row, column}, std::pair{column, row}})
-      if (interiorIndex[at(inner)] != none && keptIndex[at(outer)] != none)
-        p.ends[at(linkOfRoot[at(sets.find(interiorIndex[at(inner)]))])].push_back(
-            keptIndex[at(outer)]);
+      if (value != 0.0 && interior[at(inner)] >= 0 && boundary[at(outer)] >= 0)
+        p.touched[at(blockOf[at(sets.find(interior[at(inner)]))])].push_back(boundary[at(outer)]);
   });
-  for (auto& ends : p.ends) {
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  }
+  for (auto& touched : p.touched) makeUnique(touched);
 }
 
 }  // namespace
@@ -123,14 +108,21 @@ void checkPart(const model::Substructure& part) {
 
 Partition partition(const model::Substructure& part) {
   checkPart(part);
+  return partition(part.model, constantStiffness(part.model), part.interface, part.retained);
+}
+
+Partition partition(const model::SecondOrderModel& model, const Sparse& K,
+                    const std::vector<int>& interface, const std::vector<int>& retained) {
   Partition p;
-  p.size = part.model.size();
-  p.interface = part.interface;
-  p.retained = part.retained;
-  p.interior = part.interior();
-  p.kept = p.interface;
-  p.kept.insert(p.kept.end(), p.retained.begin(), p.retained.end());
-  findLinks(part, p);
+  p.size = model.size();
+  p.interface = interface;
+  p.retained = retained;
+  p.boundary = interface;
+  p.boundary.insert(p.boundary.end(), retained.begin(), retained.end());
+  const std::vector<int> boundary = inverse(p.boundary, p.size);
+  for (int i = 0; i < p.size; ++i)
+    if (boundary[at(i)] < 0) p.interior.push_back(i);
+  findBlocks(model, K, p);
   return p;
 }
 
@@ -146,13 +138,17 @@ Sparse symmetricPart(const Sparse& A) {
   return 0.5 * (A + transposed);
 }
 
+double largestEntry(const Sparse& A) {
+  return A.nonZeros() > 0
+             ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff()
+             : 0.0;
+}
+
 bool nearlySymmetric(const Sparse& A, double tolerance) {
   const Sparse transposed = A.transpose();
   const Sparse difference = A - transposed;
   const Vector diagonal = A.diagonal().cwiseAbs();
-  const double largest =
-      A.nonZeros() > 0 ? Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).cwiseAbs().maxCoeff()
-                       : 0.0;
+  const double largest = largestEntry(A);
   for (int i = 0; i < difference.outerSize(); ++i)
     for (Sparse::InnerIterator it(difference, i); it; ++it) {
       const double scale = std::sqrt(diagonal[i] * diagonal[it.col()]);
@@ -162,18 +158,13 @@ bool nearlySymmetric(const Sparse& A, double tolerance) {
 }
 
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns) {
-  std::vector<int> columnIndex(at(static_cast<int>(A.cols())), -1);
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    columnIndex[at(columns[j])] = static_cast<int>(j);
+  const std::vector<int> columnIndex = inverse(columns, static_cast<int>(A.cols()));
   Triplets entries;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (Sparse::InnerIterator it(A, rows[i]); it; ++it) {
-      const int j = columnIndex[at(static_cast<int>(it.col()))];
-      if (j >= 0) entries.emplace_back(static_cast<int>(i), j, it.value());
-    }
-  Sparse out(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  for (int i = 0; i < sizeOf(rows); ++i)
+    forEachInRow(A, rows[at(i)], [&](int column, double value) {
+      if (const int j = columnIndex[at(column)]; j >= 0) entries.emplace_back(i, j, value);
+    });
+  return sparse(sizeOf(rows), sizeOf(columns), entries);
 }
 
 }  // namespace tooljoint::reduction

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// How the dofs of one part are sorted for reduction: interface, retained, interior; and which
-/// interior dofs hang together.
+/// interior dofs are coupled with each other.
 #pragma once
 
 #include <vector>
 
+#include "common/Indexing.hpp"
 #include "model/Substructure.hpp"
 
 namespace tooljoint::reduction {
 
-/// Positions of the dofs of a part. Kept dofs (C) are the interface followed by the retained ones;
-/// interior dofs (I) fall into links: sets that neither mass nor stiffness couples with each other.
-/// Every link is a small problem of its own, and where a link does not touch a kept dof, the basis
-/// is structurally zero.
+/// Positions of the dofs of a part. The boundary (C) is the interface followed by the retained
+/// dofs; interior dofs (I) fall into blocks that neither mass nor stiffness couples with each
+/// other. Every block is a small problem of its own, and where a block does not touch a boundary
+/// dof, the basis is structurally zero.
 struct Partition {
   int size = 0;
   std::vector<int> interface;  ///< increasing
   std::vector<int> retained;   ///< increasing, disjoint from interface
-  std::vector<int> kept;       ///< interface, then retained: the first reduced coordinates
+  std::vector<int> boundary;   ///< interface, then retained: the first reduced coordinates
   std::vector<int> interior;   ///< increasing
   std::vector<std::vector<int>>
-      links;  ///< indices into `interior`, each increasing, ordered by their first index
+      blocks;  ///< indices into `interior`, each increasing, ordered by their first index
   std::vector<std::vector<int>>
-      ends;  ///< per link: indices into `kept` of the dofs it touches, increasing
+      touched;  ///< per block: indices into `boundary` of the dofs it touches, increasing
 };
 
 /// Throws ModelError, naming the part and the dof, when the model is inconsistent, its mass is not
@@ -32,6 +33,10 @@ void checkPart(const model::Substructure& part);
 
 /// Sorts the dofs of `part`. Errors of checkPart.
 Partition partition(const model::Substructure& part);
+
+/// Sorts the dofs of a part with this boundary, without checks. \param K constantStiffness
+Partition partition(const model::SecondOrderModel& model, const Sparse& K,
+                    const std::vector<int>& interface, const std::vector<int>& retained);
 
 /// Sum of the stiffness terms whose law is "1": the stiffness the basis is computed with. Full and
 /// unsymmetric.
@@ -43,6 +48,9 @@ Sparse symmetricPart(const Sparse& A);
 /// True when |a_ij - a_ji| <= tolerance sqrt(|a_ii a_jj|) for all entries (rows without diagonal:
 /// measured by the largest entry).
 bool nearlySymmetric(const Sparse& A, double tolerance);
+
+/// Largest |a_ij|; 0 without entries.
+double largestEntry(const Sparse& A);
 
 /// A(rows, columns) as a new sparse matrix; both lists without repetition.
 Sparse block(const Sparse& A, const std::vector<int>& rows, const std::vector<int>& columns);

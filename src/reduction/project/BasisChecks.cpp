@@ -2,7 +2,6 @@
 #include "reduction/project/BasisChecks.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -12,6 +11,7 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
+#include "model/DofNames.hpp"
 
 namespace tooljoint::reduction {
 
@@ -58,75 +58,78 @@ void checkRank(const Basis& basis, BasisReport& report) {
       std::sqrt(largest / std::max(gram.eigenvalues().minCoeff(), 1e-16 * largest));
 }
 
-/// Sets of dofs without any of the basis' interface dofs.
-std::vector<std::vector<int>> floatingLinks(const model::Substructure& part, const Basis& basis) {
-  model::Substructure free = part;
-  free.interface.clear();
-  free.retained.clear();
+/// Sets of coupled dofs without any of the basis' interface dofs.
+std::vector<std::vector<int>> floatingBlocks(const PartView& part, const Basis& basis) {
   std::vector<std::vector<int>> floating;
-  for (const auto& link : partition(free).links)
-    if (std::none_of(basis.boundary.begin(), basis.boundary.end(),
-                     [&](int i) { return std::binary_search(link.begin(), link.end(), i); }))
-      floating.push_back(link);
+  for (const auto& dofs : part.unsupported().partition().blocks)
+    if (std::none_of(basis.forceDofs.begin(), basis.forceDofs.end(),
+                     [&](int i) { return std::binary_search(dofs.begin(), dofs.end(), i); }))
+      floating.push_back(dofs);
   return floating;
 }
 
-/// Unit loads on some kept dofs, full against reduced, both with the same springs to ground on all
-/// kept dofs (they change no constraint mode, and let a free part stand). Links that touch no kept
-/// dof do not move and are left out.
-void checkStatics(const model::Substructure& part, const Basis& basis,
-                  const ProjectedMatrices& reduced, BasisReport& report) {
+/// Adds `spring` to the diagonal at `dofs`; all of the diagonal is there afterwards.
+void addSprings(Sparse& K, const std::vector<int>& dofs, double spring) {
+  Triplets ground;
+  for (int i : dofs) ground.emplace_back(i, i, spring);
+  for (int i = 0; i < K.rows(); ++i) ground.emplace_back(i, i, 0.0);
+  K = Sparse(K + sparse(K.rows(), K.cols(), ground));
+}
+
+/// Mean stiffness of some dofs; 1 where they have none.
+double meanStiffness(const Sparse& K, const std::vector<int>& dofs) {
+  double mean = 0;
+  for (int i : dofs) mean += std::abs(K.coeff(i, i)) / sizeOf(dofs);
+  return mean == 0 ? 1 : mean;
+}
+
+/// Unit loads on some boundary dofs, full against reduced, both with the same springs to ground on
+/// all boundary dofs (they change no constraint mode, and let a free part stand). Blocks that touch
+/// no boundary dof do not move and are left out.
+void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
+                  BasisReport& report) {
   const Stage stage("check of the statics");
   const Partition& p = basis.partition;
-  const int kept = static_cast<int>(p.kept.size());
-  if (kept == 0) return;
-  std::vector<int> positions = p.kept;
-  for (std::size_t link = 0; link < p.links.size(); ++link)
-    if (!p.ends[link].empty())
-      for (int i : p.links[link]) positions.push_back(p.interior[static_cast<std::size_t>(i)]);
-  Sparse K = block(constantStiffness(part.model), positions, positions);
+  const int boundary = sizeOf(p.boundary);
+  if (boundary == 0) return;
+  std::vector<int> positions = p.boundary;
+  for (std::size_t b = 0; b < p.blocks.size(); ++b)
+    if (!p.touched[b].empty())
+      for (int i : p.blocks[b]) positions.push_back(p.interior[at(i)]);
+  Sparse K = block(part.stiffness(), positions, positions);
   Matrix k = reduced.constantStiffness;
-  double spring = 0;
-  for (int i = 0; i < kept; ++i) spring += std::abs(K.coeff(i, i)) / kept;
-  if (spring == 0) spring = 1;
-  Triplets ground;
-  for (int i = 0; i < kept; ++i) {
-    ground.emplace_back(i, i, spring);
-    k(i, i) += spring;
-  }
-  Sparse springs(K.rows(), K.cols());
-  springs.setFromTriplets(ground.begin(), ground.end());
-  K = Sparse(K + springs);
+  const double spring = meanStiffness(K, range(boundary));
+  addSprings(K, range(boundary), spring);
+  k.diagonal().head(boundary).array() += spring;
 
-  std::set<int> loaded{0, kept / 3, 2 * kept / 3, kept - 1};
-  Matrix full = Matrix::Zero(K.rows(), static_cast<Eigen::Index>(loaded.size()));
+  std::set<int> loaded{0, boundary / 3, 2 * boundary / 3, boundary - 1};
+  Matrix full = Matrix::Zero(K.rows(), sizeOf(loaded));
   Matrix small = Matrix::Zero(k.rows(), full.cols());
   Eigen::Index column = 0;
   for (int j : loaded) {
     full(j, column) = 1;
     small(j, column++) = 1;
   }
-  // Modes of links left out are not excited: give them any stiffness that keeps the reduced matrix
+  // Modes of blocks left out are not excited: give them any stiffness that keeps the reduced matrix
   // regular.
-  for (Eigen::Index i = kept; i < k.rows(); ++i)
+  for (Eigen::Index i = boundary; i < k.rows(); ++i)
     if (k.row(i).cwiseAbs().maxCoeff() == 0) k(i, i) = 1;
   Matrix exact;
   try {
     exact = linalg::DirectSolver(K).solve(full);
   } catch (const ModelError&) {
     report.remarks.push_back(
-        "static exactness was not looked at: with springs on all kept dofs the part still moves "
+        "static exactness was not looked at: with springs on all boundary dofs the part still "
+        "moves "
         "freely");
     return;
   }
   const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
   report.staticDefect = 0;
   for (Eigen::Index c = 0; c < exact.cols(); ++c) {
-    double error = 0;
-    for (Eigen::Index i = 0; i < exact.rows(); ++i)
-      error = std::max(
-          error, std::abs(recovered(positions[static_cast<std::size_t>(i)], c) - exact(i, c)));
-    report.staticDefect = std::max(report.staticDefect, error / exact.col(c).cwiseAbs().maxCoeff());
+    const Vector error = Vector(recovered.col(c))(positions) - exact.col(c);
+    report.staticDefect = std::max(
+        report.staticDefect, error.cwiseAbs().maxCoeff() / exact.col(c).cwiseAbs().maxCoeff());
   }
 }
 
@@ -134,28 +137,18 @@ void checkStatics(const model::Substructure& part, const Basis& basis,
 /// springs s, g = f - s u_b, with the rest a held against g:
 ///
 ///     [k_aa  k_ag - B_a'; s B_a  1 + s B_g] (a, g) = (0, f),   u_b = B_a a + B_g g
-void checkDualStatics(const model::Substructure& part, const Basis& basis,
-                      const ProjectedMatrices& reduced, BasisReport& report) {
+void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
+                      BasisReport& report) {
   const Stage stage("check of the statics");
   const Eigen::Index forces = basis.forces(), others = basis.vectors.cols() - forces;
-  Sparse K = constantStiffness(part.model);
-  double spring = 0;
-  for (int i : basis.boundary) spring += std::abs(K.coeff(i, i)) / static_cast<double>(forces);
-  if (spring == 0) spring = 1;
-  Triplets ground;
-  for (int i : basis.boundary) ground.emplace_back(i, i, spring);
-  for (int i = 0; i < K.rows(); ++i) ground.emplace_back(i, i, 0.0);
-  Sparse springs(K.rows(), K.cols());
-  springs.setFromTriplets(ground.begin(), ground.end());
-  K = Sparse(K + springs);
+  Sparse K = part.stiffness();
+  const double spring = meanStiffness(K, basis.forceDofs);
+  addSprings(K, basis.forceDofs, spring);
   // What the interface does not reach floats: it is held by a stiffness that the loads do not feel.
-  for (const auto& link : floatingLinks(part, basis))
-    for (int i : link) K.coeffRef(i, i) += spring;
+  for (const auto& dofs : floatingBlocks(part, basis)) addSprings(K, dofs, spring);
 
   const Matrix Phi = basis.vectors, k = reduced.constantStiffness;
-  Matrix B(forces, Phi.cols());
-  for (Eigen::Index j = 0; j < forces; ++j)
-    B.row(j) = Phi.row(basis.boundary[static_cast<std::size_t>(j)]);
+  const Matrix B = Phi(basis.forceDofs, Eigen::all);
   Matrix system(Phi.cols(), Phi.cols());
   system.topRows(others) = k.topRows(others);
   system.topRightCorner(others, forces) -= B.leftCols(others).transpose();
@@ -164,14 +157,12 @@ void checkDualStatics(const model::Substructure& part, const Basis& basis,
   for (Eigen::Index i = 0; i < others; ++i)
     if (system.row(i).cwiseAbs().maxCoeff() == 0) system(i, i) = 1;
   const std::set<Eigen::Index> loaded{0, forces / 3, 2 * forces / 3, forces - 1};
-  const linalg::DirectSolver solver(K, [&](int i) {
-    return model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames);
-  });
+  const linalg::DirectSolver solver(K, model::namer(part.model()));
   const Eigen::FullPivLU<Matrix> factor(system);
   report.staticDefect = 0;
   for (Eigen::Index j : loaded) {
     Vector full = Vector::Zero(K.rows()), small = Vector::Zero(Phi.cols());
-    full[basis.boundary[static_cast<std::size_t>(j)]] = 1;
+    full[basis.forceDofs[at(j)]] = 1;
     small[others + j] = 1;
     const Vector exact = solver.solve(full), recovered = Phi * factor.solve(small);
     report.staticDefect = std::max(report.staticDefect, (recovered - exact).cwiseAbs().maxCoeff() /
@@ -179,13 +170,13 @@ void checkDualStatics(const model::Substructure& part, const Basis& basis,
   }
 }
 
-void checkFrequencies(const model::Substructure& part, const Basis& basis,
-                      const ProjectedMatrices& reduced, BasisReport& report) {
+void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
+                      BasisReport& report) {
   const Stage stage("check of the frequencies");
   // Without forces on the interface: their coordinates are zero then.
   const Eigen::Index size = basis.vectors.cols() - basis.forces();
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
-  const Sparse K = symmetricPart(constantStiffness(part.model));
+  const Sparse& K = part.symmetricStiffness();
   const Matrix k = Matrix(symmetricPart(reduced.constantStiffness)).topLeftCorner(size, size);
   const Matrix vectors = Matrix(basis.vectors).leftCols(size);
   if (m.rows() == 0) {
@@ -206,30 +197,28 @@ void checkFrequencies(const model::Substructure& part, const Basis& basis,
   } else {
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
-      throw ModelError("Part \"" + part.name +
-                       "\": its reduced mass matrix is not positive definite. Give every dof of "
+      throw ModelError(part.who() +
+                       "its reduced mass matrix is not positive definite. Give every dof of "
                        "the part mass, or retain fewer "
                        "massless dofs.");
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
     if (pairs.info() != Eigen::Success)
-      throw ConvergenceError(
-          "Part \"" + part.name +
-          "\": the eigenvalues of the reduced part were not found (QR iteration).");
+      throw ConvergenceError(part.who() +
+                             "the eigenvalues of the reduced part were not found (QR iteration).");
     const Matrix& shapes = pairs.eigenvectors();
     report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * shapes, pairs.eigenvalues());
   }
   const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
-      K, part.model.mass, std::min(zeroEnergyCandidates, part.model.size()),
-      linalg::EigenOptions());
+      K, part.mass(), std::min(zeroEnergyCandidates, part.model().size()), linalg::EigenOptions());
   report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
 }
 
 }  // namespace
 
-void checkBasis(const model::Substructure& part, const Basis& basis,
-                const ProjectedMatrices& reduced, BasisReport& report) {
+void checkBasis(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
+                BasisReport& report) {
   checkRank(basis, report);
   if (report.rank < static_cast<int>(basis.vectors.cols()) - basis.forces())
     report.remarks.push_back("the basis has rank " + std::to_string(report.rank) + " for " +
@@ -241,7 +230,7 @@ void checkBasis(const model::Substructure& part, const Basis& basis,
     checkStatics(part, basis, reduced, report);
   if (report.staticDefect > 1e-6)
     report.remarks.push_back(
-        "static response to loads on kept dofs is not exact: largest relative difference " +
+        "static response to loads on boundary dofs is not exact: largest relative difference " +
         formatNumber(report.staticDefect));
   checkFrequencies(part, basis, reduced, report);
   if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)

@@ -3,7 +3,6 @@
 /// Checks made on every basis: rank, static exactness, zero-energy modes, largest frequency.
 #pragma once
 
-#include "model/Substructure.hpp"
 #include "reduction/methods/ReductionMethod.hpp"
 #include "reduction/project/Projection.hpp"
 
@@ -15,7 +14,7 @@ constexpr double rk4StabilityLimit = 2.78;
 
 /// Fills the checked part of `report`. Throws ModelError when the reduced mass is not positive
 /// definite.
-void checkBasis(const model::Substructure& part, const Basis& basis,
-                const ProjectedMatrices& reduced, BasisReport& report);
+void checkBasis(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
+                BasisReport& report);
 
 }  // namespace tooljoint::reduction

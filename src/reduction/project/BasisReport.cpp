@@ -106,9 +106,9 @@ std::string summaryTable(const std::vector<const BasisReport*>& reports) {
         number(r->largestOmega, "{:.5g}"), number(r->explicitStep, "{:.3e}"),
         r->sharedWith.empty() ? "" : (" = " + r->sharedWith));
     if (r->negativeModes > 0)
-      text +=
-          format("  {} kept mode(s) of \"{}\" have omega^2 < 0: buckled between its kept dofs\n",
-                 r->negativeModes, r->part);
+      text += format(
+          "  {} kept mode(s) of \"{}\" have omega^2 < 0: buckled between its boundary dofs\n",
+          r->negativeModes, r->part);
     interface += r->interface;
     retained += r->retained;
     interior += r->interior;

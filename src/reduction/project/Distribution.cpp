@@ -2,8 +2,8 @@
 #include "reduction/project/Distribution.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "common/Indexing.hpp"
 #include "common/Message.hpp"
 
 namespace tooljoint::model {
@@ -46,13 +46,13 @@ void serialize(Archive& archive, BasisRow& row) {
 
 template <class Archive>
 void serialize(Archive& archive, Partition& p) {
-  archive(p.size, p.interface, p.retained, p.kept, p.interior, p.links, p.ends);
+  archive(p.size, p.interface, p.retained, p.boundary, p.interior, p.blocks, p.touched);
 }
 
 template <class Archive>
 void serialize(Archive& archive, Basis& b) {
   archive(b.partition, b.vectors, b.modeKind, b.eigenvalues, b.candidates, b.complete,
-          b.orthonormal, b.removable, b.inertial, b.boundary, b.rows, b.orthogonality, b.method,
+          b.orthonormal, b.removable, b.inertial, b.forceDofs, b.rows, b.orthogonality, b.method,
           b.remarks);
 }
 
@@ -80,16 +80,15 @@ void serialize(Archive& archive, ReducedCore& core) {
 }
 
 std::vector<int> assignOwners(const std::vector<int>& weights, int ranks) {
-  std::vector<int> order(weights.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto weight = [&](int i) { return weights[static_cast<std::size_t>(i)]; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight(a) > weight(b); });
-  std::vector<double> load(static_cast<std::size_t>(ranks), 0.0);
+  std::vector<int> order = range(sizeOf(weights));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return weights[at(a)] > weights[at(b)]; });
+  std::vector<double> load(at(ranks), 0.0);
   std::vector<int> owner(weights.size(), 0);
   for (int part : order) {
     const auto least = std::min_element(load.begin(), load.end());
-    owner[static_cast<std::size_t>(part)] = static_cast<int>(least - load.begin());
-    *least += 1.0 + weight(part);
+    owner[at(part)] = static_cast<int>(least - load.begin());
+    *least += 1.0 + weights[at(part)];
   }
   return owner;
 }

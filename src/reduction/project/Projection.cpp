@@ -2,7 +2,6 @@
 #include "reduction/project/Projection.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -16,11 +15,6 @@ namespace {
 constexpr double enforceBelow = 1e-10;
 /// Entries below this times |Phi|' |A| |Phi| are rounding of the projection itself.
 constexpr double roundingLevel = 1e-14;
-
-Sparse withoutExactZeros(Sparse A) {
-  A.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
-  return A;
-}
 
 double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }
@@ -76,23 +70,21 @@ Vector naturalSize(const Sparse& A, const Sparse& Phi) {
 }
 
 /// Removes the rounding of m_DD: the identity when it is one to enforceBelow.
-void tidyMass(Sparse& m, Eigen::Index kept, ProjectedMatrices& out) {
+void tidyMass(Sparse& m, Eigen::Index boundary, ProjectedMatrices& out) {
   double defect = 0;
   Vector seen = Vector::Zero(m.rows());
-  for (int i = static_cast<int>(kept); i < m.rows(); ++i)
-    for (Sparse::InnerIterator it(m, i); it; ++it) {
-      if (it.col() < kept) continue;
-      if (it.col() == i) seen[i] = 1;
-      defect = std::max(defect, std::abs(it.value() - (it.col() == i ? 1.0 : 0.0)));
-    }
-  for (Eigen::Index i = kept; i < m.rows(); ++i)
-    if (seen[i] == 0) defect = 1.0;
+  forEachEntry(m, [&](int i, int j, double value) {
+    if (i < boundary || j < boundary) return;
+    if (j == i) seen[i] = 1;
+    defect = std::max(defect, std::abs(value - (j == i ? 1.0 : 0.0)));
+  });
+  if ((seen.tail(m.rows() - boundary).array() == 0).any()) defect = 1.0;
   out.massDefect = defect;
   if (defect > enforceBelow) return;
-  for (int i = static_cast<int>(kept); i < m.rows(); ++i)
+  for (int i = static_cast<int>(boundary); i < m.rows(); ++i)
     for (Sparse::InnerIterator it(m, i); it; ++it)
-      if (it.col() >= kept) it.valueRef() = it.col() == i ? 1.0 : 0.0;
-  m = withoutExactZeros(m);
+      if (it.col() >= boundary) it.valueRef() = it.col() == i ? 1.0 : 0.0;
+  m = withoutZeros(m);
 }
 
 bool isRounding(double value, Eigen::Index i, Eigen::Index j, const Vector& size) {
@@ -114,90 +106,72 @@ Sparse withoutRounding(const Sparse& k, const Vector& size) {
 Sparse withExactInterfaces(const Sparse& k, const Basis& basis, bool constant) {
   const auto first = static_cast<int>(k.rows()) - basis.forces();
   Triplets entries;
-  for (int i = 0; i < first; ++i)
-    for (Sparse::InnerIterator it(k, i); it; ++it)
-      entries.emplace_back(i, static_cast<int>(it.col()), it.value());
+  forEachEntry(k, [&](int i, int j, double value) {
+    if (i < first) entries.emplace_back(i, j, value);
+  });
   for (int j = 0; constant && j < basis.forces(); ++j)
-    for (Sparse::InnerIterator it(basis.vectors, basis.boundary[static_cast<std::size_t>(j)]); it;
-         ++it)
-      if (it.col() >= first)
-        entries.emplace_back(static_cast<int>(it.col()), first + j, it.value());
-  Sparse out(k.rows(), k.cols());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+    forEachInRow(basis.vectors, basis.forceDofs[at(j)], [&](int column, double value) {
+      if (column >= first) entries.emplace_back(column, first + j, value);
+    });
+  return sparse(k.rows(), k.cols(), entries);
 }
 
 /// Largest off-diagonal of sym(k_DD) relative to max(sqrt(k_ii k_jj), rounding level).
-double offDiagonal(const Sparse& k, Eigen::Index kept, const Vector& size) {
+double offDiagonal(const Sparse& k, Eigen::Index boundary, const Vector& size) {
   const Vector diagonal = k.diagonal().cwiseAbs();
-  const Sparse symmetric = symmetricPart(k);
   double defect = 0;
-  for (int i = static_cast<int>(kept); i < k.rows(); ++i)
-    for (Sparse::InnerIterator it(symmetric, i); it; ++it) {
-      const auto j = it.col();
-      if (j < kept || j == i) continue;
-      const double rounding = roundingLevel * size[i] * size[j];
-      if (std::abs(it.value()) <= rounding) continue;
-      const double scale = std::max(std::sqrt(diagonal[i] * diagonal[j]), rounding / enforceBelow);
-      defect = std::max(defect, std::abs(it.value()) / scale);
-    }
+  forEachEntry(symmetricPart(k), [&](int i, int j, double value) {
+    if (i < boundary || j < boundary || j == i) return;
+    const double rounding = roundingLevel * size[i] * size[j];
+    if (std::abs(value) <= rounding) return;
+    const double scale = std::max(std::sqrt(diagonal[i] * diagonal[j]), rounding / enforceBelow);
+    defect = std::max(defect, std::abs(value) / scale);
+  });
   return defect;
 }
 
 /// Removes the rounding of the constant stiffness: sym(k_DD) diagonal, k_DC = 0, and for symmetric
 /// K also k_CD = 0.
-void tidyStiffness(Sparse& k, const Sparse& K, Eigen::Index kept, const Vector& size,
+void tidyStiffness(Sparse& k, bool symmetric, Eigen::Index boundary, const Vector& size,
                    ProjectedMatrices& out) {
-  out.stiffnessDefect = offDiagonal(k, kept, size);
+  out.stiffnessDefect = offDiagonal(k, boundary, size);
   if (out.stiffnessDefect > enforceBelow || out.massDefect > enforceBelow) return;
-  const bool symmetric = nearlySymmetric(K, 1e-13);
   const Sparse transposed = k.transpose();
   const Vector diagonal = k.diagonal().cwiseAbs();
-  Sparse tidy = 0.5 * (k - transposed);  // the skew part
   Triplets entries;
-  const auto negligible = [&](double value, Eigen::Index i, Eigen::Index j) {
-    return std::abs(value) <= std::max(enforceBelow * std::sqrt(diagonal[i] * diagonal[j]),
+  forEachEntry(k, [&](int i, int j, double value) {
+    const bool modalRow = i >= boundary, modalColumn = j >= boundary;
+    const bool zeroInTheory = modalRow != modalColumn && (modalRow || symmetric);
+    const double negligible = std::max(enforceBelow * std::sqrt(diagonal[i] * diagonal[j]),
                                        roundingLevel * size[i] * size[j]);
-  };
-  for (int i = 0; i < k.rows(); ++i)
-    for (Sparse::InnerIterator it(k, i); it; ++it) {
-      const auto j = it.col();
-      const bool modalRow = i >= kept;
-      const bool modalColumn = j >= kept;
-      const bool zeroInTheory = modalRow != modalColumn && (modalRow || symmetric);
-      if (modalRow && modalColumn && j != i) continue;
-      if (zeroInTheory && negligible(it.value(), i, j)) continue;
-      if (isRounding(it.value(), i, j, size)) continue;
-      entries.emplace_back(i, static_cast<int>(j), it.value());
-    }
+    if (modalRow && modalColumn && j != i) return;
+    if (zeroInTheory && std::abs(value) <= negligible) return;
+    if (!isRounding(value, i, j, size)) entries.emplace_back(i, j, value);
+  });
   if (!symmetric)
-    for (int i = static_cast<int>(kept); i < tidy.rows(); ++i)
-      for (Sparse::InnerIterator it(tidy, i); it; ++it)
-        if (it.col() >= kept && it.col() != i && it.value() != 0.0)
-          entries.emplace_back(i, static_cast<int>(it.col()), it.value());
-  k = Sparse(k.rows(), k.cols());
-  k.setFromTriplets(entries.begin(), entries.end());
+    forEachEntry(Sparse(0.5 * (k - transposed)), [&](int i, int j, double value) {  // skew part
+      if (i >= boundary && j >= boundary && j != i && value != 0.0)
+        entries.emplace_back(i, j, value);
+    });
+  k = sparse(k.rows(), k.cols(), entries);
   out.structureEnforced = true;
 }
 
 }  // namespace
 
 std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& model) {
-  std::vector<model::MatrixTerm> terms;
-  const auto lawName = [&](const model::MatrixTerm& term) {
-    return model.laws[static_cast<std::size_t>(term.law)].name;
-  };
+  std::vector<model::MatrixTerm> terms, varying;
   for (const auto& term : model.stiffness) {
-    if (lawName(term) != "1") continue;
-    if (terms.empty()) {
+    if (model.laws[at(term.law)].name != "1") {
+      varying.push_back(term);
+    } else if (terms.empty()) {
       terms.push_back(term);
     } else {
       terms.front().name += " + " + term.name;
       terms.front().matrix = terms.front().matrix + term.matrix;
     }
   }
-  for (const auto& term : model.stiffness)
-    if (lawName(term) != "1") terms.push_back(term);
+  terms.insert(terms.end(), varying.begin(), varying.end());
   return terms;
 }
 
@@ -208,56 +182,52 @@ Sparse project(const Sparse& A, const Sparse& Phi) {
   if (filling < 0.1) {
     const Sparse transposed = Phi.transpose();
     const Sparse right = A * Phi;
-    return withoutExactZeros(transposed * right);
+    return withoutZeros(transposed * right);
   }
   const Matrix dense = Phi;
   const Matrix right = A * dense;
   const Matrix projected = dense.transpose() * right;
-  Triplets entries;  // products of structural zeros are exact zeros
-  for (int i = 0; i < projected.rows(); ++i)
-    for (int j = 0; j < projected.cols(); ++j)
-      if (projected(i, j) != 0.0) entries.emplace_back(i, j, projected(i, j));
-  Sparse out(projected.rows(), projected.cols());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  return projected.sparseView();  // products of structural zeros are exact zeros
 }
 
-ProjectedMatrices projectMatrices(const model::Substructure& part, const Basis& basis) {
+ProjectedMatrices projectMatrices(const PartView& part, const Basis& basis) {
   const Sparse& Phi = basis.vectors;
-  const auto kept = static_cast<Eigen::Index>(basis.partition.kept.size());
+  const auto& laws = part.model().laws;
+  const Eigen::Index boundary = sizeOf(basis.partition.boundary);
   ProjectedMatrices out;
   const bool masslessFlexibility = basis.inertial.size() > 0;
-  Sparse mass = symmetricPart(project(part.model.mass, masslessFlexibility ? basis.inertial : Phi));
-  if (basis.orthonormal || masslessFlexibility) tidyMass(mass, kept, out);
+  Sparse mass = symmetricPart(project(part.mass(), masslessFlexibility ? basis.inertial : Phi));
+  if (basis.orthonormal || masslessFlexibility) tidyMass(mass, boundary, out);
   out.mass = mass;
 
-  const Sparse K = constantStiffness(part.model);
+  const Sparse& K = part.stiffness();
   out.constantStiffness = Sparse(Phi.cols(), Phi.cols());
-  for (const auto& term : stiffnessTerms(part.model)) {
+  for (const auto& term : stiffnessTerms(part.model())) {
     Sparse reduced = project(term.matrix, Phi);
-    const bool constant = part.model.laws[static_cast<std::size_t>(term.law)].name == "1";
+    const bool constant = laws[at(term.law)].name == "1";
     if (basis.forces() > 0 && masslessFlexibility)
       reduced = withExactInterfaces(reduced, basis, constant);
     if (constant) {
-      if (nearlySymmetric(K, 1e-13)) reduced = symmetricPart(reduced);
+      if (part.symmetric()) reduced = symmetricPart(reduced);
       const Vector size = naturalSize(K, Phi);
       if (basis.orthonormal)
-        tidyStiffness(reduced, K, kept, size, out);
+        tidyStiffness(reduced, part.symmetric(), boundary, size, out);
       else
         reduced = withoutRounding(reduced, size);
       out.constantStiffness = reduced;
     }
     out.stiffness.push_back({term.name, reduced, term.law});
   }
-  for (const auto& term : part.model.damping) {
+  for (const auto& term : part.model().damping) {
     if (masslessFlexibility) {
       out.damping.push_back({term.name, project(term.matrix, basis.inertial), term.law});
       continue;
     }
-    const auto rayleigh = rayleighCoefficients(term.matrix, part.model.mass, K);
-    Sparse reduced = rayleigh ? withoutExactZeros(rayleigh->first * out.mass +
-                                                  rayleigh->second * out.constantStiffness)
-                              : project(term.matrix, Phi);
+    const auto rayleigh = rayleighCoefficients(term.matrix, part.mass(), K);
+    Sparse reduced =
+        rayleigh
+            ? withoutZeros(rayleigh->first * out.mass + rayleigh->second * out.constantStiffness)
+            : project(term.matrix, Phi);
     out.damping.push_back({term.name, reduced, term.law});
   }
   return out;

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "model/Substructure.hpp"
 #include "reduction/methods/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
@@ -37,6 +36,6 @@ Sparse project(const Sparse& A, const Sparse& Phi);
 /// stiffness below 1e-14 of |phi_i|' |K| |phi_j| are rounding and left out. Mass and damping are
 /// projected on basis.inertial where the basis has it. A damping matrix that is a combination a M +
 /// b K of the part (Rayleigh damping) becomes a m + b k.
-ProjectedMatrices projectMatrices(const model::Substructure& part, const Basis& basis);
+ProjectedMatrices projectMatrices(const PartView& part, const Basis& basis);
 
 }  // namespace tooljoint::reduction

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/project/ReducedModels.hpp"
 
-#include <algorithm>
 #include <cstring>
-#include <numeric>
 
 #include "linalg/blocks/BlockKernels.hpp"
 #include "reduction/project/Projection.hpp"
@@ -102,20 +100,15 @@ void ReducedModels::addPoints(const model::Substructure& part, const Vector& off
 }
 
 /// Of a basis whose last coordinates are the forces on the interface dofs.
-Boundary ReducedModels::forcesAsCoordinates(const model::Substructure& part,
-                                            const Vector& offset) const {
+DerivedInterface ReducedModels::forcesAsCoordinates(const model::Substructure& part,
+                                                    const Vector& offset) const {
   const Basis& basis = core_->basis;
-  Boundary boundary;
-  std::vector<int> columns(static_cast<std::size_t>(basis.vectors.cols()));
-  std::iota(columns.begin(), columns.end(), 0);
-  boundary.rows = block(basis.vectors, basis.boundary, columns);
-  boundary.offset.resize(basis.forces());
-  for (std::size_t j = 0; j < basis.boundary.size(); ++j) {
-    boundary.dofs.push_back(part.model.dofs[static_cast<std::size_t>(basis.boundary[j])]);
-    boundary.offset[static_cast<Eigen::Index>(j)] = offset[basis.boundary[j]];
-  }
-  boundary.forces = basis.forces();
-  return boundary;
+  DerivedInterface interface;
+  interface.rows = block(basis.vectors, basis.forceDofs, range(basis.vectors.cols()));
+  interface.offset = offset(basis.forceDofs);
+  for (int i : basis.forceDofs) interface.dofs.push_back(part.model.dofs[at(i)]);
+  interface.forces = basis.forces();
+  return interface;
 }
 
 void ReducedModels::make(const model::Substructure& part, int index, ReducedSubstructure& out) {
@@ -125,15 +118,15 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
   out.report = core.report;
   const Partition& p = core.basis.partition;
   const Sparse& Phi = core.basis.vectors;
-  out.interface = static_cast<int>(p.interface.size());
-  out.retained = static_cast<int>(p.retained.size());
+  out.interface = sizeOf(p.interface);
+  out.retained = sizeOf(p.retained);
   out.modes = core.basis.modes();
 
   model::SecondOrderModel& m = out.model;
   m.componentNames = part.model.componentNames;
   m.laws = part.model.laws;
-  m.dofs.reserve(p.kept.size() + static_cast<std::size_t>(out.modes));
-  for (int position : p.kept) m.dofs.push_back(part.model.dofs[static_cast<std::size_t>(position)]);
+  m.dofs.reserve(p.boundary.size() + static_cast<std::size_t>(out.modes));
+  for (int position : p.boundary) m.dofs.push_back(part.model.dofs[at(position)]);
   for (int k = 0; k < out.modes + core.basis.forces(); ++k)
     m.dofs.push_back(model::DofLabel::modal(index, k));
   m.mass = core.matrices.mass;
@@ -147,11 +140,11 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
   m.initialDisplacement = std::move(start.displacement);
   m.initialVelocity = std::move(start.velocity);
   if (core.basis.forces() > 0) {
-    out.boundary = forcesAsCoordinates(part, out.offset);
-    out.boundary->staticForces = start.forces;
+    out.derivedInterface = forcesAsCoordinates(part, out.offset);
+    out.derivedInterface->staticForces = start.forces;
     if (!start.forces.isZero(0.0))
       m.loads.push_back({"reference state: forces between parts",
-                         Vector(out.boundary->rows.transpose() * start.forces),
+                         Vector(out.derivedInterface->rows.transpose() * start.forces),
                          m.lawIndex(model::ScalarLaw::one())});
   }
 

@@ -51,7 +51,7 @@ class ReducedModels {
                 model::SecondOrderModel& reduced);
   void addPoints(const model::Substructure& part, const Vector& offset,
                  model::SecondOrderModel& reduced);
-  Boundary forcesAsCoordinates(const model::Substructure& part, const Vector& offset) const;
+  DerivedInterface forcesAsCoordinates(const model::Substructure& part, const Vector& offset) const;
 
   const model::Substructure& like_;
   std::shared_ptr<const ReducedCore> core_;

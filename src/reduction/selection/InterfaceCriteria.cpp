@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/selection/InterfaceCriteria.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "common/Error.hpp"
-#include "linalg/trilinos/DirectSolver.hpp"
+#include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
 
@@ -16,37 +13,26 @@ constexpr double negligible = 1e-14;
 
 }  // namespace
 
-Vector interfaceShares(const model::Substructure& part, const Basis& basis, ModeRule::Kind kind) {
-  const Partition& p = basis.partition;
-  const auto kept = static_cast<int>(p.kept.size());
+Vector interfaceShares(const PartView& part, const Basis& basis, ModeRule::Kind kind) {
+  const int boundary = sizeOf(basis.partition.boundary);
   const int modes = basis.modes();
   Vector shares = Vector::Zero(modes);
-  if (modes == 0 || kept == 0) return shares;
-  std::vector<int> constraint(p.kept.size()), modal(static_cast<std::size_t>(modes)),
-      all(static_cast<std::size_t>(part.model.size()));
-  std::iota(constraint.begin(), constraint.end(), 0);
-  std::iota(modal.begin(), modal.end(), kept);
-  std::iota(all.begin(), all.end(), 0);
-  const Matrix phi = block(basis.vectors, p.interior, modal);
-  // L = (M Phi_C)_I
-  const Matrix inertia =
-      block(part.model.mass, p.interior, all) * Matrix(block(basis.vectors, all, constraint));
+  if (modes == 0 || boundary == 0) return shares;
+  const PartView view = viewOf(part, basis);
+  const Matrix phi = modalColumns(basis), inertia = constraintInertia(part, basis);
   const bool mass = kind == ModeRule::Kind::InterfaceMass;
-  const Sparse metric =
-      mass ? block(part.model.mass, p.interior, p.interior)
-           : block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior);
-  const Matrix coupling = phi.transpose() * inertia;  // L_k, modes x kept
+  const Matrix coupling = phi.transpose() * inertia;  // L_k, modes x boundary dofs
   Matrix response;
   try {
-    response = linalg::DirectSolver(metric).solve(inertia);
+    response = mass ? linalg::DirectSolver(view.interiorMass()).solve(inertia)
+                    : view.solveSymmetricInterior(inertia);
   } catch (const ModelError& error) {
-    throw ModelError("Part \"" + part.name +
-                     "\": the interface criterion needs a regular interior " +
+    throw ModelError(part.who() + "the interface criterion needs a regular interior " +
                      (mass ? "mass" : "stiffness") +
                      ". Choose the modes by number or cut-off frequency. " + error.what());
   }
-  Vector total(kept);
-  for (int j = 0; j < kept; ++j) total[j] = inertia.col(j).dot(response.col(j));
+  Vector total(boundary);
+  for (int j = 0; j < boundary; ++j) total[j] = inertia.col(j).dot(response.col(j));
   Matrix parts = coupling.array().square();
   if (!mass)
     for (int k = 0; k < modes; ++k) parts.row(k) /= std::abs(basis.eigenvalues[k]);
@@ -55,7 +41,7 @@ Vector interfaceShares(const model::Substructure& part, const Basis& basis, Mode
     if (basis.eigenvalues[k] < 0) total += 2.0 * parts.row(k).transpose();
   // A dof without coupling is told by the size of its own rows.
   int counted = 0;
-  for (int j = 0; j < kept; ++j) {
+  for (int j = 0; j < boundary; ++j) {
     const double size = inertia.col(j).cwiseAbs().dot(response.col(j).cwiseAbs());
     if (total[j] <= negligible * size || total[j] <= 0) continue;
     shares += parts.col(j) / total[j];
@@ -67,19 +53,15 @@ Vector interfaceShares(const model::Substructure& part, const Basis& basis, Mode
 
 std::vector<char> keepByShare(const Vector& shares, const Vector& eigenvalues, double fraction,
                               double pairTolerance) {
-  const auto size = static_cast<std::size_t>(shares.size());
-  std::vector<std::size_t> order(size);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto share = [&](std::size_t k) { return shares[static_cast<Eigen::Index>(k)]; };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
-  std::vector<char> keep(size, 0);
+  std::vector<int> order = range(shares.size());
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return shares[a] > shares[b]; });
+  std::vector<char> keep(order.size(), 0);
   double sum = 0;
-  for (std::size_t k = 0; k < size; ++k)
-    if (eigenvalues[static_cast<Eigen::Index>(k)] <= 0) sum += share(k), keep[k] = 1;
-  for (std::size_t k : order) {
+  for (int k = 0; k < sizeOf(order); ++k)
+    if (eigenvalues[k] <= 0) sum += shares[k], keep[at(k)] = 1;
+  for (int k : order) {
     if (sum >= fraction - 1e-12) break;
-    if (!keep[k]) sum += share(k), keep[k] = 1;
+    if (!keep[at(k)]) sum += shares[k], keep[at(k)] = 1;
   }
   if (sum < fraction - 1e-12) return {};
   return wholePairs(eigenvalues, keep, pairTolerance);

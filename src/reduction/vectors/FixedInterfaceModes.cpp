@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/FixedInterfaceModes.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "common/Error.hpp"
@@ -14,55 +13,58 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// The pencil of one link, and how many of its modes were computed.
-struct Link {
-  Sparse K;
-  Sparse M;
-  int size = 0;  ///< modes it has: dofs, or fewer where some have no mass
-  linalg::DofNamer name;
+/// How many modes an interior block has (fewer than dofs where some have no mass), and how many of
+/// them were computed.
+struct Progress {
+  int available = 0;
   int computed = 0;
 };
 
-/// Modes asked of one link. Two more than wanted show whether the cut would part a pair. Dofs
+/// Modes asked of one block. Two more than wanted show whether the cut would part a pair. Dofs
 /// without mass follow statically: the finite modes and the constraint modes hold every motion of
 /// the others.
-linalg::EigenPairs solve(Link& link, const ModeRequest& request, int count) {
+linalg::EigenPairs solve(const InteriorBlock& block, const ModeRequest& request, int count,
+                         Progress& progress) {
   linalg::EigenOptions options = request.eigen ? *request.eigen : linalg::EigenOptions();
-  options.name = link.name;
-  if (linalg::hasMasslessDofs(link.M)) {
-    const int asked =
-        request.kind == ModeRequest::Kind::Below ? link.size : std::min(count, link.size);
-    auto pairs = linalg::semidefiniteModes(link.K, link.M, asked, options);
-    if (pairs.count() < asked) link.size = pairs.count();
+  options.name = block.name;
+  const Sparse &K = block.symmetricStiffness, &M = block.mass;
+  const bool below = request.kind == ModeRequest::Kind::Below;
+  if (linalg::hasMasslessDofs(M)) {
+    const int asked = below ? progress.available : std::min(count, progress.available);
+    auto pairs = linalg::semidefiniteModes(K, M, asked, options);
+    if (pairs.count() < asked) progress.available = pairs.count();
     return pairs;
   }
-  if (request.kind == ModeRequest::Kind::Below)
-    return linalg::lowestModesBelow(
-        link.K, link.M, request.omegaMax * (1.0 + 2.0 * request.pairTolerance), options);
-  return linalg::lowestModes(link.K, link.M, std::min(count, link.size), options);
+  if (below)
+    return linalg::lowestModesBelow(K, M, request.omegaMax * (1.0 + 2.0 * request.pairTolerance),
+                                    options);
+  return linalg::lowestModes(K, M, std::min(count, progress.available), options);
 }
 
-void append(FixedInterfaceModes& result, Link& link, int index, const linalg::EigenPairs& pairs) {
-  link.computed = static_cast<int>(pairs.values.size());
-  const auto floating = linalg::areRounding(pairs.values, pairs.vectors, link.K);
-  for (Eigen::Index k = 0; k < pairs.values.size(); ++k)
-    result.modes.push_back({pairs.values[k], index, pairs.vectors.col(k), pairs.residuals[k],
-                            floating[static_cast<std::size_t>(k)] != 0});
+void append(InteriorVectors& result, const InteriorBlock& block, int number,
+            const linalg::EigenPairs& pairs) {
+  const auto floating = linalg::areRounding(pairs.values, pairs.vectors, block.symmetricStiffness);
+  for (int k = 0; k < pairs.count(); ++k) {
+    ModalVector mode{pairs.values[k], number, pairs.vectors.col(k), pairs.residuals[k],
+                     "fixed-interface"};
+    mode.floating = floating[at(k)] != 0;
+    if (mode.floating) mode.why = "asked for; rigid-body motion";
+    if (mode.shown() < 0.0) mode.why = "asked for; the part is buckled between its boundary dofs";
+    result.vectors.push_back(std::move(mode));
+  }
   result.orthogonality = std::max(result.orthogonality, pairs.orthogonality);
   std::string method =
       pairs.method.substr(0, pairs.method.find_first_of(",("));  // without shift and block sizes
   while (!method.empty() && method.back() == ' ') method.pop_back();
   if (result.method.find(method) == std::string::npos)
     result.method += (result.method.empty() ? "" : ", ") + method;
-  count("modes computed", static_cast<long>(pairs.values.size()));
+  count("modes computed", pairs.count());
 }
 
 /// Number of modes that answer the request; -1 when more must be computed to decide.
-int decide(const FixedInterfaceModes& result, const ModeRequest& request) {
-  Vector eigenvalues(static_cast<Eigen::Index>(result.modes.size()));
-  for (std::size_t k = 0; k < result.modes.size(); ++k)
-    eigenvalues[static_cast<Eigen::Index>(k)] = result.modes[k].eigenvalue;
-  const int available = static_cast<int>(eigenvalues.size());
+int decide(const InteriorVectors& result, const ModeRequest& request) {
+  const Vector eigenvalues = result.eigenvalues();
+  const int available = sizeOf(eigenvalues);
   if (request.kind == ModeRequest::Kind::All) return available;
   int wanted = request.count;
   if (request.kind == ModeRequest::Kind::Below) {
@@ -76,65 +78,54 @@ int decide(const FixedInterfaceModes& result, const ModeRequest& request) {
   return kept;
 }
 
-void remark(FixedInterfaceModes& result, const ModeRequest& request, int interior) {
-  if (request.kind != ModeRequest::Kind::Count) return;
-  if (request.count > interior)
-    result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, kept all " +
-                             std::to_string(interior) + " there are");
-  else if (result.kept > request.count)
-    result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, kept " +
-                             std::to_string(result.kept) + " so as not to cut a close pair");
-}
-
 }  // namespace
 
-FixedInterfaceModes fixedInterfaceModes(const model::Substructure& part, const Partition& p,
-                                        const Sparse& symmetricK, const ModeRequest& request,
-                                        const std::string& kind) {
+InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& request,
+                                    const std::string& what) {
+  return fixedInterfaceModes(part, request, range(part.blocks()), what);
+}
+
+InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& request,
+                                    const std::vector<int>& blocks, const std::string& what) {
   const Stage stage("modes of the parts");
-  FixedInterfaceModes result;
-  const int interior = static_cast<int>(p.interior.size());
-  std::vector<Link> links;
-  for (const auto& members : p.links) {
-    std::vector<int> inner;
-    for (int i : members) inner.push_back(p.interior[static_cast<std::size_t>(i)]);
-    links.push_back({block(symmetricK, inner, inner), block(part.model.mass, inner, inner),
-                     static_cast<int>(inner.size()),
-                     [&part, inner](int i) {
-                       const auto position =
-                           static_cast<std::size_t>(inner[static_cast<std::size_t>(i)]);
-                       return model::describe(part.model.dofs[position], part.model.componentNames);
-                     },
-                     0});
-  }
-  int perLink = request.kind == ModeRequest::Kind::All ? std::numeric_limits<int>::max()
-                                                       : std::min(request.count, interior) + 2;
-  if (request.kind == ModeRequest::Kind::Count && request.count == 0) perLink = 0;
+  InteriorVectors result;
+  result.groups = part.blockPositions();
+  result.removable = true;
+  const int interior = sizeOf(part.partition().interior);
+  std::vector<Progress> progress(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    progress[i].available = part.interiorBlock(blocks[i]).size();
+  int perBlock = request.kind == ModeRequest::Kind::All ? std::numeric_limits<int>::max()
+                                                        : std::min(request.count, interior) + 2;
+  if (request.kind == ModeRequest::Kind::Count && request.count == 0) perBlock = 0;
 
   for (result.kept = -1; result.kept < 0;) {
-    result.modes.clear();
+    result.vectors.clear();
     result.orthogonality = 0;
     result.method.clear();
     result.complete = true;
-    for (std::size_t i = 0; i < links.size(); ++i) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
       try {
-        if (perLink > 0 || request.kind == ModeRequest::Kind::Below)
-          append(result, links[i], static_cast<int>(i), solve(links[i], request, perLink));
+        if (perBlock > 0 || request.kind == ModeRequest::Kind::Below) {
+          const InteriorBlock& block = part.interiorBlock(blocks[i]);
+          const auto pairs = solve(block, request, perBlock, progress[i]);
+          progress[i].computed = pairs.count();
+          append(result, block, blocks[i], pairs);
+        }
       } catch (const Error& error) {
-        const std::string sentence = "Part \"" + part.name + "\", " + kind + ": " + error.what();
+        const std::string sentence = part.who(what) + error.what();
         if (error.code() == ExitCode::NotConverged) throw ConvergenceError(sentence);
         throw ModelError(sentence);
       }
-      result.complete = result.complete && links[i].computed == links[i].size;
+      result.complete = result.complete && progress[i].computed == progress[i].available;
     }
-    std::stable_sort(result.modes.begin(), result.modes.end(),
-                     [](const FixedInterfaceMode& a, const FixedInterfaceMode& b) {
-                       return a.eigenvalue < b.eigenvalue;
-                     });
+    result.keepAll();
     result.kept = decide(result, request);
-    perLink = perLink < interior ? 2 * perLink : perLink;
+    perBlock = perBlock < interior ? 2 * perBlock : perBlock;
   }
-  remark(result, request, interior);
+  for (int k = 0; k < sizeOf(result.vectors); ++k)
+    result.vectors[at(k)].name = "mode " + std::to_string(k + 1);
+  result.remarkOnCount(request, interior);
   return result;
 }
 

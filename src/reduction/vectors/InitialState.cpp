@@ -3,25 +3,22 @@
 
 #include <Eigen/QR>
 
+#include "reduction/vectors/ModalVectors.hpp"
+
 namespace tooljoint::reduction {
 
 Vector fitState(const Basis& basis, const Vector& x) {
-  const auto& kept = basis.partition.kept;
-  const auto& interior = basis.partition.interior;
+  const auto& boundary = basis.partition.boundary;
   Vector q = Vector::Zero(basis.vectors.cols());
   if (x.isZero(0.0)) return q;
-  for (std::size_t j = 0; j < kept.size(); ++j) q[static_cast<Eigen::Index>(j)] = x[kept[j]];
+  q.head(sizeOf(boundary)) = x(boundary);
   const int modes = basis.modes();
-  if (modes == 0 || interior.empty()) return q;
+  if (modes == 0 || basis.partition.interior.empty()) return q;
   const Vector rest = x - basis.vectors * q;  // x_I - phi_C x_C on the interior
-  Vector target(static_cast<Eigen::Index>(interior.size()));
-  for (std::size_t i = 0; i < interior.size(); ++i)
-    target[static_cast<Eigen::Index>(i)] = rest[interior[i]];
+  const Vector target = rest(basis.partition.interior);
   if (target.isZero(0.0)) return q;
-  std::vector<int> columns;
-  for (int k = 0; k < modes; ++k) columns.push_back(static_cast<int>(kept.size()) + k);
-  const Matrix phi = block(basis.vectors, interior, columns);
-  q.tail(modes) = phi.colPivHouseholderQr().solve(target);
+  q.segment(sizeOf(boundary), modes) =
+      Matrix(modalColumns(basis)).colPivHouseholderQr().solve(target);
   return q;
 }
 
@@ -41,8 +38,7 @@ StartState startState(const model::Substructure& part, const Basis& basis, bool 
   if (reference.isZero(0.0)) return start;
   const Vector force = m.stiffnessAt(0.0) * reference - m.loadAt(0.0) -
                        m.pointForce(0.0, reference, Vector::Zero(m.size()));
-  for (int j = 0; j < basis.forces(); ++j)
-    start.forces[j] = force[basis.boundary[static_cast<std::size_t>(j)]];
+  start.forces = force(basis.forceDofs);
   return start;
 }
 

@@ -16,7 +16,7 @@ struct StartState {
   Vector offset;        ///< dofs of the part
   Vector displacement;  ///< reduced coordinates
   Vector velocity;      ///< reduced coordinates
-  Vector forces;        ///< on the interface in the static state, one for each of Basis::boundary
+  Vector forces;        ///< on the interface in the static state, one for each of Basis::forceDofs
 };
 
 /// With `keepStatic`, offset = D_s, the reference state of the part (zero without one), else 0.

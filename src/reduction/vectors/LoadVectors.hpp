@@ -23,11 +23,10 @@ struct LoadVectorOptions {
 };
 
 /// Adds to `basis` what is new in K_II^-1 f_I for every load f (with the full, unsymmetric K;
-/// pieces that no kept dof touches are balanced by their inertia): the reduced part then answers
-/// these loads statically as the full one does. DeckError when modes of the basis move kept dofs,
-/// ModelError when the interior is a mechanism.
-void addLoadVectors(const model::Substructure& part, const LoadVectorOptions& options,
-                    Basis& basis);
+/// blocks that no boundary dof touches are balanced by their inertia): the reduced part then
+/// answers these loads statically as the full one does. DeckError when modes of the basis move
+/// boundary dofs, ModelError when the interior is a mechanism.
+void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basis& basis);
 
 /// Throws DeckError when a node of the options has no point law in any of the parts.
 void requirePointNodes(const std::vector<model::Substructure>& parts,

@@ -2,15 +2,13 @@
 #include "reduction/vectors/ModalVectors.hpp"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/trilinos/EigenSolver.hpp"
-#include "linalg/trilinos/SemidefiniteModes.hpp"
+#include "reduction/methods/BasisBuilder.hpp"
 
 namespace tooljoint::reduction {
 
@@ -18,11 +16,6 @@ namespace {
 
 /// v' M v below this part of |v|' |M| |v| is rounding: the vector moves no mass.
 constexpr double massless = 1e-14;
-/// Energy below this part of |phi|' |K| |phi| is rounding.
-constexpr double zeroEnergy = 1e-12;
-/// A rigid body has six ways to float; a link may be a body with joints inside, so more are looked
-/// at when these are not all.
-constexpr int floatingCandidates = 8;
 
 }  // namespace
 
@@ -72,11 +65,9 @@ bool OrthonormalSet::add(const Vector& vector, Vector& factor) {
   return true;
 }
 
-std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q,
-                                     int group, const std::string& kind, double& defect) {
-  std::vector<ModalVector> vectors;
-  defect = 0;
-  if (Q.cols() == 0) return vectors;
+void addRitzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, int group,
+                    const std::string& kind, InteriorVectors& to) {
+  if (Q.cols() == 0) return;
   // (Q' M Q) is the identity but for rounding; keeping it removes the rounding of Q.
   const Matrix k = Q.transpose() * (symmetricK * Q), m = Q.transpose() * (M * Q);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(0.5 * (k + k.transpose()),
@@ -86,194 +77,109 @@ std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, 
   Matrix phi = Q * solver.eigenvectors();
   for (Eigen::Index j = 0; j < phi.cols(); ++j) {
     if (phi(linalg::largestEntry(phi.col(j)), j) < 0) phi.col(j) = -phi.col(j);
-    ModalVector vector;
-    vector.eigenvalue = solver.eigenvalues()[j];
-    vector.group = group;
-    vector.shape = phi.col(j);
-    vector.kind = kind;
-    vectors.push_back(vector);
+    to.vectors.push_back({solver.eigenvalues()[j], group, phi.col(j), 0, kind});
   }
-  defect = (phi.transpose() * (M * phi) - Matrix::Identity(phi.cols(), phi.cols()))
-               .cwiseAbs()
-               .maxCoeff();
-  return vectors;
+  const Matrix gram = phi.transpose() * (M * phi);
+  to.orthogonality = std::max(
+      to.orthogonality, (gram - Matrix::Identity(phi.cols(), phi.cols())).cwiseAbs().maxCoeff());
 }
 
-Matrix floatingModes(const Sparse& symmetricK, const Sparse& M, const linalg::DofNamer& name) {
-  linalg::EigenOptions options;
-  options.name = name;
-  const Sparse absolute = symmetricK.cwiseAbs();
-  const int size = static_cast<int>(M.rows());
-  for (int count = std::min(floatingCandidates, size);; count = std::min(2 * count, size)) {
-    const auto pairs = linalg::lowestFiniteModes(symmetricK, M, count, options);
-    Matrix found(M.rows(), 0);
-    for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
-      const Vector shape = pairs.vectors.col(k).cwiseAbs();
-      if (std::abs(pairs.values[k]) > zeroEnergy * shape.dot(absolute * shape)) continue;
-      found.conservativeResize(Eigen::NoChange, found.cols() + 1);
-      found.rightCols(1) = pairs.vectors.col(k);
-    }
-    if (found.cols() < count || count == size) return found;
-  }
+PartView viewOf(const PartView& part, const Basis& basis) {
+  return part.withBoundary(basis.partition.interface, basis.partition.retained);
 }
 
-Basis fixedInterfaceBasis(const model::Substructure& part, const Partition& p,
-                          const ConstraintModes& constraint,
-                          const std::vector<std::vector<int>>& groups,
-                          std::vector<ModalVector> vectors) {
-  Basis basis;
-  basis.partition = p;
-  basis.orthonormal = true;
-  basis.removable = false;
-  basis.complete = vectors.size() == p.interior.size();
-  for (std::size_t j = 0; j < p.kept.size(); ++j) {
-    BasisRow row;
-    row.kind = "constraint";
-    row.name = model::describe(part.model.dofs[at(p.kept[j])], part.model.componentNames);
-    row.residual = constraint.residuals[static_cast<Eigen::Index>(j)];
-    row.why = j < p.interface.size() ? "interface dof" : "retained dof";
-    basis.rows.push_back(row);
-  }
-  std::stable_sort(vectors.begin(), vectors.end(), [](const ModalVector& a, const ModalVector& b) {
-    return a.eigenvalue < b.eigenvalue;
-  });
-  Triplets entries = constraint.entries;
-  basis.eigenvalues.resize(static_cast<Eigen::Index>(vectors.size()));
-  for (std::size_t k = 0; k < vectors.size(); ++k) {
-    const ModalVector& vector = vectors[k];
-    BasisRow row;
-    row.kind = vector.kind;
-    row.name = vector.name.empty() ? "vector " + std::to_string(k + 1) : vector.name;
-    row.eigenvalue = vector.eigenvalue;
-    row.residual = vector.residual;
-    row.why = vector.why;
-    basis.rows.push_back(row);
-    basis.eigenvalues[static_cast<Eigen::Index>(k)] = vector.eigenvalue;
-    basis.modeKind.push_back(vector.kind);
-    const auto& group = groups[at(vector.group)];
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const double value = vector.shape[static_cast<Eigen::Index>(i)];
-      if (value != 0.0)
-        entries.emplace_back(p.interior[at(group[i])], static_cast<int>(p.kept.size() + k), value);
-    }
-  }
-  basis.candidates = basis.eigenvalues;
-  basis.vectors = Sparse(p.size, static_cast<Eigen::Index>(p.kept.size() + vectors.size()));
-  basis.vectors.setFromTriplets(entries.begin(), entries.end());
-  return basis;
+Sparse constraintColumns(const Basis& basis) {
+  return block(basis.vectors, range(basis.vectors.rows()), range(sizeOf(basis.partition.boundary)));
 }
 
-Matrix modalColumns(const Basis& basis) {
-  std::vector<int> columns;
-  for (int k = 0; k < basis.modes(); ++k)
-    columns.push_back(static_cast<int>(basis.partition.kept.size()) + k);
-  return block(basis.vectors, basis.partition.interior, columns);
+Matrix constraintInertia(const PartView& part, const Basis& basis) {
+  return block(part.mass(), basis.partition.interior, range(basis.vectors.rows())) *
+         Matrix(constraintColumns(basis));
+}
+
+Sparse modalColumns(const Basis& basis) {
+  return block(basis.vectors, basis.partition.interior,
+               range(basis.modes(), sizeOf(basis.partition.boundary)));
 }
 
 namespace {
 
 /// The modal columns of a basis as they are, on the whole interior.
-std::vector<ModalVector> modalVectors(const Basis& basis) {
-  const Matrix V = modalColumns(basis);
+void addModalVectors(const Basis& basis, const Matrix& V, InteriorVectors& to) {
   std::vector<const BasisRow*> rows;
-  for (std::size_t k = basis.partition.kept.size(); k < basis.rows.size(); ++k)
+  for (std::size_t k = basis.partition.boundary.size(); k < basis.rows.size(); ++k)
     if (basis.rows[k].kept) rows.push_back(&basis.rows[k]);
-  std::vector<ModalVector> vectors;
-  for (Eigen::Index k = 0; k < V.cols(); ++k) {
-    ModalVector vector;
-    vector.eigenvalue = basis.eigenvalues[k];
-    vector.shape = V.col(k);
-    vector.kind = basis.modeKind[at(static_cast<int>(k))];
-    if (static_cast<std::size_t>(k) < rows.size()) {
-      const BasisRow& row = *rows[at(static_cast<int>(k))];
-      vector.residual = row.residual;
-      vector.why = row.why;
-      vector.name = row.name;
+  for (int k = 0; k < basis.modes(); ++k) {
+    ModalVector vector{basis.eigenvalues[k], 0, V.col(k), 0, basis.modeKind[at(k)]};
+    if (k < sizeOf(rows)) {
+      vector.residual = rows[at(k)]->residual;
+      vector.why = rows[at(k)]->why;
+      vector.name = rows[at(k)]->name;
     }
-    vectors.push_back(vector);
+    to.vectors.push_back(std::move(vector));
   }
-  return vectors;
 }
 
 /// `before` with these modal vectors in place of its own.
-Basis withVectors(const model::Substructure& part, const Basis& before,
-                  std::vector<ModalVector> vectors) {
-  const Partition& p = before.partition;
-  const int kept = static_cast<int>(p.kept.size());
-  ConstraintModes constraint;
-  constraint.residuals = Vector::Zero(kept);
-  for (int j = 0; j < kept; ++j) constraint.residuals[j] = before.rows[at(j)].residual;
-  for (int i = 0; i < before.vectors.outerSize(); ++i)
-    for (Sparse::InnerIterator it(before.vectors, i); it; ++it)
-      if (it.col() < kept)
-        constraint.entries.emplace_back(i, static_cast<int>(it.col()), it.value());
-  std::vector<int> all(p.interior.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  Basis after = fixedInterfaceBasis(part, p, constraint, {all}, std::move(vectors));
-  for (std::size_t k = at(kept); k < before.rows.size(); ++k)
+Basis withVectors(const Basis& before, InteriorVectors vectors) {
+  const int boundary = sizeOf(before.partition.boundary);
+  vectors.keepAll();
+  Basis after = before;
+  after.rows.resize(at(boundary));
+  setVectors(before.partition, constraintColumns(before), vectors, after);
+  report(vectors, after);
+  for (std::size_t k = at(boundary); k < before.rows.size(); ++k)
     if (!before.rows[k].kept) after.rows.push_back(before.rows[k]);
   const auto left = before.candidates.size() - before.eigenvalues.size();
   after.candidates.conservativeResize(after.eigenvalues.size() + left);
   after.candidates.tail(left) = before.candidates.tail(left);
-  after.orthonormal = before.orthonormal;
-  after.orthogonality = before.orthogonality;
+  after.complete = vectors.kept == sizeOf(before.partition.interior);
+  after.removable = false;
   after.method = before.method;
-  after.remarks = before.remarks;
   return after;
 }
 
 }  // namespace
 
-int appendVectors(const model::Substructure& part, const Matrix& X, const std::string& kind,
-                  double tolerance, bool rotate, Basis& basis) {
-  const Partition& p = basis.partition;
-  const Sparse M = block(part.model.mass, p.interior, p.interior);
-  const Sparse K = block(symmetricPart(constantStiffness(part.model)), p.interior, p.interior);
+int appendVectors(const PartView& part, const Matrix& X, const std::string& kind, double tolerance,
+                  bool rotate, Basis& basis) {
+  const PartView view = viewOf(part, basis);
+  const Sparse &M = view.interiorMass(), &K = view.symmetricInteriorStiffness();
   const Matrix V = modalColumns(basis);
-  OrthonormalSet set(M, tolerance, "Part \"" + part.name + "\", " + kind + " vectors: ");
+  OrthonormalSet set(M, tolerance, part.who(kind + " vectors"));
   for (Eigen::Index k = 0; k < V.cols(); ++k)
     if (!set.add(V.col(k)))
-      throw ModelError("Part \"" + part.name + "\": its modal vectors are dependent before its " +
-                       kind + " vectors are added.");
+      throw ModelError(part.who() + "its modal vectors are dependent before its " + kind +
+                       " vectors are added.");
   int added = 0;
   for (Eigen::Index j = 0; j < X.cols(); ++j) added += set.add(X.col(j)) ? 1 : 0;
   if (added == 0) return 0;
   const Matrix W = set.basis().rightCols(added);
-  double defect = 0;
-  std::vector<ModalVector> fresh = ritzVectors(K, M, W, 0, kind, defect);
-  for (std::size_t k = 0; k < fresh.size(); ++k) {
-    fresh[k].name = kind + " vector " + std::to_string(k + 1);
-    fresh[k].why = "added";
-  }
+  InteriorVectors vectors, fresh;
+  vectors.groups = {basis.partition.interior};
+  addRitzVectors(K, M, W, 0, kind, fresh);
   // V' K W, measured by |V|' |K| |W|: the fixed-interface modes of K have none.
   const Matrix coupling = V.transpose() * (K * W),
                size = V.cwiseAbs().transpose() * (K.cwiseAbs() * W.cwiseAbs());
   const bool coupled = (coupling.cwiseAbs().array() > 1e-11 * size.array()).any();
-  std::vector<ModalVector> vectors;
   if (coupled && rotate) {
-    vectors = ritzVectors(K, M, set.basis(), 0,
-                          basis.modeKind.empty() ? kind : basis.modeKind.front(), defect);
-    for (auto& vector : vectors) vector.why = "with " + kind + " vectors";
+    addRitzVectors(K, M, set.basis(), 0, basis.modeKind.empty() ? kind : basis.modeKind.front(),
+                   vectors);
+    for (auto& vector : vectors.vectors) vector.why = "with " + kind + " vectors";
   } else {
-    vectors = modalVectors(basis);
-    vectors.insert(vectors.end(), fresh.begin(), fresh.end());
+    addModalVectors(basis, V, vectors);
+    for (int k = 0; k < added; ++k) {
+      ModalVector& vector = fresh.vectors[at(k)];
+      vector.name = kind + " vector " + std::to_string(k + 1);
+      vector.why = "added";
+      vectors.vectors.push_back(std::move(vector));
+    }
+    vectors.orthogonality = fresh.orthogonality;
   }
-  basis = withVectors(part, basis, std::move(vectors));
-  basis.orthogonality = std::max(basis.orthogonality, defect);
+  basis = withVectors(basis, vectors);
+  basis.orthogonality = std::max(basis.orthogonality, vectors.orthogonality);
   if (coupled && !rotate) basis.orthonormal = false;
   return added;
-}
-
-std::vector<int> positionsOf(const Partition& partition, const std::vector<int>& interior) {
-  std::vector<int> positions;
-  for (int i : interior) positions.push_back(partition.interior[at(i)]);
-  return positions;
-}
-
-linalg::DofNamer namer(const model::Substructure& part, std::vector<int> positions) {
-  return [&part, positions = std::move(positions)](int i) {
-    return model::describe(part.model.dofs[at(positions[at(i)])], part.model.componentNames);
-  };
 }
 
 }  // namespace tooljoint::reduction

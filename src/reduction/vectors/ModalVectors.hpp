@@ -8,10 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/methods/ReductionMethod.hpp"
-#include "reduction/part/ConstraintModes.hpp"
-#include "reduction/vectors/FixedInterfaceModes.hpp"
+#include "reduction/vectors/InteriorVectors.hpp"
 
 namespace tooljoint::reduction {
 
@@ -19,17 +17,6 @@ namespace tooljoint::reduction {
 /// (ReductionMethod::dependentCoordinates): estimates count them as left out, since they are not
 /// free to answer a residual.
 inline const std::string followingKind = "tied residual";
-
-/// A modal column: `shape` on interior dofs of one group, zero everywhere else.
-struct ModalVector {
-  double eigenvalue = 0;  ///< omega^2, or the Ritz value
-  int group = 0;          ///< index into the groups it was made with
-  Vector shape;
-  double residual = 0;  ///< relative, of the equation that defines it
-  std::string kind;
-  std::string why = "asked for";
-  std::string name = {};  ///< "vector k" when empty
-};
 
 /// Vectors that are orthonormal in the inner product of a mass matrix, in the order they came.
 class OrthonormalSet {
@@ -59,37 +46,27 @@ class OrthonormalSet {
   Matrix weighted_;  ///< M basis
 };
 
-/// Ritz vectors of sym(K) in the span of M-orthonormal columns Q: Q y with (Q' K Q) y = lambda y,
-/// by increasing lambda; the entry of largest magnitude of each is positive. `defect` becomes max
-/// |Phi' M Phi - I|.
-std::vector<ModalVector> ritzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q,
-                                     int group, const std::string& kind, double& defect);
-
-/// Zero-energy modes of a link that touches no kept dof, mass-orthonormal: the ways it floats.
-/// Empty when it does not.
-Matrix floatingModes(const Sparse& symmetricK, const Sparse& M, const linalg::DofNamer& name);
-
-/// Phi = [1 0; psi V]: constraint modes and the given vectors, sorted by eigenvalue. `groups[g]`
-/// are indices into Partition::interior.
-Basis fixedInterfaceBasis(const model::Substructure& part, const Partition& partition,
-                          const ConstraintModes& constraint,
-                          const std::vector<std::vector<int>>& groups,
-                          std::vector<ModalVector> vectors);
+/// Adds the Ritz vectors of sym(K) in the span of M-orthonormal columns Q, on one group: Q y with
+/// (Q' K Q) y = lambda y, by increasing lambda; the entry of largest magnitude of each is positive.
+/// Raises the orthogonality to max |Phi' M Phi - I|.
+void addRitzVectors(const Sparse& symmetricK, const Sparse& M, const Matrix& Q, int group,
+                    const std::string& kind, InteriorVectors& to);
 
 /// What is new in the columns of X (interior x columns), orthonormalised against the modal columns
 /// of `basis`, becomes further modal columns of `kind`; their number. With `rotate`, all modal
 /// columns become Ritz vectors of the larger span where the new ones are coupled with them by
 /// stiffness; without, they are left as they are, and the basis is no longer `orthonormal`.
-int appendVectors(const model::Substructure& part, const Matrix& X, const std::string& kind,
-                  double tolerance, bool rotate, Basis& basis);
+int appendVectors(const PartView& part, const Matrix& X, const std::string& kind, double tolerance,
+                  bool rotate, Basis& basis);
 
+/// `part` with the boundary a basis of it has, which may have more dofs than that of the part.
+PartView viewOf(const PartView& part, const Basis& basis);
+
+/// The constraint modes of a basis, dofs of the part x boundary dofs.
+Sparse constraintColumns(const Basis& basis);
 /// Modal columns of a basis on the interior.
-Matrix modalColumns(const Basis& basis);
-
-/// Dofs of the part for indices into Partition::interior.
-std::vector<int> positionsOf(const Partition& partition, const std::vector<int>& interior);
-
-/// Names of the dofs of the part at these positions, for messages.
-linalg::DofNamer namer(const model::Substructure& part, std::vector<int> positions);
+Sparse modalColumns(const Basis& basis);
+/// Inertia of the constraint modes: L = M_IC + M_II psi, interior x boundary dofs.
+Matrix constraintInertia(const PartView& part, const Basis& basis);
 
 }  // namespace tooljoint::reduction

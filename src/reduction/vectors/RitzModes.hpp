@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Modal columns from any vectors of the interior: the Rayleigh-Ritz modes of the space they span,
-/// kept dofs held.
+/// boundary dofs held.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "reduction/methods/ReductionMethod.hpp"
-#include "reduction/part/ConstraintModes.hpp"
 #include "reduction/part/InteriorStatics.hpp"
 
 namespace tooljoint::reduction {
@@ -19,34 +18,26 @@ struct VectorGroup {
   Matrix columns;              ///< positions x vectors; of any length, not necessarily independent
 };
 
-/// Completes `basis` from its partition, the constraint modes and the space of `groups`: Phi = [I
-/// 0; phi_C W], where W are the Ritz modes of each group, W' M_II W = I, W' sym(K)_II W =
-/// diag(omega^2), sorted by omega^2. Vectors that depend on the others to 1e-10 in the mass norm
-/// are left out. The groups must not be joined by mass or stiffness. Whatever vectors span the
-/// space, these coordinates give the same reduced model, with the structure of Craig and Bampton's.
-/// Sets vectors, eigenvalues, modeKind, orthonormal, orthogonality. Throws ModelError when M_II is
-/// not positive definite.
-void completeWithRitzModes(const model::Substructure& part, const Sparse& symmetricK,
-                           const ConstraintModes& constraint,
+/// Completes `basis` from the constraint modes and the space of `groups`: Phi = [I 0; phi_C W],
+/// where W are the Ritz modes of each group, W' M_II W = I, W' sym(K)_II W = diag(omega^2), sorted
+/// by omega^2. Vectors that depend on the others to 1e-10 in the mass norm are left out. The groups
+/// must not be joined by mass or stiffness. Whatever vectors span the space, these coordinates give
+/// the same reduced model, with the structure of Craig and Bampton's. Sets vectors, eigenvalues,
+/// modeKind, orthonormal, orthogonality. Throws ModelError when M_II is not positive definite.
+void completeWithRitzModes(const PartView& part, const ConstraintModes& constraint,
                            const std::vector<VectorGroup>& groups, const std::string& kind,
                            Basis& basis);
 
-/// Rows of `basis` for its constraint modes.
-void addConstraintRows(const model::Substructure& part, const ConstraintModes& constraint,
-                       Basis& basis);
-
-/// What the kept free-interface modes add to the constraint modes, with the kept dofs held. From K
-/// phi = omega^2 M phi + S phi, S the skew part of K, and phi_C = -K_II^-1 K_IC:
+/// What the kept free-interface modes add to the constraint modes, with the boundary dofs held.
+/// From K phi = omega^2 M phi + S phi, S the skew part of K, and phi_C = -K_II^-1 K_IC:
 ///
 ///     y = phi_I - phi_C phi_b = K_II^-1 (omega^2 M phi + S phi)_I,     of a rigid-body mode   y =
 ///     K_II^-1 (M phi)_I,
 ///
 /// without the difference of nearly equal vectors, and with the inertia-relief answer to rigid-body
-/// acceleration as the limit omega -> 0. One group for each free link; mechanisms of the interior
+/// acceleration as the limit omega -> 0. One group for each free block; mechanisms of the interior
 /// are among its vectors. Rigid-body modes and elastic ones can be left out.
-std::vector<VectorGroup> freeInterfaceVectors(const model::Substructure& part, const Sparse& K,
-                                              const Partition& partition,
-                                              const FreeInterfaceModes& modes,
+std::vector<VectorGroup> freeInterfaceVectors(const PartView& part, const InteriorVectors& modes,
                                               const InteriorStatics& statics, bool rigid = true,
                                               bool elastic = true);
 

@@ -188,8 +188,8 @@ TEST_P(InterfaceReduction, APointLawOnAnInnerDofKeepsNoJoinedOne) {
 }
 
 TEST_P(InterfaceReduction, ForcesOnDofsThatStayAreAnsweredExactly) {
-  // A force on kept dofs deflects reduced ones through the attached shapes; without any mode of the
-  // interfaces.
+  // A force on boundary dofs deflects reduced ones through the attached shapes; without any mode of
+  // the interfaces.
   auto parts = frame.parts();
   samples::addCubicSprings(parts[3], {5});
   const auto coupled = synthesis(parts, 0, interfaceModes(Level::System, 0)).coupled;

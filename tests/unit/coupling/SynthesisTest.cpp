@@ -23,13 +23,13 @@ class Shrinking : public reduction::ReductionMethod {
  public:
   explicit Shrinking(int least)
       : least_(least), base_(reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList())) {}
-  Basis build(const model::Substructure& part,
+  Basis build(const reduction::PartView& part,
               const reduction::ModeRequest& request) const override {
     return base_->build(part, request);
   }
   bool augment(const model::SecondOrderModel& coupled,
                const std::vector<std::vector<int>>& positions,
-               const std::vector<model::Substructure>& parts,
+               const std::vector<reduction::PartView>& parts,
                std::vector<Basis>& bases) const override {
     EXPECT_EQ(positions.size(), parts.size());
     int columns = 0;

@@ -145,7 +145,7 @@ TEST(ReducedPart, ReducedAgainKeepsTheFirstOriginal) {
 TEST(ReducedPart, WithoutInterfaceDofsIsRefused) {
   auto parts = bars();
   auto small = reduced(parts)[0];
-  small.boundary.emplace();
+  small.derivedInterface.emplace();
   EXPECT_THROW(reducedContent(contentOf(parts[0]), small), ModelError);
 }
 

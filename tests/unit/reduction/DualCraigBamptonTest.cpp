@@ -32,15 +32,15 @@ TEST(DualCraigBampton, MatricesOfAPartAreBlocks) {
   for (const auto& family : {dual, dualWithMass}) {
     const auto small = reduce(part, family.make()->build(part, modes(7)), ReductionOptions(), 0);
     EXPECT_EQ(small.interface, 0);
-    ASSERT_TRUE(small.boundary.has_value());
-    EXPECT_EQ(small.boundary->forces, 6);
+    ASSERT_TRUE(small.derivedInterface.has_value());
+    EXPECT_EQ(small.derivedInterface->forces, 6);
     ASSERT_EQ(small.size(), 7 + 6);
     const Matrix k = small.model.stiffness.front().matrix, m = small.model.mass;
     const double size = k.bottomRightCorner(6, 6).cwiseAbs().maxCoeff();
     EXPECT_LT(k.topRightCorner(7, 6).cwiseAbs().maxCoeff(),
               1e-9 * std::sqrt(size * k.topLeftCorner(7, 7).cwiseAbs().maxCoeff()));
     EXPECT_LT((m.topLeftCorner(7, 7) - Matrix::Identity(7, 7)).norm(), 1e-10);
-    EXPECT_LT((Matrix(small.boundary->rows).rightCols(6) - k.bottomRightCorner(6, 6))
+    EXPECT_LT((Matrix(small.derivedInterface->rows).rightCols(6) - k.bottomRightCorner(6, 6))
                   .cwiseAbs()
                   .maxCoeff(),
               1e-9 * size)

@@ -15,11 +15,12 @@ namespace {
 using namespace tooljoint;
 using namespace tooljoint::reduction;
 
-Basis basisOf(const model::Substructure& part, int modes) {
+Basis basisOf(const model::Substructure& part, int modes,
+              const std::string& method = "Craig-Bampton") {
   ModeRequest request;
   request.kind = ModeRequest::Kind::Count;
   request.count = modes;
-  return makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(part, request);
+  return makeBasis(method, Teuchos::ParameterList())->build(part, request);
 }
 
 ReductionOptions with(InitialState state) {
@@ -58,6 +59,17 @@ TEST(FitState, IsTheLeastSquaresSolution) {
   const Vector inside = basis.vectors * q;
   EXPECT_LT((fitState(basis, inside) - q).norm(), 1e-12)
       << "a state inside the basis is met exactly";
+}
+
+// The forces on the interface are coordinates behind the modes: a motion of the modes has none.
+TEST(FitState, LeavesInterfaceForcesZero) {
+  auto part = samples::bar("free", 1, 8, 3.0, 2.0);
+  samples::classify(part, {1, 9});
+  const Basis basis = basisOf(part, 3, "Dual Craig-Bampton");
+  ASSERT_EQ(basis.forces(), 2);
+  Vector expected = Vector::Zero(5);
+  expected.head(3) << 0.5, -2, 1;
+  EXPECT_LT((fitState(basis, basis.vectors * expected) - expected).norm(), 1e-12);
 }
 
 TEST(KeepStatic, StartsAtRestInTheStaticState) {

@@ -68,8 +68,8 @@ TEST(Krylov, FirstVectorsOfABarSpanWhatTheInertiaOfStraightMotionBends) {
 }
 
 TEST(Krylov, VectorsThatRepeatAreDeflated) {
-  // Both ends of two equal bars tied to one kept dof each: the second retained dof in the middle
-  // cuts them; blocks shrink to what is new.
+  // Both ends of two equal bars tied to one boundary dof each: the second retained dof in the
+  // middle cuts them; blocks shrink to what is new.
   auto part = bar(8);
   part.retained = {4};
   const auto basis = build(part, -1);  // two links of three dofs
@@ -114,7 +114,7 @@ TEST(Krylov, AResonanceIsNamed) {
     FAIL() << "a singular dynamic stiffness was accepted";
   } catch (const ModelError& error) {
     EXPECT_NE(
-        std::string(error.what()).find("natural frequency of the part with its kept dofs held"),
+        std::string(error.what()).find("natural frequency of the part with its boundary dofs held"),
         std::string::npos)
         << error.what();
   }

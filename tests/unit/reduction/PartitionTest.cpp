@@ -26,25 +26,25 @@ TEST(Partition, SortsInterfaceRetainedInterior) {
   auto part = samples::bar("bar", 1, 6, 1.0, 1.0);
   samples::classify(part, {1, 7}, {4});
   const Partition p = partition(part);
-  EXPECT_EQ(p.kept, (std::vector<int>{0, 6, 3}));
+  EXPECT_EQ(p.boundary, (std::vector<int>{0, 6, 3}));
   EXPECT_EQ(p.interior, (std::vector<int>{1, 2, 4, 5}));
 }
 
-TEST(Partition, FindsTheLinksBetweenKeptDofs) {
+TEST(Partition, FindsTheBlocksBetweenBoundaryDofs) {
   auto part = samples::bar("bar", 1, 6, 1.0, 1.0);
   samples::classify(part, {1, 7}, {4});
   const Partition p = partition(part);
-  EXPECT_EQ(p.links, (std::vector<std::vector<int>>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(p.ends, (std::vector<std::vector<int>>{{0, 2}, {1, 2}}))
-      << "indices into kept = {node 1, node 7, node 4}";
+  EXPECT_EQ(p.blocks, (std::vector<std::vector<int>>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(p.touched, (std::vector<std::vector<int>>{{0, 2}, {1, 2}}))
+      << "indices into boundary = {node 1, node 7, node 4}";
 }
 
-TEST(Partition, MassAloneAlsoLinks) {
+TEST(Partition, MassAloneAlsoCouples) {
   auto part = samples::bar("bar", 1, 3, 1.0, 1.0);
   part.model.stiffness.own().front().matrix = Sparse(4, 4);  // no stiffness at all
   samples::classify(part, {1});
-  EXPECT_EQ(partition(part).links.size(), 1u);
-  EXPECT_TRUE(partition(part).ends.front().empty());
+  EXPECT_EQ(partition(part).blocks.size(), 1u);
+  EXPECT_TRUE(partition(part).touched.front().empty());
 }
 
 TEST(Partition, OnlyTheConstantStiffnessMakesTheBasis) {

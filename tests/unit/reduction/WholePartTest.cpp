@@ -30,7 +30,7 @@ TEST(WholePart, HasTheMatricesOfThePartInTheOrderOfItsKeptDofs) {
     EXPECT_EQ(whole.size(), part.size());
     EXPECT_EQ(whole.modes, 0);
     EXPECT_EQ(whole.interface, static_cast<int>(parts[1].interface.size()));
-    const auto& order = whole.basis->partition.kept;
+    const auto& order = whole.basis->partition.boundary;
     const Sparse K = reduction::block(reduction::constantStiffness(part), order, order);
     EXPECT_EQ(Matrix(whole.model.mass), Matrix(reduction::block(part.mass, order, order))) << name;
     EXPECT_LE((Matrix(reduction::constantStiffness(whole.model)) - Matrix(K)).cwiseAbs().maxCoeff(),

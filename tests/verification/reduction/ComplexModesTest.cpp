@@ -90,9 +90,9 @@ TEST(ComplexModes, GiveBetterDampedEigenvaluesThanRealOnes) {
   }
 }
 
-// With the kept dofs held and no others, an eigenvalue of the part is one of the reduced part as
-// long as both halves of its mode are in the basis (Galerkin with an exact vector in the span): the
-// fixed-interface s are exact, which real modes do not give.
+// With the boundary dofs held and no others, an eigenvalue of the part is one of the reduced part
+// as long as both halves of its mode are in the basis (Galerkin with an exact vector in the span):
+// the fixed-interface s are exact, which real modes do not give.
 TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
   auto part = rotor("left", 1, 20, 1.2, 4.0);
   samples::classify(part, {}, {1, 21});
@@ -104,7 +104,7 @@ TEST(ComplexModes, HoldTheFixedInterfaceEigenvalues) {
   const Basis basis = makeBasis("Complex Craig-Bampton", list)->build(part, request);
   const Partition& p = basis.partition;
   std::vector<int> modal;
-  for (int k = 0; k < basis.modes(); ++k) modal.push_back(static_cast<int>(p.kept.size()) + k);
+  for (int k = 0; k < basis.modes(); ++k) modal.push_back(static_cast<int>(p.boundary.size()) + k);
   const Matrix V = block(basis.vectors, p.interior, modal);
   const auto inner = [&](const Sparse& A) { return Matrix(block(A, p.interior, p.interior)); };
   const Matrix M = inner(part.model.mass), C = inner(part.model.dampingAt(1.0)),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// What every basis with constraint modes owes, whatever its modal vectors are: with all of them
-/// the model is the full one, floating parts stay free, loads on kept dofs are answered exactly,
-/// and frequencies come from above.
+/// the model is the full one, floating parts stay free, loads on boundary dofs are answered
+/// exactly, and frequencies come from above.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <fstream>

@@ -18,13 +18,13 @@ using namespace tooljoint::reduction;
 
 using constants::twoPi;
 
-/// A part as dense blocks: kept dofs C, interior I.
+/// A part as dense blocks: boundary dofs C, interior I.
 struct Blocks {
   Matrix CC, CI, IC, II;
   Blocks(const Sparse& A, const Partition& p)
-      : CC(block(A, p.kept, p.kept)),
-        CI(block(A, p.kept, p.interior)),
-        IC(block(A, p.interior, p.kept)),
+      : CC(block(A, p.boundary, p.boundary)),
+        CI(block(A, p.boundary, p.interior)),
+        IC(block(A, p.interior, p.boundary)),
         II(block(A, p.interior, p.interior)) {}
 };
 
@@ -49,7 +49,7 @@ struct Series {
 };
 
 model::Substructure beam(bool spinning) {
-  auto part = samples::loopFrame(12, spinning)[2];  // both ends are interfaces: 6 kept dofs
+  auto part = samples::loopFrame(12, spinning)[2];  // both ends are interfaces: 6 boundary dofs
   return part;
 }
 
@@ -76,15 +76,15 @@ Pair series(const model::Substructure& part, int modes, double hertz, bool dampe
                z1 = damped ? Sparse(C + 2.0 * s0 * M) : M, z2 = damped ? M : none;
   const Partition& p = basis.partition;
   Partition q;
-  for (int i = 0; i < static_cast<int>(p.kept.size()); ++i) q.kept.push_back(i);
-  for (int i = 0; i < modes; ++i) q.interior.push_back(static_cast<int>(p.kept.size()) + i);
+  for (int i = 0; i < static_cast<int>(p.boundary.size()); ++i) q.boundary.push_back(i);
+  for (int i = 0; i < modes; ++i) q.interior.push_back(static_cast<int>(p.boundary.size()) + i);
   const auto projected = [&](const Sparse& A) {
     return Blocks(Sparse(Phi.transpose() * (A * Phi).eval()), q);
   };
   Pair pair{Series(Blocks(z0, p), Blocks(z1, p), Blocks(z2, p), count),
             Series(projected(z0), projected(z1), projected(z2), count)};
   // Interior of the reduced part in its dofs: psi delta_k0 + V X_k
-  const Matrix V = block(Phi, p.interior, q.interior), psi = block(Phi, p.interior, q.kept);
+  const Matrix V = block(Phi, p.interior, q.interior), psi = block(Phi, p.interior, q.boundary);
   for (std::size_t k = 0; k < pair.small.interior.size(); ++k)
     pair.small.interior[k] =
         V * pair.small.interior[k] + (k == 0 ? psi : Matrix(Matrix::Zero(psi.rows(), psi.cols())));
@@ -166,7 +166,7 @@ double feltError(const std::string& basisName, double hertz) {
             A.bottomRightCorner(rest, rest).partialPivLu().solve(A.bottomLeftCorner(rest, kept)));
   };
   const Partition& p = basis.partition;
-  std::vector<int> order = p.kept;
+  std::vector<int> order = p.boundary;
   order.insert(order.end(), p.interior.begin(), p.interior.end());
   return difference(felt(Matrix(basis.vectors.transpose() * (Z * basis.vectors).eval()), 6),
                     felt(Matrix(block(Z, order, order)), 6));

@@ -34,9 +34,9 @@ Vector omegas(const model::SecondOrderModel& m) {
   return linalg::symmetricModes(Matrix(m.stiffnessAt(0)), Matrix(m.mass)).values.cwiseSqrt();
 }
 
-// A clamped-free rod of unit length, EA = rho A = 1, kept dof at its free end. In the continuum the
-// constraint mode is x and the fixed-interface modes are sqrt(2) sin(k pi x), so with one mode m =
-// [1/3, s; s, 1], s = sqrt(2)/pi, k = diag(1, pi^2).
+// A clamped-free rod of unit length, EA = rho A = 1, boundary dof at its free end. In the continuum
+// the constraint mode is x and the fixed-interface modes are sqrt(2) sin(k pi x), so with one mode
+// m = [1/3, s; s, 1], s = sqrt(2)/pi, k = diag(1, pi^2).
 TEST(Rod, MatchesTheClosedFormOfTheContinuum) {
   auto rod = samples::bar("rod", 0, 400, 400.0, 1.0 / 400, {0});
   samples::classify(rod, {}, {400});
@@ -116,7 +116,7 @@ TEST(FreeBeam, KeepsItsSixRigidBodyModes) {
     auto pipe = freeBeam(8);
     samples::classify(pipe, {}, ends);
     for (int count : {0, 6, 99}) {
-      if (ends.empty() && count < 6) continue;  // without kept dofs, only modes are left
+      if (ends.empty() && count < 6) continue;  // without boundary dofs, only modes are left
       const auto small = reduced({pipe}, count)[0];
       EXPECT_EQ(small.report.zeroEnergyFull, 6);
       EXPECT_EQ(small.report.zeroEnergyReduced, 6)
@@ -134,7 +134,7 @@ TEST(FreeBeam, LateralModesComeInPairsThatAreNotCut) {
   EXPECT_EQ(reduced({pipe}, 3)[0].modes, 4);
   const Vector values = reduced({pipe}, 3)[0].basis->eigenvalues;
   EXPECT_NEAR(values[0], values[1], 1e-9 * values[0]);
-  EXPECT_EQ(reduced({pipe}, 3)[0].basis->partition.links.size(), 4u)
+  EXPECT_EQ(reduced({pipe}, 3)[0].basis->partition.blocks.size(), 4u)
       << "two planes, the axis and torsion are links of their own";
 }
 

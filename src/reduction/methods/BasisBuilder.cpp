@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/methods/BasisBuilder.hpp"
+
+namespace tooljoint::reduction {
+
+Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors) {
+  Basis basis;
+  addConstraintRows(part, part.partition(), part.constraintModes().residuals, basis);
+  setVectors(part.partition(), part.constraintModes().vectors, vectors, basis);
+  report(vectors, basis);
+  basis.orthonormal = true;
+  basis.removable = vectors.removable;
+  basis.orthogonality = vectors.orthogonality;
+  return basis;
+}
+
+void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,
+                Basis& basis) {
+  basis.partition = partition;
+  const int boundary = sizeOf(partition.boundary);
+  Triplets entries;
+  forEachEntry(psi, [&](int i, int j, double value) { entries.emplace_back(i, j, value); });
+  basis.eigenvalues.resize(vectors.kept);
+  basis.modeKind.clear();
+  for (int k = 0; k < vectors.kept; ++k) {
+    const ModalVector& vector = vectors.vectors[at(k)];
+    basis.eigenvalues[k] = vector.eigenvalue;
+    basis.modeKind.push_back(vector.kind);
+    const auto& positions = vectors.groups[at(vector.group)];
+    for (int i = 0; i < sizeOf(positions); ++i)
+      if (vector.shape[i] != 0.0)
+        entries.emplace_back(positions[at(i)], boundary + k, vector.shape[i]);
+  }
+  basis.vectors = sparse(partition.size, boundary + vectors.kept, entries);
+}
+
+void addConstraintRows(const PartView& part, const Partition& partition, const Vector& residuals,
+                       Basis& basis, const std::string& why) {
+  for (int j = 0; j < sizeOf(partition.boundary); ++j) {
+    const int position = partition.boundary[at(j)];
+    basis.rows.push_back({"constraint", part.dofName(position), 0, residuals[j], true,
+                          j < sizeOf(partition.interface)            ? "interface dof"
+                          : contains(part.part().retained, position) ? "retained dof"
+                                                                     : why});
+  }
+}
+
+void report(const InteriorVectors& vectors, Basis& basis) {
+  for (int k = 0; k < sizeOf(vectors.vectors); ++k) {
+    const ModalVector& vector = vectors.vectors[at(k)];
+    basis.rows.push_back({vector.kind,
+                          vector.name.empty() ? "vector " + std::to_string(k + 1) : vector.name,
+                          vector.shown(), vector.residual, k < vectors.kept,
+                          k < vectors.kept ? vector.why : "above the cut"});
+  }
+  basis.candidates = vectors.eigenvalues();
+  basis.complete = vectors.complete;
+  basis.method = vectors.method;
+  basis.remarks.insert(basis.remarks.end(), vectors.remarks.begin(), vectors.remarks.end());
+}
+
+}  // namespace tooljoint::reduction

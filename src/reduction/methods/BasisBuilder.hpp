@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Phi = [1 0; psi V] from constraint modes psi and vectors V of the interior.
+#pragma once
+
+#include <string>
+
+#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/vectors/InteriorVectors.hpp"
+
+namespace tooljoint::reduction {
+
+/// The basis of the constraint modes of `part` and the kept ones of `vectors`, with a row for each
+/// of them.
+Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors);
+
+/// Sets partition, Phi, eigenvalues and kinds of `basis`; the rest is left as it is. \param psi
+/// dofs of the part x boundary dofs
+void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,
+                Basis& basis);
+
+/// A row for every constraint mode. `why` is said of those whose dof is neither on the interface
+/// nor retained by the part.
+void addConstraintRows(const PartView& part, const Partition& partition, const Vector& residuals,
+                       Basis& basis, const std::string& why = "retained dof");
+
+/// A row for every vector, kept or not; candidates, `complete`, method and remarks of `basis`.
+void report(const InteriorVectors& vectors, Basis& basis);
+
+}  // namespace tooljoint::reduction

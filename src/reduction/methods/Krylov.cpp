@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Constraint modes and Krylov vectors of the interior driven by the boundary dofs.
+#include <Teuchos_ParameterList.hpp>
+
+#include "reduction/methods/BasisBuilder.hpp"
+#include "reduction/vectors/KrylovVectors.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+class Krylov : public ReductionMethod {
+ public:
+  explicit Krylov(const Teuchos::ParameterList& list)
+      : options_{list.get<double>("Expansion Frequency"), list.get<bool>("Damped"),
+                 list.get<double>("Time"), list.get<double>("Deflation")} {}
+
+  Basis build(const PartView& part, const ModeRequest& request) const override {
+    return fixedInterfaceBasis(part, krylovVectors(part, request, options_));
+  }
+
+ private:
+  KrylovOptions options_;
+};
+
+deck::ListSpec ownParameters() {
+  using deck::Range;
+  deck::ListSpec list(
+      "Krylov",
+      "Vectors that match moments of what the interior answers to motions of the boundary dofs.");
+  list.real("Expansion Frequency", "Hz", 0.0, Range::nonNegative(),
+            "Where moments are matched: at this frequency, or with \"Damped\" at s = 2 pi times "
+            "this on the real axis. Take the middle of the band of interest; "
+            "0 gives quasi-static vectors.")
+      .expert();
+  list.boolean("Damped", false,
+               "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) "
+               "instead of those of mass and stiffness alone.")
+      .expert();
+  list.real("Time", "s", 0.0, Range::any(),
+            "When damping that varies, as gyroscopics do with the speed, is looked at; used with "
+            "\"Damped\".");
+  list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
+            "The part of a vector, measured by mass, that must be new for the vector to be taken.")
+      .expert();
+  return list;
+}
+
+const bool registered = addMethod<Krylov>(
+    "Krylov",
+    "Constraint modes and Krylov vectors that match moments of the interior at one frequency "
+    "(Shyu, Ma and Hulbert 1997; Bai and Su 2005).",
+    ownParameters());
+
+}  // namespace
+
+}  // namespace tooljoint::reduction

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/part/PartView.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "model/DofNames.hpp"
+#include "reduction/part/InteriorStatics.hpp"
+
+namespace tooljoint::reduction {
+
+namespace {
+
+/// A value computed on first use.
+template <class T>
+class Lazy {
+ public:
+  template <class Make>
+  const T& get(const Make& make) {
+    if (!value_) value_.emplace(make());
+    return *value_;
+  }
+
+ private:
+  std::optional<T> value_;
+};
+
+bool sameEntries(const Sparse& a, const Sparse& b) {
+  return a.nonZeros() == b.nonZeros() && Sparse(a - b).norm() == 0.0;
+}
+
+}  // namespace
+
+/// What views of one part with different boundaries share.
+struct PartView::Stiffness {
+  Lazy<Sparse> full, symmetric;
+  Lazy<bool> isSymmetric;
+};
+
+/// Factors of a block; of one that floats, with its zero-energy modes as a border.
+struct PartView::Factor {
+  linalg::DirectSolver solver;
+
+  Matrix solve(const Matrix& loads) const {
+    if (solver.size() == loads.rows()) return solver.solve(loads);
+    Matrix bordered = Matrix::Zero(solver.size(), loads.cols());
+    bordered.topRows(loads.rows()) = loads;
+    return solver.solve(bordered).topRows(loads.rows());
+  }
+};
+
+struct PartView::State {
+  struct Block {
+    Lazy<InteriorBlock> block;
+    Lazy<Factor> full, symmetric;
+  };
+
+  State(std::shared_ptr<Stiffness> K, std::vector<int> joined, std::vector<int> held)
+      : stiffness(std::move(K)), interface(std::move(joined)), retained(std::move(held)) {}
+
+  std::shared_ptr<Stiffness> stiffness;
+  std::vector<int> interface, retained;
+  Lazy<Partition> partition;
+  Lazy<Sparse> interiorStiffness, symmetricInteriorStiffness, interiorMass;
+  std::vector<Block> blocks;
+  Lazy<ConstraintModes> constraintModes;
+  Lazy<PartView> unsupported;
+};
+
+PartView::PartView(const model::Substructure& part)
+    : PartView(part, std::make_shared<State>(std::make_shared<Stiffness>(), part.interface,
+                                             part.retained)) {}
+
+PartView::PartView(const model::Substructure& part, std::shared_ptr<State> state)
+    : part_(&part), state_(std::move(state)) {}
+
+PartView PartView::withBoundary(std::vector<int> interface, std::vector<int> retained,
+                                bool symmetric) const {
+  if (!symmetric && interface == state_->interface && retained == state_->retained) return *this;
+  auto stiffness = state_->stiffness;
+  if (symmetric) {
+    stiffness = std::make_shared<Stiffness>();
+    stiffness->full.get([&] { return symmetricStiffness(); });
+  }
+  return {*part_, std::make_shared<State>(stiffness, std::move(interface), std::move(retained))};
+}
+
+const PartView& PartView::unsupported() const {
+  if (state_->interface.empty() && state_->retained.empty()) return *this;
+  return state_->unsupported.get([&] { return withBoundary({}, {}); });
+}
+
+std::string PartView::dofName(Eigen::Index position) const {
+  return model::dofName(model(), position);
+}
+
+std::string PartView::who(const std::string& what) const {
+  return "Part \"" + part_->name + "\"" + (what.empty() ? "" : ", " + what) + ": ";
+}
+
+const Partition& PartView::partition() const {
+  return state_->partition.get([&] {
+    const Sparse& K = stiffness();
+    return reduction::partition(model(), K, state_->interface, state_->retained);
+  });
+}
+
+const Sparse& PartView::stiffness() const {
+  return state_->stiffness->full.get([&] {
+    checkPart(*part_);
+    return constantStiffness(model());
+  });
+}
+
+const Sparse& PartView::symmetricStiffness() const {
+  return state_->stiffness->symmetric.get([&] { return symmetricPart(stiffness()); });
+}
+
+bool PartView::symmetric() const {
+  return state_->stiffness->isSymmetric.get([&] { return nearlySymmetric(stiffness(), 1e-13); });
+}
+
+const Sparse& PartView::interiorStiffness() const {
+  return state_->interiorStiffness.get(
+      [&] { return block(stiffness(), partition().interior, partition().interior); });
+}
+
+const Sparse& PartView::symmetricInteriorStiffness() const {
+  return state_->symmetricInteriorStiffness.get(
+      [&] { return block(symmetricStiffness(), partition().interior, partition().interior); });
+}
+
+const Sparse& PartView::interiorMass() const {
+  return state_->interiorMass.get(
+      [&] { return block(mass(), partition().interior, partition().interior); });
+}
+
+const InteriorBlock& PartView::interiorBlock(int number) const {
+  const Partition& p = partition();
+  state_->blocks.resize(p.blocks.size());
+  return state_->blocks[at(number)].block.get([&] {
+    InteriorBlock b;
+    b.indices = p.blocks[at(number)];
+    b.touched = p.touched[at(number)];
+    for (int i : b.indices) b.positions.push_back(p.interior[at(i)]);
+    b.stiffness = block(stiffness(), b.positions, b.positions);
+    b.symmetricStiffness = block(symmetricStiffness(), b.positions, b.positions);
+    b.mass = block(mass(), b.positions, b.positions);
+    b.name = model::namer(model(), b.positions);
+    return b;
+  });
+}
+
+std::vector<std::vector<int>> PartView::blockPositions() const {
+  std::vector<std::vector<int>> positions;
+  for (int i = 0; i < blocks(); ++i) positions.push_back(interiorBlock(i).positions);
+  return positions;
+}
+
+const PartView::Factor& PartView::factor(int number, bool symmetric) const {
+  const InteriorBlock& b = interiorBlock(number);
+  State::Block& cached = state_->blocks[at(number)];
+  const bool own = symmetric && !sameEntries(b.stiffness, b.symmetricStiffness);
+  return (own ? cached.symmetric : cached.full).get([&] {
+    const Sparse& K = own ? b.symmetricStiffness : b.stiffness;
+    const Matrix floating = b.floats() ? floatingModes(b) : Matrix(K.rows(), 0);
+    const Matrix border = b.mass * floating;
+    try {
+      return Factor{
+          linalg::DirectSolver(border.cols() > 0 ? bordered(K, border, border) : K, b.name)};
+    } catch (const ModelError& error) {
+      throw ModelError(who() + "its interior is a mechanism while its " +
+                       std::to_string(partition().boundary.size()) +
+                       " interface and retained dofs are held" +
+                       (own ? " (with the symmetric part of its stiffness)" : "") +
+                       ". Retain more dofs there, or cut the part elsewhere. " + error.what());
+    }
+  });
+}
+
+Matrix PartView::solve(const Matrix& loads, bool symmetric) const {
+  Matrix x = Matrix::Zero(loads.rows(), loads.cols());
+  for (int i = 0; i < blocks(); ++i) {
+    const auto& indices = partition().blocks[at(i)];
+    const Matrix f = loads(indices, Eigen::all);
+    if (!f.isZero(0.0)) x(indices, Eigen::all) = factor(i, symmetric).solve(f);
+  }
+  return x;
+}
+
+Matrix PartView::solveInterior(const Matrix& loads) const { return solve(loads, false); }
+Matrix PartView::solveSymmetricInterior(const Matrix& loads) const { return solve(loads, true); }
+Matrix PartView::solveBlock(int number, const Matrix& loads) const {
+  return factor(number, false).solve(loads);
+}
+
+const ConstraintModes& PartView::constraintModes() const {
+  return state_->constraintModes.get([&] { return reduction::constraintModes(*this); });
+}
+
+}  // namespace tooljoint::reduction

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Vectors of the interior of a part, whatever they come from: modes, Krylov vectors, files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/Indexing.hpp"
+#include "reduction/selection/ModeChoice.hpp"
+
+namespace tooljoint::reduction {
+
+/// A vector with values on the dofs of one group, zero everywhere else.
+struct ModalVector {
+  double eigenvalue = 0;  ///< omega^2 [rad^2/s^2], or the Ritz value; negative where it buckles
+  int group = 0;          ///< index into InteriorVectors::groups
+  Vector shape;           ///< dofs of the group, mass-normalised
+  double residual = 0;    ///< relative, of the equation that defines it, recomputed
+  std::string kind;
+  std::string why = "asked for";
+  std::string name = {};  ///< "vector k" when empty
+  bool floating = false;  ///< moves without elastic energy: omega^2 is zero but for rounding
+  bool rigid = false;     ///< floating, and no skew stiffness acts on it
+
+  /// omega^2 for tables.
+  double shown() const { return floating || rigid ? 0.0 : eigenvalue; }
+};
+
+/// What one source of vectors found for a part.
+struct InteriorVectors {
+  std::vector<std::vector<int>> groups;  ///< dofs of the part, each increasing
+  std::vector<ModalVector> vectors;      ///< all that were computed, those to keep first
+  int kept = 0;                          ///< the first `kept` of them answer the request
+  bool complete = false;                 ///< `vectors` are all there are
+  bool removable = false;                ///< with fewer kept they answer a smaller request
+  double orthogonality = 0;              ///< max |V' M V - 1| over the groups
+  std::string method;                    ///< how they were computed, for tables
+  std::vector<std::string> remarks;      ///< sentences a user should read
+
+  Vector eigenvalues() const;
+  /// Number of rigid-body modes among `vectors`.
+  int rigid() const;
+  /// Vectors as columns, dofs of the part x `which`.
+  Matrix columns(const std::vector<int>& which, int size) const;
+  /// Keeps all vectors, by increasing eigenvalue.
+  void keepAll();
+  /// Says where fewer or more are kept than the request asks for. \param available all there are
+  void remarkOnCount(const ModeRequest& request, int available, const std::string& what = "modes");
+};
+
+}  // namespace tooljoint::reduction
