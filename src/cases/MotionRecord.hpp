@@ -23,6 +23,7 @@ struct Sample {
   const Vector& qDot;
   const Vector& displacement;  ///< rows of the recovery: offset + Phi q
   const Vector& velocity;      ///< Phi q'
+  const Vector& states;        ///< of the point laws, set by set; empty where no law has some
 };
 
 /// A time series of the results file.

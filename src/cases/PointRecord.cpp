@@ -3,22 +3,30 @@
 
 #include <algorithm>
 
+#include "model/laws/StatefulPointLaw.hpp"
+
 namespace tooljoint::cases {
 
-PointRecord::PointRecord(const model::PointSet& set)
+PointRecord::PointRecord(const model::SecondOrderModel& model, const model::PointSet& set)
     : set_(&set),
       channels_(set.law->channels()),
       rows_(set.rows),
       d_(set.offset),
       v_(set.offset),
-      values_(Vector::Zero(static_cast<Eigen::Index>(channels_.size()) * set.law->size())) {}
+      values_(Vector::Zero(static_cast<Eigen::Index>(channels_.size()) * set.law->size())) {
+  for (const auto& before : model.points) {
+    if (&before == &set) break;
+    firstState_ += model::stateSize(*before.law);
+  }
+}
 
 void PointRecord::sample(const Sample& sample) {
   // d = offset + R q, v = R q'
   rows_.multiply(sample.q, d_);
   d_ += set_->offset;
   rows_.multiply(sample.qDot, v_);
-  set_->law->record(sample.t, d_.data(), v_.data(), values_.data());
+  model::record(*set_->law, sample.t, d_.data(), v_.data(), sample.states.data() + firstState_,
+                values_.data());
 }
 
 int PointRecord::find(const std::string& name) const {

@@ -13,8 +13,8 @@ namespace tooljoint::cases {
 
 class PointRecord {
  public:
-  /// The set must outlive the record.
-  explicit PointRecord(const model::PointSet& set);
+  /// `set` is one of the model's, which must outlive the record.
+  PointRecord(const model::SecondOrderModel& model, const model::PointSet& set);
 
   /// Evaluates the channels of the law at this sample.
   void sample(const Sample& sample);
@@ -30,6 +30,7 @@ class PointRecord {
 
  private:
   const model::PointSet* set_;
+  Eigen::Index firstState_ = 0;  ///< of the set among the states of the model
   std::vector<model::Channel> channels_;
   linalg::GroupedRows rows_;
   Vector d_, v_, values_;

@@ -6,7 +6,7 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
-#include "model/Friction.hpp"
+#include "model/laws/Friction.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::coupling {

@@ -62,6 +62,10 @@ struct MotionEstimator::Impl {
           "of the coupled model: without interface reduction, "
           "coordinates that follow others (\"Residual Coordinates\" = \"Tied\") and dual assembly. "
           "Leave \"Error Estimate\" at \"Frequencies\".");
+    if (compiled.stateSize() > 0)
+      throw ModelError(
+          "The error of the motion cannot be estimated for point laws with states. Leave \"Error "
+          "Estimate\" at \"Frequencies\".");
     std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p],

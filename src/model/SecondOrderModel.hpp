@@ -14,10 +14,10 @@
 
 #include "common/Types.hpp"
 #include "model/DofLabel.hpp"
-#include "model/PointLaw.hpp"
 #include "model/ScalarLaw.hpp"
 #include "model/SharedList.hpp"
 #include "model/SharedSparse.hpp"
+#include "model/laws/PointLaw.hpp"
 
 namespace tooljoint::model {
 

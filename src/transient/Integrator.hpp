@@ -17,10 +17,15 @@ namespace tooljoint::transient {
 /// Motion at one time; vectors in positions of the compiled model.
 struct State {
   double t = 0;
-  Vector q;  ///< displacement
-  Vector v;  ///< velocity
-  Vector a;  ///< acceleration
-  void resize(int n) { q.setZero(n), v.setZero(n), a.setZero(n); }
+  Vector q;     ///< displacement
+  Vector v;     ///< velocity
+  Vector a;     ///< acceleration
+  Vector x;     ///< states of point laws, CompiledModel::stateSize()
+  Vector xDot;  ///< their rates, 0 for held ones
+  void resize(int n, int states = 0) {
+    for (Vector* each : {&q, &v, &a}) each->setZero(n);
+    for (Vector* each : {&x, &xDot}) each->setZero(states);
+  }
 };
 
 /// What was done, counted; nothing is hidden.
@@ -60,6 +65,10 @@ class Integrator {
   /// True when the step is bounded by the largest frequency of the model.
   virtual bool isExplicit() const { return false; }
 
+  /// Whether steps carry the states of point laws: `to.x` and `to.xDot` from those of `from`. A
+  /// model with states is refused otherwise.
+  virtual bool carriesPointStates() const { return false; }
+
   /// Every how many steps the energy ledger has to look, for steps that are short beside what
   /// moves.
   virtual int ledgerStride() const { return 1; }
@@ -71,9 +80,9 @@ class Integrator {
   /// the deck gives none). Throws DeckError.
   virtual void checkParameters(double /*step*/) const {}
 
-  /// Bind to a model and complete state.a from state.{t, q, v}. The model must outlive the
-  /// integrator. Throws ModelError for a model this integrator cannot treat (a singular mass matrix
-  /// for an explicit one).
+  /// Bind to a model and complete state.a (and state.xDot) from state.{t, q, v, x}. The model must
+  /// outlive the integrator. Throws ModelError for a model this integrator cannot treat (a singular
+  /// mass matrix for an explicit one).
   virtual void prepare(CompiledModel& model, const Window& window, State& state) = 0;
 
   /// One accepted step: writes `to` (all vectors sized already). Allocates nothing. Throws

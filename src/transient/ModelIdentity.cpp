@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/Sha256.hpp"
+#include "model/laws/StatefulPointLaw.hpp"
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::transient {
@@ -70,24 +71,55 @@ void addLaws(const model::SecondOrderModel& model, const TransientOptions& optio
   }
 }
 
+/// The forces of a law whose states, if it has any, are those of a start.
+class ForcesAtStart {
+ public:
+  ForcesAtStart(const model::PointLaw& law, double t, const Vector& d, const Vector& v)
+      : law_(law), stateful_(model::stateful(law)), t_(t) {
+    for (int p = 0; p < law.size(); ++p) all_.push_back(p);
+    if (stateful_ == nullptr) return;
+    x_.setZero(law.size() * stateful_->states());
+    g_.setZero(law.size() * stateful_->rated());
+    stateful_->initialState(t, d.data(), v.data(), x_.data());
+  }
+  const std::vector<int>& points() const { return all_; }
+
+  void add(const Vector& d, const Vector& v, Bytes& bytes) {
+    Vector force = Vector::Zero(d.size());
+    if (stateful_ == nullptr) {
+      law_.evaluate(t_, all_, d.data(), v.data(), force.data());
+    } else {
+      stateful_->forces(t_, all_, d.data(), v.data(), x_.data(), force.data(), g_.data());
+      bytes.add(x_);
+      bytes.add(g_);
+    }
+    bytes.add(force);
+  }
+
+ private:
+  const model::PointLaw& law_;
+  const model::StatefulPointLaw* stateful_;
+  double t_;
+  std::vector<int> all_;
+  Vector x_, g_;
+};
+
 /// Forces at the start, and with every point moved just beyond its clearance, each way along each
 /// coordinate that decides about it.
 void addPoints(const model::PointSet& set, const model::SecondOrderModel& model, double t,
                Bytes& bytes) {
   const auto& law = *set.law;
   const int width = law.width();
-  std::vector<int> all;
-  for (int p = 0; p < law.size(); ++p) all.push_back(p);
   bytes.add(set.name);
   for (auto entity : set.entities) bytes.add(entity);
   bytes.add(set.rows);
   bytes.add(set.offset);
   const Vector start = set.offset + set.rows * model.initialDisplacement;
-  Vector clearance = Vector::Zero(law.size()), force = Vector::Zero(start.size()),
-         velocity = set.rows * model.initialVelocity;
-  law.evaluate(t, all, start.data(), velocity.data(), force.data());
-  law.clearanceLeft(all, start.data(), clearance.data());
-  bytes.add(force);
+  const Vector velocity = set.rows * model.initialVelocity;
+  Vector clearance = Vector::Zero(law.size());
+  ForcesAtStart forces(law, t, start, velocity);
+  forces.add(start, velocity, bytes);
+  law.clearanceLeft(forces.points(), start.data(), clearance.data());
   bytes.add(clearance);
   for (int c = 0; c < width; ++c)
     for (const double way : {1.0, -1.0}) {
@@ -97,9 +129,7 @@ void addPoints(const model::PointSet& set, const model::SecondOrderModel& model,
         d[p * width + c] += way * (gap + probeDepth);
         for (int k = 0; k < width; ++k) v[p * width + k] = way * probeSpeed * (k + 1);
       }
-      force.setZero();
-      law.evaluate(t, all, d.data(), v.data(), force.data());
-      bytes.add(force);
+      forces.add(d, v, bytes);
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
+#include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
@@ -39,7 +40,7 @@ class Sampler {
         interval_(options.sampling),
         sink_(sink),
         count_(done) {
-    middle_.resize(model.size());
+    middle_.resize(model.size(), model.stateSize());
     for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.size());
   }
   long count() const { return count_; }
@@ -68,12 +69,14 @@ class Sampler {
     middle_.q = h00 * from.q + h10 * from.v + h01 * to.q + h11 * to.v;
     middle_.v = h00 * from.v + h10 * from.a + h01 * to.v + h11 * to.a;
     middle_.a = (1 - x) * from.a + x * to.a;
+    model_.blendStates(from.x, to.x, x, from.x, middle_.x);
     return middle_;
   }
   void give(double t, const State& state) {
     model_.toDofs(state.q, q_);
     model_.toDofs(state.v, v_);
     model_.toDofs(state.a, a_);
+    if (model_.stateSize() > 0) sink_.states(state.x);
     sink_.sample(t, q_, v_, a_);
     ++count_;
   }
@@ -89,6 +92,9 @@ class Sampler {
 /// Not a number, infinite or absurdly large: say when and where.
 void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from,
                  const State& to) {
+  if (!to.x.allFinite())
+    throw ConvergenceError("A state of a point law is not a number after the step from t = " +
+                           formatNumber(from.t) + " s. " + integrator.advice() + ".");
   const double size = to.q.cwiseAbs().sum() + to.v.cwiseAbs().sum() * 1e-6;
   if (std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp)) return;
   const int q = worstPosition(to.q);
@@ -118,8 +124,8 @@ class Run {
         model_(model),
         integrator_(IntegratorRegistry::instance().make(options.integrator, options.own)),
         sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
-    state_.resize(model_.size());
-    next_.resize(model_.size());
+    state_.resize(model_.size(), model_.stateSize());
+    next_.resize(model_.size(), model_.stateSize());
   }
 
   TransientReport go() {
@@ -148,7 +154,8 @@ class Run {
       log::warn(std::to_string(report.counters.unconvergedSteps) + " of " +
                 std::to_string(report.counters.steps) +
                 " steps were kept although Newton had not converged "
-                "(Transient/Generalized-alpha/Accept Unconverged is true).");
+                "(Transient/" +
+                options_.integrator + "/Accept Unconverged is true).");
     return report;
   }
 
@@ -159,6 +166,7 @@ class Run {
     model_.toPositions(source.initialDisplacement, state_.q);
     model_.toPositions(source.initialVelocity, state_.v);
     model_.setTime(state_.t);
+    if (model_.stateSize() > 0) startStates();
     integrator_->prepare(model_, {options_.start, options_.end, options_.sampling, options_.step},
                          state_);
     if (hooks_.resume != nullptr) {
@@ -171,12 +179,32 @@ class Run {
     if (hooks_.keep && !integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
   }
 
+  void startStates() {
+    if (!integrator_->carriesPointStates()) {
+      std::vector<std::string> others;
+      for (const auto& [name, entry] : IntegratorRegistry::instance().entries())
+        if (entry.make(Teuchos::ParameterList())->carriesPointStates()) others.push_back(name);
+      throw ModelError("The integrator \"" + options_.integrator +
+                       "\" does not carry the states of point laws, but the law of \"" +
+                       firstWithStates() +
+                       "\" has states. Integrators that do: " + quotedList(others) + ".");
+    }
+    model_.initialStates(state_.t, state_.q.data(), state_.v.data(), state_.x.data());
+  }
+
+  std::string firstWithStates() const {
+    for (const auto& batch : model_.points())
+      if (batch.states() != nullptr && batch.states()->size() > 0) return batch.name();
+    return "";
+  }
+
   void resume(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
                       "\", the deck asks for \"" + options_.integrator +
                       "\". Restart with the same deck.");
-    if (point.state.q.size() != model_.size() || point.model != identity())
+    if (point.state.q.size() != model_.size() || point.state.x.size() != model_.stateSize() ||
+        point.model != identity())
       throw DeckError(
           "The checkpoint belongs to another model, or to other steps, than this deck describes. "
           "Restart with the same deck.");

@@ -25,6 +25,10 @@ class SampleSink {
  public:
   virtual ~SampleSink() = default;
   virtual void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) = 0;
+  /// States of the point laws of the next sample, set by set in the order of the model's points;
+  /// called only for a model that has some. What records laws with states needs them
+  /// (model::record()).
+  virtual void states(const Vector& /*x*/) {}
 };
 
 /// What happened; counts and seconds of this run (a restarted run counts on from its checkpoint).

@@ -13,17 +13,23 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
-#include "model/PointLaw.hpp"
+#include "model/laws/PointLaw.hpp"
 #include "substructures/contact/ContactPoints.hpp"
 
 namespace tooljoint::contact {
 
-/// e of the regularised radius [m].
-inline constexpr double axisRadius = 1e-9;
 /// A law whose tail (the force on a node far from the wall) is below this [N] lets nodes be
 /// skipped.
 inline constexpr double negligibleForce = 1e-3;
+
+/// Components of a node (0-based, of u, v, w, theta_x, theta_y, theta_z) that a contact law of this
+/// width acts on: u, v, theta_z, or u, v, w, theta_z.
+inline std::vector<int> contactComponents(int width) {
+  if (width == 4) return {0, 1, 2, 5};
+  return {0, 1, 5};
+}
 
 /// Rotary speed of the string [rad/s] at time t [s].
 using RotarySpeed = std::function<double(double)>;

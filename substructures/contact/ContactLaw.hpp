@@ -22,7 +22,8 @@ class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
   /// Contact and friction in motion; `speed` is the rotary speed of the string.
-  virtual std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points,
+  /// Coordinates are those of contactComponents().
+  virtual std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
                                                           RotarySpeed speed) const = 0;
   /// Contact and full sliding at rest.
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;

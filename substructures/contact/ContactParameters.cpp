@@ -6,6 +6,8 @@
 
 #include "common/Text.hpp"
 #include "deck/Deck.hpp"
+#include "model/laws/PointLawRegistry.hpp"
+#include "substructures/contact/PointLawContact.hpp"
 
 namespace tooljoint::contact {
 namespace {
@@ -106,7 +108,14 @@ deck::ListSpec parameters() {
   const auto& registry = LawRegistry::instance();
   deck::ListSpec spec("Contact",
                       "Contact of the string with the wall; without this list there is none.");
-  spec.choice("Law", std::string("Clamped"), registry.names(), "Law of the normal force.");
+  const auto& pointLaws = model::PointLawRegistry::instance();
+  auto names = registry.names();
+  for (const auto& name : pointLaws.names()) names.push_back(name);
+  spec.choice("Law", std::string("Clamped"), names,
+              "Law of the normal force, or a point law with forces of its own (" +
+                  quotedList(pointLaws.names()) +
+                  "), which takes no other parameter of this list but Stiffness, as that of the "
+                  "wall in checks.");
   spec.real("Stiffness", "N/m", Required{}, Range::positive(), "Contact stiffness k_c.");
   spec.real("Damping", "N s/m", 0.0, Range::nonNegative(), "Contact damping c_c.");
   spec.real("Stiffness Regularisation", "1/m", 1e6, Range::positive(),
@@ -117,6 +126,8 @@ deck::ListSpec parameters() {
   spec.list(frictionSpec(true));
   for (const auto& [name, entry] : registry.entries())
     if (!entry.parameters.parameters().empty()) spec.list(entry.parameters);
+  for (const auto& [name, entry] : pointLaws.entries())
+    if (!entry.parameters.parameters().empty()) spec.list(entry.parameters);
   spec.list(deck::ListSpec("Intervals", "Stretches of the hole with other parameters.")
                 .namedLists(intervalSpec()));
   return spec;
@@ -125,9 +136,21 @@ deck::ListSpec parameters() {
 ContactSettings readContact(const Teuchos::ParameterList& list) {
   ContactSettings settings;
   settings.lawName = list.get<std::string>("Law");
-  const auto& entry = LawRegistry::instance().find(settings.lawName);
-  settings.law = entry.make(deck::variantList(list, settings.lawName, entry.parameters));
+  const auto own = [&](const deck::ListSpec& parameters) {
+    return deck::variantList(list, settings.lawName, parameters);
+  };
   takeValues(list, settings.values);
+  const auto& pointLaws = model::PointLawRegistry::instance().entries();
+  if (const auto it = pointLaws.find(settings.lawName); it != pointLaws.end()) {
+    for (const char* unused : {"Friction", "Intervals"})
+      if (list.isSublist(unused))
+        throw DeckError(list.name() + "/" + unused + " is not used by the law " + settings.lawName +
+                        ", which has its own forces. Leave it out.");
+    settings.law = pointLawContact(settings.lawName, own(it->second.parameters));
+    return settings;
+  }
+  const auto& entry = LawRegistry::instance().find(settings.lawName);
+  settings.law = entry.make(own(entry.parameters));
   if (settings.lawName == "Hunt-Crossley" && settings.values.damping > 0.0)
     throw DeckError(list.name() +
                     "/Damping is not used by the law Hunt-Crossley; give its Dissipation instead.");

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/Error.hpp"
-#include "substructures/contact/FrictionCurve.hpp"
+#include "model/laws/Coulomb.hpp"
 
 namespace tooljoint::contact {
 namespace {
@@ -63,7 +63,7 @@ ContactPoints ContactPoints::subset(const std::vector<int>& positions) const {
 ContactPoints ContactPoints::slidingAt(double omega) const {
   ContactPoints out = *this;
   for (std::size_t i = 0; i < out.muStatic.size(); ++i)
-    out.muStatic[i] = FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i])
+    out.muStatic[i] = model::FrictionCurve(muStatic[i], muDynamic[i], regularisationVelocity[i])
                           .value(std::abs(omega) * contactRadius[i]);
   return out;
 }

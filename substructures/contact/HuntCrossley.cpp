@@ -2,58 +2,35 @@
 // Hunt and Crossley, J. Appl. Mech. 42 (1975): the damping grows with the penetration, so the force
 // starts and ends at zero.
 #include <Teuchos_ParameterList.hpp>
-#include <algorithm>
 
 #include "substructures/contact/LawKernel.hpp"
 
 namespace tooljoint::contact {
 namespace {
 
-/// F_n = k G^n (1 + chi G') for G > 0, never negative, zero for G <= 0. No regularisation.
+/// model::HuntCrossley without a transition. No regularisation.
 class HuntCrossleyKernel {
  public:
   explicit HuntCrossleyKernel(double exponent = 1.0, double dissipation = 0.0)
-      : n_(exponent), chi_(dissipation) {}
+      : law_(exponent, dissipation) {}
 
   void prepare(const ContactPoints& points) { k_ = points.stiffness; }
 
   double forceOnly(std::size_t i, double G, double rate) const {
-    if (G <= 0.0) return 0.0;
-    return std::max(0.0, k_[i] * G * power(G) * (1.0 + chi_ * rate));
+    return law_.forceOnly(k_[i], G, rate);
   }
-
   NormalForce force(std::size_t i, double G, double rate) const {
-    const double loss = 1.0 + chi_ * rate;
-    if (G <= 0.0 || loss <= 0.0) return {};
-    const double slope = k_[i] * power(G);
-    return {slope * G * loss, n_ * slope * loss, slope * G * chi_};
+    return law_.force(k_[i], G, rate);
   }
-
   double elastic(std::size_t i, double G, double, double& dG) const {
-    dG = 0.0;
-    if (G <= 0.0) return 0.0;
-    const double slope = k_[i] * power(G);
-    dG = n_ * slope;
-    return slope * G;
+    return law_.elastic(k_[i], G, dG);
   }
-
   double pull(std::size_t, double) const { return 0.0; }
-
-  double energy(std::size_t i, double G) const {
-    return G <= 0.0 ? 0.0 : k_[i] * G * G * power(G) / (n_ + 1.0);
-  }
-
-  double skin(std::size_t) const { return 0.0; }
+  double energy(std::size_t i, double G) const { return law_.energy(k_[i], G); }
+  double skin(std::size_t) const { return law_.reach(); }
 
  private:
-  /// G^(n-1)
-  double power(double G) const {
-    if (n_ == 1.0) return 1.0;
-    return n_ == 1.5 ? std::sqrt(G) : std::pow(G, n_ - 1.0);
-  }
-
-  double n_;
-  double chi_;
+  model::HuntCrossley law_;
   std::vector<double> k_;
 };
 

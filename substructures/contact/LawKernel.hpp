@@ -22,9 +22,11 @@
 
 #include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
-#include "model/Friction.hpp"
+#include "model/laws/Coulomb.hpp"
+#include "model/laws/Friction.hpp"
+#include "model/laws/HuntCrossley.hpp"
 #include "substructures/contact/ContactLaw.hpp"
-#include "substructures/contact/FrictionCurve.hpp"
+#include "substructures/contact/WallKinematics.hpp"
 
 namespace tooljoint::contact {
 
@@ -55,26 +57,8 @@ inline double angleMoment(double x) {
   return 0.5 * ((x * x + 1.0) * positiveAngle(x) - x);
 }
 
-/// F_n with its derivatives with respect to G and to the rate of G.
-struct NormalForce {
-  double value = 0.0;
-  double dG = 0.0;
-  double dRate = 0.0;
-};
-
-/// Where a point is: directions, penetration and its rate, tangential velocity.
-struct WallKinematics {
-  double nu, nv, inverse, penetration, rate, slip;
-  WallKinematics(double u, double v, double uDot, double vDot, double clearance) {
-    const double r = std::sqrt(u * u + v * v + axisRadius * axisRadius);
-    inverse = 1.0 / r;
-    nu = u * inverse;
-    nv = v * inverse;
-    penetration = r - clearance;
-    rate = nu * uDot + nv * vDot;
-    slip = nu * vDot - nv * uDot;
-  }
-};
+using model::FrictionCurve;
+using model::NormalForce;
 
 template <class Kernel>
 class BoreholeContactOf final : public BoreholeContact, public model::Frictional {
@@ -149,17 +133,7 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     return sum;
   }
 
-  std::vector<model::Channel> channels() const override {
-    std::vector<model::Channel> list = {
-        {"normal_force", "N",
-         "Normal contact force; positive pushes the string away from the wall"},
-        {"gap", "m", "Radial clearance left; negative is penetration"}};
-    if (!frictionless_) {
-      list.push_back({"tangential_force", "N", "Friction force on the string along (-v, u)/r"});
-      list.push_back({"friction_torque", "N m", "Friction torque on the string about its axis"});
-    }
-    return list;
-  }
+  std::vector<model::Channel> channels() const override { return contactChannels(!frictionless_); }
 
   void record(double t, const double* d, const double* v, double* out) const override {
     const double omega = frictionless_ ? 0.0 : speed_(t);
@@ -370,7 +344,7 @@ template <class Kernel>
 class ContactLawOf final : public ContactLaw {
  public:
   explicit ContactLawOf(Kernel kernel = Kernel()) : kernel_(std::move(kernel)) {}
-  std::shared_ptr<const BoreholeContact> inMotion(ContactPoints points,
+  std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
                                                   RotarySpeed speed) const override {
     return std::make_shared<BoreholeContactOf<Kernel>>(std::move(points), kernel_,
                                                        std::move(speed));

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "common/Error.hpp"
+#include "substructures/contact/BoreholeContact.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -48,11 +49,9 @@ Sparse assembleMatrices(const std::vector<beam::Matrix12>& matrices, const FreeD
   return sum;
 }
 
-/// Contact points of the nodes for which `take` holds; coordinates u, v, theta_z, an empty row
-/// where one is held.
+/// Contact points of the nodes for which `take` holds; an empty row where a coordinate is held.
 void addContact(const StringModel& string, const FreeDofs& dofs,
                 const std::function<bool(int)>& take, model::SecondOrderModel& model) {
-  constexpr int components[] = {0, 1, 5};
   std::vector<int> points;
   std::vector<int> nodes;
   for (std::size_t i = 0; i < string.contact.nodes.size(); ++i) {
@@ -65,15 +64,17 @@ void addContact(const StringModel& string, const FreeDofs& dofs,
   set.name = kContactSet;
   const bool all = points.size() == string.contact.nodes.size();
   set.law = all ? string.contact.law : string.contact.law->subset(points);
+  const auto components = contact::contactComponents(set.law->width());
+  const int width = static_cast<int>(components.size());
   Triplets triplets;
   for (std::size_t p = 0; p < nodes.size(); ++p) {
     set.entities.push_back(nodes[p] + 1);
-    for (int c = 0; c < 3; ++c) {
-      const int dof = dofs.of(kNodeDofs * nodes[p] + components[c]);
-      if (dof >= 0) triplets.emplace_back(3 * static_cast<int>(p) + c, dof, 1.0);
+    for (int c = 0; c < width; ++c) {
+      const int dof = dofs.of(kNodeDofs * nodes[p] + components[static_cast<std::size_t>(c)]);
+      if (dof >= 0) triplets.emplace_back(width * static_cast<int>(p) + c, dof, 1.0);
     }
   }
-  set.rows.resize(3 * static_cast<int>(nodes.size()), dofs.size());
+  set.rows.resize(width * static_cast<int>(nodes.size()), dofs.size());
   set.rows.setFromTriplets(triplets.begin(), triplets.end());
   set.offset = Vector::Zero(set.rows.rows());
   model.points.push_back(std::move(set));

@@ -38,7 +38,8 @@ struct NodalLoad {
   Vector vector;  ///< 6 nodes [N, N m]
 };
 
-/// A batch of contact points: coordinates u, v, theta_z of `nodes` (0-based, increasing).
+/// A batch of contact points at `nodes` (0-based, increasing), in the coordinates of
+/// contact::contactComponents().
 struct ContactBatch {
   std::shared_ptr<const model::PointLaw> law;  ///< null: no contact in this scene
   std::vector<int> nodes;

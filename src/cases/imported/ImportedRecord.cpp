@@ -33,7 +33,7 @@ std::string unitOf(const std::string& component) {
 ImportedRecord::ImportedRecord(const model::SecondOrderModel& model, bool forces)
     : components_(model.componentNames), row_(model.componentNames.size() + 1, 0.0) {
   if (!forces) return;
-  for (const auto& set : model.points) points_.emplace_back(set);
+  for (const auto& set : model.points) points_.emplace_back(model, set);
 }
 
 std::array<FieldText, 3> ImportedRecord::fields() const {

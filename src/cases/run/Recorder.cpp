@@ -66,7 +66,7 @@ void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vecto
   displacement_ += model_.recoveryOffset;
   recovery_.multiply(qDot, velocity_);
   if (accelerationSeries_) recovery_.multiply(qDDot, acceleration_);
-  record_->sample({t, q, qDot, displacement_, velocity_});
+  record_->sample({t, q, qDot, displacement_, velocity_, states_});
   table_.row(record_->row());
   tableSeries_->append(record_->row().data());
   time_.append(t);

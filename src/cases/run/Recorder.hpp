@@ -34,6 +34,7 @@ class Recorder : public transient::SampleSink {
            const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file);
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
+  void states(const Vector& x) override { states_ = x; }
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
@@ -55,7 +56,7 @@ class Recorder : public transient::SampleSink {
   const model::SecondOrderModel& model_;
   io::ResultsFile& file_;
   linalg::GroupedRows recovery_;
-  Vector displacement_, velocity_, acceleration_;
+  Vector displacement_, velocity_, acceleration_, states_;
   io::TimeSeries& time_;
   io::TimeSeries* displacementSeries_ = nullptr;
   io::TimeSeries* velocitySeries_ = nullptr;

@@ -25,6 +25,10 @@ class TeeSink : public transient::SampleSink {
     first_.sample(t, q, qDot, qDDot);
     second_.sample(t, q, qDot, qDDot);
   }
+  void states(const Vector& x) override {
+    first_.states(x);
+    second_.states(x);
+  }
 
  private:
   transient::SampleSink& first_;

@@ -55,7 +55,7 @@ struct Frame {
 /// A point law on dofs of any parts: coordinate r of the law is offset_r + sum_k factor_k d_k.
 struct Connector {
   std::string name;                            ///< of the point set
-  std::shared_ptr<const model::PointLaw> law;  ///< src/coupling/input/PointLaws.hpp, or any other
+  std::shared_ptr<const model::PointLaw> law;  ///< src/model/laws/Connectors.hpp, or any other
   std::vector<std::vector<Term>> rows;         ///< size() * width() of the law, point by point
   Vector offset;                               ///< likewise; zero if empty
 };

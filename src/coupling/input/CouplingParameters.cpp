@@ -12,6 +12,8 @@
 #include "common/Text.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/DofLookup.hpp"
+#include "deck/Deck.hpp"
+#include "model/laws/PointLawRegistry.hpp"
 
 namespace tooljoint::coupling {
 
@@ -174,41 +176,30 @@ PointInput readEnds(const ParameterList& list) {
   return input;
 }
 
-PointInput readSpring(const ParameterList& list) {
-  auto input = readEnds(list);
-  SpringParameters spring;
-  spring.stiffness = list.get<double>("Stiffness");
-  spring.cubicStiffness = list.get<double>("Cubic Stiffness");
-  spring.damping = list.get<double>("Damping");
-  if (spring.stiffness == 0.0 && spring.cubicStiffness == 0.0 && spring.damping == 0.0)
-    refuse(list.name(), "does nothing: give it a Stiffness, a Cubic Stiffness or a Damping.");
-  input.law = springs({spring});
-  return input;
+/// The law `name` with its parameters in `own`. Made once here, so that what is wrong with it is
+/// found before there are parts.
+void setLaw(PointInput& input, const std::string& name, const ParameterList& own) {
+  input.law = [name, own](int coordinates) -> std::shared_ptr<const model::PointLaw> {
+    return model::PointLawRegistry::instance().make(name, {own, 1, coordinates});
+  };
+  input.law(input.direction ? 3 : 1);
 }
 
-PointInput readStop(const ParameterList& list) {
+/// An entry of Springs, Stops or Sliders, which holds the parameters of its law.
+PointInput readConnector(const ParameterList& list, const char* law) {
   auto input = readEnds(list);
-  StopParameters stop;
-  stop.gap = list.get<double>("Gap");
-  stop.stiffness = list.get<double>("Stiffness");
-  stop.damping = list.get<double>("Damping");
-  stop.smoothing = list.get<double>("Smoothing");
-  stop.friction = list.get<double>("Friction");
-  stop.slipVelocity = list.get<double>("Slip Velocity");
-  if (stop.friction > 0) {
-    if (!input.direction)
-      refuse(list.name() + "/Friction",
-             "needs a Direction, across which it slides, but the stop has a Component.");
-    input.sliding = stop;
-  } else {
-    input.law = stops({stop});
-  }
+  setLaw(input, law, list);
   return input;
 }
+PointInput readSpring(const ParameterList& list) { return readConnector(list, "Spring"); }
+PointInput readStop(const ParameterList& list) { return readConnector(list, "Stop"); }
+PointInput readSlider(const ParameterList& list) { return readConnector(list, "Slider"); }
 
-PointInput readSlider(const ParameterList& list) {
+PointInput readPointLaw(const ParameterList& list) {
   auto input = readEnds(list);
-  input.law = frictions({{list.get<double>("Force"), list.get<double>("Slip Velocity")}});
+  const auto type = list.get<std::string>("Type");
+  const auto& entry = model::PointLawRegistry::instance().find(type);
+  setLaw(input, type, deck::variantList(list, type, entry.parameters));
   return input;
 }
 
@@ -295,6 +286,7 @@ CouplingInput readCoupling(const ParameterList& list) {
   readAll(list, "Springs", readSpring, input.points, faults);
   readAll(list, "Stops", readStop, input.points, faults);
   readAll(list, "Sliders", readSlider, input.points, faults);
+  readAll(list, "Point Laws", readPointLaw, input.points, faults);
   if (!input.joints.empty() && !input.ownNumbers)
     faults.push_back(list.name() +
                      "/Joints has no effect while node numbers are shared: equal numbers are "

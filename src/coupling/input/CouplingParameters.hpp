@@ -4,12 +4,13 @@
 /// turned into connections when the parts are there, wherever they came from.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/input/Connections.hpp"
-#include "coupling/input/PointLaws.hpp"
 #include "deck/ListSpec.hpp"
 
 namespace Teuchos {
@@ -45,15 +46,15 @@ struct HingeInput : InputEntry {
   PartNode first, second;
   Vector3 axis = Vector3::UnitZ();
 };
-/// A point law of width 1, or of width 1 + tangents for a stop with friction.
+/// A point law along a direction, on a component, or along a direction and across it.
 struct PointInput : InputEntry {
   PartNode first;
   std::optional<PartNode> second;  ///< none: the ground
   std::optional<Vector3> direction;
   std::string component;  ///< instead of a direction
-  std::shared_ptr<const model::PointLaw> law;
-  std::optional<StopParameters> sliding;  ///< friction of a stop: the law is made when it is known
-                                          ///< how many tangents there are
+  /// The law for as many coordinates as there are at most: the separation and, with a direction,
+  /// one (in a plane) or two displacements across it.
+  std::function<std::shared_ptr<const model::PointLaw>(int coordinates)> law;
 };
 
 struct CouplingInput {

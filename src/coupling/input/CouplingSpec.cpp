@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The words of the list Coupling.
+#include <map>
+
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/CouplingParameters.hpp"
+#include "deck/Variants.hpp"
+#include "model/laws/PointLawRegistry.hpp"
 
 namespace tooljoint::coupling {
 
@@ -93,53 +97,50 @@ deck::ListSpec& ends(deck::ListSpec& entry) {
             "Direction.");
 }
 
+/// The parameters of a registered law beside its ends. `byComponent`: along a translation they have
+/// the units of the law, about a rotation those with N m for N and rad for m.
+deck::ListSpec& law(deck::ListSpec& entry, const std::string& name, bool byComponent) {
+  static const std::map<std::string, std::string> aboutRotation{
+      {"N", "N m"}, {"N/m", "N m/rad"}, {"N/m3", "N m/rad3"}, {"N s/m", "N m s/rad"}};
+  for (const auto& one : model::PointLawRegistry::instance().find(name).parameters.parameters()) {
+    const auto other = aboutRotation.find(one.unit);
+    if (!byComponent || other == aboutRotation.end())
+      entry.real(one.name, one.unit, one.value, one.range, one.doc);
+    else
+      entry.real(one.name, one.unit + " or " + other->second, one.value, one.range, one.doc)
+          .unitBy("Component", unitByKind(one.unit, other->second, one.unit));
+    if (one.level == deck::Level::Expert) entry.expert();
+  }
+  return entry;
+}
+
 deck::ListSpec springSpec() {
   deck::ListSpec entry("Spring", "A spring with a dashpot beside it; the name is free.");
-  ends(entry)
-      .real("Stiffness", "N/m or N m/rad", 0.0, Range::nonNegative(),
-            "Stiffness, along a translation or about a rotation.")
-      .unitBy("Component", unitByKind("N/m", "N m/rad", "N/m"))
-      .real("Cubic Stiffness", "N/m3 or N m/rad3", 0.0, Range::nonNegative(),
-            "Factor of the cube of the separation.")
-      .unitBy("Component", unitByKind("N/m3", "N m/rad3", "N/m3"))
-      .real("Damping", "N s/m or N m s/rad", 0.0, Range::nonNegative(),
-            "Damping, along a translation or about a rotation.")
-      .unitBy("Component", unitByKind("N s/m", "N m s/rad", "N s/m"));
   return deck::ListSpec("Springs", "Springs and dashpots between parts or to the ground.")
-      .namedLists(entry);
+      .namedLists(law(ends(entry), "Spring", true));
 }
 
 deck::ListSpec stopSpec() {
   deck::ListSpec entry(
       "Stop", "A stop that is met when the separation falls to minus the gap; the name is free.");
-  ends(entry)
-      .real("Gap", "m", 0.0, Range::any(),
-            "Separation left in the reference state; negative: pressed together.")
-      .real("Stiffness", "N/m", deck::Required{}, Range::positive(), "Contact stiffness.")
-      .real("Damping", "s/m", 0.0, Range::nonNegative(),
-            "Damping factor of Hunt and Crossley (1975).")
-      .real("Smoothing", "m", 0.0, Range::nonNegative(),
-            "Half width of the quadratic transition at touch.")
-      .expert()
-      .real("Friction", "", 0.0, Range::nonNegative(),
-            "Coulomb friction coefficient across the direction; 0: none. Needs a Direction.")
-      .real("Slip Velocity", "m/s", 1e-3, Range::positive(),
-            "Regularisation velocity of the friction.")
-      .expert();
   return deck::ListSpec("Stops", "One-sided contacts between parts or with the ground.")
-      .namedLists(entry);
+      .namedLists(law(ends(entry), "Stop", false));
 }
 
 deck::ListSpec sliderSpec() {
   deck::ListSpec entry("Slider", "Coulomb friction of constant size; the name is free.");
-  ends(entry)
-      .real("Force", "N or N m", deck::Required{}, Range::positive(),
-            "Sliding force, or moment about a rotation.")
-      .unitBy("Component", unitByKind("N", "N m", "N"))
-      .real("Slip Velocity", "m/s", 1e-3, Range::positive(), "Regularisation velocity.")
-      .expert();
   return deck::ListSpec("Sliders", "Dry friction between parts or to the ground.")
-      .namedLists(entry);
+      .namedLists(law(ends(entry), "Slider", true));
+}
+
+deck::ListSpec pointLawSpec() {
+  deck::ListSpec entry("Point Law", "A law between two nodes; the name is free.");
+  return deck::ListSpec("Point Laws",
+                        "Registered point laws between parts or to the ground. Units of their "
+                        "parameters are those of a translation; about a rotation they are in N m "
+                        "and rad.")
+      .namedLists(deck::declareVariants<model::PointLaw, const model::PointLawRequest&>(
+          ends(entry), "Type", deck::Required{}, "The law."));
 }
 
 }  // namespace
@@ -163,7 +164,7 @@ deck::ListSpec parameters() {
           "sides, so that the model stays at rest there; otherwise it starts with a jump.")
       .expert();
   for (auto& sublist : {jointSpec(), frameSpec(), releaseSpec(), constraintSpec(), linkSpec(),
-                        hingeSpec(), springSpec(), stopSpec(), sliderSpec()})
+                        hingeSpec(), springSpec(), stopSpec(), sliderSpec(), pointLawSpec()})
     list.list(sublist);
   return list;
 }

@@ -208,24 +208,27 @@ class Planner {
     if (one.second) second = translated(*one.second, one.path);
     Connector connector;
     connector.name = one.name;
-    connector.law = one.law;
     connector.rows.push_back(row(one, first, second, one.direction.value_or(Vector3::Zero())));
     if (connector.rows.front().empty())
       throw ModelError(one.path +
                        "/Direction has nothing along the components of a node, so the separation "
                        "is always zero.");
-    if (one.sliding) {
+    std::vector<Vector3> tangents;
+    if (one.direction) {
       const Vector3 e = one.direction->normalized(), across = e.unitOrthogonal();
-      std::vector<Vector3> tangents;
-      const auto axes = componentAxes(names());
-      if (axes.translation[2] < 0)
+      if (componentAxes(names()).translation[2] < 0)
         tangents = {Vector3(-e.y(), e.x(), 0)};
       else
         tangents = {across, Vector3(e.cross(across))};
-      connector.law = slidingStops({*one.sliding}, static_cast<int>(tangents.size()));
-      for (const auto& tangent : tangents)
-        connector.rows.push_back(row(one, first, second, tangent));
     }
+    connector.law = one.law(1 + static_cast<int>(tangents.size()));
+    const auto width = at(connector.law->width());
+    if (width > 1 + tangents.size())
+      throw DeckError(one.path + " has a law of " + std::to_string(width) + " coordinates, but " +
+                      std::to_string(1 + tangents.size()) +
+                      " exist there: the separation and, with a Direction, what lies across it.");
+    for (std::size_t t = 0; t + 1 < width; ++t)
+      connector.rows.push_back(row(one, first, second, tangents[t]));
     connector.offset = Vector::Zero(static_cast<Eigen::Index>(connector.rows.size()));
     for (std::size_t r = 0; r < connector.rows.size(); ++r)
       for (const auto& term : connector.rows[r]) {

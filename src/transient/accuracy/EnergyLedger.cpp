@@ -56,8 +56,10 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   model.addStiffness(state.q.data(), internal_.data());
   load_ = Eigen::Map<const Vector>(model.load(), model.size());
   q_ = state.q;
+  x_ = middle_ = rate_ = state.x;
   time_ = state.t;
   strain_ = 0.5 * state.q.dot(internal_);
+  model.bindStates(state.x.data());
   stored_ = sumPowers(model, [&](auto& batch) {
               return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
             }).stored;
@@ -134,6 +136,7 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
   // the end of a step that meets a wall is not what it went in with)
   if (!model.points().empty()) {
+    if (model.stateSize() > 0) bindChord(model, to, h);
     const Powers mean = sumPowers(model, [&](auto& batch) {
       return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
     });
@@ -149,8 +152,17 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
                        std::abs(account_.circulatory - turned);
 }
 
+/// States in the middle of the chord, and the rates at which they change along it.
+void EnergyLedger::bindChord(CompiledModel& model, const State& to, double h) {
+  model.blendStates(x_, to.x, 0.5, to.x, middle_);
+  rate_ = (to.x - x_) / h;
+  x_ = to.x;
+  model.bindStates(middle_.data(), 0.0, rate_.data());
+}
+
 /// Points that are not active store nothing.
 double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
+  model.bindStates(state.x.data());
   return sumPowers(model,
                    [&](auto& batch) {
                      return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
@@ -182,7 +194,7 @@ void EnergyLedger::save(std::vector<double>& memory) const {
                                account_.drive, account_.friction, account_.contactDamping,
                                account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
-  for (const Vector* x : {&q_, &internal_, &load_})
+  for (const Vector* x : {&q_, &internal_, &load_, &x_})
     memory.insert(memory.end(), x->begin(), x->end());
 }
 
@@ -197,7 +209,9 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
                     &account_.exchanged, &account_.supplied})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;
-  for (Vector* vector : {&q_, &internal_, &load_})
+  x_.setZero(model.stateSize());
+  middle_ = rate_ = x_;
+  for (Vector* vector : {&q_, &internal_, &load_, &x_})
     for (double& x : *vector) x = *memory++;
 }
 

@@ -74,6 +74,7 @@ class EnergyLedger {
   template <class Power>
   static Powers sumPowers(CompiledModel& model, const Power& power);
   static double storedNow(CompiledModel& model, const State& state);
+  void bindChord(CompiledModel& model, const State& to, double h);
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
@@ -87,7 +88,8 @@ class EnergyLedger {
   double time_ = 0;    ///< the last one booked
   Vector q_;
   Vector step_, product_, internal_, load_;
-  double stored_ = 0;  ///< by point laws at the last booking
+  Vector x_, middle_, rate_;  ///< states of point laws at the last booking, and of a chord
+  double stored_ = 0;         ///< by point laws at the last booking
   double strain_ = 0;
 };
 

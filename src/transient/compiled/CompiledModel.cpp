@@ -108,6 +108,17 @@ bool isSkew(const Sparse& matrix) {
   return true;
 }
 
+/// act(batch, states, offset) for every batch that has states.
+template <class Batches, class Act>
+void forStates(Batches& batches, const Act& act) {
+  int offset = 0;
+  for (auto& batch : batches)
+    if (PointStates* states = batch.states()) {
+      act(batch, *states, offset);
+      offset += states->size();
+    }
+}
+
 }  // namespace
 
 MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
@@ -245,7 +256,10 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
   load_ = Vector::Zero(n);
   lawValues_.assign(model.laws.size(), 0.0);
-  for (const auto& set : model.points) points_.emplace_back(set, pattern_);
+  for (const auto& set : model.points) {
+    points_.emplace_back(set, pattern_);
+    if (const auto* states = points_.back().states()) stateSize_ += states->size();
+  }
 }
 
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
@@ -325,6 +339,57 @@ void CompiledModel::diagonal(double m, double c, double k, double* out) const {
     const std::size_t a = diagonalAddress_[p];
     out[p] = m * mass_[a] + c * damping_.entry(a) + k * stiffness_.entry(a);
   }
+}
+
+void CompiledModel::initialStates(double t, const double* q, const double* v, double* x) {
+  forStates(points_, [&](auto& batch, PointStates& states, int offset) {
+    batch.gatherAll(q, v);
+    states.initial(t, batch.d(), batch.v(), x + offset);
+  });
+}
+
+void CompiledModel::bindStates(const double* base, double factor, const double* rate) {
+  forStates(points_, [&](auto&, PointStates& states, int offset) {
+    states.bind(base + offset, factor, rate != nullptr ? rate + offset : nullptr);
+  });
+}
+
+void CompiledModel::stateRates(double* xDot) const {
+  forStates(points_, [&](auto&, PointStates& states, int offset) { states.rates(xDot + offset); });
+}
+
+void CompiledModel::completeStates(double t, const double* q, const double* v, double* x,
+                                   double* xDot) {
+  forStates(points_, [&](auto& batch, PointStates& states, int offset) {
+    batch.gatherAll(q, v);
+    states.complete(t, batch.everyPoint(), batch.d(), batch.v(), x + offset, xDot + offset);
+  });
+}
+
+void CompiledModel::acceptStates(double t, const double* q, const double* v, double* x) {
+  forStates(points_, [&](auto& batch, PointStates& states, int offset) {
+    batch.gatherAll(q, v);
+    states.accept(t, batch.d(), batch.v(), x + offset);
+  });
+}
+
+void CompiledModel::blendStates(const Vector& from, const Vector& to, double s, const Vector& held,
+                                Vector& out) const {
+  out = held;
+  forStates(points_, [&](auto&, PointStates& states, int offset) {
+    for (int i = 0; i < states.size(); ++i)
+      if (states.isRated(i))
+        out[offset + i] = from[offset + i] + s * (to[offset + i] - from[offset + i]);
+  });
+}
+
+double CompiledModel::stateDistance(const Vector& a, const Vector& b) const {
+  double square = 0;
+  forStates(points_, [&](auto&, PointStates& states, int offset) {
+    for (int i = 0; i < states.size(); ++i)
+      if (states.isRated(i)) square += std::pow(a[offset + i] - b[offset + i], 2);
+  });
+  return std::sqrt(square);
 }
 
 void CompiledModel::addPointForces(double t, const double* q, const double* v, double* y) {

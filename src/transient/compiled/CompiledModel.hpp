@@ -157,6 +157,25 @@ class CompiledModel {
   std::vector<PointBatch>& points() { return points_; }
   const std::vector<PointBatch>& points() const { return points_; }
 
+  // States of point laws, one after the other in the order of points(); most models have none.
+  int stateSize() const { return stateSize_; }
+  /// Those of the start of a motion at (q, v).
+  void initialStates(double t, const double* q, const double* v, double* x);
+  /// What the points are evaluated with from now on, see PointStates::bind(); arrays of
+  /// stateSize() that must outlive their use.
+  void bindStates(const double* base, double factor = 0.0, const double* rate = nullptr);
+  /// Rates of the last evaluation of all points.
+  void stateRates(double* xDot) const;
+  /// The end (q, v) of an implicit step: states, their rates, held ones accepted.
+  void completeStates(double t, const double* q, const double* v, double* x, double* xDot);
+  /// Of an explicit one, whose rated states are known.
+  void acceptStates(double t, const double* q, const double* v, double* x);
+  /// out = from + s (to - from) for rated states, those of `held` for the others.
+  void blendStates(const Vector& from, const Vector& to, double s, const Vector& held,
+                   Vector& out) const;
+  /// Length of the difference of rated states.
+  double stateDistance(const Vector& a, const Vector& b) const;
+
   /// sum of R' f over all batches: evaluated at the active points of state (q, v), added to y.
   void addPointForces(double t, const double* q, const double* v, double* y);
 
@@ -183,6 +202,7 @@ class CompiledModel {
   double time_ = 0;
   bool timeSet_ = false;
   long stamp_ = 0;
+  int stateSize_ = 0;
 };
 
 }  // namespace tooljoint::transient

@@ -23,6 +23,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       entities_(set.entities),
       points_(set.law->size()),
       width_(set.law->width()) {
+  if (const auto* law = model::stateful(*law_)) states_ = std::make_unique<PointStates>(*law);
   const int rows = points_ * width_;
   const auto& position = pattern.partition().position;
   offset_.assign(set.offset.data(), set.offset.data() + rows);
@@ -203,7 +204,7 @@ void PointBatch::listActive() {
 model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v,
                                          const std::vector<int>& points) {
   gatherThese(points, q, v);
-  return law_->power(t, points, d_.data(), v_.data());
+  return callPower(t, points);
 }
 
 model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* q,
@@ -211,6 +212,11 @@ model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* 
   gatherThese(points, q, step);
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] -= 0.5 * v_[z(r)], v_[z(r)] /= h;
+  return callPower(t, points);
+}
+
+model::PointLaw::Power PointBatch::callPower(double t, const std::vector<int>& points) const {
+  if (states_) return states_->power(t, points, d_.data(), v_.data());
   return law_->power(t, points, d_.data(), v_.data());
 }
 
@@ -310,12 +316,20 @@ void PointBatch::scatter(const std::vector<int>& points, const double* rows, dou
   });
 }
 
-void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tangent) {
-  if (tangent)
-    law_->evaluateWithTangent(t, points, d_.data(), v_.data(), f_.data(), dfdd_.data(),
-                              dfdv_.data());
+void PointBatch::callLaw(double t, const std::vector<int>& points, bool tangent) {
+  const double *d = d_.data(), *v = v_.data();
+  if (states_ && tangent)
+    states_->evaluateWithTangent(t, points, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  else if (states_)
+    states_->evaluate(t, points, d, v, f_.data());
+  else if (tangent)
+    law_->evaluateWithTangent(t, points, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   else
-    law_->evaluate(t, points, d_.data(), v_.data(), f_.data());
+    law_->evaluate(t, points, d, v, f_.data());
+}
+
+void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tangent) {
+  callLaw(t, points, tangent);
   if (scaled_ > 0) applyScale(points, tangent);
   evaluations_ += static_cast<long>(points.size());
 }
@@ -353,12 +367,9 @@ void PointBatch::evaluateOne(double t, int point, const double* d, const double*
   std::copy(v, v + width_, v_.begin() + first);
   one_[0] = point;
   ++evaluations_;
-  if (dfdd == nullptr) {
-    law_->evaluate(t, one_, d_.data(), v_.data(), f_.data());
-    scalePoint(point, false);
-  } else {
-    law_->evaluateWithTangent(t, one_, d_.data(), v_.data(), f_.data(), dfdd_.data(), dfdv_.data());
-    scalePoint(point, true);
+  callLaw(t, one_, dfdd != nullptr);
+  scalePoint(point, dfdd != nullptr);
+  if (dfdd != nullptr) {
     std::copy_n(dfdd_.begin() + first * width_, width_ * width_, dfdd);
     std::copy_n(dfdv_.begin() + first * width_, width_ * width_, dfdv);
   }

@@ -17,6 +17,7 @@
 #include "linalg/blocks/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/compiled/ContactBroadPhase.hpp"
+#include "transient/compiled/PointStates.hpp"
 
 namespace tooljoint::transient {
 
@@ -31,6 +32,9 @@ class PointBatch {
   const model::PointLaw& law() const { return *law_; }
   const std::string& name() const { return name_; }
   std::int64_t entity(int point) const { return entities_[static_cast<std::size_t>(point)]; }
+
+  /// What evaluates a law with states; null for a law without.
+  PointStates* states() const { return states_.get(); }
 
   /// Measure the clearances at q (time t) and choose the points to look at in a step of length h
   /// from there.
@@ -149,9 +153,13 @@ class PointBatch {
   void applyScale(const std::vector<int>& points, bool tangent);
   void scalePoint(int point, bool tangent);
   double rowTimes(int row, const double* x) const;
+  /// The law at d_, v_ of these points.
+  void callLaw(double t, const std::vector<int>& points, bool tangent);
+  model::PointLaw::Power callPower(double t, const std::vector<int>& points) const;
 
   std::string name_;
   std::shared_ptr<const model::PointLaw> law_;
+  std::unique_ptr<PointStates> states_;
   std::vector<std::int64_t> entities_;
   int points_ = 0;
   int width_ = 0;

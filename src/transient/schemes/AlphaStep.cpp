@@ -59,6 +59,7 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   model.addDamping(state.v.data(), state.a.data());
   state.a = -state.a;
   for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
+  model.bindStates(state.x.data());
   model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
   mass_->factor = linalg::BlockFactor(model.pattern());
   Vector diagonal(n);
@@ -86,6 +87,8 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
     state.a.setZero();
   }
   equation_.bind(model, parameters_.equations);
+  model.stateRates(state.xDot.data());
+  X_ = nextX_ = base_ = state.xDot;
   bind(state.a);
 }
 
@@ -93,6 +96,7 @@ void AlphaStep::startLike(const AlphaStep& other) {
   model_ = other.model_;
   mass_ = other.mass_;
   equation_.bind(*model_, parameters_.equations);
+  X_ = nextX_ = base_ = other.X_;
   bind(other.A_);
 }
 
@@ -120,6 +124,7 @@ void AlphaStep::addImpacts(double factor, const Impacts& impacts, Vector& y) con
 
 void AlphaStep::startWhere(const AlphaStep& other) {
   A_ = other.A_;
+  X_ = other.X_;
   lastImpacts_ = other.lastImpacts_;
 }
 
@@ -137,6 +142,21 @@ void AlphaStep::predict(const State& from, State& to, double h) {
     to.a[i] = c * (A_[i] - alphaF_ * from.a[i]) - ofVelocity * v;
   }
   addImpacts(c * alphaF_ / s.impact, lastImpacts_, to.a);
+  if (model_->stateSize() > 0) bindStates(from, h);
+}
+
+/// x_{n+1} = x_n + h ((1 - g) X_n + g (af x'_n - am X_n) / (1 - am)) + h g (1 - af) / (1 - am)
+/// x'_{n+1}
+void AlphaStep::bindStates(const State& from, double h) {
+  base_ = from.x +
+          h * ((1 - gamma_) * X_ + gamma_ / (1 - alphaM_) * (alphaF_ * from.xDot - alphaM_ * X_));
+  model_->bindStates(base_.data(), h * gamma_ * (1 - alphaF_) / (1 - alphaM_));
+}
+
+/// nextX_ = X_{n+1}, as nextA_ in complete().
+void AlphaStep::completeStates(const State& from, State& to) {
+  model_->completeStates(to.t, to.q.data(), to.v.data(), to.x.data(), to.xDot.data());
+  nextX_ = ((1 - alphaF_) * to.xDot + alphaF_ * from.xDot - alphaM_ * X_) / (1 - alphaM_);
 }
 
 bool AlphaStep::take(const State& from, State& to, double h, bool anyway, Counters& counters) {
@@ -155,6 +175,7 @@ void AlphaStep::complete(const State& from, State& to, double h) {
                last = alphaM_ / (1 - alphaM_);
   const double s = scheme(h).impact;
   findImpacts();
+  if (model_->stateSize() > 0) completeStates(from, to);
   for (int i = 0; i < A_.size(); ++i) nextA_[i] = now * to.a[i] + before * from.a[i] - last * A_[i];
   addImpacts(-now, impacts_, nextA_);
   addImpacts(-before / s, lastImpacts_, nextA_);
@@ -180,6 +201,7 @@ void AlphaStep::findImpacts() {
 
 void AlphaStep::keep() {
   A_.swap(nextA_);
+  X_.swap(nextX_);
   std::swap(impacts_, lastImpacts_);
 }
 
@@ -196,12 +218,13 @@ const Vector& AlphaStep::localError(double h, bool impacts) {
 }
 
 void AlphaStep::save(std::vector<double>& memory) const {
-  for (const Vector* x : {&A_, &lastImpacts_.a}) memory.insert(memory.end(), x->begin(), x->end());
+  for (const Vector* x : {&A_, &X_, &lastImpacts_.a})
+    memory.insert(memory.end(), x->begin(), x->end());
   equation_.save(memory);
 }
 
 void AlphaStep::restore(const double*& memory) {
-  for (Vector* vector : {&A_, &lastImpacts_.a})
+  for (Vector* vector : {&A_, &X_, &lastImpacts_.a})
     for (double& x : *vector) x = *memory++;
   lastImpacts_.blocks.clear();
   const auto& pattern = model_->pattern();

@@ -66,6 +66,8 @@ class AlphaStep {
   void bind(const Vector& a);
   StepScheme scheme(double h) const;
   void predict(const State& from, State& to, double h);
+  void bindStates(const State& from, double h);
+  void completeStates(const State& from, State& to);
   /// M^-1 R'f of the impacts of a step, times the scheme's factor: zero but in a few blocks.
   struct Impacts {
     Vector a;
@@ -84,6 +86,7 @@ class AlphaStep {
   ImplicitStep equation_;
   std::shared_ptr<Mass> mass_;
   Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
+  Vector X_, nextX_, base_;        ///< the same for states of point laws; x_{n+1} without x'_{n+1}
   Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before
   Vector error_;
 };

@@ -23,18 +23,21 @@ void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integr
                      "give that degree of freedom a mass.");
 }
 
-void ExplicitRightHandSide::acceleration(double t, const double* q, const double* v, double* a) {
+void ExplicitRightHandSide::acceleration(double t, const Vector& q, const Vector& v,
+                                         const Vector& x, Vector& a, Vector& xDot) {
   ++counters_->rightHandSides;
   model_->setTime(t);
   const int n = model_->size();
   // a = -(K q + C v), then the difference to F + R'f, then M^-1
-  std::fill(a, a + n, 0.0);
-  model_->addStiffness(q, a);
-  model_->addDamping(v, a);
+  a.setZero();
+  model_->addStiffness(q.data(), a.data());
+  model_->addDamping(v.data(), a.data());
   const double* load = model_->load();
   for (int i = 0; i < n; ++i) a[i] = load[i] - a[i];
-  model_->addPointForces(t, q, v, a);
-  mass_.solve(a);
+  model_->bindStates(x.data());
+  model_->addPointForces(t, q.data(), v.data(), a.data());
+  model_->stateRates(xDot.data());
+  mass_.solve(a.data());
 }
 
 void ExplicitRightHandSide::look(double t, double h, const double* q) {
@@ -51,6 +54,7 @@ double ExplicitRightHandSide::largestFrequency(const State& state) {
   const int n = model_->size();
   CompiledModel& model = *model_;
   model.setTime(state.t);
+  model.bindStates(state.x.data());
   for (auto& batch : model.points()) {
     batch.look(state.t, 0.0, state.q.data());
     batch.evaluateWithTangent(state.t, state.q.data(), state.v.data());
@@ -112,27 +116,33 @@ double ExplicitRightHandSide::largestFrequency(const State& state) {
   return std::sqrt(std::max(0.0, bound));
 }
 
-void RungeKuttaStep::resize(int n) {
-  for (Vector* x : {&qi_, &vi_, &vj_, &a2_, &a3_, &a4_}) x->setZero(n);
+void RungeKuttaStep::resize(const State& like) {
+  for (Vector* each : {&qi_, &vi_, &vj_, &a2_, &a3_, &a4_}) each->setZero(like.q.size());
+  for (Vector* each : {&xi_, &x2_, &x3_, &x4_}) each->setZero(like.x.size());
 }
 
-void RungeKuttaStep::take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0,
-                          const Vector& v0, const Vector& a0, Vector& q, Vector& v) {
-  // k1 = (v0, a0);  q += h/6 (k1 + 2 k2 + 2 k3 + k4) gathers in q and v as the stages come
+void RungeKuttaStep::take(ExplicitRightHandSide& rhs, const State& from, double h, State& to) {
+  const Vector &q0 = from.q, &v0 = from.v, &a0 = from.a, &x0 = from.x, &x1 = from.xDot;
+  const double t = from.t;
+  // k1 = (v0, a0, x1);  q += h/6 (k1 + 2 k2 + 2 k3 + k4) gathers in q and v as the stages come
   qi_ = q0 + 0.5 * h * v0;
   vi_ = v0 + 0.5 * h * a0;
-  rhs.acceleration(t + 0.5 * h, qi_.data(), vi_.data(), a2_.data());
-  q = v0 + 2.0 * vi_;
+  xi_ = x0 + 0.5 * h * x1;
+  rhs.acceleration(t + 0.5 * h, qi_, vi_, xi_, a2_, x2_);
+  to.q = v0 + 2.0 * vi_;
   qi_ = q0 + 0.5 * h * vi_;
   vj_ = v0 + 0.5 * h * a2_;
-  rhs.acceleration(t + 0.5 * h, qi_.data(), vj_.data(), a3_.data());
-  q += 2.0 * vj_;
+  xi_ = x0 + 0.5 * h * x2_;
+  rhs.acceleration(t + 0.5 * h, qi_, vj_, xi_, a3_, x3_);
+  to.q += 2.0 * vj_;
   qi_ = q0 + h * vj_;
   vi_ = v0 + h * a3_;
-  rhs.acceleration(t + h, qi_.data(), vi_.data(), a4_.data());
-  q += vi_;
-  q = q0 + h / 6.0 * q;
-  v = v0 + h / 6.0 * (a0 + 2.0 * a2_ + 2.0 * a3_ + a4_);
+  xi_ = x0 + h * x3_;
+  rhs.acceleration(t + h, qi_, vi_, xi_, a4_, x4_);
+  to.q += vi_;
+  to.q = q0 + h / 6.0 * to.q;
+  to.v = v0 + h / 6.0 * (a0 + 2.0 * a2_ + 2.0 * a3_ + a4_);
+  to.x = x0 + h / 6.0 * (x1 + 2.0 * x2_ + 2.0 * x3_ + x4_);
 }
 
 }  // namespace tooljoint::transient

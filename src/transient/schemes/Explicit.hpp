@@ -15,8 +15,19 @@ class ExplicitRightHandSide {
   /// without mass.
   void bind(CompiledModel& model, const std::string& integrator, Counters& counters);
 
-  /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look().
-  void acceleration(double t, const double* q, const double* v, double* a);
+  /// a = M^-1 (F(t) + R'f(q, v, t) - C(t) v - K(t) q), with the active points chosen by look();
+  /// for point laws with states, at x, also their rates.
+  void acceleration(double t, const Vector& q, const Vector& v, const Vector& x, Vector& a,
+                    Vector& xDot);
+  /// The same for a state: a and xDot.
+  void complete(State& state) {
+    acceleration(state.t, state.q, state.v, state.x, state.a, state.xDot);
+  }
+  /// Held states of point laws at the end of a step, and complete().
+  void accept(State& state) {
+    model_->acceptStates(state.t, state.q.data(), state.v.data(), state.x.data());
+    complete(state);
+  }
 
   /// Choose the points to look at in a step of length h from (t, q).
   void look(double t, double h, const double* q);
@@ -39,13 +50,13 @@ class ExplicitRightHandSide {
 /// (B.4) prints k31, k32).
 class RungeKuttaStep {
  public:
-  void resize(int n);
-  /// q, v at t+h from (t, q0, v0), a0 = acceleration there.
-  void take(ExplicitRightHandSide& rhs, double t, double h, const Vector& q0, const Vector& v0,
-            const Vector& a0, Vector& q, Vector& v);
+  void resize(const State& like);
+  /// q, v and x of `to` a time h after `from`, which is complete.
+  void take(ExplicitRightHandSide& rhs, const State& from, double h, State& to);
 
  private:
   Vector qi_, vi_, vj_, a2_, a3_, a4_;
+  Vector xi_, x2_, x3_, x4_;  ///< states of point laws: a stage, and rates
 };
 
 }  // namespace tooljoint::transient

@@ -12,6 +12,13 @@
 /// spectral radius at infinite frequency. For a constant M this is the scheme that averages forces:
 /// second order in q and v, unconditionally stable for linear problems.
 ///
+/// States of point laws, x' = g, are integrated by the formula of the velocity:
+///
+///     (1 - am) X_{n+1} + am X_n = (1 - af) x'_{n+1} + af x'_n
+///     x_{n+1} = x_n + h ((1 - g) X_n + g X_{n+1})
+///
+/// (Jansen, Whiting and Hulbert 2000 in the same form).
+///
 /// Contact too stiff for the step is an impact: averaging its force over two steps would make
 /// energy (up to eight times what comes in). It acts in full over the step in which it arises, and
 /// not beyond, as in Kane, Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels
@@ -115,6 +122,7 @@ class GeneralizedAlpha final : public Integrator {
     if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
   }
 
+  bool carriesPointStates() const override { return true; }
   /// Two steps of one length are booked together.
   int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {

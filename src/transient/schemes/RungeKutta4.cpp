@@ -23,6 +23,7 @@ class RungeKutta4 final : public Integrator {
       : safety_(withDefaults(own, specification()).get<double>("Safety")) {}
 
   bool isExplicit() const override { return true; }
+  bool carriesPointStates() const override { return true; }
   int ledgerStride() const override { return 4; }
   std::string advice() const override {
     return "Choose a smaller Transient/Step, or the integrator \"Generalized-alpha\"";
@@ -31,7 +32,7 @@ class RungeKutta4 final : public Integrator {
   void prepare(CompiledModel& model, const Window& window, State& state) override {
     rhs_.bind(model, "RK4", counters_);
     ++counters_.factorisations;
-    stage_.resize(model.size());
+    stage_.resize(state);
     window_ = window;
     double asked = window.step;
     if (!(asked > 0)) {
@@ -40,7 +41,7 @@ class RungeKutta4 final : public Integrator {
     }
     step_ = fittedStep(window, asked);
     rhs_.look(state.t, 0.0, state.q.data());
-    rhs_.acceleration(state.t, state.q.data(), state.v.data(), state.a.data());
+    rhs_.complete(state);
   }
 
   void advance(const State& from, State& to) override {
@@ -51,9 +52,9 @@ class RungeKutta4 final : public Integrator {
     const double h = to.t - from.t;
     rhs_.look(from.t, h, from.q.data());
     do {
-      stage_.take(rhs_, from.t, h, from.q, from.v, from.a, to.q, to.v);
+      stage_.take(rhs_, from, h, to);
     } while (rhs_.missed(to.q.data()));
-    rhs_.acceleration(to.t, to.q.data(), to.v.data(), to.a.data());
+    rhs_.accept(to);
     ++index_;
     counters_.accept(h);
   }

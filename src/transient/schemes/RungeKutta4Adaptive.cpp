@@ -3,9 +3,12 @@
 /// `RK4 adaptive`: classical Runge-Kutta, one step against two half steps, Nguyen et al. 2020,
 /// appendix B:
 ///
-///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15        over all coordinates, in their own units, as
-///     printed there error <= e0/100: keep the half steps, dt := growth * dt;   error <= e0: keep
-///     them;   else dt := dt / shrink and again
+///     error = (|q1 - q2|_2 + |v1 - v2|_2) / 15
+///     error <= e0/100: keep the half steps, dt := growth * dt
+///     error <= e0: keep them;   else dt := dt / shrink and again
+///
+/// over all coordinates, in their own units, as printed there; |x1 - x2|_2 of the states of point
+/// laws is added.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -45,6 +48,7 @@ class RungeKutta4Adaptive final : public Integrator {
   }
 
   bool isExplicit() const override { return true; }
+  bool carriesPointStates() const override { return true; }
   std::string advice() const override {
     return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator "
            "\"Generalized-alpha\"";
@@ -53,12 +57,13 @@ class RungeKutta4Adaptive final : public Integrator {
   void prepare(CompiledModel& model, const Window& window, State& state) override {
     rhs_.bind(model, "RK4 adaptive", counters_);
     ++counters_.factorisations;
-    stage_.resize(model.size());
+    stage_.resize(state);
     end_ = window.end;
     if (window.step > 0) step_ = window.step;
-    for (Vector* x : {&q1_, &v1_, &qHalf_, &vHalf_, &aHalf_}) x->setZero(model.size());
+    whole_ = half_ = state;
+    difference_ = state.q;
     rhs_.look(state.t, 0.0, state.q.data());
-    rhs_.acceleration(state.t, state.q.data(), state.v.data(), state.a.data());
+    rhs_.complete(state);
   }
 
   void advance(const State& from, State& to) override {
@@ -70,7 +75,7 @@ class RungeKutta4Adaptive final : public Integrator {
       const double error = tryStep(from, to, h);
       if (error <= tolerance_) {
         to.t = last ? end_ : from.t + h;
-        rhs_.acceleration(to.t, to.q.data(), to.v.data(), to.a.data());
+        rhs_.accept(to);
         counters_.accept(h);
         if (error <= tolerance_ / 100 && !last) step_ *= growth_;
         return;
@@ -90,27 +95,30 @@ class RungeKutta4Adaptive final : public Integrator {
   double tryStep(const State& from, State& to, double h) {
     rhs_.look(from.t, h, from.q.data());
     do {
-      stage_.take(rhs_, from.t, h, from.q, from.v, from.a, q1_, v1_);
-      stage_.take(rhs_, from.t, 0.5 * h, from.q, from.v, from.a, qHalf_, vHalf_);
-      rhs_.acceleration(from.t + 0.5 * h, qHalf_.data(), vHalf_.data(), aHalf_.data());
-      stage_.take(rhs_, from.t + 0.5 * h, 0.5 * h, qHalf_, vHalf_, aHalf_, to.q, to.v);
-    } while (rhs_.missed(qHalf_.data()) || rhs_.missed(to.q.data()));
-    return ((q1_ - to.q).norm() + (v1_ - to.v).norm()) / 15.0;
+      stage_.take(rhs_, from, h, whole_);
+      stage_.take(rhs_, from, 0.5 * h, half_);
+      half_.t = from.t + 0.5 * h;
+      rhs_.accept(half_);
+      stage_.take(rhs_, half_, 0.5 * h, to);
+    } while (rhs_.missed(half_.q.data()) || rhs_.missed(to.q.data()));
+    return ((whole_.q - to.q).norm() + (whole_.v - to.v).norm() +
+            rhs_.model().stateDistance(whole_.x, to.x)) /
+           15.0;
   }
 
   [[noreturn]] void giveUp(const State& from, const State& to, double error) {
-    qHalf_ = (q1_ - to.q).cwiseAbs() + (v1_ - to.v).cwiseAbs();
+    difference_ = (whole_.q - to.q).cwiseAbs() + (whole_.v - to.v).cwiseAbs();
     std::ostringstream text;
     if (!std::isfinite(error)) {
       text << "The motion is not finite however short the step from t = " << from.t
-           << " s, first at " << rhs_.model().dofName(worstPosition(qHalf_))
+           << " s, first at " << rhs_.model().dofName(worstPosition(difference_))
            << ": a load, a law of time or a point law gives no number there.";
       throw ConvergenceError(text.str());
     }
     text
         << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t
         << " s: the error " << error << " exceeds the tolerance " << tolerance_ << ", most at "
-        << rhs_.model().dofName(worstPosition(qHalf_))
+        << rhs_.model().dofName(worstPosition(difference_))
         << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
     throw ConvergenceError(text.str());
   }
@@ -118,7 +126,8 @@ class RungeKutta4Adaptive final : public Integrator {
   double tolerance_ = 0, step_ = 0, growth_ = 0, shrink_ = 0, smallest_ = 0, end_ = 0;
   ExplicitRightHandSide rhs_;
   RungeKuttaStep stage_;
-  Vector q1_, v1_, qHalf_, vHalf_, aHalf_;
+  State whole_, half_;
+  Vector difference_;
 };
 
 const bool registered = IntegratorRegistry::instance().add(

@@ -40,7 +40,7 @@ StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
     if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
     if (!recordsForce_ && !picture_) continue;
-    cases::PointRecord record(set);
+    cases::PointRecord record(model, set);
     const int normalForce = record.find("normal_force");
     if (normalForce >= 0) contacts_.push_back({std::move(record), normalForce});
   }

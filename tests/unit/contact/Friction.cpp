@@ -2,10 +2,10 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "model/laws/Coulomb.hpp"
 #include "substructures/contact/ContactPoints.hpp"
-#include "substructures/contact/FrictionCurve.hpp"
 
-using tooljoint::contact::FrictionCurve;
+using tooljoint::model::FrictionCurve;
 
 // Nguyen et al. 2020, eq. (9), as printed.
 static double printed(double v, double muS, double muD, double vr) {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-#include "model/Friction.hpp"
+#include "model/laws/Friction.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
 using namespace tooljoint::contact;

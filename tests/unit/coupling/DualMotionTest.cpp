@@ -8,7 +8,7 @@
 
 #include "common/Error.hpp"
 #include "coupling/assembly/Assembler.hpp"
-#include "coupling/input/PointLaws.hpp"
+#include "model/laws/Connectors.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SpaceFrame.hpp"
 #include "transient/Transient.hpp"
@@ -89,13 +89,13 @@ CouplingOptions options(Assembly assembly, bool stop) {
   chosen.assembly = assembly;
   chosen.connections.frames = frame.frames(own);
   if (stop) {
-    StopParameters parameters;
+    model::StopParameters parameters;
     parameters.gap = 2e-4;
     parameters.stiffness = 1e7;
     parameters.smoothing = 2e-5;
     Connector connector;
     connector.name = "stop";
-    connector.law = stops({parameters});
+    connector.law = model::stops({parameters});
     connector.rows = {
         separation({"beam", 303}, {"left strut", 403}, {0.1, 0.9, 0.3}, samples::spaceComponents)};
     chosen.connections.connectors.push_back(connector);

@@ -8,7 +8,7 @@
 
 #include "common/Error.hpp"
 #include "coupling/assembly/Assembler.hpp"
-#include "coupling/input/PointLaws.hpp"
+#include "model/laws/Connectors.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -109,12 +109,12 @@ TEST(ModeComparison, LinearisesPointLawsWithTheirDamping) {
   auto& m = part.model;
   m.damping.push_back({"growing", Sparse(m.stiffness.front().matrix),
                        m.lawIndex({"t", [](double t) { return t; }})});
-  coupling::SpringParameters spring;
+  model::SpringParameters spring;
   spring.stiffness = 30.0;
   spring.damping = 4.0;
   model::PointSet set;
   set.name = "spring";
-  set.law = coupling::springs({spring});
+  set.law = model::springs({spring});
   set.entities = {2};
   set.rows = Matrix(Matrix::Ones(1, 1)).sparseView();
   set.offset = Vector::Zero(1);

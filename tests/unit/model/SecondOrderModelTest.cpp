@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
-#include "coupling/input/PointLaws.hpp"
+#include "model/laws/Connectors.hpp"
 
 namespace {
 
@@ -31,13 +31,13 @@ SecondOrderModel sample() {
   m.stiffness.push_back({"growing", numbers(-2.0).sparseView(), square});
   m.loads.push_back({"weight", Vector::Constant(2, 4.0), 0});
   m.loads.push_back({"growing", Vector::Unit(2, 1), square});
-  coupling::SpringParameters spring;
+  model::SpringParameters spring;
   spring.stiffness = 50.0;
   spring.cubicStiffness = 300.0;
   spring.damping = 6.0;
   model::PointSet set;
   set.name = "spring";
-  set.law = coupling::springs({spring});
+  set.law = model::springs({spring});
   set.entities = {1};
   set.rows = (Matrix(1, 2) << 2.0, -1.0).finished().sparseView();
   set.offset = Vector::Constant(1, 0.1);

@@ -12,6 +12,7 @@
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "model/laws/Connectors.hpp"
 #include "parts/TimeLaw.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"
@@ -186,7 +187,7 @@ TEST(PartsScene, ConnectionsNamePartsAndTheirOwnNodes) {
   spring.first = {"a", 2};
   spring.second = coupling::PartNode{"b", 1};
   spring.component = "u";
-  spring.law = coupling::springs({{5e5, 0, 0}});
+  spring.law = [](int) { return model::springs({{5e5, 0, 0}}); };
   plan.points = {spring};
   // two masses m/3 on springs k, a spring s between them: k and k + 2 s
   const Vector found = omegaSquared(build(settings, plan));

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <optional>
 
-#include "Models.hpp"
+#include "StatefulModels.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::transient::testing {
@@ -164,6 +164,24 @@ TEST_P(Restart, takesTheSameStepsAmongImpacts) {
   if (GetParam() == "RK4") o.step = 1e-5;
   if (GetParam() == "Generalized-alpha") o.own.set("Accept Coarse Steps", true);
   expectSameWherever(impacts(), o);
+}
+
+/// Rated states, held ones and impacts beside them.
+TEST_P(Restart, carriesTheStatesOfPointLaws) {
+  if (!IntegratorRegistry::instance()
+           .make(options().integrator, options().own)
+           ->carriesPointStates())
+    GTEST_SKIP() << "carries no states";
+  for (auto model : {eventful(), impacts()}) {
+    addStatefulLaws(model);
+    auto o = options(0.15);
+    if (GetParam() == "RK4") o.step = 1e-5;
+    if (GetParam() == "Generalized-alpha") o.own.set("Accept Coarse Steps", true);
+    expectSameWherever(model, o);
+    const auto point = run(model, o, nullptr, 40).kept.back();
+    EXPECT_GT(point.state.x.cwiseAbs().minCoeff(), 0.0);
+    EXPECT_EQ(run(model, o, &point, 0).kept.back().memory, point.memory);
+  }
 }
 
 /// A run that goes on and is stopped at once writes the checkpoint it came from: nothing is lost on

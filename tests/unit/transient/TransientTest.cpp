@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 
-#include "Models.hpp"
+#include "StatefulModels.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "substructures/contact/ContactLaw.hpp"
@@ -290,6 +290,20 @@ TEST(Cost, theStepLoopAllocatesNothing) {
   auto* something = new std::vector<double>(100);  // the probe itself works
   delete something;
   EXPECT_GT(allocations, before);
+}
+#endif
+
+#ifdef COUNTS_ALLOCATIONS
+TEST(Cost, statesOfPointLawsAllocateNothingInTheStepLoop) {
+  auto model = eventful();
+  addStatefulLaws(model);
+  for (const std::string integrator :
+       {"Generalized-alpha", controlledAlpha, "RK4", "RK4 adaptive"}) {
+    AllocationProbe probe;
+    const auto report = integrate(model, wayToStep(integrator, 0.2), probe);
+    EXPECT_GT(report.counters.steps, 100);
+    EXPECT_EQ(probe.last - probe.first, 0) << integrator;
+  }
 }
 #endif
 

@@ -22,7 +22,7 @@ using Motion = std::array<double, 6>;
 /// A free body of mass m [kg] and inertia J [kg m2] in the hole, by classical Runge-Kutta steps.
 class Body {
  public:
-  Body(std::shared_ptr<const BoreholeContact> contact, double mass, double inertia)
+  Body(std::shared_ptr<const model::PointLaw> contact, double mass, double inertia)
       : contact_(std::move(contact)),
         inverse_{1.0 / mass, 1.0 / mass, inertia > 0.0 ? 1.0 / inertia : 0.0} {}
 
@@ -50,7 +50,7 @@ class Body {
     return {x[3], x[4], x[5], f[0] * inverse_[0], f[1] * inverse_[1], f[2] * inverse_[2]};
   }
 
-  std::shared_ptr<const BoreholeContact> contact_;
+  std::shared_ptr<const model::PointLaw> contact_;
   std::array<double, 3> inverse_;
 };
 
@@ -67,7 +67,7 @@ ContactPoint wall(double damping, double mu) {
   return p;
 }
 
-std::shared_ptr<const BoreholeContact> touching(const ContactLaw& law, const ContactPoint& point,
+std::shared_ptr<const model::PointLaw> touching(const ContactLaw& law, const ContactPoint& point,
                                                 double speed) {
   ContactPoints points;
   points.add(point);

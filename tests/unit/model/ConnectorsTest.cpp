@@ -2,16 +2,16 @@
 /// \file
 /// Springs, stops and frictions at points: force against closed form, tangents against differences,
 /// powers against the work of the force, records against evaluate().
+#include "model/laws/Connectors.hpp"
+
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numeric>
 
-#include "coupling/input/PointLaws.hpp"
-
 namespace {
 
 using namespace tooljoint;
-using namespace tooljoint::coupling;
+using namespace tooljoint::model;
 
 constexpr double kStiffness = 3e3, kCubic = 4e5, kDamping = 20.0;
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "model/PointLaw.hpp"
+#include "model/laws/PointLaw.hpp"
 
 namespace tooljoint::model {
 

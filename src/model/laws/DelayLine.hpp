@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The recent past of a few quantities, for laws with a delay: y(t - tau) of the accepted motion.
+#pragma once
+
+namespace tooljoint::model {
+
+/// Samples of `values` quantities y with their rates y' over the last `span` seconds, kept in held
+/// states of a StatefulPointLaw: nothing is allocated, and a checkpoint has all of it. Samples are
+/// at least span / (samples - 2) apart, so that short steps need no more of them; between samples y
+/// is the cubic of values and rates, with an error of (distance)^4 y'''' / 384.
+class DelayLine {
+ public:
+  /// span > 0 [s], samples >= 4. Throws ModelError otherwise.
+  DelayLine(int values, double span, int samples);
+  /// Numbers of memory this needs.
+  int states() const { return header + samples_ * row_; }
+
+  /// At rest at y for all time before t.
+  void start(double t, const double* y, double* memory) const;
+  /// The motion has been accepted up to t. Call at the end of every step.
+  void append(double t, const double* y, const double* yDot, double* memory) const;
+  /// y (and y' unless null) at the time t, not after the last append(). Throws ConvergenceError for
+  /// a time after it (a delay shorter than the step), ModelError for one more than `span` before.
+  void at(double t, const double* memory, double* y, double* yDot = nullptr) const;
+
+ private:
+  static constexpr int header = 2;  ///< number of samples, slot of the newest
+  const double* sample(const double* memory, int age) const;
+
+  int values_, samples_, row_;
+  double spacing_;
+};
+
+}  // namespace tooljoint::model

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Point laws with internal state: rate-dependent springs, plastic links, bristle friction, cutting
+/// forces that depend on a motion some time ago.
+///
+/// A state belongs to the motion and not to the law: integrators keep the states of all points
+/// beside displacement and velocity, so that iterations and rejected steps never touch accepted
+/// values, and a checkpoint holds them. A law is a constant function of them.
+#pragma once
+
+#include "model/laws/PointLaw.hpp"
+
+namespace tooljoint::model {
+
+/// Derivatives of forces f and rates g at points, row-major, point by point.
+struct StateTangents {
+  double* fd;  ///< df/dd, width x width
+  double* fv;  ///< df/dv, width x width
+  double* fx;  ///< df/dx, width x rated
+  double* gd;  ///< dg/dd, rated x width
+  double* gv;  ///< dg/dv, rated x width
+  double* gx;  ///< dg/dx, rated x rated
+};
+
+/// A batch of points with states() numbers x per point, point-major. The first rated() of them
+/// follow x' = g(t, d, v, x) and are integrated by the scheme of the motion: functions get them at
+/// the time t. The others are held: they stay as they were accepted at the end of the last step,
+/// until accept() replaces them at the end of the next one.
+///
+/// All points are evaluated in every step, however far from a wall they are: states go on changing
+/// there. (clearanceLeft() says so; only a law without states may say otherwise.) Implementations
+/// allocate nothing but in initialState().
+class StatefulPointLaw : public PointLaw {
+ public:
+  virtual int states() const = 0;
+  virtual int rated() const = 0;
+  /// States of all points at the start of a motion.
+  virtual void initialState(double t, const double* d, const double* v, double* x) const = 0;
+
+  /// Forces f (width() per point) and rates g (rated() per point).
+  virtual void forces(double t, const std::vector<int>& points, const double* d, const double* v,
+                      const double* x, double* f, double* g) const = 0;
+  /// The same with exact derivatives.
+  virtual void forcesWithTangents(double t, const std::vector<int>& points, const double* d,
+                                  const double* v, const double* x, double* f, double* g,
+                                  const StateTangents& tangents) const = 0;
+
+  /// The end (t, d, v) of a step of the motion: held states of all points become those of this
+  /// time. Called for steps that may still be rejected, with a copy of the states.
+  virtual void accept(double /*t*/, const double* /*d*/, const double* /*v*/, double* /*x*/) const {
+  }
+
+  /// As PointLaw::power() in the middle of a chord of the motion, where the rated states are x and
+  /// all states change at the rates xDot (states() per point); held ones are those of its end.
+  /// `damping` and `friction` include what is lost inside the law.
+  virtual Power powers(double t, const std::vector<int>& points, const double* d, const double* v,
+                       const double* x, const double* xDot) const = 0;
+  /// As PointLaw::record().
+  virtual void recordState(double t, const double* d, const double* v, const double* x,
+                           double* out) const = 0;
+
+  // What set-up code sees, which knows no states: the law in its initial state at (d, v). Tangents
+  // are those of motion too fast for the state to follow.
+  void evaluate(double t, const std::vector<int>& active, const double* d, const double* v,
+                double* f) const final;
+  void evaluateWithTangent(double t, const std::vector<int>& active, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv) const final;
+  Power power(double t, const std::vector<int>& points, const double* d,
+              const double* v) const final;
+  void record(double t, const double* d, const double* v, double* out) const final;
+  void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override;
+};
+
+/// The law as one with states; null for a law without.
+inline const StatefulPointLaw* stateful(const PointLaw& law) {
+  return dynamic_cast<const StatefulPointLaw*>(&law);
+}
+
+/// Numbers of states of all its points; 0 for a law without.
+inline int stateSize(const PointLaw& law) {
+  const auto* with = stateful(law);
+  return with != nullptr ? law.size() * with->states() : 0;
+}
+
+/// PointLaw::record() in the states x, which a law without does not look at.
+inline void record(const PointLaw& law, double t, const double* d, const double* v, const double* x,
+                   double* out) {
+  if (const auto* with = stateful(law))
+    with->recordState(t, d, v, x, out);
+  else
+    law.record(t, d, v, out);
+}
+
+}  // namespace tooljoint::model

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/compiled/PointStates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tooljoint::transient {
+namespace {
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+/// Newton on the states of one point.
+constexpr int maxIterations = 50;
+constexpr double tolerance = 1e-13;  ///< of an update, beside the size of the states
+
+using Rows =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+}  // namespace
+
+PointStates::PointStates(const model::StatefulPointLaw& law)
+    : law_(&law),
+      points_(law.size()),
+      width_(law.width()),
+      states_(law.states()),
+      rated_(law.rated()),
+      factorised_(rated_) {
+  x_.assign(z(points_ * states_), 0.0);
+  still_ = x_;
+  base_ = still_.data();
+  g_.assign(z(points_ * rated_), 0.0);
+  f_.assign(z(points_ * width_), 0.0);
+  for (auto* array : {&fd_, &fv_}) array->assign(z(points_ * width_ * width_), 0.0);
+  for (auto* array : {&fx_, &gd_, &gv_}) array->assign(z(points_ * width_ * rated_), 0.0);
+  gx_.assign(z(points_ * rated_ * rated_), 0.0);
+  one_.assign(1, 0);
+  jacobian_.setZero(rated_, rated_);
+  right_.setZero(rated_, width_);
+  slope_ = right_;
+  defect_.setZero(rated_);
+  step_ = defect_;
+}
+
+void PointStates::bind(const double* base, double factor, const double* rate) {
+  base_ = base;
+  factor_ = factor;
+  rate_ = rate;
+  std::copy(base, base + size(), x_.begin());
+}
+
+model::StateTangents PointStates::tangents() {
+  return {fd_.data(), fv_.data(), fx_.data(), gd_.data(), gv_.data(), gx_.data()};
+}
+
+/// I - factor dg/dx
+void PointStates::setJacobian(int point) {
+  jacobian_ = -factor_ * Rows(&gx_[z(point * rated_ * rated_)], rated_, rated_);
+  jacobian_.diagonal().array() += 1.0;
+  factorised_.compute(jacobian_);
+}
+
+/// Newton for x - base - factor g = 0 from the states found last in this step. False when it does
+/// not converge.
+bool PointStates::solve(double t, int point, const double* d, const double* v) {
+  one_[0] = point;
+  double* x = &x_[z(point * states_)];
+  const double* base = base_ + point * states_;
+  for (int iteration = 0; iteration < maxIterations; ++iteration) {
+    law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents());
+    setJacobian(point);
+    double size = 0, update = 0;
+    for (int i = 0; i < rated_; ++i)
+      defect_[i] = base[i] + factor_ * g_[z(point * rated_ + i)] - x[i];
+    step_ = factorised_.solve(defect_);
+    for (int i = 0; i < rated_; ++i) {
+      x[i] += step_[i];
+      size = std::max({size, std::abs(x[i]), std::abs(base[i])});
+      update = std::max(update, std::abs(step_[i]));
+    }
+    if (!std::isfinite(update)) return false;
+    if (update <= tolerance * size) return true;
+  }
+  return false;
+}
+
+void PointStates::evaluate(double t, const std::vector<int>& points, const double* d,
+                           const double* v, double* f) {
+  bool good = true;
+  if (factor_ != 0.0 && rated_ > 0)
+    for (int p : points) good = solve(t, p, d, v) && good;
+  law_->forces(t, points, d, v, x_.data(), f, g_.data());
+  if (!good)
+    for (int p : points)
+      std::fill_n(f + p * width_, width_, std::numeric_limits<double>::quiet_NaN());
+}
+
+void PointStates::evaluateWithTangent(double t, const std::vector<int>& points, const double* d,
+                                      const double* v, double* f, double* dfdd, double* dfdv) {
+  evaluate(t, points, d, v, f);
+  law_->forcesWithTangents(t, points, d, v, x_.data(), f_.data(), g_.data(), tangents());
+  const bool follows = factor_ != 0.0 && rated_ > 0;
+  const int entries = width_ * width_;
+  for (int p : points) {
+    std::copy_n(&fd_[z(p * entries)], entries, dfdd + p * entries);
+    std::copy_n(&fv_[z(p * entries)], entries, dfdv + p * entries);
+    if (!follows) continue;
+    setJacobian(p);
+    const Rows fx(&fx_[z(p * width_ * rated_)], width_, rated_);
+    const auto add = [&](const std::vector<double>& by, double* tangent) {
+      right_ = factor_ * Rows(&by[z(p * width_ * rated_)], rated_, width_);
+      slope_ = factorised_.solve(right_);
+      for (int i = 0; i < width_; ++i)
+        for (int j = 0; j < width_; ++j)
+          for (int k = 0; k < rated_; ++k)
+            tangent[p * entries + i * width_ + j] += fx(i, k) * slope_(k, j);
+    };
+    add(gd_, dfdd);
+    add(gv_, dfdv);
+  }
+}
+
+model::PointLaw::Power PointStates::power(double t, const std::vector<int>& points, const double* d,
+                                          const double* v) const {
+  return law_->powers(t, points, d, v, base_, rate_ != nullptr ? rate_ : still_.data());
+}
+
+void PointStates::rates(double* xDot) const {
+  for (int p = 0; p < points_; ++p)
+    for (int i = 0; i < states_; ++i)
+      xDot[p * states_ + i] = i < rated_ ? g_[z(p * rated_ + i)] : 0.0;
+}
+
+void PointStates::complete(double t, const std::vector<int>& all, const double* d, const double* v,
+                           double* x, double* xDot) {
+  evaluate(t, all, d, v, f_.data());
+  std::copy(x_.begin(), x_.end(), x);
+  rates(xDot);
+  accept(t, d, v, x);
+}
+
+}  // namespace tooljoint::transient

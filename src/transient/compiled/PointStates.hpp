@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Evaluates a batch with states at what a scheme makes of them. A scheme states where the rated
+/// states of a step end,
+///
+///     x = base + factor g(t, d, v, x),
+///
+/// with factor 0 where x is known (stages of explicit schemes), and each point is then a function
+/// of its d and v alone, with the tangents that follow:
+///
+///     df/dd + df/dx (I - factor dg/dx)^-1 factor dg/dd,   likewise for v
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "model/laws/StatefulPointLaw.hpp"
+
+namespace tooljoint::transient {
+
+class PointStates {
+ public:
+  explicit PointStates(const model::StatefulPointLaw& law);
+
+  /// Numbers of all points.
+  int size() const { return points_ * states_; }
+  /// States from now on; `base` must outlive their use. `rate` is that of power(), null for none.
+  void bind(const double* base, double factor, const double* rate);
+
+  /// As the functions of model::PointLaw. Forces of a point whose states cannot be found are not
+  /// numbers, so that the step fails.
+  void evaluate(double t, const std::vector<int>& points, const double* d, const double* v,
+                double* f);
+  void evaluateWithTangent(double t, const std::vector<int>& points, const double* d,
+                           const double* v, double* f, double* dfdd, double* dfdv);
+  model::PointLaw::Power power(double t, const std::vector<int>& points, const double* d,
+                               const double* v) const;
+
+  /// Rates of the last evaluation of all points, 0 for held states.
+  void rates(double* xDot) const;
+  /// States at the end (d, v) of a step of all points and their rates, held ones accepted.
+  void complete(double t, const std::vector<int>& all, const double* d, const double* v, double* x,
+                double* xDot);
+  /// Held states of x at the end of a step.
+  void accept(double t, const double* d, const double* v, double* x) const {
+    law_->accept(t, d, v, x);
+  }
+  void initial(double t, const double* d, const double* v, double* x) const {
+    law_->initialState(t, d, v, x);
+  }
+  bool isRated(int state) const { return state % states_ < rated_; }
+
+ private:
+  bool solve(double t, int point, const double* d, const double* v);
+  model::StateTangents tangents();
+  void setJacobian(int point);
+
+  const model::StatefulPointLaw* law_;
+  int points_, width_, states_, rated_;
+  const double* base_ = nullptr;
+  double factor_ = 0;
+  const double* rate_ = nullptr;
+  std::vector<double> x_, g_, f_, fd_, fv_, fx_, gd_, gv_, gx_, still_;
+  std::vector<int> one_;
+  Matrix jacobian_, slope_, right_;
+  Vector defect_, step_;
+  Eigen::PartialPivLU<Matrix> factorised_;
+};
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/contact/PointLawContact.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "common/Types.hpp"
+#include "model/laws/PointLawRegistry.hpp"
+#include "substructures/contact/WallKinematics.hpp"
+
+namespace tooljoint::contact {
+namespace {
+
+constexpr int most = 3;  ///< coordinates of a law here
+constexpr int W = 4;     ///< of a node: u, v, w, theta_z
+using Map = Eigen::Matrix<double, Eigen::Dynamic, W, Eigen::RowMajor, most, W>;
+using Rows =
+    Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+std::size_t z(int i) { return static_cast<std::size_t>(i); }
+
+class PointLawInBore final : public model::StatefulPointLaw {
+ public:
+  PointLawInBore(ContactPoints points, std::shared_ptr<const model::PointLaw> law,
+                 RotarySpeed speed)
+      : points_(std::move(points)),
+        law_(std::move(law)),
+        with_(model::stateful(*law_)),
+        speed_(std::move(speed)),
+        n_(law_->width()) {
+    for (auto* array : {&y_, &yDot_, &force_}) array->assign(z(size() * n_), 0.0);
+    for (auto* array : {&fd_, &fv_}) array->assign(z(size() * n_ * n_), 0.0);
+    for (auto* array : {&fx_, &gd_, &gv_}) array->assign(z(size() * n_ * rated()), 0.0);
+    rates_.assign(z(size() * rated()), 0.0);
+    all_.resize(z(size()));
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+  int size() const override { return points_.size(); }
+  int width() const override { return W; }
+  int states() const override { return with_ != nullptr ? with_->states() : 0; }
+  int rated() const override { return with_ != nullptr ? with_->rated() : 0; }
+
+  void initialState(double t, const double* d, const double* v, double* x) const override {
+    if (with_ == nullptr) return;
+    place(t, all_, d, v);
+    with_->initialState(t, y_.data(), yDot_.data(), x);
+  }
+  void accept(double t, const double* d, const double* v, double* x) const override {
+    if (with_ == nullptr) return;
+    place(t, all_, d, v);
+    with_->accept(t, y_.data(), yDot_.data(), x);
+  }
+
+  void forces(double t, const std::vector<int>& points, const double* d, const double* v,
+              const double* x, double* f, double* g) const override {
+    lawForces(t, points, d, v, x, g);
+    for (int p : points) {
+      const Map J = jacobian(p, kinematics(p, d, v));
+      Eigen::Map<Eigen::Vector4d>(f + W * p).noalias() =
+          J.transpose() * Eigen::Map<const Vector>(&force_[z(n_ * p)], n_);
+    }
+  }
+
+  void forcesWithTangents(double t, const std::vector<int>& points, const double* d,
+                          const double* v, const double* x, double* f, double* g,
+                          const model::StateTangents& tangents) const override {
+    place(t, points, d, v);
+    if (with_ != nullptr)
+      with_->forcesWithTangents(
+          t, points, y_.data(), yDot_.data(), x, force_.data(), g,
+          {fd_.data(), fv_.data(), fx_.data(), gd_.data(), gv_.data(), tangents.gx});
+    else
+      law_->evaluateWithTangent(t, points, y_.data(), yDot_.data(), force_.data(), fd_.data(),
+                                fv_.data());
+    const int r = rated();
+    for (int p : points) {
+      const auto at = kinematics(p, d, v);
+      const Map J = jacobian(p, at), byD = placeSlope(at), rateByD = rateSlope(at, v + W * p);
+      const Rows fd(&fd_[z(p * n_ * n_)], n_, n_), fv(&fv_[z(p * n_ * n_)], n_, n_);
+      const double* force = &force_[z(n_ * p)];
+      Eigen::Map<Eigen::Vector4d>(f + W * p).noalias() =
+          J.transpose() * Eigen::Map<const Vector>(force, n_);
+      RowsOut(tangents.fv + p * W * W, W, W) = J.transpose().lazyProduct(Map(fv.lazyProduct(J)));
+      RowsOut dfdd(tangents.fd + p * W * W, W, W);
+      dfdd = J.transpose().lazyProduct(Map(fd.lazyProduct(byD) + fv.lazyProduct(rateByD)));
+      addTurning(at, force, dfdd);
+      if (r == 0) continue;
+      const Rows fx(&fx_[z(p * n_ * r)], n_, r), gd(&gd_[z(p * n_ * r)], r, n_),
+          gv(&gv_[z(p * n_ * r)], r, n_);
+      RowsOut(tangents.fx + p * W * r, W, r) = J.transpose().lazyProduct(fx);
+      RowsOut(tangents.gd + p * W * r, r, W) = gd.lazyProduct(byD) + gv.lazyProduct(rateByD);
+      RowsOut(tangents.gv + p * W * r, r, W) = gv.lazyProduct(J);
+    }
+  }
+
+  int reach() const override { return 3; }
+  void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
+    for (int p : points) y_[z(n_ * p)] = separation(p, d);
+    law_->clearanceLeft(points, y_.data(), gap);
+  }
+
+  Power powers(double t, const std::vector<int>& points, const double* d, const double* v,
+               const double* x, const double* xDot) const override {
+    place(t, points, d, v);
+    Power sum = with_ != nullptr ? with_->powers(t, points, y_.data(), yDot_.data(), x, xDot)
+                                 : law_->power(t, points, y_.data(), yDot_.data());
+    if (n_ == 1) return sum;
+    // the rotary drive moves y_1 without the node: its force does work on the law
+    lawForces(t, points, d, v, x, rates_.data());
+    const double omega = speed_(t);
+    for (int p : points) sum.drive -= force_[z(n_ * p + 1)] * omega * points_.contactRadius[z(p)];
+    return sum;
+  }
+
+  std::vector<model::Channel> channels() const override { return contactChannels(n_ > 1); }
+  void recordState(double t, const double* d, const double* v, const double* x,
+                   double* out) const override {
+    lawForces(t, all_, d, v, x, rates_.data());
+    const int n = size();
+    for (int p = 0; p < n; ++p) {
+      out[p] = force_[z(n_ * p)];
+      out[n + p] = separation(p, d);
+      if (n_ == 1) continue;
+      out[2 * n + p] = force_[z(n_ * p + 1)];
+      out[3 * n + p] = force_[z(n_ * p + 1)] * points_.contactRadius[z(p)];
+    }
+  }
+
+  std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {
+    return std::make_shared<PointLawInBore>(points_.subset(positions), law_->subset(positions),
+                                            speed_);
+  }
+
+ private:
+  double separation(int p, const double* d) const {
+    return -WallKinematics(d[W * p], d[W * p + 1], 0, 0, points_.clearance[z(p)]).penetration;
+  }
+  WallKinematics kinematics(int p, const double* d, const double* v) const {
+    return {d[W * p], d[W * p + 1], v[W * p], v[W * p + 1], points_.clearance[z(p)]};
+  }
+  /// Coordinates of the law and their velocities.
+  void place(double t, const std::vector<int>& points, const double* d, const double* v) const {
+    const double omega = n_ > 1 ? speed_(t) : 0.0;
+    for (int p : points) {
+      const auto at = kinematics(p, d, v);
+      double *y = &y_[z(n_ * p)], *yDot = &yDot_[z(n_ * p)];
+      y[0] = -at.penetration;
+      yDot[0] = -at.rate;
+      if (n_ > 1) yDot[1] = at.slip + (omega + v[W * p + 3]) * points_.contactRadius[z(p)];
+      if (n_ > 2) y[2] = d[W * p + 2], yDot[2] = v[W * p + 2];
+    }
+  }
+  void lawForces(double t, const std::vector<int>& points, const double* d, const double* v,
+                 const double* x, double* g) const {
+    place(t, points, d, v);
+    if (with_ != nullptr)
+      with_->forces(t, points, y_.data(), yDot_.data(), x, force_.data(), g);
+    else
+      law_->evaluate(t, points, y_.data(), yDot_.data(), force_.data());
+  }
+
+  /// dy'/d(u', v', w', theta_z')
+  Map jacobian(int p, const WallKinematics& at) const {
+    Map J = Map::Zero(n_, W);
+    J(0, 0) = -at.nu, J(0, 1) = -at.nv;
+    if (n_ > 1) J(1, 0) = -at.nv, J(1, 1) = at.nu, J(1, 3) = points_.contactRadius[z(p)];
+    if (n_ > 2) J(2, 2) = 1.0;
+    return J;
+  }
+  /// dy/d(u, v, w, theta_z); y_1 has none.
+  Map placeSlope(const WallKinematics& at) const {
+    Map slope = Map::Zero(n_, W);
+    slope(0, 0) = -at.nu, slope(0, 1) = -at.nv;
+    if (n_ > 2) slope(2, 2) = 1.0;
+    return slope;
+  }
+  /// dy'/d(u, v, w, theta_z)
+  Map rateSlope(const WallKinematics& at, const double* v) const {
+    Map slope = Map::Zero(n_, W);
+    slope(0, 0) = -(v[0] - at.nu * at.rate) * at.inverse;
+    slope(0, 1) = -(v[1] - at.nv * at.rate) * at.inverse;
+    if (n_ > 1) {
+      slope(1, 0) = (v[1] - at.nu * at.slip) * at.inverse;
+      slope(1, 1) = (-v[0] - at.nv * at.slip) * at.inverse;
+    }
+    return slope;
+  }
+  /// dJ'/d(u, v) f
+  void addTurning(const WallKinematics& at, const double* f, RowsOut& dfdd) const {
+    const double nuu = (1 - at.nu * at.nu) * at.inverse, nuv = -at.nu * at.nv * at.inverse,
+                 nvv = (1 - at.nv * at.nv) * at.inverse, around = n_ > 1 ? f[1] : 0.0;
+    dfdd(0, 0) += -nuu * f[0] - nuv * around;
+    dfdd(0, 1) += -nuv * f[0] - nvv * around;
+    dfdd(1, 0) += -nuv * f[0] + nuu * around;
+    dfdd(1, 1) += -nvv * f[0] + nuv * around;
+  }
+
+  ContactPoints points_;
+  std::shared_ptr<const model::PointLaw> law_;
+  const model::StatefulPointLaw* with_;
+  RotarySpeed speed_;
+  int n_;
+  std::vector<int> all_;
+  // of the law in one evaluation
+  mutable std::vector<double> y_, yDot_, force_, fd_, fv_, fx_, gd_, gv_, rates_;
+};
+
+/// At rest in the initial state. What slides around has no velocity there: the friction of such a
+/// law begins with the motion.
+class PointLawAtRest final : public StaticContact {
+ public:
+  PointLawAtRest(ContactPoints points, std::shared_ptr<const model::PointLaw> law)
+      : StaticContact(std::move(points)), law_(std::move(law)) {
+    all_.resize(z(size()));
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+
+  void evaluate(const Options& options, const double* uv, double* f,
+                double* tangent) const override {
+    const auto [force, slope] = normal(options, uv);
+    for (int p = 0; p < size(); ++p) {
+      const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[z(p)]);
+      const double N = force[z(p)], dG = slope[z(p)];
+      f[3 * p] = -N * at.nu;
+      f[3 * p + 1] = -N * at.nv;
+      f[3 * p + 2] = 0.0;
+      if (tangent == nullptr) continue;
+      double* j = tangent + 6 * p;
+      const double nuv = -at.nu * at.nv * at.inverse;
+      j[0] = -dG * at.nu * at.nu - N * (1 - at.nu * at.nu) * at.inverse;
+      j[1] = j[2] = -dG * at.nu * at.nv - N * nuv;
+      j[3] = -dG * at.nv * at.nv - N * (1 - at.nv * at.nv) * at.inverse;
+      j[4] = j[5] = 0.0;
+    }
+  }
+  void normalForce(const Options& options, const double* uv, double* force) const override {
+    const auto found = normal(options, uv).first;
+    std::copy(found.begin(), found.end(), force);
+  }
+  double largestPull() const override { return 0.0; }
+
+ private:
+  /// F_n and dF_n/dG.
+  std::pair<std::vector<double>, std::vector<double>> normal(const Options& options,
+                                                             const double* uv) const {
+    const int n = law_->width();
+    std::vector<double> y(z(size() * n)), still(y.size()), f(y.size()), fd(z(size() * n * n)),
+        fv(fd.size()), force, slope;
+    for (int p = 0; p < size(); ++p)
+      y[z(n * p)] =
+          -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[z(p)]).penetration;
+    law_->evaluateWithTangent(0.0, all_, y.data(), still.data(), f.data(), fd.data(), fv.data());
+    for (int p = 0; p < size(); ++p) {
+      force.push_back(options.stiffnessScale * f[z(n * p)]);
+      slope.push_back(-options.stiffnessScale * fd[z(n * n * p)]);
+    }
+    return {force, slope};
+  }
+
+  std::shared_ptr<const model::PointLaw> law_;
+  std::vector<int> all_;
+};
+
+class PointLawContact final : public ContactLaw {
+ public:
+  PointLawContact(std::string name, Teuchos::ParameterList own)
+      : name_(std::move(name)), own_(std::move(own)) {
+    make(1);
+  }
+  std::shared_ptr<const model::PointLaw> inMotion(ContactPoints points,
+                                                  RotarySpeed speed) const override {
+    auto law = make(points.size());
+    return std::make_shared<PointLawInBore>(std::move(points), std::move(law), std::move(speed));
+  }
+  std::shared_ptr<const StaticContact> atRest(ContactPoints points) const override {
+    auto law = make(points.size());
+    return std::make_shared<PointLawAtRest>(std::move(points), std::move(law));
+  }
+
+ private:
+  std::shared_ptr<const model::PointLaw> make(int points) const {
+    return model::PointLawRegistry::instance().make(name_, {own_, points, most});
+  }
+
+  std::string name_;
+  Teuchos::ParameterList own_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ContactLaw> pointLawContact(const std::string& name,
+                                                  const Teuchos::ParameterList& own) {
+  return std::make_shared<PointLawContact>(name, own);
+}
+
+}  // namespace tooljoint::contact

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Point laws with states in every integrator that carries them: against closed forms, with the
+/// order of the scheme.
+///
+/// Maxwell: the motion is that of a linear system of three equations. Elastic-plastic: free flight
+/// against constant friction between an elastic arrival and elastic vibration about the place where
+/// it sticks. Delay: q'' = -b q(t - tau) from rest at 1, by the method of steps:
+/// q(t) = sum_k (-b)^k (t - (k-1) tau)^{2k} / (2k)! over all k with t >= (k-1) tau.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "common/Error.hpp"
+#include "model/laws/DelayLine.hpp"
+#include "tests/unit/transient/StatefulModels.hpp"
+
+namespace tooljoint::transient::testing {
+namespace {
+
+constexpr double kEnd = 0.4;
+
+double maxwellError(const std::string& integrator, double step) {
+  const MaxwellMass mass;
+  Keep samples;
+  integrate(mass.model(), options(integrator, kEnd, step, 0.02), samples);
+  return largestError(samples, mass);
+}
+
+/// The motion moves by 3 cm before it creeps. Errors fall as h^2: factors of 4 within 5 % at steps
+/// of a fiftieth of the relaxation time and less.
+TEST(StatefulLaw, MaxwellElementIsOfSecondOrderInGeneralizedAlpha) {
+  const double coarse = maxwellError("Generalized-alpha", 1e-3),
+               fine = maxwellError("Generalized-alpha", 5e-4),
+               finest = maxwellError("Generalized-alpha", 2.5e-4);
+  EXPECT_LT(coarse, 2e-5);
+  EXPECT_NEAR(coarse / fine, 4.0, 0.2);
+  EXPECT_NEAR(fine / finest, 4.0, 0.2);
+}
+
+TEST(StatefulLaw, MaxwellElementIsOfFourthOrderInRungeKutta) {
+  const double coarse = maxwellError("RK4", 1e-2), fine = maxwellError("RK4", 5e-3);
+  EXPECT_LT(coarse, 1e-4);
+  EXPECT_NEAR(coarse / fine, 16.0, 3.0);
+}
+
+TEST(StatefulLaw, AdaptiveRungeKuttaHoldsTheToleranceForMaxwell) {
+  const MaxwellMass mass;
+  for (const double tolerance : {1e-5, 1e-7}) {
+    auto o = options("RK4 adaptive", kEnd, 0.0, 0.02);
+    o.own.set("Tolerance", tolerance).set("First Step", 0.05).set("Growth", 1.2);
+    Keep samples;
+    const auto report = integrate(mass.model(), o, samples);
+    EXPECT_GT(report.counters.rejected, 0);  // the first step is far too long
+    // some hundred steps, each within the tolerance in v, act over a time of 0.05 s
+    EXPECT_LT(largestError(samples, mass), 20 * tolerance);
+  }
+}
+
+/// What the dashpot loses, c x'^2, and what the spring stores close the ledger; at the end nearly
+/// all kinetic energy has been lost in the law.
+TEST(StatefulLaw, LedgerCountsWhatTheLawDissipates) {
+  const MaxwellMass mass;
+  const double energy = 0.5 * mass.m * mass.speed * mass.speed;
+  for (const auto* integrator : {"Generalized-alpha", "RK4"}) {
+    Keep samples;
+    const auto report = integrate(mass.model(), options(integrator, kEnd, 5e-4, 0.02), samples);
+    const Vector3 end = mass.exact(kEnd);
+    const double left =
+        0.5 * mass.m * end[1] * end[1] + 0.5 * mass.k * (end[0] - end[2]) * (end[0] - end[2]);
+    EXPECT_NEAR(report.energy.contactDamping, energy - left, 1e-3 * energy) << integrator;
+    EXPECT_NEAR(report.energy.contact, 0.5 * mass.k * std::pow(end[0] - end[2], 2), 1e-3 * energy);
+    EXPECT_LT(std::abs(report.energy.residual()), 1e-3) << integrator;
+  }
+}
+
+/// Thrown at 1 m/s from rest in the spring, the mass yields at d_y = F/k and slides until v = 0;
+/// then it vibrates about d_s - F/k. With m v_y^2 = m v^2 - F d_y the sliding takes m v_y / F.
+struct PlasticMass {
+  double m = 2.0, k = 5e4, F = 100.0, speed = 1.0;
+  double yields() const { return F / k; }
+  double omega() const { return std::sqrt(k / m); }
+  double yieldTime() const { return std::asin(yields() * omega() / speed) / omega(); }
+  double yieldSpeed() const { return speed * std::cos(omega() * yieldTime()); }
+  double stops() const { return yields() + 0.5 * m * yieldSpeed() * yieldSpeed() / F; }
+  double stopTime() const { return yieldTime() + m * yieldSpeed() / F; }
+  double exact(double t) const {
+    if (t < yieldTime()) return speed / omega() * std::sin(omega() * t);
+    const double s = t - yieldTime();
+    if (t < stopTime()) return yields() + yieldSpeed() * s - 0.5 * F / m * s * s;
+    return stops() - yields() * (1 - std::cos(omega() * (t - stopTime())));
+  }
+  model::SecondOrderModel model() const {
+    auto model = denseModel(scalar(m), Matrix(), Matrix());
+    model.initialVelocity[0] = speed;
+    Teuchos::ParameterList own;
+    own.set("Stiffness", k).set("Yield Force", F);
+    addLaw(model, "Elastic-Plastic", own);
+    return model;
+  }
+};
+
+/// The force has kinks at two instants, so schemes are of second order here whatever their own.
+TEST(StatefulLaw, ElasticPlasticSpringSlidesAndSticks) {
+  const PlasticMass mass;
+  for (const auto* integrator : {"Generalized-alpha", "RK4", "RK4 adaptive"}) {
+    auto o = options(integrator, 0.05, 2e-5, 1e-3);
+    if (std::string(integrator) == "RK4 adaptive") o.own.set("Tolerance", 1e-6);
+    Keep samples;
+    const auto report = integrate(mass.model(), o, samples);
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      EXPECT_NEAR(samples.q[i][0], mass.exact(samples.time[i]), 2e-4 * mass.stops())
+          << integrator << " at " << samples.time[i];
+    const double slid = mass.stops() - mass.yields();
+    EXPECT_NEAR(report.energy.friction, mass.F * slid, 1e-3 * mass.F * slid) << integrator;
+    EXPECT_LT(std::abs(report.energy.residual()), 2e-3) << integrator;
+  }
+}
+
+/// A force that follows the displacement some time ago.
+struct Echo : model::Formula<1> {
+  double b = 40.0, tau = 0.1;
+  model::DelayLine past{1, 0.1, 64};
+  int held() const { return past.states(); }
+  void initial(double t, const double* d, const double*, double* x) const { past.start(t, d, x); }
+  void accept(double t, const double* d, const double* v, double* x) const {
+    past.append(t, d, v, x);
+  }
+  template <class T>
+  void operator()(const model::PointAt<T>& at, T* f, T*) const {
+    double then = 0;
+    past.at(at.t - tau, at.held, &then);
+    f[0] = T(-b * then);
+  }
+  Power power(const model::PointAt<double>& at, const double*) const {
+    double f = 0;
+    (*this)(at, &f, static_cast<double*>(nullptr));
+    Power p;
+    p.drive = f * at.v[0];
+    return p;
+  }
+  double exact(double t) const {
+    double q = 0, factor = 1;  // (-b)^k / (2k)!
+    for (int k = 0; k < 20 && t >= (k - 1) * tau; ++k) {
+      q += factor * std::pow(t - (k - 1) * tau, 2 * k);
+      factor *= -b / ((2 * k + 1) * (2 * k + 2));
+    }
+    return q;
+  }
+};
+
+model::SecondOrderModel echoing(const Echo& law) {
+  auto model = denseModel(scalar(1.0), Matrix(), Matrix());
+  model.initialDisplacement[0] = 1.0;
+  model::PointSet set;
+  set.name = "echo";
+  set.law = std::make_shared<model::FormulaLaw<Echo>>(law, 1);
+  set.rows = scalar(1.0).sparseView();
+  set.offset = Vector::Zero(1);
+  set.entities = {1};
+  model.points = {set};
+  return model;
+}
+
+TEST(StatefulLaw, DelayedForceFollowsTheMethodOfSteps) {
+  const Echo law;
+  const auto error = [&](const std::string& integrator, double step) {
+    Keep samples;
+    integrate(echoing(law), options(integrator, 0.5, step, 0.01), samples);
+    double largest = 0;
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      largest = std::max(largest, std::abs(samples.q[i][0] - law.exact(samples.time[i])));
+    return largest;
+  };
+  EXPECT_LT(error("RK4", 1e-3), 1e-6);
+  EXPECT_LT(error("Generalized-alpha", 1e-3), 1e-4);
+  EXPECT_NEAR(error("Generalized-alpha", 1e-3) / error("Generalized-alpha", 5e-4), 4.0, 0.4);
+}
+
+TEST(StatefulLaw, DelayShorterThanTheStepIsRefused) {
+  const Echo law;
+  Keep samples;
+  try {
+    integrate(echoing(law), options("RK4", 1.0, 0.25, 0.25), samples);
+    FAIL() << "no error";
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what()).find("the delay is shorter than the time step"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(StatefulLaw, IntegratorsThatDoNotCarryStatesRefuseTheLaw) {
+  Keep samples;
+  for (const auto* integrator : {"SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
+    try {
+      integrate(MaxwellMass().model(), options(integrator, 0.1, 0, 0.01), samples);
+      FAIL() << "no error";
+    } catch (const ModelError& error) {
+      EXPECT_NE(std::string(error.what())
+                    .find("does not carry the states of point laws, but the law of \"Maxwell\""),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tooljoint::transient::testing
