@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/Constants.hpp"
+#include "common/Index.hpp"
 #include "substructures/beam/Rotation.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "tests/support/PolynomialMotion.hpp"
@@ -150,7 +151,7 @@ void expectTerm(const Scene& scene, const model::SecondOrderModel& model,
                 const std::string& law, double value) {
   const auto* term = find(terms, name);
   ASSERT_NE(term, nullptr) << name;
-  EXPECT_EQ(model.laws[static_cast<std::size_t>(term->law)].name, law) << name;
+  EXPECT_EQ(model.laws[at(term->law)].name, law) << name;
   EXPECT_NEAR(scene.form(term->matrix), value, 1e-10 * std::abs(value)) << name;
 }
 
@@ -158,7 +159,7 @@ void expectLoad(const Scene& scene, const model::SecondOrderModel& model, const 
                 const std::string& law, double value) {
   for (const auto& load : model.loads) {
     if (load.name != name) continue;
-    EXPECT_EQ(model.laws[static_cast<std::size_t>(load.law)].name, law) << name;
+    EXPECT_EQ(model.laws[at(load.law)].name, law) << name;
     EXPECT_NEAR(scene.work(load.vector), value, 1e-10 * std::abs(value)) << name;
     return;
   }
@@ -435,16 +436,12 @@ TEST(Equations, StaticStateBalancesWhatIsConstantInTime) {
   for (std::size_t e = 0; e < 2; ++e) {
     beam::Matrix12 stiffness = beam::Matrix12::Zero();
     for (const auto& term : turning.model.stiffness)
-      if (turning.model.laws[static_cast<std::size_t>(term.law)].name == "1")
-        stiffness += term.matrices[e];
+      if (turning.model.laws[at(term.law)].name == "1") stiffness += term.matrices[e];
     EXPECT_EQ(turning.stiffness[e], stiffness);
   }
   scene.path.reaction.setZero();
   EXPECT_EQ(scene.atPath().pathReaction.size(), 0);
 }
-
-// -------------------------------------------------------------------------------------------------
-// parts
 
 /// Held dofs are left out; two parts have the matrices and loads of the whole between them, each
 /// node's load once.
@@ -455,12 +452,12 @@ TEST(Equations, PartsAddUpToTheWhole) {
   scene.loads.gravity = gravity;
   scene.loads.weightOnBit = 1e4;
   scene.path.reaction = Matrix::Random(6, 3);
-  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[static_cast<std::size_t>(dof)] = 1;
+  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[at(dof)] = 1;
   StringModel equations = scene.equations();
   equations.state = Vector::LinSpaced(18, 0.1, 1.8);
   const auto whole = assemble(equations);
+  ASSERT_EQ(whole.size(), equations.freeDofs());
   ASSERT_EQ(whole.size(), 12);
-  EXPECT_EQ(equations.freeDofs(), 12);
   Matrix mass = Matrix::Zero(12, 12), stiffness = mass, damping = mass;
   Vector load = Vector::Zero(12);
   for (int e = 0; e < 2; ++e) {
@@ -469,8 +466,7 @@ TEST(Equations, PartsAddUpToTheWhole) {
     Matrix take = Matrix::Zero(part.model.size(), 12);
     for (int i = 0; i < part.model.size(); ++i)
       for (int j = 0; j < 12; ++j)
-        if (part.model.dofs[static_cast<std::size_t>(i)] == whole.dofs[static_cast<std::size_t>(j)])
-          take(i, j) = 1.0;
+        if (part.model.dofs[at(i)] == whole.dofs[at(j)]) take(i, j) = 1.0;
     ASSERT_EQ(take.sum(), part.model.size());
     EXPECT_EQ(part.reference, take * whole.initialDisplacement);
     EXPECT_EQ(part.model.initialDisplacement, part.reference);
@@ -489,16 +485,14 @@ TEST(Equations, PartsAddUpToTheWhole) {
 /// Recovery gives all six dofs of a node back, zero where one is held.
 TEST(Equations, RecoveryPutsHeldDofsBack) {
   Scene scene;
-  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[static_cast<std::size_t>(dof)] = 1;
+  for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[at(dof)] = 1;
   const auto model = assemble(scene.equations());
   const Vector q = Vector::LinSpaced(12, 1.0, 12.0);
   const Vector d = model.recoveryOffset + model.recovery * q;
-  ASSERT_EQ(d.size(), 18);
   int next = 0;
-  for (int dof = 0; dof < 18; ++dof) {
-    const bool held = scene.held[static_cast<std::size_t>(dof)] != 0;
-    EXPECT_EQ(d(dof), held ? 0.0 : q(next++)) << dof;
-  }
+  ASSERT_EQ(d.size(), 18);
+  for (int dof = 0; dof < 18; ++dof)
+    EXPECT_EQ(d(dof), scene.held[at(dof)] != 0 ? 0.0 : q(next++)) << dof;
 }
 
 }  // namespace
