@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// A client of the installed package: two masses on springs as a model of the toolkit,
+/// A client of the installed package: a string from its deck to results, and two masses on springs
+/// as a model of the toolkit,
 ///     M q'' + K q = f,   M = diag(2, 1) kg,   K = [3 -1; -1 1] N/m.
+#include <Tpetra_Core.hpp>
 #include <cmath>
 #include <iostream>
 #include <stdexcept>
 
+#include "StringCase.hpp"
 #include "common/Error.hpp"
 #include "common/Version.hpp"
 #include "model/SecondOrderModel.hpp"
 
-int main() {
+int main(int argc, char** argv) {
+  const Tpetra::ScopeGuard scope(&argc, &argv);
+  runStringCase();
   using tooljoint::model::DofLabel;
   tooljoint::model::SecondOrderModel model;
   model.componentNames = {"u"};

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StringCase.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "cases/run/Run.hpp"
+#include "substructures/drillstring/case/DrillstringCase.hpp"
+
+namespace {
+
+constexpr double length = 90.0, density = 7850.0, youngModulus = 2.1e11, gravity = 9.81;
+
+const std::string deck = R"xml(<ParameterList name="hanging">
+  <ParameterList name="Well">
+    <Parameter name="Trajectory" type="string" value="Vertical"/>
+    <ParameterList name="Vertical"><Parameter name="Length" type="double" value="100"/></ParameterList>
+    <Parameter name="Bore Radius" type="double" value="0.108"/>
+  </ParameterList>
+  <ParameterList name="Drillstring">
+    <Parameter name="Assembly" type="Array(string)" value="{10*pipe}"/>
+    <ParameterList name="Components">
+      <ParameterList name="pipe">
+        <Parameter name="Length" type="double" value="9"/>
+        <Parameter name="Outer Radius" type="double" value="0.0635"/>
+        <Parameter name="Inner Radius" type="double" value="0.054"/>
+      </ParameterList>
+    </ParameterList>
+    <ParameterList name="Material">
+      <Parameter name="Density" type="double" value="7850"/>
+      <Parameter name="Young Modulus" type="double" value="2.1e11"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Loads"><Parameter name="Gravity" type="double" value="9.81"/></ParameterList>
+</ParameterList>
+)xml";
+
+}  // namespace
+
+void runStringCase() {
+  namespace drillstring = tooljoint::drillstring;
+  std::ofstream("hanging.xml") << deck;
+  const drillstring::DrillstringCase hanging(drillstring::readScene("hanging.xml", {}));
+  const auto rest = hanging.atRest()->rest();
+  const double stretch = rest(rest.size() - 4);  // w of the last node
+  const double expected = density * gravity * length * length / (2.0 * youngModulus);
+  if (std::abs(stretch / expected - 1.0) > 1e-6)
+    throw std::runtime_error("the pipes stretch by " + std::to_string(stretch) + " m, not by " +
+                             std::to_string(expected) + " m");
+  tooljoint::cases::run(hanging, {"hanging", ""});
+  if (!std::ifstream("hanging/summary.json") || !std::ifstream("hanging/results.h5"))
+    throw std::runtime_error("a run by the installed libraries left no results");
+}
