@@ -52,7 +52,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
         &linear0_, &weight_,   &scratch_, &base_,       &saved_,    &savedChange_, &guess_,
         &drift_,   &rowSize_,  &inertia_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
-  predicted_.resize(n);
+  predicted_.resize(n, model.stateSize());
   factorLaws_.assign(model.lawValues().size(), 0.0);
   nodal_.bind(model);
   relaxation_.bind(model);

@@ -4,6 +4,7 @@
 
 #include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
+#include "substructures/contact/WallKinematics.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
 using namespace tooljoint;
