@@ -253,6 +253,12 @@ class PointLawAtRest final : public StaticContact {
       y[z(n * p)] =
           -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[z(p)]).penetration;
     law_->evaluateWithTangent(0.0, all_, y.data(), still.data(), f.data(), fd.data(), fv.data());
+    if (model::stateful(*law_) != nullptr) {
+      // the state is that of each place, so the slope is not that of a state that is held
+      const auto ahead = forcesAt(y, slopeStep), behind = forcesAt(y, -slopeStep);
+      for (int p = 0; p < size(); ++p)
+        fd[z(n * n * p)] = (ahead[z(n * p)] - behind[z(n * p)]) / (2 * slopeStep);
+    }
     for (int p = 0; p < size(); ++p) {
       force.push_back(options.stiffnessScale * f[z(n * p)]);
       slope.push_back(-options.stiffnessScale * fd[z(n * n * p)]);
@@ -260,6 +266,15 @@ class PointLawAtRest final : public StaticContact {
     return {force, slope};
   }
 
+  std::vector<double> forcesAt(std::vector<double> y, double step) const {
+    const std::vector<double> still(y.size());
+    std::vector<double> f(y.size());
+    for (int p = 0; p < size(); ++p) y[z(law_->width() * p)] += step;
+    law_->evaluate(0.0, all_, y.data(), still.data(), f.data());
+    return f;
+  }
+
+  static constexpr double slopeStep = 1e-8;  ///< of central differences [m]
   std::shared_ptr<const model::PointLaw> law_;
   std::vector<int> all_;
 };
