@@ -26,9 +26,9 @@ class Lazy {
   std::optional<T> value_;
 };
 
-bool sameEntries(const Sparse& a, const Sparse& b) {
-  return a.nonZeros() == b.nonZeros() && Sparse(a - b).norm() == 0.0;
-}
+/// A stiffness whose skew part is below this, relative to its diagonal, is symmetric but for the
+/// rounding of its assembly.
+constexpr double roundingOfAssembly = 1e-14;
 
 }  // namespace
 
@@ -161,7 +161,7 @@ std::vector<std::vector<int>> PartView::blockPositions() const {
 const PartView::Factor& PartView::factor(int number, bool symmetric) const {
   const InteriorBlock& b = interiorBlock(number);
   State::Block& cached = state_->blocks[at(number)];
-  const bool own = symmetric && !sameEntries(b.stiffness, b.symmetricStiffness);
+  const bool own = symmetric && !nearlySymmetric(b.stiffness, roundingOfAssembly);
   return (own ? cached.symmetric : cached.full).get([&] {
     const Sparse& K = own ? b.symmetricStiffness : b.stiffness;
     const Matrix floating = b.floats() ? floatingModes(b) : Matrix(K.rows(), 0);

@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/CoupledChecks.hpp"
+#include "tests/support/ListDefaults.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -179,7 +180,9 @@ TEST(LoadVectors, FloatingPiecesAreBalancedByTheirInertia) {
 }
 
 TEST(LoadVectors, TheDeckIsRead) {
-  Teuchos::ParameterList list("Reduction");
+  deck::ListSpec spec("Reduction", "");
+  declareLoadVectors(spec);
+  Teuchos::ParameterList list = test::defaultsOf(spec);
   EXPECT_FALSE(readLoadVectors(list).any());
   list.set("Load Vectors", "Loads and points");
   EXPECT_TRUE(readLoadVectors(list).loads && readLoadVectors(list).points);
