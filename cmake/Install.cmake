@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake --install: libraries, program, headers under include/tooljoint, scenes under share/tooljoint/xml, and find_package(Tooljoint).
+# cmake --install: libraries, program, headers under include/tooljoint, find_package(Tooljoint); licence, documents, examples, scenes and tools
+# under share/tooljoint.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tooljoint)
@@ -7,7 +8,7 @@ foreach(target toolkit drillstring)
   if(TARGET tooljoint_${target})
     set_property(TARGET tooljoint_${target} PROPERTY EXPORT_NAME ${target})
     install(TARGETS tooljoint_${target} EXPORT TooljointTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint)
+      INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint)  # for clients; for the headers among themselves
   endif()
 endforeach()
 if(TARGET tooljoint)
@@ -15,12 +16,12 @@ if(TARGET tooljoint)
 endif()
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp" PATTERN app EXCLUDE)
 install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint OPTIONAL)
-# The program finds its scripts beside itself, in the build tree as in the install tree.
-foreach(script plot_study.py)
-  configure_file(tools/${script} ${PROJECT_BINARY_DIR}/share/tooljoint/tools/${script} COPYONLY)
-  install(PROGRAMS tools/${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
-endforeach()
+# As in the source tree, so that the documents find what they link to.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
+install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(PROGRAMS tools/first_run.py tools/plot_results.py tools/plot_study.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
+# The program finds the script of its study pictures beside itself, in the build tree as in the install tree.
+configure_file(tools/plot_study.py ${PROJECT_BINARY_DIR}/share/tooljoint/tools/plot_study.py COPYONLY)
 
 install(EXPORT TooljointTargets NAMESPACE Tooljoint:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/TooljointConfig.cmake.in ${PROJECT_BINARY_DIR}/TooljointConfig.cmake INSTALL_DESTINATION ${package_dir})

@@ -3,6 +3,12 @@
 # by clients: the only place that knows how Trilinos 13.2 spells its targets.
 include(CMakeFindDependencyMacro)
 
+# FindHDF5 compiles C; a project of LANGUAGES CXX gets the language here.
+get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+if(NOT "C" IN_LIST languages)
+  enable_language(C)
+endif()
+
 set(HDF5_PREFER_PARALLEL ON)
 find_dependency(MPI COMPONENTS CXX)
 find_dependency(HDF5 COMPONENTS C)

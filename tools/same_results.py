@@ -34,7 +34,7 @@ def scenes(tree):
     """(name, deck below the tree, overrides) of every scene that ships."""
     for deck in sorted([*tree.glob("xml/*.xml"), *tree.glob("examples/*/*.xml")]):
         lists = {child.get("name") for child in ET.parse(deck).getroot()}
-        if lists & {"Drillstring", "Parts"} and "Your Own Basis" not in deck.read_text():
+        if lists & {"Drillstring", "Parts"} and deck.parent.name != "07_your_own_basis":
             yield str(deck.relative_to(tree)), deck.relative_to(tree), []
     for gold in sorted(tree.glob("tests/regression/*.json")):
         content = json.loads(gold.read_text())

@@ -15,12 +15,12 @@
 #include <Tpetra_Core.hpp>
 #include <cmath>
 #include <cstdio>
-
-#include "common/Error.hpp"
-#include "common/Parallel.hpp"
-#include "coupling/assembly/Assembler.hpp"
-#include "linalg/trilinos/EigenSolver.hpp"
-#include "reduction/Reduce.hpp"
+#include <tooljoint/common/Constants.hpp>
+#include <tooljoint/common/Error.hpp>
+#include <tooljoint/common/Parallel.hpp>
+#include <tooljoint/coupling/assembly/Assembler.hpp>
+#include <tooljoint/linalg/trilinos/EigenSolver.hpp>
+#include <tooljoint/reduction/Reduce.hpp>
 
 namespace {
 
@@ -87,7 +87,7 @@ int run() {
     std::printf("%d + %d dofs reduced to %d\n", parts[0].model.size(), parts[1].model.size(),
                 coupled.size());
   for (int i = 0; i < count; ++i) {
-    const double found = std::sqrt(modes.values(i)) / (2.0 * std::acos(-1.0));
+    const double found = std::sqrt(modes.values(i)) / constants::twoPi;
     const double exact = (2 * i + 1) * c / (4.0 * kLength);
     const double error = found / exact - 1.0;
     if (parallel::rank() == 0)

@@ -31,13 +31,13 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-
-#include "common/Error.hpp"
-#include "common/Parallel.hpp"
-#include "coupling/CoupledModes.hpp"
-#include "coupling/Synthesis.hpp"
-#include "linalg/trilinos/DirectSolver.hpp"
-#include "reduction/methods/InterfaceBasis.hpp"
+#include <tooljoint/common/Constants.hpp>
+#include <tooljoint/common/Error.hpp>
+#include <tooljoint/common/Parallel.hpp>
+#include <tooljoint/coupling/CoupledModes.hpp>
+#include <tooljoint/coupling/Synthesis.hpp>
+#include <tooljoint/linalg/trilinos/DirectSolver.hpp>
+#include <tooljoint/reduction/methods/InterfaceBasis.hpp>
 
 namespace {
 
@@ -189,7 +189,7 @@ coupling::Synthesis join(coupling::Assembly assembly,
       how);
 }
 
-double hertz(double eigenvalue) { return std::sqrt(eigenvalue) / (2.0 * std::acos(-1.0)); }
+double hertz(double eigenvalue) { return std::sqrt(eigenvalue) / constants::twoPi; }
 
 /// Static force that the rest of the frame exerts on a part at node 5, from the multipliers.
 double forceAt(const coupling::Synthesis& dual, const std::string& name, int component) {

@@ -7,15 +7,16 @@
 #include <Tpetra_Core.hpp>
 #include <cmath>
 #include <cstdio>
-
-#include "common/Parallel.hpp"
-#include "coupling/CoupledModes.hpp"
-#include "coupling/Synthesis.hpp"
-#include "linalg/Deterministic.hpp"
-#include "reduction/methods/BasisBuilder.hpp"
-#include "reduction/vectors/ModalVectors.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include <tooljoint/common/Constants.hpp>
+#include <tooljoint/common/Parallel.hpp>
+#include <tooljoint/coupling/CoupledModes.hpp>
+#include <tooljoint/coupling/Synthesis.hpp>
+#include <tooljoint/deck/Deck.hpp>
+#include <tooljoint/linalg/Deterministic.hpp>
+#include <tooljoint/parts/PartsScene.hpp>
+#include <tooljoint/reduction/ReductionParameters.hpp>
+#include <tooljoint/reduction/methods/BasisBuilder.hpp>
+#include <tooljoint/reduction/vectors/ModalVectors.hpp>
 
 namespace {
 
@@ -50,16 +51,21 @@ const bool registered = addMethod<RandomSubspace>(
         .integer("Steps", 2, deck::Range::atLeast(1),
                  "Inverse steps that draw the vectors towards low modes."));
 
-int run(const std::string& deck) {
-  const drillstring::Scene scene = drillstring::readScene(deck, {});
-  const drillstring::StaticStage stage = drillstring::solveStatic(scene);
+int run(const std::string& file) {
+  deck::ListSpec spec("Scene", "Parts from files, reduced.");
+  spec.requiredList(parts::parameters());
+  spec.requiredList(reduction::parameters());
+  const auto deck = deck::Deck::read(file, spec);
+  const auto scene = parts::buildScene(parts::readSettings(deck.list().sublist("Parts")), {},
+                                       [&](const std::string& name) { return deck.resolve(name); });
   const auto mine =
-      coupling::synthesise(drillstring::cut(scene, stage), scene.list().sublist("Reduction"));
-  const auto full = coupling::lowestModes(drillstring::fullModel(stage), 8),
+      coupling::synthesise(scene.parts, deck.list().sublist("Reduction"), scene.coupling);
+  const auto whole = coupling::coupleWithPositions(scene.parts, scene.coupling);
+  const auto full = coupling::lowestModes(whole.model, 8),
              small = coupling::lowestModes(mine.coupled.model, 8);
   bool near = registered;
   for (int k = 0; k < 8; ++k) {
-    const double hertz = std::sqrt(full.values[k]) / (2 * std::acos(-1.0)),
+    const double hertz = std::sqrt(full.values[k]) / constants::twoPi,
                  error = std::sqrt(small.values[k] / full.values[k]) - 1;
     if (parallel::rank() == 0) std::printf("mode %d: %9.4f Hz, error %+.1e\n", k + 1, hertz, error);
     near =
@@ -71,7 +77,7 @@ int run(const std::string& deck) {
 int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   try {
-    return run(argc > 1 ? argv[1] : TOOLJOINT_EXAMPLE_FOLDER "/scene.xml");
+    return run(argc > 1 ? argv[1] : SCENE);
   } catch (const tooljoint::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return static_cast<int>(error.code());

@@ -5,9 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
-
-#include "cases/run/Run.hpp"
-#include "substructures/drillstring/case/DrillstringCase.hpp"
+#include <tooljoint/cases/run/Run.hpp>
+#include <tooljoint/substructures/drillstring/case/DrillstringCase.hpp>
 
 namespace {
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <iostream>
 #include <stdexcept>
+#include <tooljoint/common/Error.hpp>
+#include <tooljoint/common/Version.hpp>
+#include <tooljoint/model/SecondOrderModel.hpp>
 
 #include "StringCase.hpp"
-#include "common/Error.hpp"
-#include "common/Version.hpp"
-#include "model/SecondOrderModel.hpp"
 
 int main(int argc, char** argv) {
   const Tpetra::ScopeGuard scope(&argc, &argv);
