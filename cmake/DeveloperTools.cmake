@@ -9,11 +9,18 @@ endif()
 find_program(RUN_CLANG_TIDY run-clang-tidy)
 if(RUN_CLANG_TIDY)
   add_custom_target(tidy
-    COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${PROJECT_BINARY_DIR}/tidy -G Ninja -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${PROJECT_BINARY_DIR}/tidy -G Ninja -D TOOLJOINT_PCH=OFF
     COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR}/tidy --target tooljoint_git_hash
     COMMAND ${RUN_CLANG_TIDY} -quiet -j 2 -p ${PROJECT_BINARY_DIR}/tidy "${PROJECT_SOURCE_DIR}/(src|substructures)/.*"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} USES_TERMINAL VERBATIM)
 endif()
+
+# `sources-alone` checks the syntax of every source of the libraries and the program without precompiled headers: does it include what it uses?
+add_library(sources-alone OBJECT EXCLUDE_FROM_ALL ${solvers} ${toolkit} ${parts} ${app})
+target_link_libraries(sources-alone PRIVATE tooljoint_everything LibXml2::LibXml2 nlohmann_json::nlohmann_json cereal::cereal fmt::fmt
+  OpenSSL::Crypto)
+target_compile_options(sources-alone PRIVATE -fsyntax-only)
+set_property(TARGET sources-alone PROPERTY EXPORT_COMPILE_COMMANDS OFF)
 
 find_program(PYTHON3_FOR_FIGURES NAMES /usr/bin/python3 python3)
 if(PYTHON3_FOR_FIGURES)

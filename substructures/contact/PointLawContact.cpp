@@ -297,7 +297,7 @@ class PointLawContact final : public ContactLaw {
 
  private:
   std::shared_ptr<const model::PointLaw> make(int points) const {
-    return model::PointLawRegistry::instance().make(name_, {own_, points, most});
+    return model::PointLawRegistry::instance().make(name_, own_, {points, most});
   }
 
   std::string name_;

@@ -180,7 +180,7 @@ PointInput readEnds(const ParameterList& list) {
 /// found before there are parts.
 void setLaw(PointInput& input, const std::string& name, const ParameterList& own) {
   input.law = [name, own](int coordinates) -> std::shared_ptr<const model::PointLaw> {
-    return model::PointLawRegistry::instance().make(name, {own, 1, coordinates});
+    return model::PointLawRegistry::instance().make(name, own, {1, coordinates});
   };
   input.law(input.direction ? 3 : 1);
 }

@@ -139,8 +139,9 @@ deck::ListSpec pointLawSpec() {
                         "Registered point laws between parts or to the ground. Units of their "
                         "parameters are those of a translation; about a rotation they are in N m "
                         "and rad.")
-      .namedLists(deck::declareVariants<model::PointLaw, const model::PointLawRequest&>(
-          ends(entry), "Type", deck::Required{}, "The law."));
+      .namedLists(deck::declareVariants<model::PointLaw, const Teuchos::ParameterList&,
+                                        const model::PointLawPlace&>(ends(entry), "Type",
+                                                                     deck::Required{}, "The law."));
 }
 
 }  // namespace

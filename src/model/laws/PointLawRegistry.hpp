@@ -11,27 +11,27 @@
 
 namespace tooljoint::model {
 
-/// What a law is made for. Its first coordinate is a separation [m] (or an angle [rad]): a positive
-/// force pushes the two sides apart. The others are tangential displacements of the one side
-/// against the other, where the place has directions for them.
-struct PointLawRequest {
-  const Teuchos::ParameterList& own;  ///< the sublist named after the law
-  int points = 1;                     ///< all with these parameters
-  int coordinates = 1;                ///< as many as the place can give, at most 3
+/// The place a law is made for. Its first coordinate is a separation [m] (or an angle [rad]): a
+/// positive force pushes the two sides apart. The others are tangential displacements of the one
+/// side against the other, where the place has directions for them.
+struct PointLawPlace {
+  int points = 1;       ///< all with these parameters
+  int coordinates = 1;  ///< as many as the place can give, at most 3
 };
 
 /// A law may take fewer coordinates than offered. Makers throw DeckError for what no single
 /// parameter shows.
-using PointLawRegistry = deck::Registry<PointLaw, const PointLawRequest&>;
+using PointLawRegistry =
+    deck::Registry<PointLaw, const Teuchos::ParameterList&, const PointLawPlace&>;
 
 /// Registers the formula `Law`, which is made from its own parameter list. `parameters` has the
 /// name of the law.
 template <class Law>
 bool registerFormula(const deck::ListSpec& parameters) {
   return PointLawRegistry::instance().add(
-      parameters.name(), {parameters.doc(), parameters, [](const PointLawRequest& request) {
-                            return std::make_unique<FormulaLaw<Law>>(Law(request.own),
-                                                                     request.points);
+      parameters.name(), {parameters.doc(), parameters,
+                          [](const Teuchos::ParameterList& own, const PointLawPlace& place) {
+                            return std::make_unique<FormulaLaw<Law>>(Law(own), place.points);
                           }});
 }
 

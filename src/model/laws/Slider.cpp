@@ -48,11 +48,10 @@ class Frictions final : public PerPoint<FrictionParameters, Frictions> {
   double force(int p, const double* v) const { return sliding(p, v).force(0, at(p).force); }
 };
 
-std::unique_ptr<PointLaw> make(const PointLawRequest& request) {
-  const FrictionParameters friction{request.own.get<double>("Force"),
-                                    request.own.get<double>("Slip Velocity")};
+std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
+  const FrictionParameters friction{own.get<double>("Force"), own.get<double>("Slip Velocity")};
   return frictions(
-      std::vector<FrictionParameters>(static_cast<std::size_t>(request.points), friction));
+      std::vector<FrictionParameters>(static_cast<std::size_t>(place.points), friction));
 }
 
 const bool registered = PointLawRegistry::instance().add(

@@ -56,15 +56,15 @@ class Springs final : public PerPoint<SpringParameters, Springs> {
   }
 };
 
-std::unique_ptr<PointLaw> make(const PointLawRequest& request) {
+std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
   SpringParameters spring;
-  spring.stiffness = request.own.get<double>("Stiffness");
-  spring.cubicStiffness = request.own.get<double>("Cubic Stiffness");
-  spring.damping = request.own.get<double>("Damping");
+  spring.stiffness = own.get<double>("Stiffness");
+  spring.cubicStiffness = own.get<double>("Cubic Stiffness");
+  spring.damping = own.get<double>("Damping");
   if (spring.stiffness == 0.0 && spring.cubicStiffness == 0.0 && spring.damping == 0.0)
-    throw DeckError(request.own.name() +
+    throw DeckError(own.name() +
                     " does nothing: give it a Stiffness, a Cubic Stiffness or a Damping.");
-  return springs(std::vector<SpringParameters>(static_cast<std::size_t>(request.points), spring));
+  return springs(std::vector<SpringParameters>(static_cast<std::size_t>(place.points), spring));
 }
 
 const bool registered = PointLawRegistry::instance().add(

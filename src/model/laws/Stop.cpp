@@ -126,8 +126,7 @@ class Stops final : public PerPoint<StopParameters, Stops>, public Frictional {
   int tangents_;
 };
 
-std::unique_ptr<PointLaw> make(const PointLawRequest& request) {
-  const auto& own = request.own;
+std::unique_ptr<PointLaw> make(const Teuchos::ParameterList& own, const PointLawPlace& place) {
   StopParameters stop;
   stop.gap = own.get<double>("Gap");
   stop.stiffness = own.get<double>("Stiffness");
@@ -135,12 +134,12 @@ std::unique_ptr<PointLaw> make(const PointLawRequest& request) {
   stop.smoothing = own.get<double>("Smoothing");
   stop.friction = own.get<double>("Friction");
   stop.slipVelocity = own.get<double>("Slip Velocity");
-  const std::vector<StopParameters> points(static_cast<std::size_t>(request.points), stop);
+  const std::vector<StopParameters> points(static_cast<std::size_t>(place.points), stop);
   if (!(stop.friction > 0)) return stops(points);
-  if (request.coordinates < 2)
+  if (place.coordinates < 2)
     throw DeckError(own.name() +
                     "/Friction needs a Direction, across which it slides, but there is none.");
-  return slidingStops(points, request.coordinates - 1);
+  return slidingStops(points, place.coordinates - 1);
 }
 
 const bool registered = PointLawRegistry::instance().add(

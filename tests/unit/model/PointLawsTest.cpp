@@ -17,13 +17,13 @@ using namespace tooljoint::model;
 std::shared_ptr<const PointLaw> maxwell() {
   Teuchos::ParameterList own;
   own.set("Stiffness", 300.0).set("Damping", 20.0);
-  return PointLawRegistry::instance().make("Maxwell", {own, 2, 1});
+  return PointLawRegistry::instance().make("Maxwell", own, {2, 1});
 }
 
 std::shared_ptr<const PointLaw> elasticPlastic() {
   Teuchos::ParameterList own;
   own.set("Stiffness", 300.0).set("Yield Force", 2.0);
-  return PointLawRegistry::instance().make("Elastic-Plastic", {own, 2, 1});
+  return PointLawRegistry::instance().make("Elastic-Plastic", own, {2, 1});
 }
 
 const std::vector<int> both{0, 1};

@@ -17,7 +17,7 @@ inline void addLaw(model::SecondOrderModel& model, const std::string& name,
   const int n = model.size();
   model::PointSet set;
   set.name = name;
-  set.law = model::PointLawRegistry::instance().make(name, {own, n, 1});
+  set.law = model::PointLawRegistry::instance().make(name, own, {n, 1});
   set.rows.resize(n, n);
   set.rows.setIdentity();
   set.offset = Vector::Zero(n);
