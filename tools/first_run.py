@@ -103,7 +103,7 @@ def figures(program, output):
         "dofs": {"reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
         "cpu_per_simulated_second": cpu,
         "speed_up": cpu["full"] / cpu["reduced"],
-        "vibration_error": json.loads(compared.stdout)["dyn"],
+        "vibration_error": json.loads(compared.stdout)["vibration_error"],
         "hook_load": reduced["static"]["top_axial_force"],
         "weight_in_mud": sum(length * in_mud(outer, inner) for _, length, outer, inner in string),
         "weight_on_bit": weight_on_bit,
