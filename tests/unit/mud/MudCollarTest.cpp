@@ -20,8 +20,6 @@ constexpr double boreRadius = 0.108;
 /// Gravity along the element [m/s2].
 const Vector3 downElement(0.0, 0.0, 9.81);
 
-const Vector3 downElement(0.0, 0.0, 9.81);
-
 MudProperties referenceMud() {
   MudProperties p;
   p.density = 1200.0;

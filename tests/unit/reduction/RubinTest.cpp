@@ -127,7 +127,7 @@ TEST(Rubin, SpecialParts) {
   samples::classify(lone, {});
   const auto free = reduce(lone, rubin()->build(lone, modes(4)), ReductionOptions(), 0);
   const Vector exact = samples::eigenvalues(lone.model);
-  ASSERT_EQ(free.vectors, 4);
+  ASSERT_EQ(free.modes, 4);
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(free.basis->eigenvalues[k], exact[k], 1e-10 * exact[8]);
   auto whole = lone;  // all dofs kept
   samples::classify(whole, {1}, {2, 3, 4, 5, 6, 7, 8, 9});
