@@ -73,7 +73,7 @@ class Integrator {
   /// moves.
   virtual int ledgerStride() const { return 1; }
 
-  /// What to change when a motion is wrong: "Choose a smaller ...", without a full stop.
+  /// What to change when a motion is wrong: "Reduce ...", without a full stop.
   virtual std::string advice() const = 0;
 
   /// What can be said without a model about the parameters together and with Transient/Step (0 when

@@ -13,6 +13,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 import h5py
 import numpy as np
@@ -181,14 +182,13 @@ def bad_parts_on_ranks():
 def goes_on():
     """An interrupted run of parts goes on to the numbers of one that was not."""
     deck = str(ROOT / "xml" / "frame.xml")
-    long = ["--set", "Transient/End Time=200", "--set", "Transient/Sampling Interval=0.1"]
+    long = ["--set", "Transient/End Time=200", "--set", "Transient/Sampling Interval=0.1", "--set", "Transient/Checkpoint Interval=1"]
     whole = tooljoint("run", deck, "--output", "whole", *long)
-    run = subprocess.Popen([PROGRAM, "run", deck, "--output", "halted", *long], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    for line in run.stdout:
-        if "%" in line:
-            run.send_signal(signal.SIGINT)
-            break
-    run.communicate(timeout=60)
+    run = subprocess.Popen([PROGRAM, "run", deck, "--output", "halted", *long], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while run.poll() is None and not pathlib.Path("halted/checkpoint.bin").exists():
+        time.sleep(0.002)
+    run.send_signal(signal.SIGINT)
+    run.wait(timeout=60)
     expect("an interrupted run ends with 130", run.returncode == 130, str(run.returncode))
     again = tooljoint("run", deck, "--output", "halted", "--restart", "halted", *long)
     expect("it goes on", whole.returncode == 0 and again.returncode == 0, again.stderr[-300:])

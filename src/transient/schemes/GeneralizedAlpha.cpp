@@ -126,9 +126,9 @@ class GeneralizedAlpha final : public Integrator {
   /// Two steps of one length are booked together.
   int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {
-    return std::string("Choose a smaller ") +
+    return std::string("Reduce ") +
            (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
-           ", or a smaller Transient/Generalized-alpha/Spectral Radius";
+           " or Transient/Generalized-alpha/Spectral Radius";
   }
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
@@ -306,7 +306,7 @@ std::string GeneralizedAlpha::describeFailure(double t, double h) const {
 void GeneralizedAlpha::giveUp(const State& from, double h) const {
   throw ConvergenceError(
       describeFailure(from.t, h) +
-      " Choose a smaller Transient/Step, allow more Transient/Generalized-alpha/Max Halvings, or "
+      " Reduce Transient/Step, allow more Transient/Generalized-alpha/Max Halvings, or "
       "look at what "
       "happens at that node (contact stiffness, regularisation, friction velocity).");
 }

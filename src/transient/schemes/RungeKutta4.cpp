@@ -26,7 +26,7 @@ class RungeKutta4 final : public Integrator {
   bool carriesPointStates() const override { return true; }
   int ledgerStride() const override { return 4; }
   std::string advice() const override {
-    return "Choose a smaller Transient/Step, or the integrator \"Generalized-alpha\"";
+    return "Reduce Transient/Step, or use the integrator \"Generalized-alpha\"";
   }
 
   void prepare(CompiledModel& model, const Window& window, State& state) override {

@@ -50,7 +50,7 @@ class RungeKutta4Adaptive final : public Integrator {
   bool isExplicit() const override { return true; }
   bool carriesPointStates() const override { return true; }
   std::string advice() const override {
-    return "Choose a smaller Transient/RK4 adaptive/Tolerance, or the integrator "
+    return "Reduce Transient/RK4 adaptive/Tolerance, or use the integrator "
            "\"Generalized-alpha\"";
   }
 

@@ -95,8 +95,8 @@ class Sundials final : public Integrator {
   }
 
   std::string advice() const override {
-    return "Choose a smaller Transient/" + name_ +
-           "/Relative Tolerance, and smaller absolute tolerances there if given, or the "
+    return "Reduce Transient/" + name_ +
+           "/Relative Tolerance and the absolute tolerances there if given, or use the "
            "integrator \"Generalized-alpha\"";
   }
   void checkParameters(double step) const override {

@@ -133,7 +133,7 @@ TEST(Lexical, AllFaultsComeTogetherSortedByLine) {
                parameter("End Time", "double", "20 s") + "\n<Parameter/>"));
   const std::vector<std::string> starts = {
       "deck.xml:3: /well/Contact/Stiffness: ",
-      "deck.xml:4: /well/Contact/Friction has the type",
+      "deck.xml:4: /well/Contact/Friction has the unknown type",
       "deck.xml:7: /well/Transient/End Time: ",
       "deck.xml:8: /well/Transient: a <Parameter> has no name",
       "deck.xml:8: /well/Transient: a <Parameter> has no type",

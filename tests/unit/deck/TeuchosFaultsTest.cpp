@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Silent{parameter("Weights", "Array(double)", "{1, 12abc}"),
                              "the entry \"12abc\" (number 2)"},
                       Silent{"<Parameter name=\"Step\" type=\"double\" value=\"0.1\" units=\"s\"/>",
-                             "has the attribute units=\"s\""},
+                             "has the unknown attribute units=\"s\""},
                       Silent{
                           parameter("Step", "double", "0.1") + parameter("Step", "double", "0.2"),
                           "is given twice"},

@@ -289,7 +289,7 @@ TEST(Integrators, withoutHalvingsAFailedStepEndsTheRunWithAdvice) {
     EXPECT_NE(text.find("Newton did not converge in the step from t = 0.0"), std::string::npos)
         << text;
     EXPECT_NE(text.find("u of node "), std::string::npos) << text;
-    EXPECT_NE(text.find("Choose a smaller Transient/Step"), std::string::npos) << text;
+    EXPECT_NE(text.find("Reduce Transient/Step"), std::string::npos) << text;
   }
 }
 

@@ -179,7 +179,7 @@ TEST(Transient, adviceFitsTheIntegrator) {
   const auto& registry = IntegratorRegistry::instance();
   for (const auto& name : allIntegrators) {
     const auto advice = registry.make(name, Teuchos::ParameterList())->advice();
-    EXPECT_EQ(advice.rfind("Choose a smaller Transient/", 0), 0u) << advice;
+    EXPECT_EQ(advice.rfind("Reduce Transient/", 0), 0u) << advice;
     const bool hasStep = name == "Generalized-alpha" || name == "RK4";
     EXPECT_EQ(advice.find("Transient/Step") != std::string::npos, hasStep) << advice;
     if (!hasStep) {

@@ -225,11 +225,13 @@ TEST(MotionTolerance, IsMetOnTheReferenceScene) {
   for (double tolerance : {5e-2, 5e-3}) EXPECT_LE(chosen(c, reference, tolerance), tolerance);
 }
 
+/// The reference takes the same steps, so steps that are coarse for so short a motion do no harm.
 TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
   ASSERT_GE(scenes().size(), 2u);
   for (const auto& file : scenes()) {
     if (file == "helical_170m.xml") continue;
-    const Case c(file, {"Transient/End Time=0.2", "Transient/Progress=false"});
+    const Case c(file, {"Transient/End Time=0.2", "Transient/Progress=false",
+                        "Transient/Generalized-alpha/Accept Coarse Steps=true"});
     std::printf("%s, 0.2 s: ", file.c_str());
     EXPECT_LE(chosen(c, testing_::move(c.scene, c.full), 2e-2), 2e-2) << file;
   }
