@@ -25,8 +25,8 @@ import h5py
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# What two runs of one program do not share, and texts that say where they ran.
-VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date", "status_at", "host", "cost_ratio")
+# What two runs of one program do not share, and texts, which may be reworded.
+VOLATILE = ("wall_s", "cpu_s", "real_time_factor", "memory", "program.", "deck.", "date", "status_at", "host", "cost_ratio", "warnings")
 COUNTS = ("steps", "rejected", "newton_iterations", "factorisations", "evaluations", "iterations", "solves")
 
 
