@@ -12,21 +12,12 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
 COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template")
 FULL = ["--without", "Reduction", "--without", "Substructures"]
-FAULTS = []
-
-
-def tooljoint(*arguments, ranks=1):
-    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120)
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def help_is_our_own():
@@ -122,8 +113,7 @@ def main():
     times = two_runs()
     pictures()
     comparisons(times)
-    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

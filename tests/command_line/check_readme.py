@@ -13,15 +13,11 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
 PROGRAM, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 SHORT_STUDY = ["--set", "Study/End Time=0.06", "--set", "Study/Window=0.03", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false"]
-FAULTS = []
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def block():
@@ -67,8 +63,7 @@ def main():
     expect("the pictures are there", drawn and all((folder / name / "results.png").is_file() for name in drawn), str(drawn))
     compared = re.search(r"window 0 to (\S+) s .*vibration error (\S+)", done.stdout)
     expect("the comparison is that of a reduced and a full run of the same deck", compared is not None and float(compared.group(2)) < 0.05, str(compared))
-    print(f"\n{len(FAULTS)} failed")
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

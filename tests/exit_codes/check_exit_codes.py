@@ -13,21 +13,12 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
 CURVED = str(pathlib.Path(DECK).resolve().parents[2] / "xml" / "helical_170m.xml")
 WITHOUT_SUNDIALS = "without-sundials" in sys.argv[4:]
-FAULTS = []
-
-
-def tooljoint(*arguments, ranks=1):
-    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120)
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def ends(what, code, sentence, *arguments, ranks=(1, 2)):
@@ -115,8 +106,7 @@ def main():
     template_is_a_deck()
     failed_run_spoils_nothing()
     interrupted_run_goes_on()
-    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -16,6 +16,9 @@ import time
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
 PROGRAM = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FRAME = ROOT / "xml" / "frame.xml"
@@ -23,13 +26,6 @@ STRING = ROOT / "tests" / "effects" / "scene.xml"
 SURVEY = ROOT / "examples" / "03_survey_well" / "deck.xml"
 SECONDS = 60  # of a loaded machine; unloaded it takes one
 MEGABYTES = 400
-FAULTS = []
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown if not condition else ''}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def tooljoint(*arguments):
@@ -228,8 +224,7 @@ def main():
     many_attributes()
     check_refuses_what_run_refuses()
     absurd_counts_are_told()
-    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

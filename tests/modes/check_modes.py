@@ -19,17 +19,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 import structures as st  # noqa: E402
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
 PROGRAM = sys.argv[1]
-FAULTS = []
 TWO_PI = 2 * np.pi
 E, RHO = st.STEEL["E"], st.STEEL["rho"]
 SECONDS = 3.0  # CPU time of the whole command for 600 dofs
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def modes(name, structure, count=12, reduction=None, parts=None, joints=()):
@@ -262,5 +258,4 @@ damped()
 sliding_string()
 gyroscopic()
 reduced()
-print(f"{len(FAULTS)} faults" if FAULTS else "all good")
-sys.exit(1 if FAULTS else 0)
+sys.exit(finish())

@@ -19,20 +19,11 @@ import h5py
 import numpy as np
 from scipy.linalg import eigh
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
 PROGRAM, MPIEXEC = sys.argv[1:3]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FAULTS = []
-
-
-def tooljoint(*arguments, ranks=1):
-    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120)
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def hertz(deck, key, *arguments, ranks=1, count=12):
@@ -230,5 +221,4 @@ if __name__ == "__main__":
     goes_on()
     cost_energy_and_remarks()
     refused()
-    print(f"\n{len(FAULTS)} faults")
-    sys.exit(1 if FAULTS else 0)
+    sys.exit(finish())

@@ -20,6 +20,9 @@ import time
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
 PROGRAM, MPIEXEC, PART = sys.argv[1:4]
 ROOT = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
 STRING, FRAME = str(ROOT / "tests" / "effects" / "scene.xml"), str(ROOT / "xml" / "frame.xml")
@@ -28,13 +31,6 @@ if "without-sundials" not in sys.argv[4:]:
     INTEGRATORS += ["SUNDIALS ARKODE", "SUNDIALS CVODE"]
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 OWN = {"wall_s", "cpu_s", "real_time_factor"}  # seconds of a run are its own
-FAULTS = []
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def command(*arguments, ranks=1):
@@ -329,5 +325,4 @@ if __name__ == "__main__":
     else:
         for part in (results_larger_than_the_disk, full_disk, other_ranks, two_runs_in_one_folder, restart_killed_early, elsewhere, other_decks, other_contents):
             part()
-    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
-    sys.exit(1 if FAULTS else 0)
+    sys.exit(finish())

@@ -19,15 +19,11 @@ import numpy as np
 
 import documented
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
 PROGRAM = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FAULTS = []
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def near(what, found, expected, tolerance):
@@ -257,8 +253,7 @@ def main():
     check_parts(parts, written["parts"])
     for title, rows in (("string", strings), ("parts", parts)):
         expect(f"{title}: every documented dataset is written", set(rows) == written[title], sorted(set(rows) - written[title]) or "")
-    print(f"{len(FAULTS)} faults")
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

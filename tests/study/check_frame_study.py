@@ -10,22 +10,12 @@ import json
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
-FAULTS = []
-
-
-def tooljoint(*arguments, ranks=1):
-    command = ([MPIEXEC, "-np", str(ranks)] if ranks > 1 else []) + [PROGRAM, *arguments]
-    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=240)
-
-
-def expect(what, condition, shown=""):
-    print(f"{'ok    ' if condition else 'FAILED'} {what} {shown}", flush=True)
-    if not condition:
-        FAULTS.append(what)
 
 
 def near(value, wanted, tolerance):
@@ -148,8 +138,7 @@ def main():
         shutil.rmtree(left, ignore_errors=True)
     for check in (whole_study, same_as_separate_calls, again, failures, pictures):
         check()
-    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
-    return 1 if FAULTS else 0
+    return finish()
 
 
 if __name__ == "__main__":

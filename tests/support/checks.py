@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the scripts that check the program share: running it, saying what held, how it ended."""
+import os
+import subprocess
+import sys
+
+FAULTS = []
+TIME_FACTOR = float(os.environ.get("TOOLJOINT_TIME_FACTOR", "1"))  # programs with sanitizers take longer
+
+
+def tooljoint(*arguments, ranks=1, seconds=240):
+    """Runs the program of the first argument of the script, on more ranks with the mpiexec of the second."""
+    command = ([sys.argv[2], "-np", str(ranks)] if ranks > 1 else []) + [sys.argv[1], *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=seconds * TIME_FACTOR)
+
+
+def expect(what, condition, shown=""):
+    """Notes a fault where `condition` does not hold; `shown` is what was found instead."""
+    print(f"{'ok    ' if condition else 'FAILED'} {what} {'' if condition else shown}", flush=True)
+    if not condition:
+        FAULTS.append(what)
+
+
+def finish():
+    """Lists the faults; the exit code of the script."""
+    print(f"\n{len(FAULTS)} failed" + "".join("\n  " + fault for fault in FAULTS))
+    return 1 if FAULTS else 0
