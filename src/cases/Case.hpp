@@ -19,7 +19,7 @@
 #include "io/OutputParameters.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Summary.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::cases {
 

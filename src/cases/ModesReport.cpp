@@ -10,6 +10,7 @@
 #include "cases/ReducedCase.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/Run.hpp"
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
@@ -24,8 +25,6 @@
 namespace tooljoint::cases {
 
 namespace {
-
-constexpr double kTwoPi = 6.28318530717958647692;
 
 void writeInto(const std::string& folder, const std::string& name, const io::Csv& table) {
   parallel::agree([&] {
@@ -117,9 +116,9 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     char line[64];
     std::snprintf(line, sizeof line, "  %4ld  %14.8g", static_cast<long>(i + 1),
-                  values(i).imag() / kTwoPi);
+                  values(i).imag() / constants::twoPi);
     log::info(line);
-    table.row({static_cast<double>(i + 1), values(i).imag() / kTwoPi});
+    table.row({static_cast<double>(i + 1), values(i).imag() / constants::twoPi});
   }
   if (!options.output.empty()) writeInto(options.output, "modes.csv", table);
   const auto m = estimate::linearise(full, t);
@@ -132,9 +131,10 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     const double size = std::abs(s), ratio = size > 0 ? 0.0 - s.real() / size : 0.0;
     char line[96];
     std::snprintf(line, sizeof line, "  %4ld %14.8g  %14.8g  %12.4e", static_cast<long>(i + 1),
-                  size / kTwoPi, s.imag() / kTwoPi, ratio);
+                  size / constants::twoPi, s.imag() / constants::twoPi, ratio);
     log::info(line);
-    dampedTable.row({static_cast<double>(i + 1), size / kTwoPi, ratio, s.imag() / kTwoPi});
+    dampedTable.row(
+        {static_cast<double>(i + 1), size / constants::twoPi, ratio, s.imag() / constants::twoPi});
   }
   log::info(verdict({damped.values.begin(), damped.values.end()}));
   reportTimes();

@@ -8,7 +8,7 @@
 
 #include "cases/Case.hpp"
 #include "io/OutputParameters.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 
 namespace tooljoint::cases {

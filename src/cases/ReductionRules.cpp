@@ -6,7 +6,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "reduction/Reduce.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "transient/TransientParameters.hpp"
 
 namespace tooljoint::cases {

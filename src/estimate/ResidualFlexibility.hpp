@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/Substructure.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::estimate {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
 

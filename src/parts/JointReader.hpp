@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "coupling/input/CouplingParameters.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
 

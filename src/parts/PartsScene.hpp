@@ -13,8 +13,8 @@
 #include "coupling/assembly/Assembler.hpp"
 #include "coupling/input/CouplingParameters.hpp"
 #include "model/NonlinearSolve.hpp"
-#include "parts/PartFile.hpp"
 #include "parts/PartsParameters.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 #include "reduction/ReducedSubstructure.hpp"
 
 namespace tooljoint::parts {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/SecondOrderModel.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 

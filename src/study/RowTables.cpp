@@ -3,14 +3,13 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Text.hpp"
 #include "io/Csv.hpp"
 #include "study/Row.hpp"
 
 namespace tooljoint::study {
 namespace {
-
-constexpr double rpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
 const std::vector<io::Csv::Column>& columns() {
   static const std::vector<io::Csv::Column> all{{"kind", ""},
@@ -108,9 +107,13 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   number(row.maxPenetration), number(row.missedNodes);
   const auto& speeds = row.curves.statistics.bitSpeed;
   for (std::size_t level : {0u, 2u, 4u})
-    out.push_back(known && speeds.size() > level ? formatNumber(rpm * speeds[level]) : "");
+    out.push_back(known && speeds.size() > level
+                      ? formatNumber(constants::rpmPerRadianPerSecond * speeds[level])
+                      : "");
   const auto* s = known && row.statistics ? &*row.statistics : nullptr;
-  out.push_back(s != nullptr && !speeds.empty() ? formatNumber(rpm * s->bitSpeed) : "");
+  out.push_back(s != nullptr && !speeds.empty()
+                    ? formatNumber(constants::rpmPerRadianPerSecond * s->bitSpeed)
+                    : "");
   for (auto member : {&StatisticsDifference::dutyMax, &StatisticsDifference::dutyMean,
                       &StatisticsDifference::lateralRms, &StatisticsDifference::spectrum})
     out.push_back(s != nullptr ? formatNumber(s->*member) : std::string());

@@ -6,12 +6,12 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::study {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t fewestSamples = 32;  ///< of a spectrum
 constexpr double dynamicRange = 1e-6;      ///< 60 dB
 
@@ -25,8 +25,8 @@ class Welch {
     while (2 * length_ * 4 <= samples) length_ *= 2;
     hann_.resize(length_);
     for (std::size_t i = 0; i < length_; ++i) {
-      hann_[i] =
-          0.5 - 0.5 * std::cos(2.0 * pi * static_cast<double>(i) / static_cast<double>(length_));
+      hann_[i] = 0.5 - 0.5 * std::cos(constants::twoPi * static_cast<double>(i) /
+                                      static_cast<double>(length_));
       power_ += hann_[i] * hann_[i];
     }
     sum_.assign(length_ / 2 + 1, 0.0);

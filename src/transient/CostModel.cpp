@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/Index.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/compiled/CompiledModel.hpp"
@@ -22,8 +23,6 @@ constexpr double implicitVectors = 40, explicitVectors = 30;
 /// (their kernel is unrolled), and of one in a row of a point, which is gathered entry by entry.
 constexpr double oddBlock = 2.5, gathered = 4;
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
-
 /// Multiplications of a product with these values: whole blocks where one has entries beside its
 /// diagonal.
 double productWork(const linalg::BlockPattern& pattern, const double* values) {
@@ -34,7 +33,7 @@ double productWork(const linalg::BlockPattern& pattern, const double* values) {
       bool diagonal = false, beside = false;
       for (int j = 0; j < columns; ++j)
         for (int i = 0; i < rows; ++i)
-          if (values[pattern.offset(e) + z(j * rows + i)] != 0.0)
+          if (values[pattern.offset(e) + at(j * rows + i)] != 0.0)
             (i == j && rows == columns ? diagonal : beside) = true;
       const double each = rows == 6 && columns == 6 ? 1.0 : oddBlock;
       work += beside ? each * rows * columns : diagonal ? rows : 0;

@@ -27,6 +27,8 @@ class ContactLaw {
                                                           RotarySpeed speed) const = 0;
   /// Contact and full sliding at rest.
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;
+  /// False where the friction of the law begins with the motion: atRest() has none.
+  virtual bool hasFrictionAtRest() const { return true; }
 };
 
 /// Laws by name; each gets its own sublist (empty when the law has no parameters of its own).

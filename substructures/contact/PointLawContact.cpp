@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "common/Types.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "substructures/contact/WallKinematics.hpp"
@@ -20,8 +21,6 @@ using Rows =
     Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
-
 class PointLawInBore final : public model::StatefulPointLaw {
  public:
   PointLawInBore(ContactPoints points, std::shared_ptr<const model::PointLaw> law,
@@ -31,11 +30,11 @@ class PointLawInBore final : public model::StatefulPointLaw {
         with_(model::stateful(*law_)),
         speed_(std::move(speed)),
         n_(law_->width()) {
-    for (auto* array : {&y_, &yDot_, &force_}) array->assign(z(size() * n_), 0.0);
-    for (auto* array : {&fd_, &fv_}) array->assign(z(size() * n_ * n_), 0.0);
-    for (auto* array : {&fx_, &gd_, &gv_}) array->assign(z(size() * n_ * rated()), 0.0);
-    rates_.assign(z(size() * rated()), 0.0);
-    all_.resize(z(size()));
+    for (auto* array : {&y_, &yDot_, &force_}) array->assign(at(size() * n_), 0.0);
+    for (auto* array : {&fd_, &fv_}) array->assign(at(size() * n_ * n_), 0.0);
+    for (auto* array : {&fx_, &gd_, &gv_}) array->assign(at(size() * n_ * rated()), 0.0);
+    rates_.assign(at(size() * rated()), 0.0);
+    all_.resize(at(size()));
     std::iota(all_.begin(), all_.end(), 0);
   }
   int size() const override { return points_.size(); }
@@ -60,7 +59,7 @@ class PointLawInBore final : public model::StatefulPointLaw {
     for (int p : points) {
       const Map J = jacobian(p, kinematics(p, d, v));
       Eigen::Map<Eigen::Vector4d>(f + W * p).noalias() =
-          J.transpose() * Eigen::Map<const Vector>(&force_[z(n_ * p)], n_);
+          J.transpose() * Eigen::Map<const Vector>(&force_[at(n_ * p)], n_);
     }
   }
 
@@ -77,19 +76,20 @@ class PointLawInBore final : public model::StatefulPointLaw {
                                 fv_.data());
     const int r = rated();
     for (int p : points) {
-      const auto at = kinematics(p, d, v);
-      const Map J = jacobian(p, at), byD = placeSlope(at), rateByD = rateSlope(at, v + W * p);
-      const Rows fd(&fd_[z(p * n_ * n_)], n_, n_), fv(&fv_[z(p * n_ * n_)], n_, n_);
-      const double* force = &force_[z(n_ * p)];
+      const auto where = kinematics(p, d, v);
+      const Map J = jacobian(p, where), byD = placeSlope(where),
+                rateByD = rateSlope(where, v + W * p);
+      const Rows fd(&fd_[at(p * n_ * n_)], n_, n_), fv(&fv_[at(p * n_ * n_)], n_, n_);
+      const double* force = &force_[at(n_ * p)];
       Eigen::Map<Eigen::Vector4d>(f + W * p).noalias() =
           J.transpose() * Eigen::Map<const Vector>(force, n_);
       RowsOut(tangents.fv + p * W * W, W, W) = J.transpose().lazyProduct(Map(fv.lazyProduct(J)));
       RowsOut dfdd(tangents.fd + p * W * W, W, W);
       dfdd = J.transpose().lazyProduct(Map(fd.lazyProduct(byD) + fv.lazyProduct(rateByD)));
-      addTurning(at, force, dfdd);
+      addTurning(where, force, dfdd);
       if (r == 0) continue;
-      const Rows fx(&fx_[z(p * n_ * r)], n_, r), gd(&gd_[z(p * n_ * r)], r, n_),
-          gv(&gv_[z(p * n_ * r)], r, n_);
+      const Rows fx(&fx_[at(p * n_ * r)], n_, r), gd(&gd_[at(p * n_ * r)], r, n_),
+          gv(&gv_[at(p * n_ * r)], r, n_);
       RowsOut(tangents.fx + p * W * r, W, r) = J.transpose().lazyProduct(fx);
       RowsOut(tangents.gd + p * W * r, r, W) = gd.lazyProduct(byD) + gv.lazyProduct(rateByD);
       RowsOut(tangents.gv + p * W * r, r, W) = gv.lazyProduct(J);
@@ -98,7 +98,7 @@ class PointLawInBore final : public model::StatefulPointLaw {
 
   int reach() const override { return 3; }
   void clearanceLeft(const std::vector<int>& points, const double* d, double* gap) const override {
-    for (int p : points) y_[z(n_ * p)] = separation(p, d);
+    for (int p : points) y_[at(n_ * p)] = separation(p, d);
     law_->clearanceLeft(points, y_.data(), gap);
   }
 
@@ -111,7 +111,7 @@ class PointLawInBore final : public model::StatefulPointLaw {
     // the rotary drive moves y_1 without the node: its force does work on the law
     lawForces(t, points, d, v, x, rates_.data());
     const double omega = speed_(t);
-    for (int p : points) sum.drive -= force_[z(n_ * p + 1)] * omega * points_.contactRadius[z(p)];
+    for (int p : points) sum.drive -= force_[at(n_ * p + 1)] * omega * points_.contactRadius[at(p)];
     return sum;
   }
 
@@ -121,11 +121,11 @@ class PointLawInBore final : public model::StatefulPointLaw {
     lawForces(t, all_, d, v, x, rates_.data());
     const int n = size();
     for (int p = 0; p < n; ++p) {
-      out[p] = force_[z(n_ * p)];
+      out[p] = force_[at(n_ * p)];
       out[n + p] = separation(p, d);
       if (n_ == 1) continue;
-      out[2 * n + p] = force_[z(n_ * p + 1)];
-      out[3 * n + p] = force_[z(n_ * p + 1)] * points_.contactRadius[z(p)];
+      out[2 * n + p] = force_[at(n_ * p + 1)];
+      out[3 * n + p] = force_[at(n_ * p + 1)] * points_.contactRadius[at(p)];
     }
   }
 
@@ -136,20 +136,20 @@ class PointLawInBore final : public model::StatefulPointLaw {
 
  private:
   double separation(int p, const double* d) const {
-    return -WallKinematics(d[W * p], d[W * p + 1], 0, 0, points_.clearance[z(p)]).penetration;
+    return -WallKinematics(d[W * p], d[W * p + 1], 0, 0, points_.clearance[at(p)]).penetration;
   }
   WallKinematics kinematics(int p, const double* d, const double* v) const {
-    return {d[W * p], d[W * p + 1], v[W * p], v[W * p + 1], points_.clearance[z(p)]};
+    return {d[W * p], d[W * p + 1], v[W * p], v[W * p + 1], points_.clearance[at(p)]};
   }
   /// Coordinates of the law and their velocities.
   void place(double t, const std::vector<int>& points, const double* d, const double* v) const {
     const double omega = n_ > 1 ? speed_(t) : 0.0;
     for (int p : points) {
-      const auto at = kinematics(p, d, v);
-      double *y = &y_[z(n_ * p)], *yDot = &yDot_[z(n_ * p)];
-      y[0] = -at.penetration;
-      yDot[0] = -at.rate;
-      if (n_ > 1) yDot[1] = at.slip + (omega + v[W * p + 3]) * points_.contactRadius[z(p)];
+      const auto where = kinematics(p, d, v);
+      double *y = &y_[at(n_ * p)], *yDot = &yDot_[at(n_ * p)];
+      y[0] = -where.penetration;
+      yDot[0] = -where.rate;
+      if (n_ > 1) yDot[1] = where.slip + (omega + v[W * p + 3]) * points_.contactRadius[at(p)];
       if (n_ > 2) y[2] = d[W * p + 2], yDot[2] = v[W * p + 2];
     }
   }
@@ -163,35 +163,36 @@ class PointLawInBore final : public model::StatefulPointLaw {
   }
 
   /// dy'/d(u', v', w', theta_z')
-  Map jacobian(int p, const WallKinematics& at) const {
+  Map jacobian(int p, const WallKinematics& where) const {
     Map J = Map::Zero(n_, W);
-    J(0, 0) = -at.nu, J(0, 1) = -at.nv;
-    if (n_ > 1) J(1, 0) = -at.nv, J(1, 1) = at.nu, J(1, 3) = points_.contactRadius[z(p)];
+    J(0, 0) = -where.nu, J(0, 1) = -where.nv;
+    if (n_ > 1) J(1, 0) = -where.nv, J(1, 1) = where.nu, J(1, 3) = points_.contactRadius[at(p)];
     if (n_ > 2) J(2, 2) = 1.0;
     return J;
   }
   /// dy/d(u, v, w, theta_z); y_1 has none.
-  Map placeSlope(const WallKinematics& at) const {
+  Map placeSlope(const WallKinematics& where) const {
     Map slope = Map::Zero(n_, W);
-    slope(0, 0) = -at.nu, slope(0, 1) = -at.nv;
+    slope(0, 0) = -where.nu, slope(0, 1) = -where.nv;
     if (n_ > 2) slope(2, 2) = 1.0;
     return slope;
   }
   /// dy'/d(u, v, w, theta_z)
-  Map rateSlope(const WallKinematics& at, const double* v) const {
+  Map rateSlope(const WallKinematics& where, const double* v) const {
     Map slope = Map::Zero(n_, W);
-    slope(0, 0) = -(v[0] - at.nu * at.rate) * at.inverse;
-    slope(0, 1) = -(v[1] - at.nv * at.rate) * at.inverse;
+    slope(0, 0) = -(v[0] - where.nu * where.rate) * where.inverse;
+    slope(0, 1) = -(v[1] - where.nv * where.rate) * where.inverse;
     if (n_ > 1) {
-      slope(1, 0) = (v[1] - at.nu * at.slip) * at.inverse;
-      slope(1, 1) = (-v[0] - at.nv * at.slip) * at.inverse;
+      slope(1, 0) = (v[1] - where.nu * where.slip) * where.inverse;
+      slope(1, 1) = (-v[0] - where.nv * where.slip) * where.inverse;
     }
     return slope;
   }
   /// dJ'/d(u, v) f
-  void addTurning(const WallKinematics& at, const double* f, RowsOut& dfdd) const {
-    const double nuu = (1 - at.nu * at.nu) * at.inverse, nuv = -at.nu * at.nv * at.inverse,
-                 nvv = (1 - at.nv * at.nv) * at.inverse, around = n_ > 1 ? f[1] : 0.0;
+  void addTurning(const WallKinematics& where, const double* f, RowsOut& dfdd) const {
+    const double nuu = (1 - where.nu * where.nu) * where.inverse,
+                 nuv = -where.nu * where.nv * where.inverse,
+                 nvv = (1 - where.nv * where.nv) * where.inverse, around = n_ > 1 ? f[1] : 0.0;
     dfdd(0, 0) += -nuu * f[0] - nuv * around;
     dfdd(0, 1) += -nuv * f[0] - nvv * around;
     dfdd(1, 0) += -nuv * f[0] + nuu * around;
@@ -214,7 +215,7 @@ class PointLawAtRest final : public StaticContact {
  public:
   PointLawAtRest(ContactPoints points, std::shared_ptr<const model::PointLaw> law)
       : StaticContact(std::move(points)), law_(std::move(law)) {
-    all_.resize(z(size()));
+    all_.resize(at(size()));
     std::iota(all_.begin(), all_.end(), 0);
   }
 
@@ -222,17 +223,17 @@ class PointLawAtRest final : public StaticContact {
                 double* tangent) const override {
     const auto [force, slope] = normal(options, uv);
     for (int p = 0; p < size(); ++p) {
-      const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[z(p)]);
-      const double N = force[z(p)], dG = slope[z(p)];
-      f[3 * p] = -N * at.nu;
-      f[3 * p + 1] = -N * at.nv;
+      const WallKinematics where(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[at(p)]);
+      const double N = force[at(p)], dG = slope[at(p)];
+      f[3 * p] = -N * where.nu;
+      f[3 * p + 1] = -N * where.nv;
       f[3 * p + 2] = 0.0;
       if (tangent == nullptr) continue;
       double* j = tangent + 6 * p;
-      const double nuv = -at.nu * at.nv * at.inverse;
-      j[0] = -dG * at.nu * at.nu - N * (1 - at.nu * at.nu) * at.inverse;
-      j[1] = j[2] = -dG * at.nu * at.nv - N * nuv;
-      j[3] = -dG * at.nv * at.nv - N * (1 - at.nv * at.nv) * at.inverse;
+      const double nuv = -where.nu * where.nv * where.inverse;
+      j[0] = -dG * where.nu * where.nu - N * (1 - where.nu * where.nu) * where.inverse;
+      j[1] = j[2] = -dG * where.nu * where.nv - N * nuv;
+      j[3] = -dG * where.nv * where.nv - N * (1 - where.nv * where.nv) * where.inverse;
       j[4] = j[5] = 0.0;
     }
   }
@@ -247,21 +248,21 @@ class PointLawAtRest final : public StaticContact {
   std::pair<std::vector<double>, std::vector<double>> normal(const Options& options,
                                                              const double* uv) const {
     const int n = law_->width();
-    std::vector<double> y(z(size() * n)), still(y.size()), f(y.size()), fd(z(size() * n * n)),
+    std::vector<double> y(at(size() * n)), still(y.size()), f(y.size()), fd(at(size() * n * n)),
         fv(fd.size()), force, slope;
     for (int p = 0; p < size(); ++p)
-      y[z(n * p)] =
-          -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[z(p)]).penetration;
+      y[at(n * p)] =
+          -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[at(p)]).penetration;
     law_->evaluateWithTangent(0.0, all_, y.data(), still.data(), f.data(), fd.data(), fv.data());
     if (model::stateful(*law_) != nullptr) {
       // the state is that of each place, so the slope is not that of a state that is held
       const auto ahead = forcesAt(y, slopeStep), behind = forcesAt(y, -slopeStep);
       for (int p = 0; p < size(); ++p)
-        fd[z(n * n * p)] = (ahead[z(n * p)] - behind[z(n * p)]) / (2 * slopeStep);
+        fd[at(n * n * p)] = (ahead[at(n * p)] - behind[at(n * p)]) / (2 * slopeStep);
     }
     for (int p = 0; p < size(); ++p) {
-      force.push_back(options.stiffnessScale * f[z(n * p)]);
-      slope.push_back(-options.stiffnessScale * fd[z(n * n * p)]);
+      force.push_back(options.stiffnessScale * f[at(n * p)]);
+      slope.push_back(-options.stiffnessScale * fd[at(n * n * p)]);
     }
     return {force, slope};
   }
@@ -269,7 +270,7 @@ class PointLawAtRest final : public StaticContact {
   std::vector<double> forcesAt(std::vector<double> y, double step) const {
     const std::vector<double> still(y.size());
     std::vector<double> f(y.size());
-    for (int p = 0; p < size(); ++p) y[z(law_->width() * p)] += step;
+    for (int p = 0; p < size(); ++p) y[at(law_->width() * p)] += step;
     law_->evaluate(0.0, all_, y.data(), still.data(), f.data());
     return f;
   }
@@ -294,6 +295,7 @@ class PointLawContact final : public ContactLaw {
     auto law = make(points.size());
     return std::make_shared<PointLawAtRest>(std::move(points), std::move(law));
   }
+  bool hasFrictionAtRest() const override { return false; }
 
  private:
   std::shared_ptr<const model::PointLaw> make(int points) const {

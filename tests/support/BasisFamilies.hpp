@@ -53,6 +53,14 @@ inline bool isRitz(const Family& family) {
   return family.basis != "MacNeal" && family.basis != "Dual Craig-Bampton";
 }
 
+/// `count` modes of a part.
+inline reduction::ModeRequest modes(int count) {
+  reduction::ModeRequest request;
+  request.kind = reduction::ModeRequest::Kind::Count;
+  request.count = count;
+  return request;
+}
+
 /// `modes` for every part; negative: all.
 inline reduction::ReductionOptions modeCount(const std::string& basis, int modes) {
   reduction::ReductionOptions options;

@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/Report.hpp"
 
-#include <cstdarg>
-#include <cstdio>
+#include <fmt/printf.h>
 
 namespace tooljoint::cases {
 
 namespace {
 
-/// printf into a string.
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char buffer[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(buffer, sizeof buffer, pattern, arguments);
-  va_end(arguments);
-  return buffer;
-}
-
 /// Integrator, steps and counters, two lines.
 std::string describeSteps(const transient::TransientReport& report) {
   const auto& c = report.counters;
-  std::string text = format(
+  std::string text = fmt::sprintf(
       "transient   %s, %g to %g s: %ld steps of %.3g to %.3g s in %.2f s wall, %.2f s CPU: %.3g "
       "times real time\n",
       report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep,
       report.wall, report.cpu, report.realTimeFactor);
-  text += format(
+  text += fmt::sprintf(
       "            %ld Newton iterations, %ld factorisations, %ld right-hand sides, %ld halved, "
       "%ld rejected, %ld unconverged "
       "steps\n",
@@ -41,13 +30,13 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
                               int fullDofs, int reducedDofs, double wall) {
   int modes = 0;
   for (const auto& part : parts) modes += part.modes;
-  return format("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s", parts.size(),
-                modes, reducedDofs, fullDofs, wall);
+  return fmt::sprintf("reduction   %zu parts, %d modes: %d dofs instead of %d, in %.2f s",
+                      parts.size(), modes, reducedDofs, fullDofs, wall);
 }
 
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced) {
   const double ratio = reduced.total() / full.total();
-  std::string text = format(
+  std::string text = fmt::sprintf(
       "cost        a step of the reduced model takes about %.2f of the work of one of the full "
       "model (%.3g of %.3g "
       "multiplications)\n",
@@ -62,16 +51,16 @@ std::string describeCost(const transient::CostModel& full, const transient::Cost
 
 std::string describeCoupling(const coupling::Coupling& coupled) {
   if (!coupled.multipliers.empty())
-    return format("coupling    dual: %zu forces join %zu dofs of the parts",
-                  coupled.multipliers.size(), coupled.interface.size());
+    return fmt::sprintf("coupling    dual: %zu forces join %zu dofs of the parts",
+                        coupled.multipliers.size(), coupled.interface.size());
   if (coupled.interfaceModes < 0)
-    return format("coupling    primal: %zu joined dofs", coupled.interface.size());
-  return format("coupling    primal: kept %d modes of %d joined dofs", coupled.interfaceModes,
-                coupled.joinedDofs);
+    return fmt::sprintf("coupling    primal: %zu joined dofs", coupled.interface.size());
+  return fmt::sprintf("coupling    primal: kept %d modes of %d joined dofs", coupled.interfaceModes,
+                      coupled.joinedDofs);
 }
 
 std::string describeMotionError(const estimate::MotionEstimate& error) {
-  return format(
+  return fmt::sprintf(
       "estimate    error of the motion by the reduction: vibration error %.2e, worst sample %.2e, "
       "from %ld "
       "samples in %.2f s",
@@ -82,8 +71,8 @@ std::string describeTransient(const transient::TransientReport& report,
                               const MotionRecord& record) {
   std::string text = describeSteps(report) + record.describe();
   if (report.hasEnergy)
-    text += format("\n            energy balance closes to %.2g of the energy exchanged",
-                   report.energy.residual());
+    text += fmt::sprintf("\n            energy balance closes to %.2g of the energy exchanged",
+                         report.energy.residual());
   return text;
 }
 

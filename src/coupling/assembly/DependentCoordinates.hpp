@@ -4,7 +4,7 @@
 #pragma once
 
 #include "coupling/assembly/Assembler.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::coupling {
 

@@ -9,12 +9,11 @@
 #include <tuple>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "linalg/blocks/BlockKernels.hpp"
 
 namespace tooljoint::linalg {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t word = 64;  // bits
 
@@ -54,33 +53,33 @@ TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const A
 void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
                         std::vector<std::vector<int>>& later) const {
   const int n = pattern.blocks();
-  std::vector<std::set<int>> graph(z(n));
+  std::vector<std::set<int>> graph(at(n));
   for (int b = 0; b < n; ++b)
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
-      if (pattern.column(e) != b) graph[z(b)].insert(pattern.column(e));
+      if (pattern.column(e) != b) graph[at(b)].insert(pattern.column(e));
   const auto work = [&](int b) {
     double neighbours = 0;
-    for (int c : graph[z(b)]) neighbours += pattern.width(c);
-    return static_cast<long>(graph[z(b)].size() < 2 ? 0
-                                                    : pattern.width(b) * neighbours * neighbours);
+    for (int c : graph[at(b)]) neighbours += pattern.width(c);
+    return static_cast<long>(graph[at(b)].size() < 2 ? 0
+                                                     : pattern.width(b) * neighbours * neighbours);
   };
   std::set<std::tuple<long, int, int>> queue;  // work, waiting since, block
-  std::vector<std::tuple<long, int, int>> key(z(n));
-  for (int b = 0; b < n; ++b) queue.insert(key[z(b)] = {work(b), b, b});
-  later.assign(z(n), {});
+  std::vector<std::tuple<long, int, int>> key(at(n));
+  for (int b = 0; b < n; ++b) queue.insert(key[at(b)] = {work(b), b, b});
+  later.assign(at(n), {});
   for (int clock = n; !queue.empty(); ++clock) {
     const int b = std::get<2>(*queue.begin());
     queue.erase(queue.begin());
     sequence.push_back(b);
-    later[z(b)].assign(graph[z(b)].begin(), graph[z(b)].end());
-    for (int i : later[z(b)]) {
-      graph[z(i)].erase(b);
-      for (int j : later[z(b)])
-        if (i != j) graph[z(i)].insert(j);
+    later[at(b)].assign(graph[at(b)].begin(), graph[at(b)].end());
+    for (int i : later[at(b)]) {
+      graph[at(i)].erase(b);
+      for (int j : later[at(b)])
+        if (i != j) graph[at(i)].insert(j);
     }
-    for (int i : later[z(b)]) {
-      queue.erase(key[z(i)]);
-      queue.insert(key[z(i)] = {work(i), clock, i});
+    for (int i : later[at(b)]) {
+      queue.erase(key[at(i)]);
+      queue.insert(key[at(i)] = {work(i), clock, i});
     }
   }
 }
@@ -96,7 +95,7 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     const int entry = pattern.find(i, j);
     if (entry >= 0) return pattern.offset(entry);
     const auto [it, fresh] = fill.emplace(std::make_pair(i, j), storage);
-    if (fresh) storage += (z(pattern.width(i)) * z(pattern.width(j)) + 3) / 4 * 4;
+    if (fresh) storage += (at(pattern.width(i)) * at(pattern.width(j)) + 3) / 4 * 4;
     return it->second;
   };
 
@@ -106,18 +105,18 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     Pivot pivot{k, pattern.start(k), pattern.width(k), static_cast<int>(couplings_.size()), 0, 0};
     Elimination elimination{place(k, k), static_cast<int>(updates_.size()), 0};
     widest = std::max(widest, pivot.width);
-    for (int i : later[z(k)]) {
+    for (int i : later[at(k)]) {
       couplings_.push_back({i, pattern.start(i), pattern.width(i), 0, 0});
       places_.push_back({place(i, k), place(k, i)});
-      panel = std::max(panel, z(pattern.width(i)) * z(pivot.width));
+      panel = std::max(panel, at(pattern.width(i)) * at(pivot.width));
       solveWork_ += 2.0 * pivot.width * pattern.width(i);
     }
     solveWork_ += static_cast<double>(pivot.width) * pivot.width;
     pivot.couplingEnd = static_cast<int>(couplings_.size());
     for (int a = pivot.couplingBegin; a < pivot.couplingEnd; ++a)
       for (int b = pivot.couplingBegin; b < pivot.couplingEnd; ++b)
-        updates_.push_back({place(later[z(k)][z(a - pivot.couplingBegin)],
-                                  later[z(k)][z(b - pivot.couplingBegin)]),
+        updates_.push_back({place(later[at(k)][at(a - pivot.couplingBegin)],
+                                  later[at(k)][at(b - pivot.couplingBegin)]),
                             a, b});
     elimination.updateEnd = static_cast<int>(updates_.size());
     pivots_.push_back(pivot);
@@ -127,11 +126,11 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   findEarlier();
   far_ = storage > kernel::nearCache;
   values_.assign(storage, 0.0);
-  scale_.assign(z(pattern.size()), 0.0);
-  swaps_.assign(z(pattern.size()), 0);
-  workScale_.assign(z(widest), 0.0);
-  work_.assign(z(widest), 0.0);
-  const std::size_t inverted = z(std::min(widest, kernel::largestInverse));
+  scale_.assign(at(pattern.size()), 0.0);
+  swaps_.assign(at(pattern.size()), 0);
+  workScale_.assign(at(widest), 0.0);
+  work_.assign(at(widest), 0.0);
+  const std::size_t inverted = at(std::min(widest, kernel::largestInverse));
   panel_.assign(std::max(panel, inverted * inverted), 0.0);
 }
 
@@ -144,16 +143,16 @@ void BlockFactor::pack() {
           "The factors of the matrix would take more than 32 GB. Take a coarser mesh, fewer modes "
           "or fewer kept nodes.");
     const auto here = static_cast<Offset>(next);
-    next += (z(rows) * z(columns) + 3) / 4 * 4;
+    next += (at(rows) * at(columns) + 3) / 4 * 4;
     return here;
   };
   for (const Pivot& p : pivots_)
     for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-      couplings_[z(c)].down = take(down, couplings_[z(c)].width, p.width);
+      couplings_[at(c)].down = take(down, couplings_[at(c)].width, p.width);
   for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) {
     p->up = take(up, p->width, p->width);
     for (int c = p->couplingBegin; c < p->couplingEnd; ++c)
-      couplings_[z(c)].up = take(up, p->width, couplings_[z(c)].width);
+      couplings_[at(c)].up = take(up, p->width, couplings_[at(c)].width);
   }
   down_.assign(down, 0.0);
   up_.assign(up, 0.0);
@@ -162,11 +161,11 @@ void BlockFactor::pack() {
 void BlockFactor::findEarlier() {
   pivotOf_.resize(pivots_.size());
   for (std::size_t k = 0; k < pivots_.size(); ++k)
-    pivotOf_[z(pivots_[k].block)] = static_cast<int>(k);
+    pivotOf_[at(pivots_[k].block)] = static_cast<int>(k);
   std::vector<std::vector<int>> earlier(pivots_.size());
   for (std::size_t k = 0; k < pivots_.size(); ++k)
     for (int c = pivots_[k].couplingBegin; c < pivots_[k].couplingEnd; ++c)
-      earlier[z(pivotOf_[z(couplings_[z(c)].block)])].push_back(static_cast<int>(k));
+      earlier[at(pivotOf_[at(couplings_[at(c)].block)])].push_back(static_cast<int>(k));
   earlierBegin_.push_back(0);
   for (const auto& each : earlier) {
     earlier_.insert(earlier_.end(), each.begin(), each.end());
@@ -187,14 +186,14 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
       double size = 0;
       for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
       if (!(size > 0)) return p.start + i;  // an empty row, or not a number
-      scale_[z(p.start + i)] = size;
+      scale_[at(p.start + i)] = size;
     }
   }
   for (std::size_t k = 0; k < pivots_.size(); ++k) {
     const Pivot& p = pivots_[k];
     double* D = values + eliminations_[k].diagonal;
-    const int bad = kernel::factorBlock(p.width, D, &scale_[z(p.start)], workScale_.data(),
-                                        &swaps_[z(p.start)], panel_.data());
+    const int bad = kernel::factorBlock(p.width, D, &scale_[at(p.start)], workScale_.data(),
+                                        &swaps_[at(p.start)], panel_.data());
     if (bad >= 0) return p.start + bad;
     eliminate(k);
   }
@@ -208,38 +207,39 @@ TOOLJOINT_CLONES void BlockFactor::eliminate(std::size_t k) {
   const double* D = values + eliminations_[k].diagonal;
   std::copy(D, D + p.width * p.width, up_.data() + p.up);
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
-    const Coupling& at = couplings_[z(c)];
-    const double* upper = values + places_[z(c)].upper;
-    double* W = up_.data() + at.up;
+    const Coupling& far = couplings_[at(c)];
+    const double* upper = values + places_[at(c)].upper;
+    double* W = up_.data() + far.up;
     if (p.inverted()) {
-      kernel::multiplySmall(p.width, p.width, at.width, D, upper, W);
+      kernel::multiplySmall(p.width, p.width, far.width, D, upper, W);
     } else {
-      std::copy(upper, upper + p.width * at.width, W);
-      kernel::solveLarge(p.width, at.width, D, &swaps_[z(p.start)], W);
+      std::copy(upper, upper + p.width * far.width, W);
+      kernel::solveLarge(p.width, far.width, D, &swaps_[at(p.start)], W);
     }
   }
   for (int u = eliminations_[k].updateBegin; u < eliminations_[k].updateEnd; ++u) {
-    const Update& update = updates_[z(u)];
-    const Coupling& i = couplings_[z(update.i)];
-    const Coupling& j = couplings_[z(update.j)];
-    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[z(update.i)].lower,
+    const Update& update = updates_[at(u)];
+    const Coupling& i = couplings_[at(update.i)];
+    const Coupling& j = couplings_[at(update.j)];
+    kernel::multiplySubtract(i.width, p.width, j.width, values + places_[at(update.i)].lower,
                              up_.data() + j.up, values + update.target);
   }
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
-    const Coupling& at = couplings_[z(c)];
-    const double* lower = values + places_[z(c)].lower;
-    double* L = down_.data() + at.down;
+    const Coupling& far = couplings_[at(c)];
+    const double* lower = values + places_[at(c)].lower;
+    double* L = down_.data() + far.down;
     if (p.inverted())
-      kernel::multiplySmall(at.width, p.width, p.width, lower, D, L);
+      kernel::multiplySmall(far.width, p.width, p.width, lower, D, L);
     else
-      std::copy(lower, lower + at.width * p.width, L);
+      std::copy(lower, lower + far.width * p.width, L);
   }
 }
 
 /// b_i -= L_ik b_k
 TOOLJOINT_INLINED void BlockFactor::sweepDown(const Pivot& p, double* x) const {
   double* target = x + p.start;
-  if (!p.inverted()) kernel::solveLarge(p.width, 1, up_.data() + p.up, &swaps_[z(p.start)], target);
+  if (!p.inverted())
+    kernel::solveLarge(p.width, 1, up_.data() + p.up, &swaps_[at(p.start)], target);
   const Coupling* couplings = couplings_.data();
   for (int c = p.couplingBegin; c < p.couplingEnd; ++c) {
     const double* L = down_.data() + couplings[c].down;
@@ -292,14 +292,14 @@ TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
     std::fill(x + pivots_[k].start, x + pivots_[k].start + pivots_[k].width, 0.0);
     clear(reached_, k);
   };
-  for (int block : live) set(reached_, z(pivotOf_[z(block)]));
+  for (int block : live) set(reached_, at(pivotOf_[at(block)]));
   upwards(
       reached_, [&](std::size_t k) __attribute__((always_inline)) {
         const Pivot& p = pivots_[k];
         if (isSmall(p, true)) return drop(k);
         sweepDown(p, x);
         for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
-          set(reached_, z(pivotOf_[z(couplings_[z(c)].block)]));
+          set(reached_, at(pivotOf_[at(couplings_[at(c)].block)]));
       });
   live.clear();
   downwards(
@@ -308,7 +308,7 @@ TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
         if (isSmall(pivots_[k], false)) return drop(k);
         live.push_back(pivots_[k].block);
         for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e)
-          set(reached_, z(earlier_[z(e)]));
+          set(reached_, at(earlier_[at(e)]));
       });
   std::fill(reached_.begin(), reached_.end(), 0);
 }
@@ -317,7 +317,7 @@ void BlockFactor::reserveInverse() {
   if (!inverse_.empty()) return;
   inverse_.assign(values_.size(), 0.0);
   std::size_t widest = 0;
-  for (const Pivot& p : pivots_) widest = std::max(widest, z(p.width) * z(p.width));
+  for (const Pivot& p : pivots_) widest = std::max(widest, at(p.width) * at(p.width));
   panel_.resize(std::max(panel_.size(), widest));
   inverted_.reserve(pivots_.size());
 }
@@ -328,10 +328,10 @@ void BlockFactor::invert(const std::vector<char>& wanted) {
   std::vector<char>& needed = inverted_;
   needed.assign(wanted.begin(), wanted.end());
   for (const Pivot& p : pivots_)
-    if (needed[z(p.block)])
-      for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[z(couplings_[z(c)].block)] = 1;
+    if (needed[at(p.block)])
+      for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[at(couplings_[at(c)].block)] = 1;
   for (std::size_t k = pivots_.size(); k-- > 0;)
-    if (needed[z(pivots_[k].block)]) invertPivot(k);
+    if (needed[at(pivots_[k].block)]) invertPivot(k);
 }
 
 TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
@@ -345,20 +345,20 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
   } else {
     std::fill(diagonal, diagonal + w * w, 0.0);
     for (int i = 0; i < w; ++i) diagonal[i * (w + 1)] = 1.0;
-    kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[z(p.start)], diagonal);
+    kernel::solveLarge(w, w, up_.data() + p.up, &swaps_[at(p.start)], diagonal);
   }
   const int count = p.couplingEnd - p.couplingBegin;
   const Update* updates =
       updates_.data() + eliminations_[k].updateBegin;  // count x count, row by row
   for (int a = 0; a < count; ++a) {
-    const std::size_t c = z(p.couplingBegin + a);
+    const std::size_t c = at(p.couplingBegin + a);
     const int size = couplings_[c].width * w;
     std::fill(Z + places_[c].lower, Z + places_[c].lower + size, 0.0);
     std::fill(Z + places_[c].upper, Z + places_[c].upper + size, 0.0);
   }
   // Z_ak = -sum_b Z_ab (A_bk D_k^-1),  Z_kb = -sum_a W_ka Z_ab
   for (int b = 0; b < count; ++b) {
-    const Coupling& from = couplings_[z(p.couplingBegin + b)];
+    const Coupling& from = couplings_[at(p.couplingBegin + b)];
     const double* L = down_.data() + from.down;
     if (!p.inverted()) {  // diagonal is still D_k^-1
       std::fill(panel_.begin(), panel_.begin() + from.width * w, 0.0);
@@ -366,19 +366,19 @@ TOOLJOINT_CLONES void BlockFactor::invertPivot(std::size_t k) {
       L = panel_.data();
     }
     for (int a = 0; a < count; ++a) {
-      const Coupling& to = couplings_[z(p.couplingBegin + a)];
+      const Coupling& to = couplings_[at(p.couplingBegin + a)];
       const double* Zab = Z + updates[a * count + b].target;
       kernel::multiplySubtract(to.width, from.width, w, Zab, L,
-                               Z + places_[z(p.couplingBegin + a)].lower);
+                               Z + places_[at(p.couplingBegin + a)].lower);
       kernel::multiplySubtract(w, to.width, from.width, up_.data() + to.up, Zab,
-                               Z + places_[z(p.couplingBegin + b)].upper);
+                               Z + places_[at(p.couplingBegin + b)].upper);
     }
   }
   // Z_kk = D_k^-1 - sum_b W_kb Z_bk
   for (int b = 0; b < count; ++b) {
-    const Coupling& at = couplings_[z(p.couplingBegin + b)];
-    kernel::multiplySubtract(w, at.width, w, up_.data() + at.up,
-                             Z + places_[z(p.couplingBegin + b)].lower, diagonal);
+    const Coupling& far = couplings_[at(p.couplingBegin + b)];
+    kernel::multiplySubtract(w, far.width, w, up_.data() + far.up,
+                             Z + places_[at(p.couplingBegin + b)].lower, diagonal);
   }
 }
 

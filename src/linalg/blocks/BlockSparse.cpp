@@ -9,24 +9,23 @@
 #include <set>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "linalg/blocks/BlockKernels.hpp"
 
 namespace tooljoint::linalg {
 namespace {
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
-
 /// Union-find with path halving.
 class Families {
  public:
-  explicit Families(int n) : parent_(z(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Families(int n) : parent_(at(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int i) {
-    while (parent_[z(i)] != i) i = parent_[z(i)] = parent_[z(parent_[z(i)])];
+    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
     return i;
   }
   void join(int a, int b) {
     a = root(a), b = root(b);
-    if (a != b) parent_[z(std::max(a, b))] = std::min(a, b);
+    if (a != b) parent_[at(std::max(a, b))] = std::min(a, b);
   }
 
  private:
@@ -43,17 +42,17 @@ int number(const std::vector<std::pair<int, int>>& key, std::vector<int>& block)
 
 std::vector<std::set<int>> blockGraph(const std::vector<const Sparse*>& matrices,
                                       const std::vector<int>& block, int blocks) {
-  std::vector<std::set<int>> graph(z(blocks));
-  for (int b = 0; b < blocks; ++b) graph[z(b)].insert(b);
+  std::vector<std::set<int>> graph(at(blocks));
+  for (int b = 0; b < blocks; ++b) graph[at(b)].insert(b);
   for (const Sparse* matrix : matrices)
     for (int i = 0; i < matrix->outerSize(); ++i)
       for (Sparse::InnerIterator it(*matrix, i); it; ++it) {
         if (it.value() == 0.0) continue;
-        const int a = block[z(i)];
-        const int b = block[z(static_cast<int>(it.col()))];
+        const int a = block[at(i)];
+        const int b = block[at(static_cast<int>(it.col()))];
         if (a == b) continue;
-        graph[z(a)].insert(b);
-        graph[z(b)].insert(a);
+        graph[at(a)].insert(b);
+        graph[at(b)].insert(a);
       }
   return graph;
 }
@@ -69,36 +68,36 @@ BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
       for (Sparse::InnerIterator it(*matrix, i); it; ++it)
         if (it.value() != 0.0) families.join(i, static_cast<int>(it.col()));
 
-  std::vector<std::pair<int, int>> key(z(n));
-  for (int i = 0; i < n; ++i) key[z(i)] = {group[z(i)], families.root(i)};
-  std::vector<int> block(z(n));
+  std::vector<std::pair<int, int>> key(at(n));
+  for (int i = 0; i < n; ++i) key[at(i)] = {group[at(i)], families.root(i)};
+  std::vector<int> block(at(n));
   const int groups = number(key, block);
 
   // Blocks with one closed neighbourhood and one class are indistinguishable: merge them.
   const auto graph = blockGraph(matrices, block, groups);
-  std::vector<int> kindOf(z(groups), 0);
-  for (int i = 0; i < n; ++i) kindOf[z(block[z(i)])] = kind[z(i)];
+  std::vector<int> kindOf(at(groups), 0);
+  for (int i = 0; i < n; ++i) kindOf[at(block[at(i)])] = kind[at(i)];
   std::map<std::pair<int, std::vector<int>>, int> first;
-  std::vector<int> leader(z(groups));
+  std::vector<int> leader(at(groups));
   for (int b = 0; b < groups; ++b) {
-    std::vector<int> neighbours(graph[z(b)].begin(), graph[z(b)].end());
-    leader[z(b)] =
-        first.emplace(std::make_pair(kindOf[z(b)], std::move(neighbours)), b).first->second;
+    std::vector<int> neighbours(graph[at(b)].begin(), graph[at(b)].end());
+    leader[at(b)] =
+        first.emplace(std::make_pair(kindOf[at(b)], std::move(neighbours)), b).first->second;
   }
-  for (int i = 0; i < n; ++i) key[z(i)] = {leader[z(block[z(i)])], 0};
+  for (int i = 0; i < n; ++i) key[at(i)] = {leader[at(block[at(i)])], 0};
   const int blocks = number(key, block);
 
   BlockPartition partition;
-  partition.start.assign(z(blocks + 1), 0);
-  for (int i = 0; i < n; ++i) ++partition.start[z(block[z(i)] + 1)];
+  partition.start.assign(at(blocks + 1), 0);
+  for (int i = 0; i < n; ++i) ++partition.start[at(block[at(i)] + 1)];
   std::partial_sum(partition.start.begin(), partition.start.end(), partition.start.begin());
   std::vector<int> next(partition.start.begin(), partition.start.end() - 1);
-  partition.position.resize(z(n));
-  partition.dof.resize(z(n));
+  partition.position.resize(at(n));
+  partition.dof.resize(at(n));
   for (int i = 0; i < n; ++i) {
-    const int p = next[z(block[z(i)])]++;
-    partition.position[z(i)] = p;
-    partition.dof[z(p)] = i;
+    const int p = next[at(block[at(i)])]++;
+    partition.position[at(i)] = p;
+    partition.dof[at(p)] = i;
   }
   return partition;
 }
@@ -106,16 +105,16 @@ BlockPartition partitionDofs(const std::vector<const Sparse*>& matrices,
 BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Sparse*>& matrices)
     : partition_(std::move(partition)) {
   const int n = size();
-  blockOf_.resize(z(n));
+  blockOf_.resize(at(n));
   for (int b = 0; b < blocks(); ++b)
-    for (int p = start(b); p < start(b + 1); ++p) blockOf_[z(p)] = b;
-  std::vector<int> blockOfDof(z(n));
-  for (int i = 0; i < n; ++i) blockOfDof[z(i)] = blockOf_[z(partition_.position[z(i)])];
+    for (int p = start(b); p < start(b + 1); ++p) blockOf_[at(p)] = b;
+  std::vector<int> blockOfDof(at(n));
+  for (int i = 0; i < n; ++i) blockOfDof[at(i)] = blockOf_[at(partition_.position[at(i)])];
 
   const auto graph = blockGraph(matrices, blockOfDof, blocks());
   rowBegin_.push_back(0);
   for (int b = 0; b < blocks(); ++b) {
-    column_.insert(column_.end(), graph[z(b)].begin(), graph[z(b)].end());
+    column_.insert(column_.end(), graph[at(b)].begin(), graph[at(b)].end());
     rowBegin_.push_back(static_cast<int>(column_.size()));
   }
   offset_.resize(column_.size());
@@ -123,8 +122,8 @@ BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Spa
     for (int b = 0; b < blocks(); ++b)
       for (int e = rowBegin(b); e < rowBegin(b + 1); ++e) {
         if ((column(e) < b) != below) continue;
-        offset_[z(e)] = storage_;
-        storage_ += (z(width(b)) * z(width(column(e))) + 3) / 4 * 4;
+        offset_[at(e)] = storage_;
+        storage_ += (at(width(b)) * at(width(column(e))) + 3) / 4 * 4;
       }
 }
 
@@ -138,16 +137,16 @@ int BlockPattern::find(int row, int column) const {
 std::size_t BlockPattern::address(int rowPosition, int columnPosition) const {
   const int row = blockOf(rowPosition);
   const int col = blockOf(columnPosition);
-  return offset(find(row, col)) + z(columnPosition - start(col)) * z(width(row)) +
-         z(rowPosition - start(row));
+  return offset(find(row, col)) + at(columnPosition - start(col)) * at(width(row)) +
+         at(rowPosition - start(row));
 }
 
 void BlockPattern::add(const Sparse& matrix, double factor, BlockValues& values) const {
   for (int i = 0; i < matrix.outerSize(); ++i)
     for (Sparse::InnerIterator it(matrix, i); it; ++it)
       if (it.value() != 0.0)
-        values[address(partition_.position[z(i)],
-                       partition_.position[z(static_cast<int>(it.col()))])] += factor * it.value();
+        values[address(partition_.position[at(i)],
+                       partition_.position[at(static_cast<int>(it.col()))])] += factor * it.value();
 }
 
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
@@ -182,7 +181,7 @@ BlockProduct::BlockProduct(const BlockPattern& pattern,
     layout_ = like->layout_;
   else
     layout_ = std::make_shared<const Layout>(std::move(layout));
-  sum_.assign(z(widest), 0.0);
+  sum_.assign(at(widest), 0.0);
 }
 
 /// The entries of a block row that are not zero in all samples.
@@ -200,7 +199,7 @@ BlockProduct::Row BlockProduct::listRow(const BlockPattern& pattern,
     for (int j = 0; j < columns; ++j)
       for (int i = 0; i < rows; ++i)
         for (const BlockValues* sample : samples)
-          if ((*sample)[pattern.offset(e) + z(j * rows + i)] != 0.0) {
+          if ((*sample)[pattern.offset(e) + at(j * rows + i)] != 0.0) {
             any = true;
             offDiagonal = offDiagonal || i != j;
           }
@@ -288,8 +287,8 @@ TOOLJOINT_INLINED void BlockProduct::addSix(int begin, int end, const double* va
 TOOLJOINT_CLONES void BlockProduct::addRows(int begin, int end, const double* values,
                                             const double* x, double* y, double factor) const {
   const Row* last = layout_->rows.data() + end;
-  for (const Row* at = layout_->rows.data() + begin; at != last; ++at) {
-    const Row row = *at;
+  for (const Row* each = layout_->rows.data() + begin; each != last; ++each) {
+    const Row row = *each;
     double* target = y + row.start;
     if (row.inSix) {
       kernel::Six even, odd;
@@ -312,7 +311,7 @@ TOOLJOINT_INLINED double BlockProduct::sixForm(const Row& row, const double* val
   kernel::Six even, odd;
   if (mirrored_) {
     const bool own =
-        row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
+        row.diagonal < row.end && layout_->entries[at(row.diagonal)].column == row.start;
     const int beyond = own ? row.diagonal + 1 : row.diagonal;
     addSix(row.diagonal, beyond, values, x, even, odd);
     even.a += odd.a, even.b += odd.b;
@@ -334,8 +333,8 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
   const Row* last = layout_->rows.data() + end;
   double* sum = sum_.data();
   double whole = 0;
-  for (const Row* at = layout_->rows.data() + begin; at != last; ++at) {
-    const Row row = *at;
+  for (const Row* each = layout_->rows.data() + begin; each != last; ++each) {
+    const Row row = *each;
     if (row.inSix) {
       whole += sixForm(row, values, x);
       continue;
@@ -343,7 +342,7 @@ TOOLJOINT_CLONES double BlockProduct::formRows(int begin, int end, const double*
     std::fill(sum, sum + row.width, 0.0);
     if (mirrored_) {
       const bool own =
-          row.diagonal < row.end && layout_->entries[z(row.diagonal)].column == row.start;
+          row.diagonal < row.end && layout_->entries[at(row.diagonal)].column == row.start;
       const int beyond = own ? row.diagonal + 1 : row.diagonal;
       addEntries(row, beyond, row.end, values, x, sum);
       for (int i = 0; i < row.width; ++i) sum[i] *= 2.0;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/vectors/InteriorVectors.hpp"
 
 namespace tooljoint::reduction {

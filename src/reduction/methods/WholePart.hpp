@@ -3,7 +3,7 @@
 /// A part that is not reduced.
 #pragma once
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 

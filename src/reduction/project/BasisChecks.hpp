@@ -3,7 +3,7 @@
 /// Checks made on every basis: rank, static exactness, zero-energy modes, largest frequency.
 #pragma once
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/project/Projection.hpp"
 
 namespace tooljoint::reduction {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/Substructure.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/project/Projection.hpp"
 
 namespace tooljoint::reduction {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 

@@ -3,7 +3,7 @@
 /// How much a mode with fixed interface matters to the neighbours of its part.
 #pragma once
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/selection/ModeChoice.hpp"
 
 namespace tooljoint::reduction {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/Index.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/vectors/FixedInterfaceModes.hpp"
 
 namespace tooljoint::reduction {

@@ -3,7 +3,7 @@
 /// The state at t = 0 in reduced coordinates.
 #pragma once
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 

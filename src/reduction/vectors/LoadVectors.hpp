@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "deck/ListSpec.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 
 namespace tooljoint::reduction {
 

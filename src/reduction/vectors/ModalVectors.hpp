@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/vectors/InteriorVectors.hpp"
 
 namespace tooljoint::reduction {

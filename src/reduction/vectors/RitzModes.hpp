@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "reduction/part/InteriorStatics.hpp"
 
 namespace tooljoint::reduction {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cases/run/ResultsWriter.hpp"
+#include "common/Constants.hpp"
 #include "common/Text.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/TextFile.hpp"
@@ -13,8 +14,6 @@
 namespace tooljoint::study {
 
 namespace {
-
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
 
 /// "/runs/003"
 std::string numbered(const std::string& group, std::size_t index) {
@@ -115,7 +114,8 @@ io::SummaryRow summaryRow(const StudyRow& row, const Ratios& ratios) {
   if (ratios.baseline) out.set("speedup_baseline", *ratios.baseline);
   if (ratios.bestFull) out.set("speedup_best_full", *ratios.bestFull);
   if (row.statistics && !row.curves.statistics.bitSpeed.empty())
-    out.set("bit_speed_difference_rpm", kRpm * row.statistics->bitSpeed);
+    out.set("bit_speed_difference_rpm",
+            constants::rpmPerRadianPerSecond * row.statistics->bitSpeed);
   if (row.statistics)
     out.set("contact_duty_difference_max", row.statistics->dutyMax)
         .set("contact_duty_difference_mean", row.statistics->dutyMean)

@@ -7,10 +7,10 @@
 #include <map>
 #include <tuple>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long
 /// runs.
@@ -32,7 +32,7 @@ Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) 
         const int dof = static_cast<int>(it.col());
         if (first < 0) first = dof;
         triplets.emplace_back(first, dof, 1.0);
-        dofOfGroup.emplace(group[z(dof)], dof);
+        dofOfGroup.emplace(group[at(dof)], dof);
       }
     for (const auto& [groupA, a] : dofOfGroup)
       for (const auto& [groupB, b] : dofOfGroup) triplets.emplace_back(a, b, 1.0);
@@ -51,17 +51,19 @@ struct Groups {
 
 Groups groupDofs(const model::SecondOrderModel& model) {
   const int n = model.size();
-  std::vector<int> parent(z(n));
-  for (int i = 0; i < n; ++i) parent[z(i)] = i;
+  std::vector<int> parent(at(n));
+  for (int i = 0; i < n; ++i) parent[at(i)] = i;
   const auto root = [&](int i) {
-    while (parent[z(i)] != i) i = parent[z(i)] = parent[z(parent[z(i)])];
+    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
     return i;
   };
-  const auto isModal = [&](int i) { return model.dofs[z(i)].kind == model::DofLabel::Kind::Modal; };
+  const auto isModal = [&](int i) {
+    return model.dofs[at(i)].kind == model::DofLabel::Kind::Modal;
+  };
   const auto join = [&](int i, int j) {
-    if (model.dofs[z(i)].entity != model.dofs[z(j)].entity) return;
+    if (model.dofs[at(i)].entity != model.dofs[at(j)].entity) return;
     const int a = root(i), b = root(j);
-    parent[z(std::max(a, b))] = std::min(a, b);
+    parent[at(std::max(a, b))] = std::min(a, b);
   };
   const auto joinModes = [&](const Sparse& matrix) {
     for (int i = 0; i < n; ++i)
@@ -81,13 +83,13 @@ Groups groupDofs(const model::SecondOrderModel& model) {
         for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
           const int dof = static_cast<int>(it.col());
           if (it.value() != 0.0 && isModal(dof))
-            join(first.emplace(model.dofs[z(dof)].entity, dof).first->second, dof);
+            join(first.emplace(model.dofs[at(dof)].entity, dof).first->second, dof);
         }
     }
   Groups groups;
   std::map<std::tuple<int, std::int64_t, int>, int> entities;
   for (int i = 0; i < n; ++i) {
-    const auto& label = model.dofs[z(i)];
+    const auto& label = model.dofs[at(i)];
     groups.kind.push_back(static_cast<int>(label.kind));
     const auto key = std::make_tuple(groups.kind.back(), label.entity, isModal(i) ? root(i) : 0);
     groups.group.push_back(entities.emplace(key, static_cast<int>(entities.size())).first->second);
@@ -127,7 +129,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
   std::map<std::string, std::size_t> byLaw;  // laws of one name are one law
   std::vector<Sparse> matrices;
   for (const auto& term : terms) {
-    const auto& law = laws[z(term.law)].name;
+    const auto& law = laws[at(term.law)].name;
     const auto [it, fresh] = byLaw.emplace(law, terms_.size());
     if (fresh) {
       terms_.push_back({term.name, term.law, {}, {}, false});
@@ -146,7 +148,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
   }
   for (const auto& term : terms_) samples.push_back(&term.values);
   product_ = linalg::BlockProduct(pattern, samples, &like);
-  constant_ = terms_.size() == 1 && laws[z(terms_[0].law)].name == "1";
+  constant_ = terms_.size() == 1 && laws[at(terms_[0].law)].name == "1";
   if (!constant_ && !terms_.empty()) sum_.assign(pattern.storage(), 0.0);
   last_.assign(terms_.size(), std::numeric_limits<double>::quiet_NaN());
 }
@@ -155,7 +157,7 @@ bool MatrixSum::update(const std::vector<double>& lawValues) {
   if (terms_.empty()) return false;
   bool changed = false;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double value = lawValues[z(terms_[i].law)];
+    const double value = lawValues[at(terms_[i].law)];
     if (!(value == last_[i])) changed = true;
     last_[i] = value;
   }
@@ -210,7 +212,7 @@ void MatrixSum::addTo(const double* x, double* y, linalg::BlockRange rows) const
 void MatrixSum::addChangeSince(const std::vector<double>& then, double factor, const double* x,
                                double* y) const {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    const double difference = factor * (last_[i] - then[z(terms_[i].law)]);
+    const double difference = factor * (last_[i] - then[at(terms_[i].law)]);
     if (difference != 0.0) terms_[i].product.addTo(terms_[i].values.data(), x, y, difference);
   }
 }
@@ -240,14 +242,14 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   massProduct_ = linalg::BlockProduct(pattern_, {&mass_});
   damping_ = MatrixSum(model.damping, model.laws, pattern_, massProduct_);
   stiffness_ = MatrixSum(model.stiffness, model.laws, pattern_, massProduct_);
-  diagonalAddress_.resize(z(n));
-  for (int p = 0; p < n; ++p) diagonalAddress_[z(p)] = pattern_.address(p, p);
+  diagonalAddress_.resize(at(n));
+  for (int p = 0; p < n; ++p) diagonalAddress_[at(p)] = pattern_.address(p, p);
 
   std::map<std::string, std::size_t> byLaw;
   Vector vector;
   for (const auto& term : model.loads) {
     toPositions(term.vector, vector);
-    const auto [it, fresh] = byLaw.emplace(model.laws[z(term.law)].name, loads_.size());
+    const auto [it, fresh] = byLaw.emplace(model.laws[at(term.law)].name, loads_.size());
     if (fresh)
       loads_.push_back({term.law, vector});
     else
@@ -264,16 +266,16 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
 
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
   positions.resize(dofs.size());
-  for (int p = 0; p < size(); ++p) positions[p] = dofs[pattern_.partition().dof[z(p)]];
+  for (int p = 0; p < size(); ++p) positions[p] = dofs[pattern_.partition().dof[at(p)]];
 }
 
 void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
   dofs.resize(positions.size());
-  for (int p = 0; p < size(); ++p) dofs[pattern_.partition().dof[z(p)]] = positions[p];
+  for (int p = 0; p < size(); ++p) dofs[pattern_.partition().dof[at(p)]] = positions[p];
 }
 
 std::string CompiledModel::dofName(int position) const {
-  return model::describe(model_.dofs[z(pattern_.partition().dof[z(position)])],
+  return model::describe(model_.dofs[at(pattern_.partition().dof[at(position)])],
                          model_.componentNames);
 }
 
@@ -287,7 +289,7 @@ void CompiledModel::setTime(double t) {
   if (c || k) ++stamp_;
   bool changed = false;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    const double value = lawValues_[z(loads_[i].law)];
+    const double value = lawValues_[at(loads_[i].law)];
     if (!(value == lastLoadLaws_[i])) changed = true;
     lastLoadLaws_[i] = value;
   }

@@ -6,10 +6,10 @@
 #include <limits>
 #include <map>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// Points on fewer entries than this are as cheap to measure as to bound.
 constexpr int cheapPoint = 12;
@@ -23,12 +23,12 @@ ContactBroadPhase::ContactBroadPhase(int points, int width, int reach,
                                      const std::vector<int>& column,
                                      const std::vector<double>& value,
                                      const linalg::BlockPattern& pattern)
-    : reach_(reach), isActive_(z(points), 1) {
+    : reach_(reach), isActive_(at(points), 1) {
   std::map<std::vector<int>, std::vector<int>> byBlocks;  // points that hang on the same blocks
   for (int p = 0; p < points; ++p) {
     std::vector<int> blocks;
-    for (int i = rowBegin[z(p * width)]; i < rowBegin[z((p + 1) * width)]; ++i)
-      blocks.push_back(pattern.blockOf(column[z(i)]));
+    for (int i = rowBegin[at(p * width)]; i < rowBegin[at((p + 1) * width)]; ++i)
+      blocks.push_back(pattern.blockOf(column[at(i)]));
     if (static_cast<int>(blocks.size()) < cheapPoint) continue;
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -40,9 +40,10 @@ ContactBroadPhase::ContactBroadPhase(int points, int width, int reach,
     std::map<int, std::vector<double>> largest;
     for (int p : members)
       for (int c = 0; c < reach; ++c)
-        for (int i = rowBegin[z(p * width + c)]; i < rowBegin[z(p * width + c + 1)]; ++i) {
-          auto& r = largest.emplace(column[z(i)], std::vector<double>(z(reach), 0.0)).first->second;
-          r[z(c)] = std::max(r[z(c)], std::abs(value[z(i)]));
+        for (int i = rowBegin[at(p * width + c)]; i < rowBegin[at(p * width + c + 1)]; ++i) {
+          auto& r =
+              largest.emplace(column[at(i)], std::vector<double>(at(reach), 0.0)).first->second;
+          r[at(c)] = std::max(r[at(c)], std::abs(value[at(i)]));
         }
     for (const auto& [position, r] : largest) {
       group.columns.push_back(position);
@@ -52,8 +53,8 @@ ContactBroadPhase::ContactBroadPhase(int points, int width, int reach,
     group.points = std::move(members);
     groups_.push_back(std::move(group));
   }
-  active_.reserve(z(points));
-  activated_.reserve(z(points));
+  active_.reserve(at(points));
+  activated_.reserve(at(points));
   collect();
 }
 
@@ -86,7 +87,7 @@ void ContactBroadPhase::activate(const double* q) {
     group.moved = !(group.reached < group.least);
     if (!group.moved) continue;
     for (int p : group.points)
-      if (!isActive_[z(p)]) isActive_[z(p)] = 1, activated_.push_back(p);
+      if (!isActive_[at(p)]) isActive_[at(p)] = 1, activated_.push_back(p);
   }
   if (activated_.empty()) return;
   std::sort(activated_.begin(), activated_.end());
@@ -103,8 +104,8 @@ void ContactBroadPhase::deactivate(const double* q, const double* clearance) {
     group.steps = group.reached = 0;
     for (std::size_t j = 0; j < group.columns.size(); ++j) group.reference[j] = q[group.columns[j]];
     for (int p : group.points) {
-      isActive_[z(p)] = !(clearance[p] > margin);
-      if (!isActive_[z(p)]) group.least = std::min(group.least, clearance[p]);
+      isActive_[at(p)] = !(clearance[p] > margin);
+      if (!isActive_[at(p)]) group.least = std::min(group.least, clearance[p]);
     }
   }
   if (any) collect();

@@ -7,12 +7,12 @@
 #include <map>
 #include <numeric>
 
+#include "common/Index.hpp"
 #include "transient/compiled/PointWidth.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
@@ -32,66 +32,66 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   for (int r = 0; r < rows; ++r) {
     for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
       if (it.value() == 0.0) continue;
-      column_.push_back(position[z(static_cast<int>(it.col()))]);
+      column_.push_back(position[at(static_cast<int>(it.col()))]);
       value_.push_back(it.value());
       single_ = single_ && it.value() == 1.0;
     }
     rowBegin_.push_back(static_cast<int>(column_.size()));
-    single_ = single_ && rowBegin_[z(r + 1)] - rowBegin_[z(r)] <= 1;
+    single_ = single_ && rowBegin_[at(r + 1)] - rowBegin_[at(r)] <= 1;
   }
   findBlocks(pattern);
   if (single_) {
-    index_.assign(z(rows), -1);
+    index_.assign(at(rows), -1);
     for (int r = 0; r < rows; ++r)
-      if (rowBegin_[z(r + 1)] > rowBegin_[z(r)]) index_[z(r)] = column_[z(rowBegin_[z(r)])];
-    entryAddress_.assign(z(rows) * z(width_), none);
+      if (rowBegin_[at(r + 1)] > rowBegin_[at(r)]) index_[at(r)] = column_[at(rowBegin_[at(r)])];
+    entryAddress_.assign(at(rows) * at(width_), none);
     for (int p = 0; p < points_; ++p)
       for (int i = 0; i < width_; ++i)
         for (int j = 0; j < width_; ++j) {
-          const int row = index_[z(p * width_ + i)];
-          const int column = index_[z(p * width_ + j)];
+          const int row = index_[at(p * width_ + i)];
+          const int column = index_[at(p * width_ + j)];
           if (row >= 0 && column >= 0)
-            entryAddress_[z((p * width_ + i) * width_ + j)] = pattern.address(row, column);
+            entryAddress_[at((p * width_ + i) * width_ + j)] = pattern.address(row, column);
         }
   } else {
     touchBegin_.push_back(0);
     pairBegin_.push_back(0);
     for (int p = 0; p < points_; ++p) {
       std::map<int, std::size_t> blocks;
-      for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i)
-        blocks[pattern.blockOf(column_[z(i)])] = 0;
+      for (int i = rowBegin_[at(p * width_)]; i < rowBegin_[at((p + 1) * width_)]; ++i)
+        blocks[pattern.blockOf(column_[at(i)])] = 0;
       for (auto& [block, begin] : blocks) {
         begin = touchRows_.size();
         touches_.push_back({pattern.start(block), pattern.width(block), begin});
-        touchRows_.resize(begin + z(width_ * pattern.width(block)), 0.0);
+        touchRows_.resize(begin + at(width_ * pattern.width(block)), 0.0);
         for (const auto& [other, ignored] : blocks)
           pairOffset_.push_back(pattern.offset(pattern.find(block, other)));
       }
       for (int c = 0; c < width_; ++c)
-        for (int i = rowBegin_[z(p * width_ + c)]; i < rowBegin_[z(p * width_ + c + 1)]; ++i) {
-          const int block = pattern.blockOf(column_[z(i)]);
-          touchRows_[blocks[block] + z((column_[z(i)] - pattern.start(block)) * width_ + c)] =
-              value_[z(i)];
+        for (int i = rowBegin_[at(p * width_ + c)]; i < rowBegin_[at(p * width_ + c + 1)]; ++i) {
+          const int block = pattern.blockOf(column_[at(i)]);
+          touchRows_[blocks[block] + at((column_[at(i)] - pattern.start(block)) * width_ + c)] =
+              value_[at(i)];
         }
       touchBegin_.push_back(static_cast<int>(touches_.size()));
       pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
     }
   }
   watch_ = ContactBroadPhase(points_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
-  small_.assign(z(width_), 0.0);
-  active_.reserve(z(points_));
-  frozen_.reserve(z(points_));
-  isActive_.assign(z(points_), 0);
-  hasActed_.assign(z(points_), 0);
-  acted_.reserve(z(points_));
+  small_.assign(at(width_), 0.0);
+  active_.reserve(at(points_));
+  frozen_.reserve(at(points_));
+  isActive_.assign(at(points_), 0);
+  hasActed_.assign(at(points_), 0);
+  acted_.reserve(at(points_));
   for (int p = 0; p < points_; ++p) all_.push_back(p);
-  isFrozen_.assign(z(points_), 0);
-  scale_.assign(z(points_), 1.0);
-  for (auto* array : {&d_, &v_, &f_}) array->assign(z(rows), 0.0);
-  for (auto* array : {&dfdd_, &dfdv_, &P_, &positionP_}) array->assign(z(rows) * z(width_), 0.0);
-  gap_.assign(z(points_), 0.0);
-  lastGap_.assign(z(points_), 0.0);
-  check_.assign(z(points_), 0.0);
+  isFrozen_.assign(at(points_), 0);
+  scale_.assign(at(points_), 1.0);
+  for (auto* array : {&d_, &v_, &f_}) array->assign(at(rows), 0.0);
+  for (auto* array : {&dfdd_, &dfdv_, &P_, &positionP_}) array->assign(at(rows) * at(width_), 0.0);
+  gap_.assign(at(points_), 0.0);
+  lastGap_.assign(at(points_), 0.0);
+  check_.assign(at(points_), 0.0);
   one_.assign(1, 0);
 }
 
@@ -99,26 +99,26 @@ void PointBatch::findBlocks(const linalg::BlockPattern& pattern) {
   blockBegin_.push_back(0);
   for (int p = 0; p < points_; ++p) {
     const auto begin = static_cast<std::ptrdiff_t>(block_.size());
-    for (int i = rowBegin_[z(p * width_)]; i < rowBegin_[z((p + 1) * width_)]; ++i)
-      block_.push_back(pattern.blockOf(column_[z(i)]));
+    for (int i = rowBegin_[at(p * width_)]; i < rowBegin_[at((p + 1) * width_)]; ++i)
+      block_.push_back(pattern.blockOf(column_[at(i)]));
     std::sort(block_.begin() + begin, block_.end());
     block_.erase(std::unique(block_.begin() + begin, block_.end()), block_.end());
     blockBegin_.push_back(static_cast<int>(block_.size()));
   }
-  pointBegin_.assign(z(pattern.blocks() + 1), 0);
-  for (int b : block_) ++pointBegin_[z(b + 1)];
+  pointBegin_.assign(at(pattern.blocks() + 1), 0);
+  for (int b : block_) ++pointBegin_[at(b + 1)];
   std::partial_sum(pointBegin_.begin(), pointBegin_.end(), pointBegin_.begin());
   point_.resize(block_.size());
   std::vector<int> next(pointBegin_.begin(), pointBegin_.end() - 1);
   for (int p = 0; p < points_; ++p)
-    for (int i = blockBegin_[z(p)]; i < blockBegin_[z(p + 1)]; ++i)
-      point_[z(next[z(block_[z(i)])]++)] = p;
+    for (int i = blockBegin_[at(p)]; i < blockBegin_[at(p + 1)]; ++i)
+      point_[at(next[at(block_[at(i)])]++)] = p;
 }
 
 double PointBatch::rowTimes(int row, const double* x) const {
   double sum = 0;
-  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
-    sum += value_[z(i)] * x[column_[z(i)]];
+  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
+    sum += value_[at(i)] * x[column_[at(i)]];
   return sum;
 }
 
@@ -126,35 +126,35 @@ void PointBatch::gatherAll(const double* q, const double* v) {
   const int rows = points_ * width_;
   if (single_) {
     for (int r = 0; r < rows; ++r) {
-      const int i = index_[z(r)];
-      d_[z(r)] = i < 0 ? offset_[z(r)] : offset_[z(r)] + q[i];
+      const int i = index_[at(r)];
+      d_[at(r)] = i < 0 ? offset_[at(r)] : offset_[at(r)] + q[i];
     }
     if (v != nullptr)
-      for (int r = 0; r < rows; ++r) v_[z(r)] = index_[z(r)] < 0 ? 0.0 : v[index_[z(r)]];
+      for (int r = 0; r < rows; ++r) v_[at(r)] = index_[at(r)] < 0 ? 0.0 : v[index_[at(r)]];
   } else {
-    for (int r = 0; r < rows; ++r) d_[z(r)] = offset_[z(r)] + rowTimes(r, q);
+    for (int r = 0; r < rows; ++r) d_[at(r)] = offset_[at(r)] + rowTimes(r, q);
     if (v != nullptr)
-      for (int r = 0; r < rows; ++r) v_[z(r)] = rowTimes(r, v);
+      for (int r = 0; r < rows; ++r) v_[at(r)] = rowTimes(r, v);
   }
 }
 
 void PointBatch::gatherPositions(const std::vector<int>& points, const double* q) {
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r)
-      d_[z(r)] =
-          offset_[z(r)] + (single_ ? (index_[z(r)] < 0 ? 0.0 : q[index_[z(r)]]) : rowTimes(r, q));
+      d_[at(r)] = offset_[at(r)] +
+                  (single_ ? (index_[at(r)] < 0 ? 0.0 : q[index_[at(r)]]) : rowTimes(r, q));
 }
 
 void PointBatch::gatherThese(const std::vector<int>& points, const double* q, const double* v) {
   for (int p : points)
     for (int r = p * width_; r < (p + 1) * width_; ++r) {
       if (single_) {
-        const int i = index_[z(r)];
-        d_[z(r)] = i < 0 ? offset_[z(r)] : offset_[z(r)] + q[i];
-        v_[z(r)] = i < 0 ? 0.0 : v[i];
+        const int i = index_[at(r)];
+        d_[at(r)] = i < 0 ? offset_[at(r)] : offset_[at(r)] + q[i];
+        v_[at(r)] = i < 0 ? 0.0 : v[i];
       } else {
-        d_[z(r)] = offset_[z(r)] + rowTimes(r, q);
-        v_[z(r)] = rowTimes(r, v);
+        d_[at(r)] = offset_[at(r)] + rowTimes(r, q);
+        v_[at(r)] = rowTimes(r, v);
       }
     }
 }
@@ -164,7 +164,7 @@ void PointBatch::measure(const double* q, std::vector<double>& gap) {
   watch_.activate(q);
   gatherPositions(watch_.active(), q);
   law_->clearanceLeft(watch_.active(), d_.data(), gap.data());
-  for (int p : watch_.activated()) gap_[z(p)] = lastGap_[z(p)] = check_[z(p)] = gap[z(p)];
+  for (int p : watch_.activated()) gap_[at(p)] = lastGap_[at(p)] = check_[at(p)] = gap[at(p)];
   watch_.deactivate(q, gap.data());
 }
 
@@ -185,20 +185,20 @@ void PointBatch::look(double t, double h, const double* q) {
   // since the look before.
   const double reach =
       gapsSeen_ == 2 && gapTime_ > lastGapTime_ ? 2.0 * h / (gapTime_ - lastGapTime_) : 0.0;
-  for (int p : active_) isActive_[z(p)] = 0;
+  for (int p : active_) isActive_[at(p)] = 0;
   for (int p : watch_.active()) {
-    const double closing = std::max(0.0, lastGap_[z(p)] - gap_[z(p)]);
-    isActive_[z(p)] = !(gap_[z(p)] > reach * closing);
+    const double closing = std::max(0.0, lastGap_[at(p)] - gap_[at(p)]);
+    isActive_[at(p)] = !(gap_[at(p)] > reach * closing);
   }
   // What stands in a factored matrix has to be looked at as long as it stands there.
-  for (int p : frozen_) isActive_[z(p)] = 1;
+  for (int p : frozen_) isActive_[at(p)] = 1;
   listActive();
 }
 
 void PointBatch::listActive() {
   active_.clear();
   for (int p = 0; p < points_; ++p)
-    if (isActive_[z(p)]) active_.push_back(p), hasActed_[z(p)] = 1;
+    if (isActive_[at(p)]) active_.push_back(p), hasActed_[at(p)] = 1;
 }
 
 model::PointLaw::Power PointBatch::power(double t, const double* q, const double* v,
@@ -211,7 +211,8 @@ model::PointLaw::Power PointBatch::chordPower(double t, double h, const double* 
                                               const double* step, const std::vector<int>& points) {
   gatherThese(points, q, step);
   for (int p : points)
-    for (int r = p * width_; r < (p + 1) * width_; ++r) d_[z(r)] -= 0.5 * v_[z(r)], v_[z(r)] /= h;
+    for (int r = p * width_; r < (p + 1) * width_; ++r)
+      d_[at(r)] -= 0.5 * v_[at(r)], v_[at(r)] /= h;
   return callPower(t, points);
 }
 
@@ -223,7 +224,7 @@ model::PointLaw::Power PointBatch::callPower(double t, const std::vector<int>& p
 const std::vector<int>& PointBatch::acted() {
   acted_.clear();
   for (int p = 0; p < points_; ++p)
-    if (hasActed_[z(p)]) acted_.push_back(p);
+    if (hasActed_[at(p)]) acted_.push_back(p);
   return acted_;
 }
 
@@ -235,7 +236,7 @@ bool PointBatch::addMissed(const double* q, double t) {
   checkTime_ = t;
   bool any = false;
   for (int p : watch_.active())
-    if (!isActive_[z(p)] && !(check_[z(p)] > 0)) isActive_[z(p)] = 1, any = true;
+    if (!isActive_[at(p)] && !(check_[at(p)] > 0)) isActive_[at(p)] = 1, any = true;
   if (any) listActive();
   return any;
 }
@@ -253,24 +254,24 @@ void PointBatch::evaluateWithTangent(double t, const double* q, const double* v)
 }
 
 void PointBatch::setScale(int point, double scale) {
-  double& mine = scale_[z(point)];
+  double& mine = scale_[at(point)];
   scaled_ += (scale != 1.0 ? 1 : 0) - (mine != 1.0 ? 1 : 0);
   mine = scale;
 }
 
 void PointBatch::scalePoint(int p, bool tangent) {
-  const double scale = scale_[z(p)];
+  const double scale = scale_[at(p)];
   if (scale == 1.0) return;
-  for (int r = p * width_; r < (p + 1) * width_; ++r) f_[z(r)] *= scale;
+  for (int r = p * width_; r < (p + 1) * width_; ++r) f_[at(r)] *= scale;
   if (!tangent) return;
   for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i)
-    dfdd_[z(i)] *= scale, dfdv_[z(i)] *= scale;
+    dfdd_[at(i)] *= scale, dfdv_[at(i)] *= scale;
 }
 
 void PointBatch::addScaledForce(double* y, std::vector<int>& blocks) const {
   for (int p : active_) {
-    if (scale_[z(p)] == 1.0) continue;
-    for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[z(r)], y);
+    if (scale_[at(p)] == 1.0) continue;
+    for (int r = p * width_; r < (p + 1) * width_; ++r) addRow(r, f_[at(r)], y);
     appendBlocks(p, blocks);
   }
 }
@@ -282,12 +283,12 @@ void PointBatch::applyScale(const std::vector<int>& points, bool tangent) {
 void PointBatch::addForce(double factor, double* y) const {
   for (int p : active_)
     for (int r = p * width_; r < (p + 1) * width_; ++r) {
-      const double force = factor * f_[z(r)];
+      const double force = factor * f_[at(r)];
       if (single_) {
-        if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
+        if (index_[at(r)] >= 0) y[index_[at(r)]] += force;
       } else {
-        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
-          y[column_[z(i)]] += value_[z(i)] * force;
+        for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
+          y[column_[at(i)]] += value_[at(i)] * force;
       }
     }
 }
@@ -297,7 +298,7 @@ void PointBatch::gather(const std::vector<int>& points, const double* x, double*
     const int w = width;
     for (int p : points)
       for (int r = p * w; r < (p + 1) * w; ++r)
-        rows[r] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+        rows[r] = single_ ? (index_[at(r)] < 0 ? 0.0 : x[index_[at(r)]]) : rowTimes(r, x);
   });
 }
 
@@ -307,10 +308,10 @@ void PointBatch::scatter(const std::vector<int>& points, const double* rows, dou
     for (int p : points)
       for (int r = p * w; r < (p + 1) * w; ++r) {
         if (single_) {
-          if (index_[z(r)] >= 0) y[index_[z(r)]] += rows[r];
+          if (index_[at(r)] >= 0) y[index_[at(r)]] += rows[r];
         } else {
-          for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
-            y[column_[z(i)]] += value_[z(i)] * rows[r];
+          for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
+            y[column_[at(i)]] += value_[at(i)] * rows[r];
         }
       }
   });
@@ -335,28 +336,28 @@ void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tan
 }
 
 void PointBatch::markBlocks(std::vector<char>& blocks) const {
-  for (int b : block_) blocks[z(b)] = 1;
+  for (int b : block_) blocks[at(b)] = 1;
 }
 
 void PointBatch::appendBlocks(int point, std::vector<int>& blocks) const {
-  blocks.insert(blocks.end(), block_.begin() + blockBegin_[z(point)],
-                block_.begin() + blockBegin_[z(point + 1)]);
+  blocks.insert(blocks.end(), block_.begin() + blockBegin_[at(point)],
+                block_.begin() + blockBegin_[at(point + 1)]);
 }
 
 double PointBatch::rowTimesVector(int row, const double* x) const {
-  if (single_) return index_[z(row)] < 0 ? 0.0 : x[index_[z(row)]];
+  if (single_) return index_[at(row)] < 0 ? 0.0 : x[index_[at(row)]];
   return rowTimes(row, x);
 }
 
 void PointBatch::addRow(int row, double factor, double* y) const {
-  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
-    y[column_[z(i)]] += factor * value_[z(i)];
+  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
+    y[column_[at(i)]] += factor * value_[at(i)];
 }
 
 double PointBatch::rowWeight(int row, const double* weight) const {
   double largest = 0;
-  for (int i = rowBegin_[z(row)]; i < rowBegin_[z(row + 1)]; ++i)
-    largest = std::max(largest, std::abs(value_[z(i)]) * weight[column_[z(i)]]);
+  for (int i = rowBegin_[at(row)]; i < rowBegin_[at(row + 1)]; ++i)
+    largest = std::max(largest, std::abs(value_[at(i)]) * weight[column_[at(i)]]);
   return largest;
 }
 
@@ -405,13 +406,13 @@ void PointBatch::restore(const double*& memory) {
   for (int p = 0; p < points_; ++p) setScale(p, *memory++);
   watch_.restore(memory);
   forgetTangent();
-  frozen_.assign(z(static_cast<int>(*memory++)), 0);
+  frozen_.assign(at(static_cast<int>(*memory++)), 0);
   for (int& p : frozen_) {
     p = static_cast<int>(*memory++);
-    isFrozen_[z(p)] = 1;
+    isFrozen_[at(p)] = 1;
     for (auto* tangent : {&P_, &positionP_})
       for (int i = p * width_ * width_; i < (p + 1) * width_ * width_; ++i)
-        (*tangent)[z(i)] = *memory++;
+        (*tangent)[at(i)] = *memory++;
   }
 }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// Newton on the states of one point.
 constexpr int maxIterations = 50;
@@ -26,14 +26,14 @@ PointStates::PointStates(const model::StatefulPointLaw& law)
       states_(law.states()),
       rated_(law.rated()),
       factorised_(rated_) {
-  x_.assign(z(points_ * states_), 0.0);
+  x_.assign(at(points_ * states_), 0.0);
   still_ = x_;
   base_ = still_.data();
-  g_.assign(z(points_ * rated_), 0.0);
-  f_.assign(z(points_ * width_), 0.0);
-  for (auto* array : {&fd_, &fv_}) array->assign(z(points_ * width_ * width_), 0.0);
-  for (auto* array : {&fx_, &gd_, &gv_}) array->assign(z(points_ * width_ * rated_), 0.0);
-  gx_.assign(z(points_ * rated_ * rated_), 0.0);
+  g_.assign(at(points_ * rated_), 0.0);
+  f_.assign(at(points_ * width_), 0.0);
+  for (auto* array : {&fd_, &fv_}) array->assign(at(points_ * width_ * width_), 0.0);
+  for (auto* array : {&fx_, &gd_, &gv_}) array->assign(at(points_ * width_ * rated_), 0.0);
+  gx_.assign(at(points_ * rated_ * rated_), 0.0);
   one_.assign(1, 0);
   jacobian_.setZero(rated_, rated_);
   right_.setZero(rated_, width_);
@@ -55,7 +55,7 @@ model::StateTangents PointStates::tangents() {
 
 /// I - factor dg/dx
 void PointStates::setJacobian(int point) {
-  jacobian_ = -factor_ * Rows(&gx_[z(point * rated_ * rated_)], rated_, rated_);
+  jacobian_ = -factor_ * Rows(&gx_[at(point * rated_ * rated_)], rated_, rated_);
   jacobian_.diagonal().array() += 1.0;
   factorised_.compute(jacobian_);
 }
@@ -64,14 +64,14 @@ void PointStates::setJacobian(int point) {
 /// not converge.
 bool PointStates::solve(double t, int point, const double* d, const double* v) {
   one_[0] = point;
-  double* x = &x_[z(point * states_)];
+  double* x = &x_[at(point * states_)];
   const double* base = base_ + point * states_;
   for (int iteration = 0; iteration < maxIterations; ++iteration) {
     law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents());
     setJacobian(point);
     double size = 0, update = 0;
     for (int i = 0; i < rated_; ++i)
-      defect_[i] = base[i] + factor_ * g_[z(point * rated_ + i)] - x[i];
+      defect_[i] = base[i] + factor_ * g_[at(point * rated_ + i)] - x[i];
     step_ = factorised_.solve(defect_);
     for (int i = 0; i < rated_; ++i) {
       x[i] += step_[i];
@@ -102,13 +102,13 @@ void PointStates::evaluateWithTangent(double t, const std::vector<int>& points, 
   const bool follows = factor_ != 0.0 && rated_ > 0;
   const int entries = width_ * width_;
   for (int p : points) {
-    std::copy_n(&fd_[z(p * entries)], entries, dfdd + p * entries);
-    std::copy_n(&fv_[z(p * entries)], entries, dfdv + p * entries);
+    std::copy_n(&fd_[at(p * entries)], entries, dfdd + p * entries);
+    std::copy_n(&fv_[at(p * entries)], entries, dfdv + p * entries);
     if (!follows) continue;
     setJacobian(p);
-    const Rows fx(&fx_[z(p * width_ * rated_)], width_, rated_);
+    const Rows fx(&fx_[at(p * width_ * rated_)], width_, rated_);
     const auto add = [&](const std::vector<double>& by, double* tangent) {
-      right_ = factor_ * Rows(&by[z(p * width_ * rated_)], rated_, width_);
+      right_ = factor_ * Rows(&by[at(p * width_ * rated_)], rated_, width_);
       slope_ = factorised_.solve(right_);
       for (int i = 0; i < width_; ++i)
         for (int j = 0; j < width_; ++j)
@@ -128,7 +128,7 @@ model::PointLaw::Power PointStates::power(double t, const std::vector<int>& poin
 void PointStates::rates(double* xDot) const {
   for (int p = 0; p < points_; ++p)
     for (int i = 0; i < states_; ++i)
-      xDot[p * states_ + i] = i < rated_ ? g_[z(p * rated_ + i)] : 0.0;
+      xDot[p * states_ + i] = i < rated_ ? g_[at(p * rated_ + i)] : 0.0;
 }
 
 void PointStates::complete(double t, const std::vector<int>& all, const double* d, const double* v,

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/Index.hpp"
 #include "transient/compiled/PointBatch.hpp"
 
 namespace tooljoint::transient {
 namespace {
 
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
@@ -19,25 +19,25 @@ void PointBatch::project(int point, const double* values, double* block) const {
   const int w = width_;
   if (single_) {
     for (int i = 0; i < w * w; ++i) {
-      const std::size_t address = entryAddress_[z(point * w * w + i)];
+      const std::size_t address = entryAddress_[at(point * w * w + i)];
       block[i] = address == none ? 0.0 : values[address];
     }
     return;
   }
   std::fill(block, block + w * w, 0.0);
-  const int first = touchBegin_[z(point)];
-  const int count = touchBegin_[z(point + 1)] - first;
+  const int first = touchBegin_[at(point)];
+  const int count = touchBegin_[at(point + 1)] - first;
   for (int a = 0; a < count; ++a)
     for (int b = 0; b < count; ++b) {
-      const Touch& row = touches_[z(first + a)];
-      const Touch& column = touches_[z(first + b)];
-      const double* Z = values + pairOffset_[z(pairBegin_[z(point)] + a * count + b)];
+      const Touch& row = touches_[at(first + a)];
+      const Touch& column = touches_[at(first + b)];
+      const double* Z = values + pairOffset_[at(pairBegin_[at(point)] + a * count + b)];
       for (int j = 0; j < column.width; ++j)
         for (int i = 0; i < row.width; ++i)
           for (int k = 0; k < w; ++k) {
-            const double left = touchRows_[row.rows + z(i * w + k)] * Z[j * row.width + i];
+            const double left = touchRows_[row.rows + at(i * w + k)] * Z[j * row.width + i];
             for (int l = 0; l < w; ++l)
-              block[k * w + l] += left * touchRows_[column.rows + z(j * w + l)];
+              block[k * w + l] += left * touchRows_[column.rows + at(j * w + l)];
           }
     }
 }
@@ -46,11 +46,11 @@ void PointBatch::freezeTangent(double cd, double cv) {
   const int entries = width_ * width_;
   forgetTangent();
   frozen_ = active_;
-  for (int p : frozen_) isFrozen_[z(p)] = 1;
+  for (int p : frozen_) isFrozen_[at(p)] = 1;
   for (int p : frozen_)
     for (int i = p * entries; i < (p + 1) * entries; ++i) {
-      positionP_[z(i)] = cd * dfdd_[z(i)];
-      P_[z(i)] = positionP_[z(i)] + cv * dfdv_[z(i)];
+      positionP_[at(i)] = cd * dfdd_[at(i)];
+      P_[at(i)] = positionP_[at(i)] + cv * dfdv_[at(i)];
     }
 }
 
@@ -60,7 +60,7 @@ void PointBatch::takeOutPush() {
   if (width_ > 6) return;
   Eigen::SelfAdjointEigenSolver<Square> parts(width_);
   for (int p : frozen_) {
-    Eigen::Map<Square> tangent(&P_[z(p * width_ * width_)], width_, width_);
+    Eigen::Map<Square> tangent(&P_[at(p * width_ * width_)], width_, width_);
     if (!(tangent.diagonal().maxCoeff() > 0)) continue;
     const Square symmetric = 0.5 * (tangent + tangent.transpose());
     if (parts.compute(symmetric).info() != Eigen::Success) continue;
@@ -76,7 +76,7 @@ void PointBatch::forgetTangent() {
   for (int p : frozen_) {
     std::fill(P_.begin() + p * entries, P_.begin() + (p + 1) * entries, 0.0);
     std::fill(positionP_.begin() + p * entries, positionP_.begin() + (p + 1) * entries, 0.0);
-    isFrozen_[z(p)] = 0;
+    isFrozen_[at(p)] = 0;
   }
   frozen_.clear();
 }
@@ -90,18 +90,18 @@ void PointBatch::subtract(const std::vector<double>& frozen, double* values) con
   if (single_) {
     for (int p : frozen_)
       for (int i = p * entries; i < (p + 1) * entries; ++i)
-        if (entryAddress_[z(i)] != none) values[entryAddress_[z(i)]] -= frozen[z(i)];
+        if (entryAddress_[at(i)] != none) values[entryAddress_[at(i)]] -= frozen[at(i)];
     return;
   }
   for (int p : frozen_) {
-    const double* P = &frozen[z(p * entries)];
-    const int first = touchBegin_[z(p)];
-    const int count = touchBegin_[z(p + 1)] - first;
+    const double* P = &frozen[at(p * entries)];
+    const int first = touchBegin_[at(p)];
+    const int count = touchBegin_[at(p + 1)] - first;
     for (int b = 0; b < count; ++b) {
-      const Touch& column = touches_[z(first + b)];
+      const Touch& column = touches_[at(first + b)];
       for (int j = 0; j < column.width; ++j) {
         // PR_j = P R(:, j);  A(:, j) -= R' PR_j
-        const double* Rj = &touchRows_[column.rows + z(j * width_)];
+        const double* Rj = &touchRows_[column.rows + at(j * width_)];
         bool zero = true;
         for (int c = 0; c < width_; ++c) zero = zero && Rj[c] == 0.0;
         if (zero) continue;
@@ -111,9 +111,9 @@ void PointBatch::subtract(const std::vector<double>& frozen, double* values) con
           for (int c = 0; c < width_; ++c) PRj[r] += P[r * width_ + c] * Rj[c];
         }
         for (int a = 0; a < count; ++a) {
-          const Touch& row = touches_[z(first + a)];
+          const Touch& row = touches_[at(first + a)];
           double* target =
-              values + pairOffset_[z(pairBegin_[z(p)] + a * count + b)] + z(j * row.width);
+              values + pairOffset_[at(pairBegin_[at(p)] + a * count + b)] + at(j * row.width);
           const double* R = &touchRows_[row.rows];
           for (int i = 0; i < row.width; ++i) {
             double sum = 0;
@@ -132,17 +132,17 @@ void PointBatch::addTangentTimes(const double* x, double* y) const {
     double* Rx = small_.data();
     for (int c = 0; c < width_; ++c) {
       const int r = p * width_ + c;
-      Rx[c] = single_ ? (index_[z(r)] < 0 ? 0.0 : x[index_[z(r)]]) : rowTimes(r, x);
+      Rx[c] = single_ ? (index_[at(r)] < 0 ? 0.0 : x[index_[at(r)]]) : rowTimes(r, x);
     }
     for (int c = 0; c < width_; ++c) {
       const int r = p * width_ + c;
       double force = 0;
-      for (int k = 0; k < width_; ++k) force += P_[z(p * entries + c * width_ + k)] * Rx[k];
+      for (int k = 0; k < width_; ++k) force += P_[at(p * entries + c * width_ + k)] * Rx[k];
       if (single_) {
-        if (index_[z(r)] >= 0) y[index_[z(r)]] += force;
+        if (index_[at(r)] >= 0) y[index_[at(r)]] += force;
       } else {
-        for (int i = rowBegin_[z(r)]; i < rowBegin_[z(r + 1)]; ++i)
-          y[column_[z(i)]] += value_[z(i)] * force;
+        for (int i = rowBegin_[at(r)]; i < rowBegin_[at(r + 1)]; ++i)
+          y[column_[at(i)]] += value_[at(i)] * force;
       }
     }
   }
@@ -158,7 +158,7 @@ double PointBatch::frozenTimes(int row, const double* x) const {
   if (std::find(frozen_.begin(), frozen_.end(), point) == frozen_.end()) return 0.0;
   double sum = 0;
   for (int k = 0; k < width_; ++k)
-    sum += P_[z(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
+    sum += P_[at(row * width_ + k)] * rowTimesVector(point * width_ + k, x);
   return sum;
 }
 

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "common/Index.hpp"
 #include "transient/compiled/PointWidth.hpp"
 
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// A point whose error shrinks by less in an iteration is solved by itself.
 constexpr double slowestRate = 0.5;
@@ -59,22 +58,22 @@ double yielding(int n, const double* J, const double* G) {
 void ContactForceIteration::bind(CompiledModel& model) {
   model_ = &model;
   sets_.clear();
-  blocks_.assign(z(model.pattern().blocks()), 0);
+  blocks_.assign(at(model.pattern().blocks()), 0);
   for (const auto& batch : model.points()) {
     Set set;
-    const std::size_t rows = z(batch.points()) * z(batch.width());
+    const std::size_t rows = at(batch.points()) * at(batch.width());
     for (auto* array : {&set.d, &set.y, &set.p, &set.defect, &set.weight, &set.target, &set.change})
       array->assign(rows, 0.0);
-    set.compliance.assign(rows * z(batch.width()), 0.0);
-    set.answer.assign(rows * z(batch.width()), 0.0);
-    set.started.assign(z(batch.points()), 0);
-    set.known.assign(z(batch.points()), 0);
-    set.stiffness.assign(z(batch.points()), 0.0);
-    set.error.assign(z(batch.points()), 0.0);
-    set.exact.assign(z(batch.points()), 0);
-    set.moved.assign(z(batch.points()), 1);
-    set.listed.assign(z(batch.points()), 0);
-    set.points.reserve(z(batch.points()));
+    set.compliance.assign(rows * at(batch.width()), 0.0);
+    set.answer.assign(rows * at(batch.width()), 0.0);
+    set.started.assign(at(batch.points()), 0);
+    set.known.assign(at(batch.points()), 0);
+    set.stiffness.assign(at(batch.points()), 0.0);
+    set.error.assign(at(batch.points()), 0.0);
+    set.exact.assign(at(batch.points()), 0);
+    set.moved.assign(at(batch.points()), 1);
+    set.listed.assign(at(batch.points()), 0);
+    set.points.reserve(at(batch.points()));
     sets_.push_back(std::move(set));
     batch.markBlocks(blocks_);
   }
@@ -95,7 +94,7 @@ void ContactForceIteration::setImpacts(double h, double impact) {
   impact_ = impact;
   for (std::size_t b = 0; b < sets_.size(); ++b)
     for (int p = 0; p < model_->points()[b].points(); ++p)
-      model_->points()[b].setScale(p, sets_[b].stiffness[z(p)] * h * h > 1.0 ? impact : 1.0);
+      model_->points()[b].setScale(p, sets_[b].stiffness[at(p)] * h * h > 1.0 ? impact : 1.0);
 }
 
 /// After an evaluation of set.points with tangents: those that turn out to be stiff are impacts
@@ -109,7 +108,7 @@ void ContactForceIteration::findImpacts(Set& set, PointBatch& batch, double t) {
   for (int p : set.points) {
     const double* J = batch.dfdd() + p * w * w;
     const double* P = batch.frozen() + p * w * w;
-    const double* G = &set.compliance[z(p * w * w)];
+    const double* G = &set.compliance[at(p * w * w)];
     if (yielding(w, J, G) < 0.5) continue;  // with J = P that is a stiffness of 1/h^2
     for (int i = 0; i < w; ++i)
       for (int j = 0; j < w; ++j) {
@@ -123,10 +122,10 @@ void ContactForceIteration::findImpacts(Set& set, PointBatch& batch, double t) {
         for (int k = 0; k < w; ++k) G0[i * w + j] += G[i * w + k] * B[k * w + j];
       }
     const double unit = batch.scale(p) * h_ * h_, here = yielding(w, J, G0);
-    if (here / unit <= set.stiffness[z(p)]) continue;
-    set.stiffness[z(p)] =
-        std::max(set.stiffness[z(p)], std::min(here, yieldingDeeper(batch, p, t, G0)) / unit);
-    if (batch.scale(p) == 1.0 && set.stiffness[z(p)] * h_ * h_ > 1.0) {
+    if (here / unit <= set.stiffness[at(p)]) continue;
+    set.stiffness[at(p)] =
+        std::max(set.stiffness[at(p)], std::min(here, yieldingDeeper(batch, p, t, G0)) / unit);
+    if (batch.scale(p) == 1.0 && set.stiffness[at(p)] * h_ * h_ > 1.0) {
       batch.setScale(p, impact_);
       batch.rescale(p);
     }
@@ -184,14 +183,14 @@ void ContactForceIteration::start(Set& set, PointBatch& batch) {
   const int w = batch.width();
   batch.gatherPositions(set.points, q_->data());
   for (int p : set.points) {
-    std::copy_n(batch.d() + p * w, w, &set.d[z(p * w)]);
-    set.started[z(p)] = 1;
-    set.exact[z(p)] = 0;
-    set.moved[z(p)] = 1;
-    set.error[z(p)] = std::numeric_limits<double>::infinity();
-    if (set.known[z(p)]) continue;
-    batch.project(p, inverse_, &set.compliance[z(p * w * w)]);
-    set.known[z(p)] = 1;
+    std::copy_n(batch.d() + p * w, w, &set.d[at(p * w)]);
+    set.started[at(p)] = 1;
+    set.exact[at(p)] = 0;
+    set.moved[at(p)] = 1;
+    set.error[at(p)] = std::numeric_limits<double>::infinity();
+    if (set.known[at(p)]) continue;
+    batch.project(p, inverse_, &set.compliance[at(p * w * w)]);
+    set.known[at(p)] = 1;
   }
 }
 
@@ -203,14 +202,14 @@ double ContactForceIteration::join(double t, double c, const Vector& delta, doub
     PointBatch& batch = model_->points()[b];
     set.points.clear();
     for (int p : batch.active())
-      if (!set.started[z(p)]) set.points.push_back(p);
+      if (!set.started[at(p)]) set.points.push_back(p);
     start(set, batch);
     batch.gather(set.points, delta.data(), set.y.data());
     prepare(set, batch, t, c);
-    for (int p : set.points) std::fill_n(&set.p[z(p * batch.width())], batch.width(), 0.0);
+    for (int p : set.points) std::fill_n(&set.p[at(p * batch.width())], batch.width(), 0.0);
     measure(set, batch, small, force);
     for (int p : set.points)
-      if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
+      if (!(set.error[at(p)] <= worst)) worst = set.error[at(p)];  // keeps a NaN
   }
   return worst;
 }
@@ -222,7 +221,7 @@ void ContactForceIteration::place(Set& set, PointBatch& batch, double t, double 
   withWidth(batch.width(), [&](auto width) {
     const int w = width;
     for (int p : set.points)
-      for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[z(r)] + y[r], v[r] = c * y[r];
+      for (int r = p * w; r < (p + 1) * w; ++r) d[r] = set.d[at(r)] + y[r], v[r] = c * y[r];
   });
   batch.evaluateHere(t, set.points, tangent);
 }
@@ -241,7 +240,7 @@ double ContactForceIteration::evaluate(double t, double c, const Vector& delta, 
     place(set, batch, t, c, false);
     measure(set, batch, small, force);
     for (int p : isNear_&& allMoved_ ? set.points : batch.active())
-      if (!(set.error[z(p)] <= worst)) worst = set.error[z(p)];  // keeps a NaN
+      if (!(set.error[at(p)] <= worst)) worst = set.error[at(p)];  // keeps a NaN
   }
   return worst;
 }
@@ -249,13 +248,13 @@ double ContactForceIteration::evaluate(double t, double c, const Vector& delta, 
 /// The points corrected, whose small change may have ended where it began, and those that
 /// solveNear() reached.
 void ContactForceIteration::listMoved(Set& set, const PointBatch& batch) const {
-  for (int p : set.points) set.listed[z(p)] = 1;
+  for (int p : set.points) set.listed[at(p)] = 1;
   for (int block : live_)
     batch.forActiveIn(block, [&](int p) {
-      if (!set.listed[z(p)]) set.points.push_back(p);
-      set.listed[z(p)] = 1;
+      if (!set.listed[at(p)]) set.points.push_back(p);
+      set.listed[at(p)] = 1;
     });
-  for (int p : set.points) set.listed[z(p)] = 0;
+  for (int p : set.points) set.listed[at(p)] = 0;
 }
 
 /// defect = f - P y - p of the points evaluated, and their errors.
@@ -270,17 +269,17 @@ void ContactForceIteration::measure(Set& set, PointBatch& batch, double small, d
     for (int p : set.points) {
       double wrong = 0;
       for (int r = p * w; r < (p + 1) * w; ++r) {
-        double known = set.p[z(r)];
+        double known = set.p[at(r)];
         for (int k = 0; k < w; ++k) known += P[r * w + k] * y[p * w + k];
-        const double defect = set.defect[z(r)] = f[r] - known;
+        const double defect = set.defect[at(r)] = f[r] - known;
         const double size =
-            set.exact[z(p)] ? std::abs(y[r] - set.target[z(r)]) : weight[r] * std::abs(defect);
+            set.exact[at(p)] ? std::abs(y[r] - set.target[at(r)]) : weight[r] * std::abs(defect);
         if (!(size <= wrong)) wrong = size;  // keeps a NaN
         largest = std::max(largest, weight[r] * std::abs(f[r]));
       }
-      if (set.moved[z(p)] && wrong > small && wrong > slowestRate * set.error[z(p)])
-        set.exact[z(p)] = 1;
-      set.error[z(p)] = wrong;
+      if (set.moved[at(p)] && wrong > small && wrong > slowestRate * set.error[at(p)])
+        set.exact[at(p)] = 1;
+      set.error[at(p)] = wrong;
     }
   });
   force = largest;
@@ -293,8 +292,8 @@ double ContactForceIteration::wrongShare() const {
     const PointBatch& batch = model_->points()[b];
     for (int p : batch.active())
       for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
-        const double error = set.weight[z(r)] * set.defect[z(r)],
-                     force = set.weight[z(r)] * batch.force()[r];
+        const double error = set.weight[at(r)] * set.defect[at(r)],
+                     force = set.weight[at(r)] * batch.force()[r];
         wrong += error * error, whole += force * force;
       }
   }
@@ -308,9 +307,9 @@ void ContactForceIteration::guess(double t, double c, const Vector& v) {
     PointBatch& batch = model_->points()[b];
     set.points = batch.active();
     batch.gather(set.points, v.data(), set.y.data());
-    const std::size_t w = z(batch.width());
+    const std::size_t w = at(batch.width());
     for (int p : set.points)
-      for (std::size_t r = z(p) * w; r < z(p + 1) * w; ++r) set.y[r] /= c;
+      for (std::size_t r = at(p) * w; r < at(p + 1) * w; ++r) set.y[r] /= c;
     prepare(set, batch, t, c);
   }
 }
@@ -334,14 +333,14 @@ void ContactForceIteration::answer(Set& set, const PointBatch& batch, int point,
   const double* f = batch.force() + first;
   for (int i = 0; i < w; ++i) {
     double known = 0;
-    for (int k = 0; k < w; ++k) known += P[i * w + k] * set.y[z(first + k)];
-    set.p[z(first + i)] = f[i] - known;
+    for (int k = 0; k < w; ++k) known += P[i * w + k] * set.y[at(first + k)];
+    set.p[at(first + i)] = f[i] - known;
   }
   double A[widest * widest], change[widest * widest];
   const double* dfdd = batch.dfdd() + first * w;
   const double* dfdv = batch.dfdv() + first * w;
-  const double* G = &set.compliance[z(first * w)];
-  double* B = &set.answer[z(first * w)];
+  const double* G = &set.compliance[at(first * w)];
+  double* B = &set.answer[at(first * w)];
   for (int i = 0; i < w * w; ++i) change[i] = dfdd[i] + c * dfdv[i] - P[i];
   for (int i = 0; i < w; ++i)
     for (int j = 0; j < w; ++j) {
@@ -392,25 +391,25 @@ void ContactForceIteration::solvePoint(Set& set, PointBatch& batch, int point, d
   const int w = batch.width();
   const int first = point * w;
   const auto local = [&](const std::vector<double>& rows) {
-    return Eigen::Map<const Vector>(&rows[z(first)], w);
+    return Eigen::Map<const Vector>(&rows[at(first)], w);
   };
   problem_.point = point;
   problem_.d = local(set.d);
   problem_.v = PointSolve::Local::Zero(w);
   problem_.f0 = PointSolve::Local::Zero(w);
   problem_.P = Rows(batch.frozen() + first * w, w, w);
-  problem_.G = Rows(&set.compliance[z(first * w)], w, w);
+  problem_.G = Rows(&set.compliance[at(first * w)], w, w);
   y_ = local(set.y);
   phi_ = local(set.p);
   problem_.free = y_;
   problem_.free.noalias() -= problem_.G.lazyProduct(phi_);
   if (!problem_.solve(batch, t, c, y_, phi_)) return;
-  for (int i = 0; i < w; ++i) set.p[z(first + i)] = phi_[i], set.target[z(first + i)] = y_[i];
+  for (int i = 0; i < w; ++i) set.p[at(first + i)] = phi_[i], set.target[at(first + i)] = y_[i];
 }
 
 /// Not a number counts as wrong.
 bool ContactForceIteration::isWrong(const Set& set, int point, double small) const {
-  return !(set.error[z(point)] <= rightEnough * small);
+  return !(set.error[at(point)] <= rightEnough * small);
 }
 
 bool ContactForceIteration::isFew(long points) const {
@@ -420,19 +419,19 @@ bool ContactForceIteration::isFew(long points) const {
 /// p += B defect, or to where the point is alone in equilibrium.
 void ContactForceIteration::move(Set& set, PointBatch& batch, int point, double t, double c) {
   const int w = batch.width(), first = point * w;
-  for (int r = first; r < first + w; ++r) set.change[z(r)] = -set.p[z(r)];
-  if (set.exact[z(point)]) {
+  for (int r = first; r < first + w; ++r) set.change[at(r)] = -set.p[at(r)];
+  if (set.exact[at(point)]) {
     solvePoint(set, batch, point, t, c);
   } else {
-    const double* B = &set.answer[z(first * w)];
-    const double* defect = &set.defect[z(first)];
+    const double* B = &set.answer[at(first * w)];
+    const double* defect = &set.defect[at(first)];
     withWidth(w, [&](auto width) {
       const int n = width;
       for (int i = 0; i < n; ++i)
-        for (int k = 0; k < n; ++k) set.p[z(first + i)] += B[i * n + k] * defect[k];
+        for (int k = 0; k < n; ++k) set.p[at(first + i)] += B[i * n + k] * defect[k];
     });
   }
-  for (int r = first; r < first + w; ++r) set.change[z(r)] += set.p[z(r)];
+  for (int r = first; r < first + w; ++r) set.change[at(r)] += set.p[at(r)];
 }
 
 bool ContactForceIteration::correct(double t, double c, double small, bool all) {
@@ -445,12 +444,12 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
     Set& set = sets_[b];
     PointBatch& batch = model_->points()[b];
     if (few) {
-      const auto isRight = [&](int p) { return (set.moved[z(p)] = isWrong(set, p, small)) == 0; };
+      const auto isRight = [&](int p) { return (set.moved[at(p)] = isWrong(set, p, small)) == 0; };
       set.points.erase(std::remove_if(set.points.begin(), set.points.end(), isRight),
                        set.points.end());
     } else {
       set.points = batch.active();
-      for (int p : set.points) set.moved[z(p)] = 1;
+      for (int p : set.points) set.moved[at(p)] = 1;
     }
     for (int p : set.points) move(set, batch, p, t, c);
   }
@@ -464,9 +463,9 @@ bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, i
     Set& set = sets_[b];
     set.points.clear();
     for (int p : model_->points()[b].active()) {
-      set.moved[z(p)] = place++ % colours == colour && isWrong(set, p, small);
-      if (!set.moved[z(p)]) continue;
-      set.exact[z(p)] = 1;
+      set.moved[at(p)] = place++ % colours == colour && isWrong(set, p, small);
+      if (!set.moved[at(p)]) continue;
+      set.exact[at(p)] = 1;
       set.points.push_back(p);
       move(set, model_->points()[b], p, t, c);
       ++moved;

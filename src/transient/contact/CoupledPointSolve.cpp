@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// Points treated at once, and the share of the worst error from which a point counts as troubled.
 constexpr int mostPoints = 24;
@@ -20,7 +20,7 @@ void CoupledPointSolve::bind(CompiledModel& model) {
   model_ = &model;
   int coordinates = 0;
   for (const auto& batch : model.points()) {
-    const auto size = z(batch.points()) * z(batch.width());
+    const auto size = at(batch.points()) * at(batch.width());
     for (auto* arrays : {&d_, &v_, &f_}) arrays->emplace_back(size, 0.0);
     coordinates += batch.points() * batch.width();
   }
@@ -41,8 +41,8 @@ void CoupledPointSolve::begin() {
 }
 
 bool CoupledPointSolve::isIn(int batch, int point) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const Point& at) {
-    return at.batch == batch && at.problem.point == point;
+  return std::any_of(points_.begin(), points_.end(), [&](const Point& each) {
+    return each.batch == batch && each.problem.point == point;
   });
 }
 
@@ -51,7 +51,7 @@ double CoupledPointSolve::error(const PointBatch& batch, int b, int p, const dou
                                 const double* weight) const {
   double worst = 0;
   for (int r = p * batch.width(); r < (p + 1) * batch.width(); ++r) {
-    const double wrong = batch.force()[r] - f_[z(b)][z(r)] - batch.frozenTimes(r, delta);
+    const double wrong = batch.force()[r] - f_[at(b)][at(r)] - batch.frozenTimes(r, delta);
     worst = std::max(worst, std::abs(wrong) * batch.rowWeight(r, weight));
   }
   return worst;
@@ -76,17 +76,18 @@ bool CoupledPointSolve::addTroubled(const double* delta, const double* weight) {
           points_.empty() ? 0 : points_.back().first + static_cast<int>(points_.back().y.size());
       if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
       const int w = batch.width();
-      Point at{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
-      at.problem.point = p;
-      at.problem.P = PointSolve::LocalMatrix::Zero(w, w);
-      at.problem.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][z(p * w)], w);
-      at.problem.v = Eigen::Map<const Eigen::VectorXd>(&v_[b][z(p * w)], w);
-      at.problem.f0 = Eigen::Map<const Eigen::VectorXd>(&f_[b][z(p * w)], w);
-      points_.push_back(at);
+      Point added{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
+      added.problem.point = p;
+      added.problem.P = PointSolve::LocalMatrix::Zero(w, w);
+      added.problem.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][at(p * w)], w);
+      added.problem.v = Eigen::Map<const Eigen::VectorXd>(&v_[b][at(p * w)], w);
+      added.problem.f0 = Eigen::Map<const Eigen::VectorXd>(&f_[b][at(p * w)], w);
+      points_.push_back(added);
       any = true;
     }
   }
-  for (const Point& at : points_) model_->points()[z(at.batch)].dropTangent(at.problem.point);
+  for (const Point& each : points_)
+    model_->points()[at(each.batch)].dropTangent(each.problem.point);
   return any;
 }
 
@@ -94,51 +95,52 @@ bool CoupledPointSolve::solve(double t, double c, const linalg::BlockFactor& fac
                               const Vector& residual, Vector& delta, Vector& force) {
   delta = -residual;
   factor.solve(delta.data());
-  for (const Point& at : points_) {
-    const auto& batch = model_->points()[z(at.batch)];
+  for (const Point& each : points_) {
+    const auto& batch = model_->points()[at(each.batch)];
     for (int k = 0; k < batch.width(); ++k) {
-      double* column = columns_.col(at.first + k).data();
+      double* column = columns_.col(each.first + k).data();
       std::fill(column, column + model_->size(), 0.0);
-      batch.addRow(at.problem.point * batch.width() + k, 1.0, column);
+      batch.addRow(each.problem.point * batch.width() + k, 1.0, column);
       factor.solve(column);
     }
   }
   const int total = points_.back().first + static_cast<int>(points_.back().y.size());
-  for (const Point& at : points_) {
-    const auto& batch = model_->points()[z(at.batch)];
+  for (const Point& each : points_) {
+    const auto& batch = model_->points()[at(each.batch)];
     for (int k = 0; k < batch.width(); ++k)
       for (int j = 0; j < total; ++j)
-        compliance_(at.first + k, j) =
-            batch.rowTimesVector(at.problem.point * batch.width() + k, columns_.col(j).data());
+        compliance_(each.first + k, j) =
+            batch.rowTimesVector(each.problem.point * batch.width() + k, columns_.col(j).data());
   }
   bool settled = false;
   for (int sweep = 0; sweep < mostSweeps && !settled; ++sweep) {
     settled = true;
-    for (Point& at : points_) {
-      const auto& batch = model_->points()[z(at.batch)];
-      const auto w = static_cast<int>(at.y.size());
-      Local& free = at.problem.free;
+    for (Point& each : points_) {
+      const auto& batch = model_->points()[at(each.batch)];
+      const auto w = static_cast<int>(each.y.size());
+      Local& free = each.problem.free;
       free.resize(w);
       for (int k = 0; k < w; ++k)
-        free[k] = batch.rowTimesVector(at.problem.point * w + k, delta.data());
+        free[k] = batch.rowTimesVector(each.problem.point * w + k, delta.data());
       for (const Point& other : points_) {
-        if (&other == &at) continue;
+        if (&other == &each) continue;
         const auto columns = static_cast<int>(other.y.size());
-        free += compliance_.block(at.first, other.first, w, columns) * other.phi;
+        free += compliance_.block(each.first, other.first, w, columns) * other.phi;
       }
-      const Local before = at.y;
-      at.problem.G = compliance_.block(at.first, at.first, w, w);
-      if (!at.problem.solve(model_->points()[z(at.batch)], t, c, at.y, at.phi)) return false;
-      if ((at.y - before).norm() > 1e-10 * (at.y.norm() + free.norm())) settled = false;
+      const Local before = each.y;
+      each.problem.G = compliance_.block(each.first, each.first, w, w);
+      if (!each.problem.solve(model_->points()[at(each.batch)], t, c, each.y, each.phi))
+        return false;
+      if ((each.y - before).norm() > 1e-10 * (each.y.norm() + free.norm())) settled = false;
     }
     if (points_.size() == 1) settled = true;
   }
   force.setZero();
-  for (const Point& at : points_) {
-    const auto& batch = model_->points()[z(at.batch)];
+  for (const Point& each : points_) {
+    const auto& batch = model_->points()[at(each.batch)];
     for (int k = 0; k < batch.width(); ++k) {
-      delta += at.phi[k] * columns_.col(at.first + k);
-      batch.addRow(at.problem.point * batch.width() + k, at.phi[k], force.data());
+      delta += each.phi[k] * columns_.col(each.first + k);
+      batch.addRow(each.problem.point * batch.width() + k, each.phi[k], force.data());
     }
   }
   return delta.allFinite();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/Constants.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
 
 namespace tooljoint::drillstring {
@@ -137,9 +138,12 @@ void StringRecord::restore(const double*& memory) {
 }
 
 void StringRecord::summarise(io::Summary& summary) const {
-  summary.set("transient.bit_speed_rpm.min", figures_.minBitSpeed * kRpm);
-  summary.set("transient.bit_speed_rpm.max", figures_.maxBitSpeed * kRpm);
-  summary.set("transient.bit_speed_rpm.mean", figures_.meanBitSpeed() * kRpm);
+  summary.set("transient.bit_speed_rpm.min",
+              figures_.minBitSpeed * constants::rpmPerRadianPerSecond);
+  summary.set("transient.bit_speed_rpm.max",
+              figures_.maxBitSpeed * constants::rpmPerRadianPerSecond);
+  summary.set("transient.bit_speed_rpm.mean",
+              figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond);
   summary.set("transient.max_penetration", figures_.maxPenetration);
 }
 
@@ -148,8 +152,9 @@ std::string StringRecord::describe() const {
   std::snprintf(
       text, sizeof text,
       "            bit speed %.4g to %.4g rpm, mean %.4g rpm; largest penetration %.3g mm",
-      figures_.minBitSpeed * kRpm, figures_.maxBitSpeed * kRpm, figures_.meanBitSpeed() * kRpm,
-      figures_.maxPenetration * 1e3);
+      figures_.minBitSpeed * constants::rpmPerRadianPerSecond,
+      figures_.maxBitSpeed * constants::rpmPerRadianPerSecond,
+      figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond, figures_.maxPenetration * 1e3);
   return text;
 }
 

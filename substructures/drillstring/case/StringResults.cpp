@@ -2,9 +2,9 @@
 #include "substructures/drillstring/case/StringResults.hpp"
 
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+#include <fmt/printf.h>
 
+#include "common/Constants.hpp"
 #include "io/Csv.hpp"
 
 namespace tooljoint::drillstring {
@@ -19,16 +19,6 @@ std::vector<double> rows(const std::vector<Vector3>& vectors) {
   std::vector<double> out;
   for (const auto& v : vectors) out.insert(out.end(), v.data(), v.data() + 3);
   return out;
-}
-
-/// printf into a string.
-__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
-  char buffer[512];
-  va_list arguments;
-  va_start(arguments, pattern);
-  std::vsnprintf(buffer, sizeof buffer, pattern, arguments);
-  va_end(arguments);
-  return buffer;
 }
 
 }  // namespace
@@ -175,14 +165,14 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.torque_scale", state.torqueScale);
   summary.set("static.friction", stage.friction.why);
   summary.set("static.friction_direction", stage.friction.direction);
-  summary.set("static.friction_speed_rpm", stage.friction.speed * kRpm);
+  summary.set("static.friction_speed_rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
 }
 
 std::string describeScene(const Scene& scene) {
   std::string text =
-      format("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs",
-             scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
-             scene.well.length(), scene.freeDofs());
+      fmt::sprintf("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs",
+                   scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
+                   scene.well.length(), scene.freeDofs());
   for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
   return text;
 }
@@ -191,23 +181,24 @@ std::string describeStatic(const StaticStage& stage) {
   const auto& path = stage.path.report;
   const auto& s = stage.state;
   std::string text =
-      format("path        %d iterations in %d load steps, nodes within %.2g m of the axis\n",
-             path.iterations, path.increments, path.maxPositionError);
-  text += format(
+      fmt::sprintf("path        %d iterations in %d load steps, nodes within %.2g m of the axis\n",
+                   path.iterations, path.increments, path.maxPositionError);
+  text += fmt::sprintf(
       "static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n",
       s.report.iterations, s.report.residual, s.contactNodes, s.compressedElements);
-  text += format(
+  text += fmt::sprintf(
       "            axial force %.4g kN at the top, %.4g kN in the last element; torque %.4g kN m "
       "at the top, %.4g kN m in the "
       "last element\n",
       s.topAxialForce / 1e3, s.lastElementAxialForce / 1e3, s.topTorque / 1e3,
       s.lastElementTorque / 1e3);
   if (s.maxNormalForceNode > 0)
-    text += format("            contact %.4g kN in all, at most %.4g kN at node %d\n",
-                   s.totalNormalForce / 1e3, s.maxNormalForce / 1e3, s.maxNormalForceNode);
-  text += format("            friction: %s", stage.friction.why.c_str());
-  if (stage.friction.speed > 0.0) text += format(", %.4g rpm", stage.friction.speed * kRpm);
-  text += format(
+    text += fmt::sprintf("            contact %.4g kN in all, at most %.4g kN at node %d\n",
+                         s.totalNormalForce / 1e3, s.maxNormalForce / 1e3, s.maxNormalForceNode);
+  text += fmt::sprintf("            friction: %s", stage.friction.why.c_str());
+  if (stage.friction.speed > 0.0)
+    text += fmt::sprintf(", %.4g rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
+  text += fmt::sprintf(
       "\n            top torque %.4g kN m by the balance of torque, defect %.4g N m (%.2g %% of "
       "%.4g kN m)",
       s.topTorqueEquilibrium() / 1e3, s.torqueBalanceDefect(), 100.0 * s.relativeTorqueDefect(),

@@ -14,8 +14,6 @@
 
 namespace tooljoint::drillstring {
 
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  ///< rad/s -> rpm
-
 /// Groups /model, /path and /static of the results file.
 void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& file);
 void writePath(const StaticStage& stage, io::ResultsFile& file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Part files of both kinds: what is written is read again, and what is wrong is named.
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -8,7 +8,7 @@
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/assembly/Assembler.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 #include "reduction/Reduce.hpp"
 #include "tests/support/SampleParts.hpp"
 #include "tests/unit/io/Scratch.hpp"

@@ -9,7 +9,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "io/MatrixMarket.hpp"
 #include "linalg/Deterministic.hpp"
-#include "reduction/methods/ReductionMethod.hpp"
+#include "reduction/ReductionMethod.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/SampleParts.hpp"
 

@@ -60,6 +60,14 @@ TEST(StaticFriction, IsNoneWithoutRotation) {
   EXPECT_EQ(drillstring::staticFriction(scene({"Rotary Speed/Constant/Speed=0"})).direction, 0.0);
 }
 
+TEST(StaticFriction, OfAPointLawBeginsWithTheMotion) {
+  const auto resting = drillstring::staticFriction(
+      scene({"!Contact/Friction", "Contact/Law=Maxwell", "Contact/Maxwell/Stiffness=1e6",
+             "Contact/Maxwell/Damping=1e4"}));
+  EXPECT_EQ(resting.direction, 0.0);
+  EXPECT_EQ(resting.why, "none: the friction of Maxwell begins with the motion");
+}
+
 /// The friction torque of the state is that of the coefficient, force by force.
 TEST(StaticFriction, ActsWithItsCoefficient) {
   const auto coefficient = [](const std::vector<std::string>& overrides) {

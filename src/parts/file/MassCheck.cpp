@@ -5,7 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
 

@@ -8,7 +8,7 @@
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
 #include "io/ResultsReader.hpp"
-#include "parts/PartSource.hpp"
+#include "parts/file/PartSource.hpp"
 
 namespace tooljoint::parts {
 

@@ -7,7 +7,7 @@
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
-#include "parts/PartSource.hpp"
+#include "parts/file/PartSource.hpp"
 
 namespace tooljoint::parts {
 

@@ -7,8 +7,8 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
-#include "parts/PartFile.hpp"
-#include "parts/PartSource.hpp"
+#include "parts/file/PartFile.hpp"
+#include "parts/file/PartSource.hpp"
 
 namespace tooljoint::parts {
 

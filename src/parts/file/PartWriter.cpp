@@ -7,7 +7,7 @@
 #include "io/MatrixMarket.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/TextFile.hpp"
-#include "parts/PartFile.hpp"
+#include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
 
