@@ -57,7 +57,8 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   load_ = Eigen::Map<const Vector>(model.load(), model.size());
   q_ = state.q;
   x_ = middle_ = rate_ = state.x;
-  time_ = state.t;
+  time_ = reached_ = state.t;
+  longest_ = 0;
   strain_ = 0.5 * state.q.dot(internal_);
   model.bindStates(state.x.data());
   stored_ = sumPowers(model, [&](auto& batch) {
@@ -70,8 +71,12 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
 }
 
 void EnergyLedger::book(CompiledModel& model, const State& to) {
+  constexpr double equal = 0.75;
   ++unwatched_;
-  if (++skipped_ < stride_) return;
+  const double h = to.t - reached_;
+  reached_ = to.t;
+  longest_ = std::max(longest_, h);
+  if (++skipped_ < stride_ && h > equal * longest_) return;
   enter(model, to);
 }
 
@@ -189,10 +194,11 @@ EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {
 }
 
 void EnergyLedger::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(skipped_), static_cast<double>(unwatched_),
-                               time_, strain_, stored_, account_.initial, account_.loads,
-                               account_.drive, account_.friction, account_.contactDamping,
-                               account_.circulatory, account_.exchanged, account_.supplied});
+  memory.insert(
+      memory.end(),
+      {static_cast<double>(skipped_), static_cast<double>(unwatched_), time_, reached_, longest_,
+       strain_, stored_, account_.initial, account_.loads, account_.drive, account_.friction,
+       account_.contactDamping, account_.circulatory, account_.exchanged, account_.supplied});
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
   for (const Vector* x : {&q_, &internal_, &load_, &x_})
     memory.insert(memory.end(), x->begin(), x->end());
@@ -204,9 +210,9 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   allocate(model);
   skipped_ = static_cast<int>(*memory++);
   unwatched_ = static_cast<int>(*memory++);
-  for (double* x : {&time_, &strain_, &stored_, &account_.initial, &account_.loads, &account_.drive,
-                    &account_.friction, &account_.contactDamping, &account_.circulatory,
-                    &account_.exchanged, &account_.supplied})
+  for (double* x : {&time_, &reached_, &longest_, &strain_, &stored_, &account_.initial,
+                    &account_.loads, &account_.drive, &account_.friction, &account_.contactDamping,
+                    &account_.circulatory, &account_.exchanged, &account_.supplied})
     *x = *memory++;
   for (double& x : account_.damping) x = *memory++;
   x_.setZero(model.stateSize());

@@ -46,7 +46,8 @@ struct EnergyAccount {
 
 class EnergyLedger {
  public:
-  /// Every `stride`-th step is booked (explicit steps are far shorter than what the sums need).
+  /// Every `stride`-th step is booked (explicit steps are far shorter than what the sums need), and
+  /// every one that is shorter than others: what asks for it is fast.
   void start(CompiledModel& model, const State& state, int stride);
   /// Call after every step. Allocates nothing.
   void book(CompiledModel& model, const State& to);
@@ -83,9 +84,10 @@ class EnergyLedger {
 
   int stride_ = 1;
   static constexpr int watchStride = 8;
-  int unwatched_ = 0;  ///< steps since the last runaway()
-  int skipped_ = 0;    ///< steps since the last one booked
-  double time_ = 0;    ///< the last one booked
+  int unwatched_ = 0;                 ///< steps since the last runaway()
+  int skipped_ = 0;                   ///< steps since the last one booked
+  double time_ = 0;                   ///< the last one booked
+  double reached_ = 0, longest_ = 0;  ///< end of the last step, and the longest step
   Vector q_;
   Vector step_, product_, internal_, load_;
   Vector x_, middle_, rate_;  ///< states of point laws at the last booking, and of a chord

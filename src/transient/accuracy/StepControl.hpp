@@ -24,6 +24,7 @@ class MassNorm {
  public:
   void bind(const CompiledModel& model);
   double operator()(const Vector& e) const;
+  double mass() const { return mass_; }  ///< m
 
  private:
   const CompiledModel* model_ = nullptr;

@@ -10,6 +10,7 @@
 
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/contact/ImpactWatch.hpp"
 #include "transient/schemes/ImplicitStep.hpp"
 
 namespace tooljoint::transient {
@@ -49,6 +50,10 @@ class AlphaStep {
   const Vector& localError(double h, bool impacts);
   const Vector& lastError() const { return error_; }
   const ImplicitStep& equation() const { return equation_; }
+  /// After start().
+  ImpactWatch::Mass mass() const {
+    return {&mass_->factor, mass_->perUnit.data(), &mass_->missing};
+  }
   CompiledModel& model() const { return *model_; }
 
   void save(std::vector<double>& memory) const;

@@ -19,10 +19,11 @@
 ///
 /// (Jansen, Whiting and Hulbert 2000 in the same form).
 ///
-/// Contact too stiff for the step is an impact: averaging its force over two steps would make
-/// energy (up to eight times what comes in). It acts in full over the step in which it arises, and
-/// not beyond, as in Kane, Repetto, Ortiz and Marsden (1999) and Chen, Acary, Virlez and Bruels
-/// (2013):
+/// A step in which a point meets a wall is halved until its rebound is that of the wall
+/// (ImpactWatch); what comes to rest on a wall too stiff for the step stays there without rebound:
+/// averaging its force over two steps would make energy (up to eight times what comes in). It acts
+/// in full over the step in which it arises, and not beyond, as in Kane, Repetto, Ortiz and Marsden
+/// (1999) and Chen, Acary, Virlez and Bruels (2013):
 ///
 ///     q_{n+1} = ... + h^2/2 M^-1 R'f,   v_{n+1} = ... + h M^-1 R'f   (with the v of the scheme for
 ///     that q),   A without f
@@ -55,16 +56,12 @@ namespace tooljoint::transient {
 namespace {
 
 constexpr double defaultTolerance = 1e-5;
-/// Spectral radius from which the rebound of impacts is no longer damped enough.
-constexpr double forImpacts = 0.2;
 
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
       .real("Spectral Radius", "", 0.8, deck::Range::between(0.0, 1.0),
             "Spectral radius at infinite frequency: 1 keeps all frequencies, 0 removes those above "
-            "the step in one step. Walls "
-            "too stiff for the "
-            "step (more than about 1 rad of contact frequency per step) need 0.2 or less.")
+            "the step in one step.")
       .real("Tolerance", "", defaultTolerance, deck::Range::positive(),
             "Newton stops when the residual, scaled by the diagonal of the effective matrix, falls "
             "below this times the largest "
@@ -87,6 +84,10 @@ deck::ListSpec specification() {
                "Make up for the period error of the scheme: vibration is then followed to fourth "
                "order in the step, at about a "
                "third more work per step.")
+      .boolean("Resolve Impacts", true,
+               "Halve steps in which a point meets a wall, until its rebound is that of the wall. "
+               "Without, impacts on walls too stiff for the step have no rebound.")
+      .expert()
       .boolean("Accept Coarse Steps", false,
                "Accept a motion although the fixed time step is too large (its local error "
                "exceeds 2.5 % per step, or the step-doubling difference 2 to 4 %).")
@@ -106,6 +107,14 @@ std::string percent(double part) {
 /// Largest step of the default when the deck gives none.
 constexpr double defaultStep = 1e-3;
 
+/// Halvings that impacts may ask for, and how many at a time: on the way to an impact, steps are
+/// cut only as far as it takes to find it.
+constexpr int mostForImpacts = 16, atATime = 3;
+/// Steps in a row without motion in closed contact, at least, before they grow again: the scheme
+/// remembers half of an acceleration from one step to the next at a spectral radius of 0, which
+/// must be gone from a step eight times as long.
+constexpr int calmSteps = 12;
+
 class GeneralizedAlpha final : public Integrator {
  public:
   explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
@@ -117,6 +126,7 @@ class GeneralizedAlpha final : public Integrator {
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
     acceptCoarse_ = own.get<bool>("Accept Coarse Steps");
+    resolveImpacts_ = own.get<bool>("Resolve Impacts");
     controlled_ = own.isParameter("Step Tolerance");
     if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
     if (own.isParameter("Smallest Step")) smallest_ = own.get<double>("Smallest Step");
@@ -140,16 +150,19 @@ class GeneralizedAlpha final : public Integrator {
 
  private:
   void look(const State& from, const State& to, double h);
+  bool resolvesImpacts(const State& from, const State& to, double h);
+  void grow(const State& to, double h);
   int deepestLevel() const;
   double gridTime() const;
   [[noreturn]] void giveUp(const State& from, double h) const;
   [[noreturn]] void giveUpAccuracy(const State& from, double h);
+  [[noreturn]] void giveUpImpacts(const State& from, double h) const;
   std::string describeFailure(double t, double h) const;
 
   std::optional<AlphaStep> scheme_;
   double tolerance_;
   int maxHalvings_;
-  bool acceptUnconverged_, acceptCoarse_;
+  bool acceptUnconverged_, acceptCoarse_, resolveImpacts_;
   bool controlled_ = false;  ///< steps follow their error
   double stepTolerance_ = 0, smallest_ = 0;
 
@@ -163,6 +176,9 @@ class GeneralizedAlpha final : public Integrator {
   int deepest_ = 4;  ///< halvings possible
 
   StepControl control_;
+  ImpactWatch impacts_;
+  bool afterImpact_ = false;  ///< steps are short because of one
+  double calm_ = 0;           ///< time since contact moved [s]
   StepAccuracy accuracy_;
   StepDoublingError doubling_;
   MassNorm length_;
@@ -175,13 +191,15 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   model_ = &model;
   window_ = window;
   step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
-  deepest_ = controlled_ ? deepestLevel() : maxHalvings_;
+  resolveImpacts_ = resolveImpacts_ && !controlled_ && !model.points().empty();
+  deepest_ = controlled_ ? deepestLevel() : resolveImpacts_ ? mostForImpacts : maxHalvings_;
   units_ = 1L << deepest_;
   if (controlled_) control_.set(stepTolerance_, deepest_);
   length_.bind(model);
   scheme_->start(model, state, counters_);
   scheme_->prepare(step_, state.t);
   change_ = state.q;
+  if (resolveImpacts_) impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
   if (!controlled_)
     doubling_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
 }
@@ -229,8 +247,10 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
     const bool solved = scheme_->take(from, to, h, last && acceptUnconverged_, counters_);
     if (solved && controlled_) error_ = length_(scheme_->localError(h, true));
-    if (solved && (!controlled_ || control_.accepts(error_))) break;
+    if (solved && !controlled_ && resolvesImpacts(from, to, h)) break;
+    if (solved && controlled_ && control_.accepts(error_)) break;
     done_ -= stride;
+    if (solved && !controlled_) continue;
     if (solved) {
       ++counters_.rejected;
       level_ = control_.shorter(error_, level_);
@@ -247,21 +267,46 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   scheme_->keep();
   counters_.accept(h);
   if (done_ == units_) ++index_, done_ = 0;
-  if (controlled_) {
+  if (resolveImpacts_) impacts_.keep(to, h);
+  if (controlled_)
     level_ = control_.next(error_, level_, done_);
-    return;
-  }
-  // Grow back as soon as the sub-steps done fill a longer one.
-  while (level_ > 0 && done_ % (units_ >> (level_ - 1)) == 0) --level_;
+  else
+    grow(to, h);
 }
 
-/// Collects the measures of the step's accuracy.
+/// False, with a deeper level, when the step just taken does not resolve its impacts.
+bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, double h) {
+  const int missing = resolveImpacts_ ? impacts_.halvings(from, to, h) : 0;
+  if (missing == 0) return true;
+  if (level_ + missing > deepest_) giveUpImpacts(from, std::ldexp(h, -missing));
+  ++counters_.rejected;
+  level_ += std::min(missing, atATime);
+  calm_ = 0;
+  afterImpact_ = true;
+  return false;
+}
+
+/// Longer steps, as soon as those done fill one and, after an impact, contact has been calm.
+void GeneralizedAlpha::grow(const State& to, double h) {
+  const int least = afterImpact_ ? std::max(0, level_ - atATime) : 0;
+  if (afterImpact_ && level_ > 0) {
+    const double needed = impacts_.calmNeeded(to, std::ldexp(step_, -least));
+    calm_ = std::isfinite(needed) ? calm_ + h : 0.0;
+    if (calm_ < std::max(needed, calmSteps * h)) return;
+  }
+  const int before = level_;
+  while (level_ > least && done_ % (units_ >> (level_ - 1)) == 0) --level_;
+  if (level_ != before) calm_ = 0;
+  if (level_ == 0) afterImpact_ = false;
+}
+
+/// Collects the measures of the step's accuracy, but for steps that impacts have cut.
 void GeneralizedAlpha::look(const State& from, const State& to, double h) {
-  if (counters_.steps % StepAccuracy::stride == 0) {
+  if (counters_.steps % StepAccuracy::stride == 0 && !afterImpact_) {
     change_ = to.q - from.q;
     accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }
-  if (h == step_ && doubling_.isDue(counters_.steps)) doubling_.look(*scheme_, from, to);
+  if (h == step_ && doubling_.isDue(index_)) doubling_.look(*scheme_, from, to);
 }
 
 StepErrors GeneralizedAlpha::stepErrors() const {
@@ -286,10 +331,9 @@ void GeneralizedAlpha::finish() const {
   const auto& points = model_->points();
   const bool hits =
       std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); });
-  if (hits && scheme_->parameters().radius > forImpacts)
-    text << " Contact is too stiff for this step and is treated as impacts. Set "
-            "Transient/Generalized-alpha/Spectral Radius to "
-         << forImpacts << " or less to damp their rebound.";
+  if (hits && !resolveImpacts_)
+    text << " Contact is too stiff for this step and has no rebound. Leave "
+            "Transient/Generalized-alpha/Resolve Impacts switched on.";
   if (!tooLarge || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }
@@ -321,10 +365,19 @@ void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
   throw ConvergenceError(text.str());
 }
 
+void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
+  std::ostringstream text;
+  text << "An impact at t = " << from.t << " s needs steps of " << h << " s, "
+       << "shorter than Transient/Step / 2^" << mostForImpacts
+       << ". Reduce Transient/Step or the stiffness of the wall.";
+  throw ConvergenceError(text.str());
+}
+
 void GeneralizedAlpha::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_),
-                               static_cast<double>(level_)});
+                               static_cast<double>(level_), afterImpact_ ? 1.0 : 0.0, calm_});
   scheme_->save(memory);
+  if (resolveImpacts_) impacts_.save(memory);
   control_.save(memory);
   accuracy_.save(memory);
   if (!controlled_) doubling_.save(memory);
@@ -334,7 +387,10 @@ void GeneralizedAlpha::restore(const double*& memory) {
   index_ = static_cast<long>(*memory++);
   done_ = static_cast<long>(*memory++);
   level_ = static_cast<int>(*memory++);
+  afterImpact_ = *memory++ != 0.0;
+  calm_ = *memory++;
   scheme_->restore(memory);
+  if (resolveImpacts_) impacts_.restore(memory);
   control_.restore(memory);
   accuracy_.restore(memory);
   if (!controlled_) doubling_.restore(memory);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::transient {
 namespace {
-
-std::size_t z(int i) { return static_cast<std::size_t>(i); }
 
 /// Relaxations before Newton takes over, and what four of them must make of the error.
 constexpr int maxRelaxations = 24;
@@ -20,6 +20,10 @@ constexpr double slowestSweeps = 0.8;
 constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 45;
+
+/// Forces of a step beside those of loads, inertia and stiffness where it begins. An iterate flung
+/// far away has larger ones, and must not be measured against itself.
+constexpr double mostGrowth = 10;
 
 /// ContactForceIteration::wrongShare() of an iterate that the phase correction may be taken from.
 constexpr double mostWrong = 0.1;
@@ -37,7 +41,7 @@ double rowNorm(const linalg::BlockPattern& pattern, const double* values, const 
       for (int j = 0; j < pattern.width(pattern.column(e)); ++j)
         for (int i = 0; i < pattern.width(b); ++i)
           rows[pattern.start(b) + i] +=
-              std::abs(values[pattern.offset(e) + z(j * pattern.width(b) + i)]);
+              std::abs(values[pattern.offset(e) + at(j * pattern.width(b) + i)]);
   return rows.cwiseProduct(weight).maxCoeff();
 }
 
@@ -133,6 +137,7 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to, From::Rest);
+  mostForce_ = mostGrowth * reference_;
   error_ = INFINITY;
   return (relaxes_ && relax(to)) || finish(to);
 }
@@ -148,12 +153,12 @@ double ImplicitStep::driftNorm() const {
   const auto& laws = model_->lawValues();
   const auto& damping = model_->damping().terms();
   for (std::size_t i = 0; i < damping.size(); ++i)
-    norm += scheme_.velocity * std::abs(laws[z(damping[i].law)] - factorLaws_[z(damping[i].law)]) *
-            dampingNorms_[i];
+    norm += scheme_.velocity *
+            std::abs(laws[at(damping[i].law)] - factorLaws_[at(damping[i].law)]) * dampingNorms_[i];
   const auto& stiffness = model_->stiffness().terms();
   for (std::size_t i = 0; i < stiffness.size(); ++i)
-    norm +=
-        std::abs(laws[z(stiffness[i].law)] - factorLaws_[z(stiffness[i].law)]) * stiffnessNorms_[i];
+    norm += std::abs(laws[at(stiffness[i].law)] - factorLaws_[at(stiffness[i].law)]) *
+            stiffnessNorms_[i];
   return norm;
 }
 
@@ -386,7 +391,9 @@ void ImplicitStep::correctPhase(const State& to) {
   corrected_ = true;
 }
 
-double ImplicitStep::relativeError() const { return error_ / std::max(reference_, 1e-300); }
+double ImplicitStep::relativeError() const {
+  return error_ / std::max(std::min(reference_, mostForce_), 1e-300);
+}
 
 int ImplicitStep::worstPosition() const {
   return transient::worstPosition(residual_.cwiseProduct(weight_));

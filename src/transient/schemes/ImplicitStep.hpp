@@ -13,6 +13,7 @@
 /// direction is bracketed.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -73,7 +74,9 @@ class ImplicitStep {
   double measure(const State& to);
   bool isSlow(double rate) const;
   bool converged() const { return error_ <= tolerance(); }
-  double tolerance() const { return options_.tolerance * reference_ + floor_; }
+  double tolerance() const {
+    return options_.tolerance * std::min(reference_, mostForce_) + floor_;
+  }
   void refactor(const State& to);
   void buildFactor();
   bool drifted() const { return factorStamp_ != model_->matrixStamp(); }
@@ -132,6 +135,7 @@ class ImplicitStep {
   double error_ = 0;                                   ///< max |w R|
   double merit_ = 0;                                   ///< |w R|_2
   double reference_ = 0;                               ///< largest scaled force of this step
+  double mostForce_ = 0;  ///< what forces of this step are believed to reach
   double linearReference_ = 0;
   double floor_ = 0;  ///< rounding of K q, scaled alike
 };

@@ -10,9 +10,9 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
+#include "Reduced.hpp"
 #include "common/Constants.hpp"
 #include "coupling/CoupledModes.hpp"
-#include "coupling/assembly/Assembler.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -20,13 +20,7 @@ namespace {
 
 using namespace tooljoint;
 
-coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int modes) {
-  reduction::ReductionOptions options;
-  options.modes.kind = reduction::ModeRule::Kind::PerPart;
-  options.modes.counts = {modes};
-  return coupling::synthesise(
-      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
-}
+using estimate::reduced;
 
 /// Three bars in a row, clamped at the left.
 std::vector<model::Substructure> bars() {

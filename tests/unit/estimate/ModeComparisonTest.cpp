@@ -6,8 +6,8 @@
 #include <Teuchos_ParameterList.hpp>
 #include <gtest/gtest.h>
 
+#include "Reduced.hpp"
 #include "common/Error.hpp"
-#include "coupling/assembly/Assembler.hpp"
 #include "model/laws/Connectors.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -15,13 +15,7 @@ namespace {
 
 using namespace tooljoint;
 
-coupling::Synthesis reduced(const std::vector<model::Substructure>& parts, int modes) {
-  reduction::ReductionOptions options;
-  options.modes.kind = reduction::ModeRule::Kind::PerPart;
-  options.modes.counts = {modes};
-  return coupling::synthesise(
-      parts, *reduction::makeBasis("Craig-Bampton", Teuchos::ParameterList()), options);
-}
+using estimate::reduced;
 
 TEST(ModeComparison, WithAllModesShapesAreTheSame) {
   for (bool spinning : {false, true}) {

@@ -9,6 +9,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
+#include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::linalg {
 namespace {
@@ -43,15 +44,6 @@ void expectModes(const Pencil& pencil, const EigenPairs& modes, int count) {
     EXPECT_LE(modes.values[std::max(0, j - 1)], modes.values[j]);
     EXPECT_GT(modes.vectors(largestEntry(modes.vectors.col(j)), j), 0.0);
   }
-}
-
-std::string message(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 const DofNamer spoken = [](int i) { return "<" + std::to_string(i) + ">"; };
@@ -247,8 +239,9 @@ TEST(EigenSolver, AUserShiftBelowTheSpectrumGivesTheSameModes) {
   expectModes(chain, modes, 10);
   for (int j = 0; j < 10; ++j) EXPECT_NEAR(modes.values[j] / heldChain(400, j), 1.0, 1e-9);
   options.shift = 0.5 * (heldChain(400, 2) + heldChain(400, 3));
-  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 10, options); }).find("above 3 eigenvalue"),
-            std::string::npos);
+  EXPECT_NE(
+      errorText([&] { lowestModes(chain.K, chain.M, 10, options); }).find("above 3 eigenvalue"),
+      std::string::npos);
 }
 
 TEST(EigenSolver, ASolveThatClaimsConvergenceButIsNotIsAnError) {
@@ -270,7 +263,7 @@ TEST(EigenSolver, AnUnconvergedSolveSaysWhatWasTried) {
   starved.set("Maximum Restarts", 0);
   EigenOptions options;
   options.anasazi = &starved;
-  const std::string text = message([&] { lowestModes(two.K, two.M, 30, options); });
+  const std::string text = errorText([&] { lowestModes(two.K, two.M, 30, options); });
   EXPECT_NE(text.find("4 attempts"), std::string::npos) << text;
   EXPECT_NE(text.find("Num Blocks"), std::string::npos) << text;
   // parameters Anasazi itself refuses
@@ -283,7 +276,7 @@ TEST(EigenSolver, NamesTheDofWithoutMass) {
     Pencil chain = springChain(n, k, m);
     chain.M.coeffRef(7, 7) = 0.0;
     EXPECT_NE(
-        message([&] {
+        errorText([&] {
           lowestModes(chain.K, chain.M, 5, {1e-8, 1e-8, false, 1e-6, 200, {}, spoken, nullptr});
         }).find("<7>"),
         std::string::npos);
@@ -307,11 +300,11 @@ TEST(EigenSolver, RefusesWhatIsNotASymmetricPencil) {
   unsymmetric.coeffRef(4, 5) *= 1.001;
   EigenOptions options;
   options.name = spoken;
-  const std::string text = message([&] { lowestModes(unsymmetric, chain.M, 3, options); });
+  const std::string text = errorText([&] { lowestModes(unsymmetric, chain.M, 3, options); });
   EXPECT_NE(text.find("<4>"), std::string::npos) << text;
   EXPECT_NE(text.find("<5>"), std::string::npos) << text;
   chain.K.coeffRef(2, 2) = std::nan("");
-  EXPECT_NE(message([&] { lowestModes(chain.K, chain.M, 3, options); }).find("<2>"),
+  EXPECT_NE(errorText([&] { lowestModes(chain.K, chain.M, 3, options); }).find("<2>"),
             std::string::npos);
 }
 

@@ -5,33 +5,16 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "ReferenceCollar.hpp"
 #include "common/Constants.hpp"
-#include "substructures/mud/Mud.hpp"
 
 namespace tooljoint::mud {
 namespace {
 
 using constants::pi;
 
-/// The collar of the reference scene in its bore.
-constexpr double outerRadius = 0.0795;
-constexpr double innerRadius = 0.0355;
-constexpr double boreRadius = 0.108;
 /// Gravity along the element [m/s2].
 const Vector3 downElement(0.0, 0.0, 9.81);
-
-MudProperties referenceMud() {
-  MudProperties p;
-  p.density = 1200.0;
-  p.frictionCoefficient = 0.013;
-  p.kinematicViscosity = 1e-6;
-  p.flowRate = 0.01;
-  return p;
-}
-
-beam::Section collar() {
-  return beam::Section::hollow(outerRadius, innerRadius, {7900.0, 2.03e11, 0.3});
-}
 
 /// Lowest lateral frequencies [Hz] of a vertical string of collars, pinned at both ends, hung at
 /// the top and pushed by the weight on bit, in still mud: tension from the axial displacements,

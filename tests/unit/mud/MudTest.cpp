@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "ReferenceCollar.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -21,24 +22,6 @@ namespace {
 
 using constants::pi;
 const double unbounded = std::numeric_limits<double>::infinity();
-
-/// The collar of the reference scene in its bore.
-constexpr double outerRadius = 0.0795;
-constexpr double innerRadius = 0.0355;
-constexpr double boreRadius = 0.108;
-
-MudProperties referenceMud() {
-  MudProperties p;
-  p.density = 1200.0;
-  p.frictionCoefficient = 0.013;
-  p.kinematicViscosity = 1e-6;
-  p.flowRate = 0.01;
-  return p;
-}
-
-beam::Section collar() {
-  return beam::Section::hollow(outerRadius, innerRadius, {7900.0, 2.03e11, 0.3});
-}
 
 const MatrixTerm* find(const std::vector<MatrixTerm>& terms, const std::string& name) {
   for (const auto& term : terms)

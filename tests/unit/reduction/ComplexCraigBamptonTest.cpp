@@ -7,7 +7,7 @@
 
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
-#include "tests/support/SampleParts.hpp"
+#include "tests/support/BasisFamilies.hpp"
 
 namespace {
 
@@ -20,13 +20,6 @@ Basis build(const model::Substructure& part, const ModeRequest& request, double 
   return makeBasis("Complex Craig-Bampton", list)->build(part, request);
 }
 
-ModeRequest count(int modes) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = modes;
-  return request;
-}
-
 model::Substructure bar() {
   auto part = samples::bar("bar", 1, 8, 3.0, 2.0);
   samples::classify(part, {1, 9});
@@ -34,8 +27,9 @@ model::Substructure bar() {
 }
 
 TEST(ComplexCraigBampton, UndampedPartsHaveRealModes) {
-  const auto basis = build(bar(), count(3));
-  const auto real = makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(3));
+  const auto basis = build(bar(), samples::modes(3));
+  const auto real =
+      makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), samples::modes(3));
   EXPECT_LT((Matrix(basis.vectors) - Matrix(real.vectors)).norm(), 1e-12);
 }
 
@@ -43,17 +37,18 @@ TEST(ComplexCraigBampton, ProportionalDampingHasRealModes) {
   auto part = bar();
   part.model.damping.push_back(
       {"Rayleigh", Sparse(0.3 * part.model.mass + 0.02 * part.model.stiffness[0].matrix), 0});
-  const auto basis = build(part, count(3));
+  const auto basis = build(part, samples::modes(3));
   ASSERT_EQ(basis.modes(), 3) << "no imaginary halves";
-  const auto real = makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(3));
+  const auto real =
+      makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), samples::modes(3));
   EXPECT_LT((basis.eigenvalues - real.eigenvalues).norm(), 1e-8 * real.eigenvalues.norm());
 }
 
 TEST(ComplexCraigBampton, ADashpotGivesBothHalves) {
   auto part = bar();
   part.model.damping.push_back({"dashpot", samples::square(9, {{2, 2, 0.8}}), 0});
-  EXPECT_EQ(build(part, count(2)).modes(), 2);
-  const auto three = build(part, count(3));
+  EXPECT_EQ(build(part, samples::modes(2)).modes(), 2);
+  const auto three = build(part, samples::modes(3));
   EXPECT_EQ(three.modes(), 4) << "the halves of a mode are not parted";
   ASSERT_EQ(three.remarks.size(), 1u);
   EXPECT_NE(three.remarks[0].find("so as not to part the halves"), std::string::npos);
@@ -85,8 +80,8 @@ TEST(ComplexCraigBampton, ACutOffLooksAtTheSizeOfS) {
 
 TEST(ComplexCraigBampton, TheTimeOfTheLawsMatters) {
   const auto part = samples::loopFrame(8, true)[2];
-  const Matrix slow = build(part, count(4), -2.0).vectors,
-               fast = build(part, count(4), 50.0).vectors;  // Omega = 0 and 52
+  const Matrix slow = build(part, samples::modes(4), -2.0).vectors,
+               fast = build(part, samples::modes(4), 50.0).vectors;  // Omega = 0 and 52
   EXPECT_TRUE(slow.cols() != fast.cols() || (slow - fast).norm() > 1e-3);
 }
 
@@ -95,12 +90,12 @@ TEST(ComplexCraigBampton, FloatingPartsKeepTheirRigidBodyModes) {
   part.model.damping.push_back(
       {"dashpot between",
        samples::square(9, {{2, 2, 0.8}, {2, 3, -0.8}, {3, 2, -0.8}, {3, 3, 0.8}}), 0});
-  const auto small = reduce(part, build(part, count(3)), ReductionOptions(), 0);
+  const auto small = reduce(part, build(part, samples::modes(3)), ReductionOptions(), 0);
   EXPECT_EQ(small.report.zeroEnergyReduced, 1);
 }
 
 TEST(ComplexCraigBampton, NoModesIsStaticCondensation) {
-  EXPECT_EQ(build(samples::loopFrame(8, true)[2], count(0)).modes(), 0);
+  EXPECT_EQ(build(samples::loopFrame(8, true)[2], samples::modes(0)).modes(), 0);
 }
 
 }  // namespace

@@ -7,22 +7,16 @@
 
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
-#include "tests/support/SampleParts.hpp"
+#include "tests/support/BasisFamilies.hpp"
 
 namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
+using samples::modes;
 
 std::unique_ptr<ReductionMethod> craigBampton() {
   return makeBasis("Craig-Bampton", Teuchos::ParameterList());
-}
-
-ModeRequest modes(int count) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = count;
-  return request;
 }
 
 ModeRequest allModes() { return {}; }

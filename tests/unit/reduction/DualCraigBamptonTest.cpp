@@ -16,16 +16,10 @@ namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
+using samples::modes;
 
 const samples::Family dual{"Dual Craig-Bampton", "", ""};
 const samples::Family dualWithMass{"Dual Craig-Bampton", "Residual Mass", "", true};
-
-ModeRequest modes(int count) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = count;
-  return request;
-}
 
 TEST(DualCraigBampton, MatricesOfAPartAreBlocks) {
   const auto part = samples::loopFrame(6, false)[2];  // floats on 2 x 3 interface dofs

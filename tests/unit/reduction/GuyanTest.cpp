@@ -11,24 +11,18 @@
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/part/MasterDofs.hpp"
-#include "tests/support/SampleParts.hpp"
+#include "tests/support/BasisFamilies.hpp"
 
 namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
+using samples::modes;
 
 std::unique_ptr<ReductionMethod> guyan(const std::string& masters = "Automatic") {
   Teuchos::ParameterList list;
   list.sublist("Guyan").set("Masters", masters);
   return makeBasis("Guyan", list);
-}
-
-ModeRequest modes(int count) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = count;
-  return request;
 }
 
 Vector eigenvalues(const model::SecondOrderModel& m) {

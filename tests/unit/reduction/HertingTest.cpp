@@ -19,10 +19,8 @@ ReducedSubstructure reduced(const model::Substructure& part, const std::string& 
                             const std::string& support, bool relief, int modes) {
   Teuchos::ParameterList list;
   list.sublist("Herting").set("Mode Supports", support).set("Inertia Relief", relief);
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = modes;
-  return reduce(part, makeBasis(basis, list)->build(part, request), ReductionOptions(), 0);
+  return reduce(part, makeBasis(basis, list)->build(part, samples::modes(modes)),
+                ReductionOptions(), 0);
 }
 
 TEST(Herting, ContainsCraigBamptonAndRubin) {

@@ -8,7 +8,7 @@
 
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/Reduce.hpp"
-#include "tests/support/SampleParts.hpp"
+#include "tests/support/BasisFamilies.hpp"
 
 namespace {
 
@@ -17,10 +17,7 @@ using namespace tooljoint::reduction;
 
 Basis basisOf(const model::Substructure& part, int modes,
               const std::string& method = "Craig-Bampton") {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = modes;
-  return makeBasis(method, Teuchos::ParameterList())->build(part, request);
+  return makeBasis(method, Teuchos::ParameterList())->build(part, samples::modes(modes));
 }
 
 ReductionOptions with(InitialState state) {

@@ -9,9 +9,9 @@
 
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
+#include "tests/support/BasisFamilies.hpp"
 #include "tests/support/CoupledChecks.hpp"
 #include "tests/support/ListDefaults.hpp"
-#include "tests/support/SampleParts.hpp"
 
 namespace {
 
@@ -163,11 +163,8 @@ TEST(LoadVectors, FloatingPiecesAreBalancedByTheirInertia) {
   Vector load = Vector::Zero(9);
   load[2] = 1.0;
   part.model.loads.push_back({"pull", load, 0});
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = 1;
-  Basis basis =
-      makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"))->build(part, request);
+  Basis basis = makeBasis("Craig-Bampton", Teuchos::ParameterList("Reduction"))
+                    ->build(part, samples::modes(1));
   addLoadVectors(part, loadsOnly(), basis);
   ASSERT_EQ(basis.modes(), 2);
   // K x = f - M a with the acceleration a of the rigid bar is in the span.

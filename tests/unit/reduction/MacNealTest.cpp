@@ -14,13 +14,7 @@ namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
-
-ModeRequest modes(int count) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = count;
-  return request;
-}
+using samples::modes;
 
 ReducedSubstructure reduced(const model::Substructure& part, const std::string& basis,
                             const ModeRequest& request) {

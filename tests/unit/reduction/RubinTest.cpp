@@ -14,13 +14,7 @@ namespace {
 
 using namespace tooljoint;
 using namespace tooljoint::reduction;
-
-ModeRequest modes(int count) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = count;
-  return request;
-}
+using samples::modes;
 
 std::unique_ptr<ReductionMethod> rubin() { return makeBasis("Rubin", Teuchos::ParameterList()); }
 

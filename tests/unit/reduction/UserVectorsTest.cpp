@@ -13,7 +13,8 @@
 #include "io/MatrixMarket.hpp"
 #include "linalg/Deterministic.hpp"
 #include "reduction/Reduce.hpp"
-#include "tests/support/SampleParts.hpp"
+#include "tests/support/BasisFamilies.hpp"
+#include "tests/support/ErrorText.hpp"
 
 namespace {
 
@@ -39,29 +40,13 @@ model::Substructure bar(const std::string& name = "bar") {
   return part;
 }
 
-ModeRequest count(int modes) {
-  ModeRequest request;
-  request.kind = ModeRequest::Kind::Count;
-  request.count = modes;
-  return request;
-}
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
-
 TEST(UserVectors, FixedInterfaceModesFromAFileAreCraigBampton) {
   const auto reference =
-      makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), count(4));
+      makeBasis("Craig-Bampton", Teuchos::ParameterList())->build(bar(), samples::modes(4));
   // Any mixture of the modes, with constraint modes added: the span is the same.
   const Matrix mixed = Matrix(reference.vectors) * linalg::scatteredNumbers(6, 4, 3);
   write("mixed.mtx", mixed);
-  const auto basis = basisOf("mixed.mtx")->build(bar(), count(4));
+  const auto basis = basisOf("mixed.mtx")->build(bar(), samples::modes(4));
   EXPECT_LT((basis.eigenvalues - reference.eigenvalues).norm(),
             1e-10 * reference.eigenvalues.norm());
   EXPECT_LT((Matrix(basis.vectors) - Matrix(reference.vectors)).norm(), 1e-9);
@@ -72,9 +57,9 @@ TEST(UserVectors, FixedInterfaceModesFromAFileAreCraigBampton) {
 
 TEST(UserVectors, TheFirstColumnsAreTaken) {
   write("many.mtx", linalg::scatteredNumbers(9, 5, 11));
-  EXPECT_EQ(basisOf("many.mtx")->build(bar(), count(2)).modes(), 2);
-  EXPECT_EQ(basisOf("many.mtx")->build(bar(), count(0)).modes(), 0);
-  const auto all = basisOf("many.mtx")->build(bar(), count(9));
+  EXPECT_EQ(basisOf("many.mtx")->build(bar(), samples::modes(2)).modes(), 2);
+  EXPECT_EQ(basisOf("many.mtx")->build(bar(), samples::modes(0)).modes(), 0);
+  const auto all = basisOf("many.mtx")->build(bar(), samples::modes(9));
   EXPECT_EQ(all.modes(), 5);
   ASSERT_EQ(all.remarks.size(), 1u);
   EXPECT_EQ(all.remarks[0], "asked for 9 modes, many.mtx has 5 vectors");
@@ -108,8 +93,8 @@ TEST(UserVectors, OtherPartsTakeFixedInterfaceModes) {
   const auto basis = basisOf("some.mtx", [](auto& list) {
     list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("bar")));
   });
-  EXPECT_EQ(basis->build(bar(), count(3)).modeKind[0], "user");
-  EXPECT_EQ(basis->build(bar("other"), count(3)).modeKind[0], "fixed-interface");
+  EXPECT_EQ(basis->build(bar(), samples::modes(3)).modeKind[0], "user");
+  EXPECT_EQ(basis->build(bar("other"), samples::modes(3)).modeKind[0], "fixed-interface");
 }
 
 TEST(UserVectors, AnUnknownPartIsRefused) {
@@ -122,7 +107,7 @@ TEST(UserVectors, AnUnknownPartIsRefused) {
   const auto basis = basisOf("some.mtx", [](auto& list) {
     list.set("Substructures", Teuchos::Array<std::string>(Teuchos::tuple<std::string>("colum")));
   });
-  EXPECT_NE(refusal([&] {
+  EXPECT_NE(errorText([&] {
               coupling::synthesise({part}, *basis, options);
             }).find("no substructure has that name; did you mean \"column\"?"),
             std::string::npos);
@@ -130,7 +115,7 @@ TEST(UserVectors, AnUnknownPartIsRefused) {
 
 TEST(UserVectors, WrongSizesAreRefused) {
   write("short.mtx", linalg::scatteredNumbers(7, 2, 1));
-  const auto sentence = refusal([] { basisOf("short.mtx")->build(bar(), count(2)); });
+  const auto sentence = errorText([] { basisOf("short.mtx")->build(bar(), samples::modes(2)); });
   EXPECT_NE(sentence.find("short.mtx: its vectors have 7 rows, but part \"bar\" has 9 dofs"),
             std::string::npos)
       << sentence;
@@ -140,13 +125,14 @@ TEST(UserVectors, DependentVectorsAreRefusedOrDropped) {
   Matrix vectors = linalg::scatteredNumbers(9, 4, 7);
   vectors.col(2) = vectors.col(0) - 3 * vectors.col(1);
   write("dependent.mtx", vectors);
-  const auto sentence = refusal([] { basisOf("dependent.mtx")->build(bar(), count(4)); });
+  const auto sentence =
+      errorText([] { basisOf("dependent.mtx")->build(bar(), samples::modes(4)); });
   EXPECT_NE(sentence.find("dependent.mtx: column 3 is a combination of the columns before it"),
             std::string::npos)
       << sentence;
   const auto basis = basisOf("dependent.mtx", [](auto& list) {
                        list.set("Dependent Vectors", "Drop");
-                     })->build(bar(), count(4));
+                     })->build(bar(), samples::modes(4));
   EXPECT_EQ(basis.modes(), 3);
   ASSERT_EQ(basis.remarks.size(), 1u);
   EXPECT_EQ(basis.remarks[0], "dependent vectors of dependent.mtx are dropped: columns 3");
@@ -156,16 +142,18 @@ TEST(UserVectors, AConstraintModeAddsNothing) {
   Matrix straight(9, 1);
   for (int i = 0; i < 9; ++i) straight(i, 0) = 1 + 2.0 * i;
   write("straight.mtx", straight);
-  EXPECT_NE(refusal([] {
-              basisOf("straight.mtx")->build(bar(), count(1));
+  EXPECT_NE(errorText([] {
+              basisOf("straight.mtx")->build(bar(), samples::modes(1));
             }).find("column 1 is a combination"),
             std::string::npos);
 }
 
 TEST(UserVectors, MissingFilesAndListsAreRefused) {
-  EXPECT_NE(refusal([] { basisOf("absent %.mtx")->build(bar(), count(1)); }).find("absent bar.mtx"),
+  EXPECT_NE(errorText([] {
+              basisOf("absent %.mtx")->build(bar(), samples::modes(1));
+            }).find("absent bar.mtx"),
             std::string::npos);
-  EXPECT_NE(refusal([] {
+  EXPECT_NE(errorText([] {
               makeBasis("User Vectors", Teuchos::ParameterList("Reduction"));
             }).find("has no list \"User Vectors\" with the \"File\""),
             std::string::npos);

@@ -10,20 +10,12 @@
 #include "common/Error.hpp"
 #include "common/Sha256.hpp"
 #include "io/TextFile.hpp"
+#include "tests/support/ErrorText.hpp"
 #include "tests/unit/io/Scratch.hpp"
 #include "transient/ModelIdentity.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
-
-std::string failure(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -99,25 +91,27 @@ TEST(Checkpoints, areRefusedWithAnotherLength) {
 TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   const auto bytes = full().encode();
   const auto said = [](const std::string& content) {
-    return failure([&] { Checkpoint::decode(content, "DIR/checkpoint.bin"); });
+    return errorText([&] { Checkpoint::decode(content, "DIR/checkpoint.bin"); });
   };
   EXPECT_TRUE(says(said("something else entirely, and long enough to be read as numbers"),
                    "\"DIR/checkpoint.bin\" is not a checkpoint."));
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
   EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
                         std::string(200, '\0')),
-                   "has the layout 5 of another version of the program; this one reads layout 7"));
+                   "has the layout 5 of another version of the program; this one reads layout 8"));
   auto changed = bytes;
-  changed[20] = 8;  // the layout follows the magic
-  EXPECT_TRUE(says(said(changed), "has the layout 8 of another version")) << said(changed);
+  changed[20] = 9;  // the layout follows the magic
+  EXPECT_TRUE(says(said(changed), "has the layout 9 of another version")) << said(changed);
   EXPECT_TRUE(says(said(bytes.substr(0, bytes.size() - 5)), "is damaged: its header promises"))
       << said(bytes.substr(0, bytes.size() - 5));
   changed = bytes;
   changed.back() = static_cast<char>(changed.back() ^ 1);
   EXPECT_TRUE(says(said(changed), "is damaged: its SHA-256 does not match its content"))
       << said(changed);
-  EXPECT_TRUE(says(failure([] { Checkpoint::read("/nowhere/checkpoint.bin"); }), "cannot be read"));
-  EXPECT_TRUE(says(failure([] { full().write("/nowhere/checkpoint.bin"); }), "cannot be written"));
+  EXPECT_TRUE(
+      says(errorText([] { Checkpoint::read("/nowhere/checkpoint.bin"); }), "cannot be read"));
+  EXPECT_TRUE(
+      says(errorText([] { full().write("/nowhere/checkpoint.bin"); }), "cannot be written"));
 }
 
 TEST(Checkpoints, comeAtMultiplesOfTheirInterval) {
@@ -212,16 +206,16 @@ TEST(Identity, isAskedForByARestart) {
   const auto o = options("RK4", 0.3, 1e-4, 0.005);
   integrate(model, o, samples, hooks);
   again.resume = &kept;
-  EXPECT_TRUE(says(failure([&] {
+  EXPECT_TRUE(says(errorText([&] {
                      integrate(model, options("Generalized-alpha", 0.3, 1e-4, 0.005), samples,
                                again);
                    }),
                    "written by the integrator \"RK4\""));
   EXPECT_TRUE(
-      says(failure([&] { integrate(model, options("RK4", 0.3, 2e-4, 0.005), samples, again); }),
+      says(errorText([&] { integrate(model, options("RK4", 0.3, 2e-4, 0.005), samples, again); }),
            "other steps"));
   model.loads[1].vector[3] += 1e-9;
-  EXPECT_TRUE(says(failure([&] { integrate(model, o, samples, again); }), "another model"));
+  EXPECT_TRUE(says(errorText([&] { integrate(model, o, samples, again); }), "another model"));
 }
 
 }  // namespace

@@ -8,18 +8,10 @@
 #include "Models.hpp"
 #include "common/Error.hpp"
 #include "substructures/contact/ContactLaw.hpp"
+#include "tests/support/ErrorText.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
-
-std::string failure(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Energy, freeVibrationIsConserved) {
   const auto model = oscillator(2, 0, 800, 0.1, 1.0);
@@ -157,7 +149,7 @@ TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
   for (const auto& integrator : {"Generalized-alpha", "RK4"}) {
     Keep samples;
     const auto text =
-        failure([&] { integrate(model, options(integrator, 20.0, 1e-3, 0.01), samples); });
+        errorText([&] { integrate(model, options(integrator, 20.0, 1e-3, 0.01), samples); });
     EXPECT_NE(text.find("J without work being done"), std::string::npos) << text;
     EXPECT_EQ(text.find("Spectral Radius") != std::string::npos,
               std::string(integrator) == "Generalized-alpha")

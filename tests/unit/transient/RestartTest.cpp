@@ -235,6 +235,7 @@ TEST(Restarts, keepTheHalvingsOfAStepUnderWay) {
   o.own.set("Max Iterations", 2);
   o.own.set("Max Halvings", 8);
   o.own.set("Accept Coarse Steps", true);
+  o.own.set("Resolve Impacts", false);
   const auto whole = run(model, o);
   ASSERT_TRUE(whole.error.empty()) << whole.error;
   ASSERT_GT(whole.report.counters.halved, 0);

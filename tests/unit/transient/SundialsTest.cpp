@@ -7,6 +7,7 @@
 
 #include "Models.hpp"
 #include "common/Error.hpp"
+#include "tests/support/ErrorText.hpp"
 #include "transient/schemes/FirstOrderForm.hpp"
 
 namespace tooljoint::transient::testing {
@@ -21,15 +22,6 @@ Teuchos::ParameterList with(const std::string& name, T value, Teuchos::Parameter
 }
 
 Teuchos::ParameterList tolerance(double relative) { return with("Relative Tolerance", relative); }
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TransientReport run(const model::SecondOrderModel& model, const std::string& integrator, double end,
                     double sampling, const Teuchos::ParameterList& own, Keep& samples,
@@ -56,7 +48,7 @@ double largestDifference(const Keep& a, const Keep& b) {
 /// Whether this build is without SUNDIALS, and the integrator says so; any other refusal is none of
 /// the build.
 bool missing(const std::string& integrator) {
-  const auto text = refusal([&] { run(oscillator(1, 0, 1, 1, 0), integrator, 0.1); });
+  const auto text = errorText([&] { run(oscillator(1, 0, 1, 1, 0), integrator, 0.1); });
   if (text.find("built without SUNDIALS") == std::string::npos) return false;
   EXPECT_NE(text.find("\"" + integrator + "\" needs. Install libsundials-dev"), std::string::npos)
       << text;
@@ -165,7 +157,7 @@ TEST_P(Sundials, stepsStartAndEndAsAsked) {
 TEST_P(Sundials, aDofWithoutMassIsRefused) {
   auto model = springChain(3, 1.0, 0.0, 10.0);
   model.mass.coeffRef(1, 1) = 0.0;
-  const auto text = refusal([&] { run(model, GetParam(), 1.0); });
+  const auto text = errorText([&] { run(model, GetParam(), 1.0); });
   EXPECT_NE(text.find("The mass matrix is singular at u of node 2: the integrator \"" + GetParam()),
             std::string::npos)
       << text;
@@ -173,7 +165,7 @@ TEST_P(Sundials, aDofWithoutMassIsRefused) {
 }
 
 TEST_P(Sundials, tooManyStepsEndTheRun) {
-  const auto text = refusal(
+  const auto text = errorText(
       [&] { run(oscillator(1, 0, 1e6, 1e-3, 0), GetParam(), 10.0, with("Maximum Steps", 50)); });
   EXPECT_NE(text.find(GetParam() + " has taken 50 steps by t = "), std::string::npos) << text;
   EXPECT_NE(text.find("Transient/" + GetParam() + "/Maximum Steps"), std::string::npos) << text;
@@ -184,7 +176,7 @@ TEST_P(Sundials, noNumberInALoadEndsTheRunWithTimeAndDof) {
   const int law = model.lawIndex({"broken", [](double t) { return t < 0.5 ? 1.0 : std::nan(""); }});
   model.loads.push_back({"broken", Vector::Unit(3, 2), law});
   Keep samples;
-  const auto text = refusal([&] { run(model, GetParam(), 1.0, 0.1, {}, samples); });
+  const auto text = errorText([&] { run(model, GetParam(), 1.0, 0.1, {}, samples); });
   EXPECT_NE(text.find("The motion is not finite"), std::string::npos) << text;
   EXPECT_TRUE(text.find("t = 0.49") != std::string::npos ||
               text.find("t = 0.5") != std::string::npos)
@@ -193,7 +185,7 @@ TEST_P(Sundials, noNumberInALoadEndsTheRunWithTimeAndDof) {
   for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
   // from the first moment on
   model.laws.own().back().value = [](double) { return std::nan(""); };
-  EXPECT_NE(refusal([&] { run(model, GetParam(), 1.0); }).find("not finite"), std::string::npos);
+  EXPECT_NE(errorText([&] { run(model, GetParam(), 1.0); }).find("not finite"), std::string::npos);
 }
 
 TEST_P(Sundials, errorsOfTheModelComeThrough) {
@@ -204,12 +196,12 @@ TEST_P(Sundials, errorsOfTheModelComeThrough) {
                                     return 1.0;
                                   }});
   model.loads.push_back({"ends", Vector::Unit(3, 2), law});
-  EXPECT_EQ(refusal([&] { run(model, GetParam(), 1.0); }), "The table of loads ends at 0.3 s.");
+  EXPECT_EQ(errorText([&] { run(model, GetParam(), 1.0); }), "The table of loads ends at 0.3 s.");
 }
 
 TEST_P(Sundials, toleranceBelowRoundingIsRefused) {
   auto own = tolerance(1e-30);
-  const auto text = refusal([&] { run(oscillator(1, 0, 400, 0.1, 0), GetParam(), 1.0, own); });
+  const auto text = errorText([&] { run(oscillator(1, 0, 400, 0.1, 0), GetParam(), 1.0, own); });
   EXPECT_NE(text.find("more digits than numbers have"), std::string::npos) << text;
   EXPECT_NE(text.find("Transient/" + GetParam() + "/Relative Tolerance"), std::string::npos)
       << text;

@@ -8,6 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "substructures/contact/ContactLaw.hpp"
+#include "tests/support/ErrorText.hpp"
 
 // Counts every allocation of this program. The sanitizers bring their own malloc.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && defined(__GLIBC__)
@@ -24,15 +25,6 @@ namespace tooljoint::transient::testing {
 namespace {
 
 const std::vector<std::string> allIntegrators = {"Generalized-alpha", "RK4", "RK4 adaptive"};
-
-std::string failure(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // Samples
 // -------------------------------------------------------------------------------------------------
@@ -131,7 +123,7 @@ TEST(Transient, refusesAnEndBeforeTheStart) {
   Teuchos::ParameterList list("Transient");
   list.set("End Time", 1.0);
   list.set("Start Time", 1.0);
-  EXPECT_NE(failure([&] { readOptions(list); }).find("must be later than Transient/Start Time"),
+  EXPECT_NE(errorText([&] { readOptions(list); }).find("must be later than Transient/Start Time"),
             std::string::npos);
 }
 
@@ -139,14 +131,14 @@ TEST(Transient, refusesCountsOfStepsAndSamplesThatNobodyCanCompute) {
   Teuchos::ParameterList list("Transient");
   list.set("End Time", 1e6);
   list.set("Step", 1e-9);
-  EXPECT_NE(failure([&] { readOptions(list); })
+  EXPECT_NE(errorText([&] { readOptions(list); })
                 .find("Transient/Step is 1e-09 s, which makes 1e+15 of them in the 1e+06 s from "
                       "Start Time to End Time; at most 1e+12"),
             std::string::npos)
-      << failure([&] { readOptions(list); });
+      << errorText([&] { readOptions(list); });
   list.set("Step", 1e-3);
   list.set("Sampling Interval", 1e-3);
-  EXPECT_NE(failure([&] {
+  EXPECT_NE(errorText([&] {
               readOptions(list);
             }).find("Transient/Sampling Interval is 0.001 s, which makes 1e+09 of them"),
             std::string::npos);
@@ -165,7 +157,7 @@ TEST(Transient, everyIntegratorDescribesItself) {
     EXPECT_GT(own->doc().size(), 20u);
     EXPECT_FALSE(own->parameters().empty());
   }
-  EXPECT_NE(failure([] {
+  EXPECT_NE(errorText([] {
               IntegratorRegistry::instance().make("Newmark", Teuchos::ParameterList());
             }).find("\"RK4 adaptive\""),
             std::string::npos);
@@ -216,7 +208,7 @@ TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
   for (const auto& integrator : allIntegrators) {
     Keep samples;
     const auto text =
-        failure([&] { integrate(model, options(integrator, 100.0, 1e-2, 1.0), samples); });
+        errorText([&] { integrate(model, options(integrator, 100.0, 1e-2, 1.0), samples); });
     EXPECT_NE(text.find("The motion blew up in the step from t = "), std::string::npos)
         << integrator << ": " << text;
     EXPECT_NE(text.find("u of node 2"), std::string::npos) << text;
@@ -226,7 +218,7 @@ TEST(Transient, blowUpIsDetectedWithTimeAndDof) {
 TEST(Transient, aStepBeyondTheStabilityLimitIsNotAResult) {
   auto model = oscillator(1, 0, 1e6, 1e-3, 0);
   Keep samples;
-  const auto text = failure([&] { integrate(model, options("RK4", 10.0, 4e-3, 1.0), samples); });
+  const auto text = errorText([&] { integrate(model, options("RK4", 10.0, 4e-3, 1.0), samples); });
   EXPECT_NE(text.find("blew up"), std::string::npos) << text;
   for (const auto& q : samples.q) EXPECT_LT(q.cwiseAbs().maxCoeff(), 1e6);
 }
@@ -238,7 +230,7 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
   for (const auto& integrator : allIntegrators) {
     Keep samples;
     const auto text =
-        failure([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
+        errorText([&] { integrate(model, options(integrator, 1.0, 1e-2, 0.1), samples); });
     EXPECT_TRUE(text.find("t = 0.4") != std::string::npos ||
                 text.find("t = 0.5") != std::string::npos)
         << integrator << ": " << text;

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/contact/ImpactWatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/Constants.hpp"
+#include "common/Index.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Parts of the energy that one impact may lose, and may misplace.
+constexpr double mostLost = 0.005, mostMisplaced = 0.02;
+/// w h, and the part of its velocity that damping takes in a step, at which steps are short enough
+/// for any impact.
+constexpr double resolved = 0.15, resolvedDamping = 0.005;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+/// Speeds below this are rest [m/s]: a ball would rise by half a nanometre.
+constexpr double quiet = 1e-4;
+/// Steps from one look at the energy of the motion to the next: a look costs a product with M.
+constexpr long lookStride = 8;
+/// Residuals of the mobility of a point beside its own that are left out.
+constexpr double negligible = 1e-4;
+
+/// Mean part of its energy that a rebound from an elastic wall loses in steps of w h, a fit within
+/// 20 % to single masses for spectral radii r from 0 to 0.8 and w h up to 1; from w h = 2 contact
+/// is an impact without rebound (ContactForceIteration::setImpacts).
+double loss(double wh, double r) {
+  if (wh > 2.0) return 1.0;
+  return std::min(1.0, 0.55 * std::pow(1.0 - r, 4) * wh * wh);
+}
+
+/// Largest part that depends on where in a step the wall is met, likewise. A wall with damping c
+/// begins with a force: that of half a step, 1 - (1 - W c h / 2)^2, is met early or late.
+double scatter(double wh, double damping) { return std::min(1.0, 0.25 * wh * wh + damping); }
+
+}  // namespace
+
+void ImpactWatch::bind(CompiledModel& model, const Mass& mass, double radius) {
+  model_ = &model;
+  mass_ = mass;
+  radius_ = radius;
+  norm_.bind(model);
+  sets_.clear();
+  std::size_t widest = 0;
+  for (const auto& batch : model.points()) {
+    const std::size_t rows = at(batch.points()) * at(batch.width());
+    sets_.push_back({std::vector<double>(rows, 0.0),
+                     std::vector<double>(rows * at(batch.width()), 0.0),
+                     std::vector<char>(at(batch.points()), 0)});
+    for (int p : batch.active())
+      std::copy_n(batch.force() + p * batch.width(), batch.width(),
+                  &sets_.back().force[at(p * batch.width())]);
+    widest = std::max(widest, at(batch.width()));
+  }
+  column_.setZero(model.size());
+  blocks_.reserve(4 * at(model.pattern().blocks()));
+  f_.assign(widest, 0.0);
+  dfdd_.assign(widest * widest, 0.0);
+  dfdv_ = dfdd_;
+  normal_ = deeper_ = f_;
+  squares_ = time_ = unseen_ = 0;
+  kept_ = 0;
+}
+
+/// R M^-1 R', solved near the point.
+const double* ImpactWatch::mobility(int b, int point) {
+  Set& set = sets_[at(b)];
+  const PointBatch& batch = model_->points()[at(b)];
+  const int w = batch.width();
+  double* W = &set.mobility[at(point * w * w)];
+  if (set.known[at(point)]) return W;
+  const auto& pattern = model_->pattern();
+  for (int k = 0; k < w; ++k) {
+    blocks_.clear();
+    batch.appendBlocks(point, blocks_);
+    batch.addRow(point * w + k, 1.0, column_.data());
+    double largest = 0;
+    for (int block : blocks_)
+      for (int i = pattern.start(block); i < pattern.start(block + 1); ++i) {
+        if ((*mass_.missing)[at(i)]) column_[i] = 0.0;
+        largest = std::max(largest, std::abs(mass_.perUnit[i] * column_[i]));
+      }
+    mass_.factor->solveNear(column_.data(), blocks_, mass_.perUnit, negligible * largest);
+    for (int j = 0; j < w; ++j) W[j * w + k] = batch.rowTimesVector(point * w + j, column_.data());
+    for (int block : blocks_) column_.segment(pattern.start(block), pattern.width(block)).setZero();
+  }
+  set.known[at(point)] = 1;
+  return W;
+}
+
+/// J = df/dd at the point: n = J'f / |J'f|. What it meets is the wall behind the depth in which a
+/// regularised law begins: k = -n'J n as deep as the change of velocity takes the point there,
+/// first in the whole step and then in 1/w.
+ImpactWatch::Wall ImpactWatch::wall(int b, int point, double t, double speed, double h) {
+  PointBatch& batch = model_->points()[at(b)];
+  const int w = batch.width();
+  const double* d = batch.d() + point * w;
+  const double* v = batch.v() + point * w;
+  const double* W = mobility(b, point);
+  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  Wall found;
+  double size = 0;
+  for (int k = 0; k < w; ++k) {
+    normal_[at(k)] = 0;
+    for (int i = 0; i < w; ++i) normal_[at(k)] -= dfdd_[at(i * w + k)] * f_[at(i)];
+    size = std::hypot(size, normal_[at(k)]);
+  }
+  if (!(size > 0)) return found;
+  for (int k = 0; k < w; ++k) normal_[at(k)] /= size;
+  double push = 0;
+  for (int i = 0; i < w; ++i) {
+    push += normal_[at(i)] * f_[at(i)] / batch.scale(point);
+    for (int k = 0; k < w; ++k) found.mobility += normal_[at(i)] * W[i * w + k] * normal_[at(k)];
+  }
+  found.push = push;
+  if (!(found.mobility > 0)) return found;
+  for (double depth = h * speed; depth > 0;) {
+    for (int k = 0; k < w; ++k) deeper_[at(k)] = d[k] - std::copysign(depth, push) * normal_[at(k)];
+    batch.evaluateOne(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
+    double stiffness = 0, damping = 0;
+    for (int i = 0; i < w; ++i)
+      for (int k = 0; k < w; ++k) {
+        const double both = normal_[at(i)] * normal_[at(k)] / batch.scale(point);
+        stiffness -= both * dfdd_[at(i * w + k)];
+        damping -= both * dfdv_[at(i * w + k)];
+      }
+    found.damping = std::max(0.0, damping * found.mobility);
+    const bool first = found.frequency == 0;
+    found.frequency = stiffness > 0 ? std::sqrt(stiffness * found.mobility) : 0;
+    if (!first || found.frequency == 0 || found.frequency * h < 1) break;
+    depth = speed / found.frequency;
+  }
+  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());  // what the batch holds
+  return found;
+}
+
+double ImpactWatch::along(int b, int point, const Vector& v) const {
+  const PointBatch& batch = model_->points()[at(b)];
+  double sum = 0;
+  for (int k = 0; k < batch.width(); ++k)
+    sum += normal_[at(k)] * batch.rowTimesVector(point * batch.width() + k, v.data());
+  return sum;
+}
+
+/// v'M v: the mean over the run so far, or that of the step looked at where it is more.
+double ImpactWatch::square() const { return std::max(now_, time_ > 0 ? squares_ / time_ : 0.0); }
+
+/// Whether what changes by this, (dv)^2, is worth a shorter step.
+bool ImpactWatch::matters(double change) const {
+  return change > 4 * mostLost * std::max(quiet * quiet, square() / norm_.mass());
+}
+
+bool ImpactWatch::resolves(const Wall& wall, double change, double h) const {
+  const double wh = wall.frequency * h, damping = wall.damping * h;
+  if ((wh <= resolved && damping <= resolvedDamping) || !matters(change * change)) return true;
+  if (matters(loss(wh, radius_) * change * change)) return false;
+  return scatter(wh, damping) * change * change / wall.mobility <= 4 * mostMisplaced * square();
+}
+
+int ImpactWatch::halvings(const State& from, const State& to, double h) {
+  int most = 0;
+  now_ = 0;
+  for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
+    PointBatch& batch = model_->points()[at(b)];
+    const Set& set = sets_[at(b)];
+    const int w = batch.width();
+    for (int p : batch.active()) {
+      // a bound of dv (dv + 2 v), before anything is evaluated, from the rows a wall pushes along:
+      // what is met at the end of a step is a little force at a high speed
+      const double* W = mobility(b, p);
+      double bound = 0, speed = 0;
+      for (int k = 0; k < w; ++k) {
+        if (batch.dfdd()[p * w * w + k * w + k] == 0) continue;
+        const double push = batch.force()[p * w + k] / batch.scale(p);
+        bound += h * W[k * w + k] * std::abs(push - set.force[at(p * w + k)]);
+        speed += std::abs(batch.v()[p * w + k]);
+      }
+      if (!matters(bound * (bound + 2 * speed))) continue;
+      if (now_ == 0) now_ = model_->massForm(to.v.data());
+      if (!matters(bound * (bound + 2 * speed))) continue;
+      const Wall met = wall(b, p, to.t, bound + speed, h);
+      if (met.frequency == 0) continue;
+      double before = 0;
+      for (int k = 0; k < w; ++k) before += normal_[at(k)] * set.force[at(p * w + k)];
+      // What a force passes on to its neighbours is no change of velocity; what has begun to turn
+      // goes on to its reversal.
+      const double first = along(b, p, from.v), last = along(b, p, to.v);
+      const double change = std::max(
+          {std::min(h * met.mobility * std::abs(met.push - before), 2 * std::abs(last - first)),
+           2 * std::abs(first), 2 * std::abs(last)});
+      int count = 0;
+      while (!resolves(met, change, std::ldexp(h, -count))) ++count;
+      most = std::max(most, count);
+    }
+  }
+  return most;
+}
+
+double ImpactWatch::calmNeeded(const State& to, double h) {
+  double needed = 0;
+  now_ = model_->massForm(to.v.data());
+  for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
+    const PointBatch& batch = model_->points()[at(b)];
+    for (int p : batch.active()) {
+      double fastest = 0;
+      for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
+        fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
+      const Wall met = wall(b, p, to.t, fastest, h);
+      if (met.frequency * h <= resolved) continue;
+      if (!resolves(met, 2 * along(b, p, to.v), h)) return unbounded;
+      needed = std::max(needed, constants::pi / met.frequency);
+    }
+  }
+  return needed;
+}
+
+void ImpactWatch::keep(const State& to, double h) {
+  for (std::size_t b = 0; b < sets_.size(); ++b) {
+    const PointBatch& batch = model_->points()[b];
+    const int w = batch.width();
+    for (int p : batch.active())
+      for (int k = p * w; k < (p + 1) * w; ++k)
+        sets_[b].force[at(k)] = batch.force()[k] / batch.scale(p);
+  }
+  unseen_ += h;
+  if (++kept_ % lookStride != 0) return;
+  squares_ += model_->massForm(to.v.data()) * unseen_;
+  time_ += unseen_;
+  unseen_ = 0;
+}
+
+void ImpactWatch::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {squares_, time_, unseen_, static_cast<double>(kept_)});
+  for (const auto& set : sets_) memory.insert(memory.end(), set.force.begin(), set.force.end());
+}
+
+void ImpactWatch::restore(const double*& memory) {
+  for (double* sum : {&squares_, &time_, &unseen_}) *sum = *memory++;
+  kept_ = static_cast<long>(*memory++);
+  for (auto& set : sets_)
+    for (double& force : set.force) force = *memory++;
+}
+
+}  // namespace tooljoint::transient
