@@ -14,7 +14,7 @@
 
 #include "common/Constants.hpp"
 #include "model/SecondOrderModel.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 
 namespace tooljoint::benchmarks {

@@ -12,6 +12,13 @@
 
 namespace tooljoint::deck {
 
+/// The sublist of a registered variant: its own parameters, under its name.
+template <class Entry>
+ListSpec variantSpec(const std::string& name, const Entry& entry) {
+  const ListSpec& own = entry.parameters;
+  return own.doc().empty() ? ListSpec(name, entry.doc).merge(own) : own.named(name);
+}
+
 /// `declareVariants<Integrator, ...>(list, "Integrator", "Generalized-alpha", "The time
 /// integrator.")`. The sentence of the choice is followed by what each variant is.
 template <class Base, class... Args>
@@ -24,7 +31,7 @@ ListSpec& declareVariants(ListSpec& list, const std::string& parameter, Default 
   for (const auto& [name, entry] : registry.entries()) {
     const ListSpec& own = entry.parameters;
     if (own.parameters().empty() && own.lists().empty() && own.pattern() == nullptr) continue;
-    list.list(own.doc().empty() ? ListSpec(name, entry.doc).merge(own) : own.named(name));
+    list.list(variantSpec(name, entry));
   }
   return list;
 }

@@ -92,18 +92,18 @@ Matrix12 toGlobal(const Matrix3& e) {
 
 }  // namespace
 
-CorotationalElement::CorotationalElement(const Section& section, double initialLength)
+CorotationalElement::CorotationalElement(const Matrix12& stiffness, double initialLength)
     : initialLength_(initialLength),
-      axialStiffness_(section.axialRigidity() / initialLength),
-      torsionalStiffness_(section.torsionalRigidity() / initialLength) {
-  const Matrix12 k = stiffness(section, initialLength);
-  rotational_ << k.block<3, 3>(3, 3), k.block<3, 3>(3, 9), k.block<3, 3>(9, 3), k.block<3, 3>(9, 9);
+      axialStiffness_(stiffness(8, 8)),
+      torsionalStiffness_(stiffness(11, 11)) {
+  rotational_ << stiffness.block<3, 3>(3, 3), stiffness.block<3, 3>(3, 9),
+      stiffness.block<3, 3>(9, 3), stiffness.block<3, 3>(9, 9);
 }
 
-CorotationalElement::CorotationalElement(const Section& section, double initialLength,
+CorotationalElement::CorotationalElement(const Matrix12& stiffness, double initialLength,
                                          const Matrix3& element0, const Matrix3& node1,
                                          const Matrix3& node2)
-    : CorotationalElement(section, initialLength) {
+    : CorotationalElement(stiffness, initialLength) {
   attach1_ = node1.transpose() * element0;
   attach2_ = node2.transpose() * element0;
 }
@@ -119,7 +119,7 @@ CorotationalResponse CorotationalElement::evaluate(const ElementPose& pose,
   out.rotation1 = rotationLogarithm(e.transpose() * t1);
   out.rotation2 = rotationLogarithm(e.transpose() * t2);
 
-  // local forces: N = E S/l0 (l - l0), m = K_theta theta
+  // local forces: N = k_ww (l - l0), m = K_theta theta
   out.axialForce = axialStiffness_ * (out.length - initialLength_);
   out.torque = torsionalStiffness_ * (out.rotation2.z() - out.rotation1.z());
   Vector6 theta;

@@ -6,8 +6,7 @@
 #pragma once
 
 #include "common/Types.hpp"
-#include "substructures/beam/Element.hpp"
-#include "substructures/beam/Section.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::beam {
 
@@ -33,14 +32,15 @@ struct CorotationalResponse {
   Matrix12 tangent;  ///< d force / d (positions, spatial spins), global axes; zero unless asked for
 };
 
-/// Corotational beam element: linear Timoshenko (or Euler) element in the frame of its chord.
+/// Corotational element: a linear element in the frame of its chord.
 class CorotationalElement {
  public:
-  /// Element straight and unstrained at length l0 [m] when its nodal triads coincide with its own.
-  CorotationalElement(const Section& section, double initialLength);
+  /// `stiffness` is that of the linear element in its own frame. Straight and unstrained at length
+  /// l0 [m] when its nodal triads coincide with its own.
+  CorotationalElement(const Matrix12& stiffness, double initialLength);
 
   /// For a mesh that is not straight at rest: the element triad E0 and the nodal triads at rest.
-  CorotationalElement(const Section& section, double initialLength, const Matrix3& element0,
+  CorotationalElement(const Matrix12& stiffness, double initialLength, const Matrix3& element0,
                       const Matrix3& node1, const Matrix3& node2);
 
   double initialLength() const { return initialLength_; }
@@ -52,8 +52,8 @@ class CorotationalElement {
 
  private:
   double initialLength_;
-  double axialStiffness_;                   ///< E S/l0
-  double torsionalStiffness_;               ///< G J/l0
+  double axialStiffness_;                   ///< E S/l0 of a beam
+  double torsionalStiffness_;               ///< G J/l0 of a beam
   Eigen::Matrix<double, 6, 6> rotational_;  ///< local moments against local rotations of both ends
   Matrix3 attach1_ =
       Matrix3::Identity();  ///< turns the nodal triad into what was the element triad at rest

@@ -1,69 +1,106 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Matrices of the two-node, twelve-dof beam element in its own frame: u, v, w, theta_x, theta_y,
-/// theta_z of node 1, then of node 2; z along the element, u' = +theta_y, v' = -theta_x. Nguyen et
-/// al. 2020, section 2.1.
+/// The interface of a finite element of the string. An element is one file that registers itself,
+/// in the tree or outside; a deck names it as `Drillstring/Element` or in a component.
 #pragma once
 
-#include <Eigen/Core>
+#include <Teuchos_ParameterList.hpp>
+#include <array>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
 
-#include "common/Types.hpp"
+#include "deck/Registry.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
+#include "substructures/beam/Corotational.hpp"
 #include "substructures/beam/Section.hpp"
 
 namespace tooljoint::beam {
 
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
+/// Which of u, v, w, theta_x, theta_y, theta_z of its nodes an element has.
+using DofMap = std::array<bool, 6>;
 
-/// K_a: axial E S/l, torsion G J/l, Timoshenko bending E I/(l^3 (1+phi)) in both planes [N/m, N, N
-/// m].
-Matrix12 stiffness(const Section& section, double length);
+/// Two-node element between neighbouring nodes of the string. All matrices are 12 x 12 in the frame
+/// of the element (BeamMatrices.hpp), with zero rows and columns at dofs that dofs() leaves out.
+/// They are asked for while equations are assembled, never in the step loop.
+class Element {
+ public:
+  Element(const Section& section, double length) : section_(section), length_(length) {}
+  virtual ~Element() = default;
 
-/// M_a: consistent (cubic Hermite) with rotary inertia rho I; linear in the axial and torsional
-/// dofs [kg, kg m, kg m2].
-Matrix12 mass(const Section& section, double length);
+  const Section& section() const { return section_; }
+  double length() const { return length_; }  ///< l0, unstrained [m]
 
-/// C_ac of the kinetic energy Omega D' C_ac D' with density rho I_p theta_y dtheta_x/dt [kg m2]. On
-/// the left-hand side of the equation of motion stand Omega (C_ac' - C_ac) dD/dt and dOmega/dt
-/// C_ac' D.
-Matrix12 gyroscopic(const Section& section, double length);
+  /// Dofs the element has; all unless overridden. The string holds a dof that no element at its
+  /// node has.
+  virtual DofMap dofs() const { return {true, true, true, true, true, true}; }
 
-/// F_thetaz: rho I_p l/2 at theta_z of either end [kg m2]; the load is -dOmega/dt F_thetaz.
-Vector12 spinLoad(const Section& section, double length);
+  /// K_a: symmetric, no force in a rigid motion [N/m, N, N m]. Its entries of w and theta_z give
+  /// the axial force and the torque of the static state.
+  virtual Matrix12 stiffness() const = 0;
+  /// M_a: symmetric [kg, kg m, kg m2].
+  virtual Matrix12 mass() const = 0;
+  /// C_a: damping of its own, beside the Rayleigh damping of the deck; zero unless overridden
+  /// [N s/m, N s, N m s].
+  virtual Matrix12 damping() const { return Matrix12::Zero(); }
+  /// C_ac of the kinetic energy Omega D' C_ac D', as beam::gyroscopic [kg m2].
+  virtual Matrix12 gyroscopic() const = 0;
+  /// F_thetaz of the load -dOmega/dt F_thetaz, as beam::spinLoad [kg m2].
+  virtual Vector12 spinLoad() const = 0;
+  /// Geometric stiffness of a unit axial force, tension positive [1/m, 1, m].
+  virtual Matrix12 geometricAxial() const = 0;
+  /// Geometric stiffness of a unit torque, on the left-hand side [1/m, 1, m].
+  virtual Matrix12 geometricTorque() const = 0;
+  /// Nodal loads [N, N m] of a constant force per length q [N/m] in element axes.
+  virtual Vector12 distributedLoad(const Vector3& q) const = 0;
 
-/// Geometric stiffness of a unit axial force (tension positive), int (u' du' + v' dv') dz, equation
-/// (4) [1/m, 1, m].
-Matrix12 geometricAxial(double length);
+  /// Forces and tangent at large displacements. Unless overridden: stiffness() in the frame of the
+  /// chord (CorotationalElement). Errors as CorotationalElement::evaluate.
+  virtual CorotationalResponse response(const ElementPose& pose, bool withTangent) const;
 
-/// Geometric stiffness of a unit torque (right-handed about z), int (v' du'' - u' dv'') dz on the
-/// left-hand side, equation (5); not symmetric.
-Matrix12 geometricTorque(double length);
+ private:
+  Section section_;
+  double length_;
+};
 
-/// Lateral integrals over both planes with the Hermite shape functions N of u and v.
-Matrix12 lateralMass(double length);        ///< int N' N dz [m]
-Matrix12 lateralSlope(double length);       ///< int N' dN/dz dz [1]
-Matrix12 lateralSlopeSlope(double length);  ///< int dN/dz' dN/dz dz [1/m]; equals geometricAxial
+/// Which dofs each node of a chain of elements has: those of the one or two elements it joins.
+std::vector<DofMap> nodalDofs(const std::vector<std::shared_ptr<const Element>>& chain);
 
-/// int N' N dz of the axial displacement w (linear shape functions) [m].
-Matrix12 axialMass(double length);
+/// Made from the parameters of its own, its section and its length [m].
+using ElementRegistry =
+    deck::Registry<Element, const Teuchos::ParameterList&, const Section&, double>;
 
-/// Consistent load [N, N m] of a constant distributed force q [N/m] in element axes: q l/2 at the
-/// ends with end moments of magnitude q l^2/12.
-Vector12 distributedLoad(const Vector3& q, double length);
+/// Registers an element under its name in the deck. `doc`: one sentence and the source it follows.
+/// Type is made from (section, length), or from (list of its own parameters, section, length).
+/// `const bool registered = addElement<Type>("Name", "...", parameters());`
+template <class Type>
+bool addElement(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
+  return ElementRegistry::instance().add(
+      name, {doc, std::move(parameters),
+             [](const Teuchos::ParameterList& list, const Section& section, double length) {
+               if constexpr (std::is_constructible_v<Type, const Section&, double>)
+                 return static_cast<void>(list), std::make_unique<Type>(section, length);
+               else
+                 return std::make_unique<Type>(list, section, length);
+             }});
+}
 
-/// blkdiag(E'Q1, E'Q1, E'Q2, E'Q2): turns dofs in the nodal frames Q1, Q2 into dofs in the element
-/// frame E (columns are axes), so that K_nodal = R' K_element R.
-Matrix12 rotation12(const Matrix3& element, const Matrix3& node1, const Matrix3& node2);
+/// What a deck chooses: an element by name, with the parameters of its own.
+struct ElementChoice {
+  std::string name = "Timoshenko";
+  Teuchos::ParameterList own;
 
-/// The same for what depends on slopes alone (geometric stiffness). The change of a nodal tangent t
-/// is theta x t, to which the spin theta_z about t gives nothing: the columns of theta_z of
-/// `rotation` = rotation12(...) are zero here. Turned by rotation12 itself, the spin of a node
-/// tilts the chord of a curved element by theta_z kappa l/2.
-Matrix12 slopeRotation(const Matrix12& rotation);
+  /// DeckError for a name that is not registered, and what the element refuses.
+  std::shared_ptr<const Element> make(const Section& section, double length) const {
+    return ElementRegistry::instance().make(name, own, section, length);
+  }
+};
 
-/// Element triad from its end points and nodal triads: z on the chord, x and y from the mean of the
-/// nodal y axes. ModelError if the points coincide or the mean y axis lies on the chord.
-Matrix3 elementTriad(const Vector3& x1, const Vector3& x2, const Matrix3& node1,
-                     const Matrix3& node2);
+/// Declares the choice `Element` and the lists of elements with parameters of their own.
+void declareElement(deck::ListSpec& list, deck::Default chosen, const std::string& doc);
+/// The choice of a validated list; `standard` where the list gives none. DeckError when the list of
+/// an element with required parameters is missing.
+ElementChoice readElement(const Teuchos::ParameterList& list, const ElementChoice& standard);
 
 }  // namespace tooljoint::beam

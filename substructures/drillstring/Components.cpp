@@ -50,6 +50,8 @@ void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   spec.real("Torsion Constant", "m4", Optional{}, Range::positive(),
             "Torsion constant J of a general section.")
       .expert();
+  beam::declareElement(spec, Optional{},
+                       "Finite element of this piece, where it differs from Drillstring/Element.");
   spec.list(materialSpec());
 }
 
@@ -67,10 +69,15 @@ beam::Material readMaterial(const ParameterList& list, const beam::Material& sta
   return material;
 }
 
+/// What a list gives, and the standard for the rest.
+SegmentDefaults readDefaults(const ParameterList& list, const SegmentDefaults& standard) {
+  return {readMaterial(list, standard.material), beam::readElement(list, standard.element)};
+}
+
 /// Reads one component; the first fault ends it.
 class ComponentReader {
  public:
-  ComponentReader(const beam::Material& standard, const Where& where)
+  ComponentReader(const SegmentDefaults& standard, const Where& where)
       : standard_(standard), where_(where) {}
 
   Component read(const std::string& name, const ParameterList& list) const {
@@ -89,11 +96,11 @@ class ComponentReader {
     if (own) {
       component.segments.push_back(segment(name, list, standard_));
     } else if (segments) {
-      const beam::Material material = readMaterial(list, standard_);
+      const SegmentDefaults standard = readDefaults(list, standard_);
       const ParameterList& pieces = list.sublist("Segments");
       for (auto it = pieces.begin(); it != pieces.end(); ++it)
         component.segments.push_back(segment(name + "/Segments/" + pieces.name(it),
-                                             pieces.sublist(pieces.name(it)), material));
+                                             pieces.sublist(pieces.name(it)), standard));
       if (component.segments.empty())
         fail(name + "/Segments", "The list is empty; a component needs at least one segment.");
     } else {
@@ -116,12 +123,14 @@ class ComponentReader {
   }
 
   Segment segment(const std::string& path, const ParameterList& list,
-                  const beam::Material& standard) const {
+                  const SegmentDefaults& standard) const {
     if (!list.isParameter("Length")) fail(path, "The segment has no Length.");
     Segment piece;
     piece.length = list.get<double>("Length");
     piece.elements = list.isParameter("Elements") ? list.get<int>("Elements") : 1;
-    piece.section = section(path, list, readMaterial(list, standard));
+    const SegmentDefaults own = readDefaults(list, standard);
+    piece.section = section(path, list, own.material);
+    piece.element = own.element;
     return piece;
   }
 
@@ -168,6 +177,10 @@ class ComponentReader {
       fail(name + "/Material",
            "A component made of Parts has no material of its own; give it where the parts are "
            "defined.");
+    if (list.isParameter("Element"))
+      fail(name + "/Element",
+           "A component made of Parts has no element of its own; give it where the parts are "
+           "defined.");
     for (const std::string& text : list.get<Teuchos::Array<std::string>>("Parts")) {
       try {
         component.parts.push_back(parseEntry(text));
@@ -190,7 +203,7 @@ class ComponentReader {
     component.gaugeRadius = list.get<double>("Gauge Radius");
   }
 
-  const beam::Material& standard_;
+  const SegmentDefaults& standard_;
   const Where& where_;
 };
 
@@ -240,7 +253,7 @@ deck::ListSpec libraryParameters() {
       .namedLists(componentParameters());
 }
 
-void readComponents(const ParameterList& list, const beam::Material& standard, const Where& where,
+void readComponents(const ParameterList& list, const SegmentDefaults& standard, const Where& where,
                     ComponentLibrary& library, std::vector<std::string>& faults) {
   const ComponentReader reader(standard, where);
   for (auto it = list.begin(); it != list.end(); ++it) {

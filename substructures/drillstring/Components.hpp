@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "deck/ListSpec.hpp"
-#include "substructures/beam/Section.hpp"
+#include "substructures/beam/Element.hpp"
 
 namespace Teuchos {
 class ParameterList;
@@ -25,6 +25,7 @@ struct Segment {
   double length = 0.0;  ///< [m]
   int elements = 1;
   beam::Section section;
+  beam::ElementChoice element;
 };
 
 /// `count` times the component `name`: one entry of an assembly, "3*collar".
@@ -45,6 +46,12 @@ struct Component {
   double gaugeRadius = 0.0;  ///< [m]
 };
 
+/// What pieces take that give none of their own.
+struct SegmentDefaults {
+  beam::Material material;
+  beam::ElementChoice element;
+};
+
 /// Components by name.
 using ComponentLibrary = std::map<std::string, Component>;
 
@@ -61,7 +68,7 @@ AssemblyEntry parseEntry(const std::string& text);
 
 /// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined
 /// before ...) go to `faults`, one rendered line each; the component is then left out.
-void readComponents(const Teuchos::ParameterList& list, const beam::Material& standard,
+void readComponents(const Teuchos::ParameterList& list, const SegmentDefaults& standard,
                     const Where& where, ComponentLibrary& library,
                     std::vector<std::string>& faults);
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The meshed string: nodes with their clearance, beam elements with their section, and the
+/// The meshed string: nodes with their clearance, finite elements, and the
 /// components they came from. A plain value made by readDrillString (DrillstringReader.hpp) or
 /// buildDrillString (Mesh.hpp).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "substructures/beam/Section.hpp"
+#include "substructures/beam/Element.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -22,11 +23,13 @@ struct Node {
   std::string component;  ///< assembly component the node belongs to (the upper one where two meet)
 };
 
-/// A beam element; element i joins nodes i and i+1.
+/// Element i joins nodes i and i+1.
 struct Element {
-  double length = 0.0;  ///< [m]
-  beam::Section section;
+  std::shared_ptr<const beam::Element> formulation;
   int instance = 0;  ///< index into DrillString::instances
+
+  double length() const { return formulation->length(); }  ///< [m]
+  const beam::Section& section() const { return formulation->section(); }
 };
 
 /// One occurrence of a component in the string.
@@ -38,7 +41,7 @@ struct Instance {
   int lastElement = 0;   ///< 0-based, inclusive
 };
 
-/// Straight chain of beam elements from the surface (node 0) to the bit (last node).
+/// Straight chain of elements from the surface (node 0) to the bit (last node).
 struct DrillString {
   std::vector<Node> nodes;  ///< elements.size() + 1
   std::vector<Element> elements;
@@ -51,6 +54,8 @@ struct DrillString {
   int elementCount() const { return static_cast<int>(elements.size()); }
   /// Length of the string [m].
   double length() const { return nodes.empty() ? 0.0 : nodes.back().s; }
+  /// The elements alone, from the surface down.
+  std::vector<std::shared_ptr<const beam::Element>> formulations() const;
   /// Depths of the nodes [m].
   std::vector<double> depths() const;
 };

@@ -25,8 +25,8 @@ beam::Material readMaterial(const Teuchos::ParameterList& list) {
 
 deck::ListSpec drillstringParameters() {
   const beam::Material steel;
-  return deck::ListSpec(here, "What the string is made of.")
-      .text("Library", deck::Optional{}, "Component library, an XML file relative to the deck.")
+  deck::ListSpec spec(here, "What the string is made of.");
+  spec.text("Library", deck::Optional{}, "Component library, an XML file relative to the deck.")
       .list(deck::ListSpec("Components",
                            "Components defined in the deck itself, beside those of the Library.")
                 .namedLists(componentParameters()))
@@ -39,24 +39,27 @@ deck::ListSpec drillstringParameters() {
                       "Young's modulus E.")
                 .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false},
                       "Ratio of lateral contraction to stretch (Poisson)."));
+  beam::declareElement(spec, std::string("Timoshenko"),
+                       "Finite element of components that give none.");
+  return spec;
 }
 
 StringSettings readDrillstring(const deck::Deck& deck) {
   const Teuchos::ParameterList& list = deck.list().sublist(here);
   StringSettings settings;
-  settings.material = readMaterial(list);
+  settings.defaults = {readMaterial(list), beam::readElement(list, {})};
   settings.assemblyWhere = deck.where(here + "/Assembly");
   std::vector<std::string> faults;
   if (list.isParameter("Library")) {
     const deck::Deck library =
         deck.readNamed(here + "/Library", list.get<std::string>("Library"), libraryParameters());
     readComponents(
-        library.list(), settings.material,
+        library.list(), settings.defaults,
         [&](const std::string& path) { return library.where(path); }, settings.library, faults);
   }
   if (list.isSublist("Components"))
     readComponents(
-        list.sublist("Components"), settings.material,
+        list.sublist("Components"), settings.defaults,
         [&](const std::string& path) { return deck.where(here + "/Components/" + path); },
         settings.library, faults);
   for (const std::string& text : list.get<Teuchos::Array<std::string>>("Assembly")) {

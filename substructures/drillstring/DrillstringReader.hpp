@@ -18,7 +18,7 @@ struct StringSettings {
   ComponentLibrary library;             ///< of the file and of the deck itself
   std::vector<AssemblyEntry> assembly;  ///< from the surface down
   std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
-  beam::Material material;              ///< of components that give none
+  SegmentDefaults defaults;             ///< of components that give none
 };
 
 /// Description of the list `Drillstring`.

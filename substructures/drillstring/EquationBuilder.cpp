@@ -27,7 +27,8 @@ void removeZeroTerms(std::vector<ElementTerm>& terms) {
 /// R.
 class Builder {
  public:
-  explicit Builder(const EquationInput& input) : in_(input) {
+  explicit Builder(const EquationInput& input)
+      : in_(input), gravity_(loads::acceleration(input.loads)) {
     model_.nodes = input.string.nodeCount();
     model_.held = input.held;
     model_.state = Vector::Zero(kNodeDofs * model_.nodes);
@@ -50,15 +51,14 @@ class Builder {
  private:
   void addElement(int e) {
     const auto i = static_cast<std::size_t>(e);
-    const auto& section = in_.string.elements[i].section;
-    const double length = in_.path.initialLength[i];
+    const beam::Element& element = *in_.string.elements[i].formulation;
     const Matrix3& triad = in_.path.elementFrame[i];
     const Matrix12 turn = beam::rotation12(triad, in_.path.frame[i], in_.path.frame[i + 1]);
     const auto nodal = [&turn](const Matrix12& matrix) -> Matrix12 {
       return turn.transpose() * matrix * turn;
     };
 
-    const Matrix12 structuralMass = nodal(beam::mass(section, length));
+    const Matrix12 structuralMass = nodal(element.mass());
     const Matrix12 stiffness = prestressedStiffness(e, turn);
     model_.mass.push_back(structuralMass);
     addStiffness("structure", kConstant, e, stiffness);
@@ -66,14 +66,20 @@ class Builder {
       add(model_.damping, "Rayleigh damping", kConstant, e,
           in_.damping.massCoefficient * structuralMass +
               in_.damping.stiffnessCoefficient * stiffness);
+    add(model_.damping, "element damping", kConstant, e, nodal(element.damping()));
+    addLineLoads(e, element, triad, turn);
+    if (in_.rotary.present()) addRotation(e, element, nodal, turn);
+    if (in_.mud != nullptr) addMud(e, element, triad.transpose() * gravity_, nodal, turn);
+  }
 
-    // weight rho S g along global Z (down); the mud adds its buoyancy
-    const Vector3 gravity = triad.transpose() * Vector3(0.0, 0.0, in_.loads.gravity);
-    if (in_.loads.gravity != 0.0)
-      addLoad("weight", kConstant, e,
-              turn.transpose() * beam::distributedLoad(section.massPerLength() * gravity, length));
-    if (in_.rotary.present()) addRotation(e, section, length, nodal, turn);
-    if (in_.mud != nullptr) addMud(e, section, length, gravity, nodal, turn);
+  void addLineLoads(int e, const beam::Element& element, const Matrix3& triad,
+                    const Matrix12& turn) {
+    const auto i = static_cast<std::size_t>(e);
+    const loads::LoadedElement loaded{element.section(), triad, in_.string.nodes[i].s,
+                                      in_.string.nodes[i + 1].s};
+    for (const auto& load : in_.loads)
+      for (const auto& line : load->onElement(loaded, in_.rotary))
+        addLoad(line.name, line.law, e, turn.transpose() * element.distributedLoad(line.force));
   }
 
   /// K_a + F K_gF + T K_gT, or the corotational tangent of the path state, in nodal frames.
@@ -83,35 +89,34 @@ class Builder {
       count("geometric stiffness");
       return in_.path.tangent[i];
     }
-    const double length = in_.path.initialLength[i];
-    Matrix12 stiffness = beam::stiffness(in_.string.elements[i].section, length);
+    const beam::Element& element = *in_.string.elements[i].formulation;
+    Matrix12 stiffness = element.stiffness();
     const double force = in_.path.axialForce(e);
     const double torque = in_.path.torque(e);
     if (force != 0.0 || torque != 0.0) {
       count("geometric stiffness");
-      stiffness += force * beam::geometricAxial(length) + torque * beam::geometricTorque(length);
+      stiffness += force * element.geometricAxial() + torque * element.geometricTorque();
     }
     return turn.transpose() * stiffness * turn;
   }
 
   /// Omega (C_ac' - C_ac) D', dOmega/dt C_ac' D on the left, -dOmega/dt F_thetaz on the right.
   template <class Nodal>
-  void addRotation(int e, const beam::Section& section, double length, const Nodal& nodal,
-                   const Matrix12& turn) {
-    const Matrix12 coupling = nodal(beam::gyroscopic(section, length));
+  void addRotation(int e, const beam::Element& element, const Nodal& nodal, const Matrix12& turn) {
+    const Matrix12 coupling = nodal(element.gyroscopic());
     add(model_.damping, "gyroscopic", "Omega", e, coupling.transpose() - coupling);
     addStiffness("spin-up", "dOmega/dt", e, coupling.transpose());
-    addLoad("spin-up", "dOmega/dt", e, -(turn.transpose() * beam::spinLoad(section, length)));
+    addLoad("spin-up", in_.rotary.scalar("dOmega/dt"), e, -(turn.transpose() * element.spinLoad()));
     count("gyroscopic matrices");
   }
 
   template <class Nodal>
-  void addMud(int e, const beam::Section& section, double length, const Vector3& gravity,
-              const Nodal& nodal, const Matrix12& turn) {
+  void addMud(int e, const beam::Element& element, const Vector3& gravity, const Nodal& nodal,
+              const Matrix12& turn) {
     const auto i = static_cast<std::size_t>(e);
     const double bore =
         in_.well.boreRadius(0.5 * (in_.string.nodes[i].s + in_.string.nodes[i + 1].s));
-    const auto mud = in_.mud->element(section, bore, length, gravity);
+    const auto mud = in_.mud->element(element.section(), bore, element.length(), gravity);
     model_.mass.back() += nodal(mud.mass);
     for (const auto& term : mud.damping)
       if (term.law == kConstant || in_.rotary.present())
@@ -119,10 +124,10 @@ class Builder {
     for (const auto& term : mud.stiffness)
       if (term.law == kConstant || in_.rotary.present())
         addStiffness(term.name, term.law, e, nodal(term.matrix));
-    addLoad("mud", kConstant, e, turn.transpose() * mud.load);
+    addLoad("mud", model::ScalarLaw::one(), e, turn.transpose() * mud.load);
   }
 
-  /// R_ipa, weight and torque on bit, unbalances and nodal forces.
+  /// R_ipa and the loads at nodes.
   void addNodalLoads() {
     Vector reaction = Eigen::Map<const Vector>(in_.path.reaction.data(), in_.path.reaction.size());
     if (reaction.any()) {
@@ -130,7 +135,7 @@ class Builder {
       model_.loads.push_back({"path reaction", constant, reaction});
       out_.pathReaction = std::move(reaction);
     }
-    for (const auto& load : loads::pointLoads(in_.loads, in_.rotary, in_.string.depths())) {
+    for (const auto& load : loads::pointLoads(in_.loads, in_.string.depths(), in_.rotary)) {
       Vector vector = Vector::Zero(kNodeDofs * model_.nodes);
       vector(kNodeDofs * (load.node - 1) + load.component) = load.value;
       if (load.law.name == kConstant) out_.load += vector;
@@ -156,20 +161,22 @@ class Builder {
     term->matrices[static_cast<std::size_t>(e)] += matrix;
   }
 
-  void addLoad(const std::string& name, const std::string& law, int e, const Vector12& vector) {
+  void addLoad(const std::string& name, const model::ScalarLaw& law, int e,
+               const Vector12& vector) {
     if (!vector.any()) return;
+    const int index = model_.lawIndex(law);
     auto load = std::find_if(model_.loads.begin(), model_.loads.end(),
-                             [&](const NodalLoad& l) { return l.name == name; });
+                             [&](const NodalLoad& l) { return l.name == name && l.law == index; });
     if (load == model_.loads.end()) {
-      if (law == kConstant) distributed_.push_back(model_.loads.size());
-      model_.loads.push_back(
-          {name, model_.lawIndex(in_.rotary.scalar(law)), Vector::Zero(kNodeDofs * model_.nodes)});
+      if (law.name == kConstant) distributed_.push_back(model_.loads.size());
+      model_.loads.push_back({name, index, Vector::Zero(kNodeDofs * model_.nodes)});
       load = std::prev(model_.loads.end());
     }
     load->vector.segment<12>(kNodeDofs * e) += vector;
   }
 
   const EquationInput& in_;
+  Vector3 gravity_;  ///< of the loads, global axes [m/s2]
   PathEquations out_;
   StringModel& model_ = out_.model;
   std::vector<std::size_t> distributed_;  ///< positions of the constant loads of the elements

@@ -9,8 +9,9 @@
 
 #include "substructures/drillstring/DrillString.hpp"
 #include "substructures/drillstring/StringModel.hpp"
-#include "substructures/loads/Loads.hpp"
-#include "substructures/mud/Mud.hpp"
+#include "substructures/loads/Damping.hpp"
+#include "substructures/loads/Load.hpp"
+#include "substructures/mud/MudModel.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/well/Well.hpp"
 
@@ -21,10 +22,10 @@ struct EquationInput {
   const DrillString& string;
   const well::Well& well;
   const path::PathState& path;
-  const std::vector<char>& held;  ///< 6 nodes; 1 where a support holds the dof
-  const mud::Mud* mud = nullptr;  ///< null: no mud
+  const std::vector<char>& held;       ///< 6 nodes; 1 where a support holds the dof
+  const mud::MudModel* mud = nullptr;  ///< null: no mud
   const loads::RotarySpeed& rotary;
-  const loads::LoadsData& loads;
+  const loads::Loads& loads;
   const loads::RayleighDamping& damping;
 };
 

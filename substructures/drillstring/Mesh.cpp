@@ -98,7 +98,7 @@ class Mesher {
     const std::size_t slot = out_.nested.size();
     if (!top) out_.nested.emplace_back();
     stack_.push_back(name);
-    for (const Segment& segment : component.segments) append(segment);
+    for (const Segment& segment : component.segments) append(segment, component.where);
     std::map<std::string, int> inner;
     bool good = true;
     for (const AssemblyEntry& entry : component.parts)
@@ -129,14 +129,21 @@ class Mesher {
     return sentence;
   }
 
-  void append(const Segment& segment) {
+  /// The elements of a segment are equal: one formulation for all.
+  void append(const Segment& segment, const std::string& where) {
+    std::shared_ptr<const beam::Element> formulation;
+    try {
+      formulation = segment.element.make(segment.section, segment.length / segment.elements);
+    } catch (const DeckError& error) {
+      fault(where, error.what());
+      return;
+    }
     const double start = out_.nodes.back().s;
     for (int i = 1; i <= segment.elements; ++i) {
       Node node;
       node.s = start + segment.length * i / segment.elements;
       out_.nodes.push_back(node);
-      out_.elements.push_back({segment.length / segment.elements, segment.section,
-                               static_cast<int>(out_.instances.size()) - 1});
+      out_.elements.push_back({formulation, static_cast<int>(out_.instances.size()) - 1});
     }
   }
 
@@ -159,11 +166,11 @@ class Mesher {
         if (first)
           node.component = out_.instances[static_cast<std::size_t>(element.instance)].component;
         const double bore = well_.boreRadius(node.s + (e < i ? -samePlace : samePlace));
-        const double clearance = bore - element.section.outerRadius();
+        const double clearance = bore - element.section().outerRadius();
         if (clearance < tightFit) tooWide(i, element, bore);
         if (first || clearance < node.clearance) {
           node.clearance = std::max(0.0, clearance);
-          node.contactRadius = element.section.outerRadius();
+          node.contactRadius = element.section().outerRadius();
         }
         first = false;
       }
@@ -174,7 +181,7 @@ class Mesher {
     const Instance& instance = out_.instances[static_cast<std::size_t>(element.instance)];
     if (!tooWide_.insert(element.instance).second) return;  // one line per occurrence
     fault(library_.at(instance.component).where,
-          "The outer radius " + formatNumber(element.section.outerRadius()) + " m of " +
+          "The outer radius " + formatNumber(element.section().outerRadius()) + " m of " +
               instance.path + " does not fit into the hole of radius " + formatNumber(bore) +
               " m at " + formatNumber(out_.nodes[static_cast<std::size_t>(node)].s) + " m (node " +
               std::to_string(node + 1) + ").");

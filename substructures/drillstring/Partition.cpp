@@ -143,7 +143,7 @@ std::vector<PartRange> cutParts(const DrillString& string, const PartitionRules&
     isOpen = true;
     open.lastElement = instance.lastElement;
     for (int e = instance.firstElement; e <= instance.lastElement; ++e)
-      length += string.elements[static_cast<std::size_t>(e)].length;
+      length += string.elements[static_cast<std::size_t>(e)].length();
     if (length < rules.length * (1.0 - 1e-12)) continue;
     parts.push_back(open);
     isOpen = false;

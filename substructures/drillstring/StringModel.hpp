@@ -15,7 +15,7 @@
 
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 #include "substructures/drillstring/Partition.hpp"
 
 namespace tooljoint::drillstring {

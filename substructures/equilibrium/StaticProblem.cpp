@@ -49,9 +49,12 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
     lists.emplace_back(first, first + 2 * kDofs);
     const beam::Matrix12 r =
         input.chordSlopes ? element.rotation : beam::slopeRotation(element.rotation);
-    unitAxial_.push_back(r.transpose() * beam::geometricAxial(element.length) * r);
-    unitTorque_.push_back(r.transpose() * beam::geometricTorque(element.length) * r);
-    length += element.length;
+    unitAxial_.push_back(r.transpose() * element.formulation->geometricAxial() * r);
+    unitTorque_.push_back(r.transpose() * element.formulation->geometricTorque() * r);
+    const beam::Matrix12 k = element.formulation->stiffness();
+    axialStiffness_.push_back(k(8, 8));
+    torsionalStiffness_.push_back(k(11, 11));
+    length += element.formulation->length();
   }
   if (input.contact != nullptr)
     for (const int node : input.contact->points().node) {
@@ -90,13 +93,13 @@ Vector StaticProblem::restrict(const Vector& full) const {
 
 double StaticProblem::axialForce(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return e.axialRigidity / e.length *
+  return axialStiffness_[at(element)] *
          (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
 }
 
 double StaticProblem::torque(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return e.torsionalRigidity / e.length *
+  return torsionalStiffness_[at(element)] *
          (e.rotation.row(11) - e.rotation.row(5)).dot(full.segment<12>(kDofs * element));
 }
 
@@ -170,9 +173,8 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
     if (switches_.geometricStiffness && switches_.exactJacobian) {
       // dK_gpo/dD D: F_apo and T_apo change with D
       const beam::Matrix12& r = element.rotation;
-      k += element.axialRigidity / element.length * (unitAxial_[at(e)] * d) * (r.row(8) - r.row(2));
-      k += element.torsionalRigidity / element.length * (unitTorque_[at(e)] * d) *
-           (r.row(11) - r.row(5));
+      k += axialStiffness_[at(e)] * (unitAxial_[at(e)] * d) * (r.row(8) - r.row(2));
+      k += torsionalStiffness_[at(e)] * (unitTorque_[at(e)] * d) * (r.row(11) - r.row(5));
     }
     assembler_.add(e, k, jacobian);
   }

@@ -17,12 +17,10 @@ namespace tooljoint::equilibrium {
 
 /// Element e joins nodes e and e + 1.
 struct StaticElement {
-  beam::Matrix12 stiffness;        ///< everything linear, K_pa of the element, in nodal frames
-  beam::Matrix12 rotation;         ///< nodal dofs to the element frame (beam::rotation12)
-  double length = 0.0;             ///< [m]
-  double axialRigidity = 0.0;      ///< E S [N]
-  double torsionalRigidity = 0.0;  ///< G J [N m2]
-  double bendingMoment = 0.0;      ///< E I kappa of the well [N m], the scale of the torque balance
+  std::shared_ptr<const beam::Element> formulation;
+  beam::Matrix12 stiffness;    ///< everything linear, K_pa of the element, in nodal frames
+  beam::Matrix12 rotation;     ///< nodal dofs to the element frame (beam::rotation12)
+  double bendingMoment = 0.0;  ///< E I kappa of the well [N m], the scale of the torque balance
 };
 
 /// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path
@@ -87,8 +85,8 @@ class StaticProblem : public model::NonlinearProblem {
   /// is the reaction of its support on the string [N, N m].
   Vector unbalanced(const Vector& full) const;
 
-  /// F_apo = E S (w2 - w1)/l and T_apo = G J (theta_z2 - theta_z1)/l in the element frame, equation
-  /// (20) [N, N m].
+  /// F_apo = k_ww (w2 - w1) and T_apo = k_theta (theta_z2 - theta_z1) in the element frame; for a
+  /// beam k_ww = E S/l and k_theta = G J/l, equation (20) [N, N m].
   double axialForce(int element, const Vector& full) const;
   double torque(int element, const Vector& full) const;
   /// F_apo K_gF + T_apo K_gT of an element in nodal frames.
@@ -110,6 +108,8 @@ class StaticProblem : public model::NonlinearProblem {
   int unknowns_ = 0;
   std::vector<int> index_;                  ///< unknown of each dof, -1 when held
   beam::SparseAssembler assembler_;         ///< elements first, then contact points (u, v, theta_z)
+  std::vector<double> axialStiffness_;      ///< k_ww per element [N/m]
+  std::vector<double> torsionalStiffness_;  ///< k_theta per element [N m]
   std::vector<beam::Matrix12> unitAxial_;   ///< K_gF per unit F in nodal frames
   std::vector<beam::Matrix12> unitTorque_;  ///< K_gT per unit T in nodal frames
   double forceScale_ = 1.0;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/Types.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::equilibrium {
 

@@ -10,10 +10,10 @@ namespace {
 /// The straight string: unstretched nodes below the wellhead, no rotation.
 Vector straightState(const PathInput& input) {
   Vector3 position = input.trajectory->at(0.0).position;
-  Vector state = Vector::Zero(6 * (static_cast<int>(input.lengths.size()) + 1));
+  Vector state = Vector::Zero(6 * (static_cast<int>(input.elements.size()) + 1));
   state.head<3>() = position;
-  for (std::size_t e = 0; e < input.lengths.size(); ++e) {
-    position.z() += input.lengths[e];
+  for (std::size_t e = 0; e < input.elements.size(); ++e) {
+    position.z() += input.elements[e]->length();
     state.segment<3>(6 * (static_cast<int>(e) + 1)) = position;
   }
   return state;
@@ -24,7 +24,7 @@ Vector straightState(const PathInput& input) {
 ImposedNodesProblem::ImposedNodesProblem(const PathInput& input, std::vector<int> imposed,
                                          Imposition imposition, double factor)
     : PathProblem(input, 3, straightState(input),
-                  std::vector<Matrix3>(input.lengths.size() + 1, Matrix3::Identity()),
+                  std::vector<Matrix3>(input.elements.size() + 1, Matrix3::Identity()),
                   {0, 1, 2, 5}),
       imposed_(std::move(imposed)),
       imposition_(imposition),

@@ -18,19 +18,23 @@ constexpr int kMaxHalvings = 6;
 
 std::vector<double> unstretchedDepths(const PathInput& input) {
   std::vector<double> depths{0.0};
-  for (const double length : input.lengths) depths.push_back(depths.back() + length);
+  for (const auto& element : input.elements) depths.push_back(depths.back() + element->length());
   return depths;
 }
 
-void check(const PathInput& input) {
+void check(const PathInput& input, Mode mode) {
   if (input.trajectory == nullptr) throw ModelError("The path needs a well trajectory.");
-  if (input.lengths.empty() || input.lengths.size() != input.sections.size())
-    throw ModelError(
-        "The path needs a string of at least one element, with one section for each length.");
-  for (std::size_t e = 0; e < input.lengths.size(); ++e)
-    if (!(input.lengths[e] > 0.0))
-      throw ModelError("Element " + std::to_string(e + 1) +
-                       " of the string has no positive length.");
+  if (input.elements.empty()) throw ModelError("The path needs a string of at least one element.");
+  for (std::size_t e = 0; e < input.elements.size(); ++e) {
+    const std::string who = "Element " + std::to_string(e + 1) + " of the string ";
+    if (!(input.elements[e]->length() > 0.0)) throw ModelError(who + "has no positive length.");
+    const beam::DofMap dofs = input.elements[e]->dofs();
+    if (mode == Mode::ImposedNodes &&
+        !std::all_of(dofs.begin(), dofs.end(), [](bool has) { return has; }))
+      throw ModelError(who +
+                       "lacks some of the dofs u, v, w, theta_x, theta_y and theta_z, which "
+                       "/Path/Mode \"Imposed nodes\" needs. Use \"Centre line\".");
+  }
 }
 
 /// Depth of the foot of X on the axis: (X - C(s)) . t(s) = 0, Newton from s.
@@ -82,7 +86,6 @@ void describe(const PathInput& input, const PathOptions& options, const PathProb
     state.reaction.col(n).head<3>() = -(q.transpose() * forces.col(n).head<3>());
     state.reaction.col(n).tail<3>() = -(q.transpose() * forces.col(n).tail<3>());
   }
-  state.initialLength = input.lengths;
   const int elements = static_cast<int>(responses.size());
   state.axialForce.resize(elements);
   state.torque.resize(elements);
@@ -239,7 +242,7 @@ PathState byImposedNodes(const PathInput& input, const PathOptions& options,
 
 PathState computePath(const PathInput& input, const PathOptions& options,
                       const model::NonlinearSolver& solve) {
-  check(input);
+  check(input, options.mode);
   return options.mode == Mode::CentreLine ? alongCentreLine(input, options, solve)
                                           : byImposedNodes(input, options, solve);
 }

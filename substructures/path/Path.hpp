@@ -4,11 +4,12 @@
 /// beams.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "deck/ListSpec.hpp"
 #include "model/NonlinearSolve.hpp"
-#include "substructures/beam/Section.hpp"
+#include "substructures/beam/Element.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/well/Trajectory.hpp"
 
@@ -20,8 +21,7 @@ namespace tooljoint::path {
 
 /// The string as the path sees it: elements from the surface down.
 struct PathInput {
-  std::vector<beam::Section> sections;           ///< per element
-  std::vector<double> lengths;                   ///< l0 per element [m]
+  std::vector<std::shared_ptr<const beam::Element>> elements;
   const well::Trajectory* trajectory = nullptr;  ///< must outlive the call
 };
 
@@ -50,7 +50,9 @@ deck::ListSpec parameters();
 PathOptions optionsFrom(const Teuchos::ParameterList& path);
 
 /// The path state. Throws ConvergenceError when a load step fails even after it was halved
-/// repeatedly, and ModelError for an empty string or imposed nodes that do not exist.
+/// repeatedly, and ModelError for an empty string, imposed nodes that do not exist, or elements
+/// that `Imposed nodes` cannot bend. Rotations that no element at a node has stay those of the
+/// well.
 PathState computePath(const PathInput& input, const PathOptions& options,
                       const model::NonlinearSolver& solve);
 PathState computePath(const PathInput& input, const Teuchos::ParameterList& path,

@@ -10,10 +10,19 @@
 namespace tooljoint::path {
 PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
                          std::vector<Matrix3> reference, const std::vector<int>& held)
-    : translations_(translations), state_(std::move(state)), reference_(std::move(reference)) {
+    : translations_(translations),
+      state_(std::move(state)),
+      reference_(std::move(reference)),
+      elements_(input.elements) {
   const int perNode = dofsPerNode();
   index_.assign(at(nodes() * perNode), 0);
   for (const int dof : held) index_[at(dof)] = -1;
+  const std::vector<beam::DofMap> present = beam::nodalDofs(elements_);
+  for (int node = 0; node < nodes(); ++node) {
+    if (translations == 1 && !present[at(node)][2]) index_[at(node * perNode)] = -1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!present[at(node)][at(3 + axis)]) index_[at(node * perNode + translations + axis)] = -1;
+  }
   for (int& index : index_)
     if (index >= 0) index = unknowns_++;
 
@@ -21,13 +30,12 @@ PathProblem::PathProblem(const PathInput& input, int translations, Vector state,
   double rigidity = 0.0;
   double stretch = 0.0;
   double length = 0.0;
-  for (std::size_t e = 0; e < input.sections.size(); ++e) {
-    const beam::Section& section = input.sections[e];
-    elements_.emplace_back(section, input.lengths[e]);
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const beam::Section& section = elements_[e]->section();
     rigidity = std::max(rigidity,
                         section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()));
-    stretch = std::max(stretch, section.axialRigidity() / input.lengths[e]);
-    length += input.lengths[e];
+    stretch = std::max(stretch, section.axialRigidity() / elements_[e]->length());
+    length += elements_[e]->length();
     const auto first = index_.begin() + static_cast<std::ptrdiff_t>(e) * perNode;
     lists.emplace_back(first, first + 2 * perNode);
   }
@@ -101,7 +109,7 @@ std::vector<beam::CorotationalResponse> PathProblem::evaluate(const Vector& stat
   NodePose first = pose(0, state);
   for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
     const NodePose second = pose(e + 1, state);
-    out.push_back(elements_[at(e)].evaluate(
+    out.push_back(elements_[at(e)]->response(
         {first.position, second.position, first.triad, second.triad}, withTangent));
     first = second;
   }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/NonlinearProblem.hpp"
-#include "substructures/beam/Corotational.hpp"
 #include "substructures/beam/SparseAssembler.hpp"
 #include "substructures/path/Path.hpp"
 
@@ -42,7 +41,8 @@ class PathProblem : public model::NonlinearProblem {
 
  protected:
   /// `translations` per node: 1 or 3. `state` holds translations and rotation vector (zero) of all
-  /// nodes; dofs in `held` (positions in `state`) keep their values.
+  /// nodes; dofs in `held` (positions in `state`) and rotations (along a curve depths too) that no
+  /// element has keep their values.
   PathProblem(const PathInput& input, int translations, Vector state,
               std::vector<Matrix3> reference, const std::vector<int>& held);
 
@@ -80,7 +80,7 @@ class PathProblem : public model::NonlinearProblem {
   Vector state_;
   std::vector<Matrix3> reference_;
   std::vector<int> index_;  ///< unknown of each dof, -1 when held
-  std::vector<beam::CorotationalElement> elements_;
+  std::vector<std::shared_ptr<const beam::Element>> elements_;
   beam::SparseAssembler assembler_;
   double forceScale_ = 1.0;
   double momentScale_ = 1.0;

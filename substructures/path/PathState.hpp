@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/Types.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::path {
 
@@ -30,7 +30,6 @@ struct PathState {
   std::vector<Vector3>
       offset;  ///< position minus foot on the axis, in the nodal frame [m]; zero in `Centre line`
   std::vector<Matrix3> elementFrame;  ///< E: z on the chord, x and y from the mean nodal frames
-  std::vector<double> initialLength;  ///< l0 [m]
   std::vector<double> chordLength;    ///< l [m]
   Matrix reaction;                    ///< R_ipa = -Q' f_int, 6 x nodes, nodal frames [N, N m]
   Vector axialForce;                  ///< F_apa per element [N]

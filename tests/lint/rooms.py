@@ -26,7 +26,7 @@ TOOLKIT = {
 DRILLSTRING = {
     "well": ("", GROUND, "trajectories, surveys, bore"),
     "beam": ("", GROUND, "sections, elements, rotations"),
-    "loads": ("", GROUND, "gravity, forces, unbalance, rotary speed"),
+    "loads": ("beam", GROUND, "gravity, forces, unbalance, rotary speed"),
     "contact": ("", GROUND, "the borehole wall"),
     "mud": ("beam", GROUND, "added mass, drag, flow"),
     "path": ("beam well", GROUND, "bending of the string into the well"),

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::testing_ {
 

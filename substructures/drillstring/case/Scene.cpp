@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "parts/PartsParameters.hpp"
@@ -70,6 +71,19 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
   }
 }
 
+/// Loads at nodes that do not exist (DeckError) or on held dofs.
+void checkLoads(const Scene& scene, Faults& faults) {
+  for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary)) {
+    if (load.parameter.empty() || scene.held[at(kNodeDofs * (load.node - 1) + load.component)] == 0)
+      continue;
+    const std::string node =
+        load.node == scene.string.nodeCount() ? "the bit" : "node " + std::to_string(load.node);
+    faults.add(load.parameter, "acts on a held dof: " + componentNames()[at(load.component)] +
+                                   " of " + node +
+                                   " is held by the Supports. Release it, or leave the load out.");
+  }
+}
+
 /// What only several lists together can tell.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -104,20 +118,6 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Contact/Friction",
                "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
                "Transient, or leave Friction out.");
-  if (scene.loads.weightOnBit < 0.0)
-    faults.add("Loads/Weight On Bit",
-               "pulls at the bit: found " + formatNumber(scene.loads.weightOnBit) +
-                   " N. A weight on bit is positive when it compresses the string.");
-  const auto dofs = scene.held.size() - 6;
-  const auto held = [&](std::size_t dof) { return scene.held[dof] != 0; };
-  if (scene.loads.weightOnBit != 0.0 && held(dofs + 2))
-    faults.add("Loads/Weight On Bit",
-               "acts on a held dof: w of the bit is held by the Supports. Release it, or leave the "
-               "load out.");
-  if (scene.loads.torqueOnBit != 0.0 && held(dofs + 5))
-    faults.add("Loads/Torque On Bit",
-               "acts on a held dof: theta_z of the bit is held by the Supports. Release it, or "
-               "leave the load out.");
   if (scene.freeDofs() == 0)
     faults.add("Supports",
                "hold every dof of the string; nothing is left to compute. Release some.");
@@ -126,6 +126,15 @@ void crossCheck(const Scene& scene, Faults& faults) {
 }  // namespace
 
 namespace {
+
+/// 6 flags per node: held by a support, or since no element at the node has the dof.
+std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string) {
+  std::vector<char> held = supports.held(string.nodeCount());
+  const auto present = beam::nodalDofs(string.formulations());
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (!present[i / kNodeDofs][i % kNodeDofs]) held[i] = 1;
+  return held;
+}
 
 /// The parts of the string before they are made.
 std::vector<coupling::PartOutline> outlines(const Scene& scene) {
@@ -173,16 +182,16 @@ Scene readScene(const deck::Deck& deck) {
   std::optional<DrillString> string;
   faults.attempt([&] { well = well::readWell(list.sublist("Well"), deck.folder()); });
   if (well) faults.attempt([&] { string = buildDrillString(readDrillstring(deck), *well); });
-  std::optional<mud::Mud> mud;
+  std::shared_ptr<const mud::MudModel> mud;
   std::optional<contact::ContactSettings> contact;
   loads::RotarySpeed rotary;
-  loads::LoadsData loads;
+  loads::Loads loads;
   loads::RayleighDamping damping;
   SupportSettings supports;
   path::PathOptions path;
   equilibrium::StaticOptions statics;
   PartitionRules partition;
-  if (list.isSublist("Mud")) faults.attempt([&] { mud.emplace(list.sublist("Mud")); });
+  if (list.isSublist("Mud")) faults.attempt([&] { mud = mud::readMud(list.sublist("Mud")); });
   if (list.isSublist("Contact"))
     faults.attempt([&] { contact = contact::readContact(list.sublist("Contact")); });
   faults.attempt([&] { rotary = loads::RotarySpeed::fromDeck(list); });
@@ -209,12 +218,12 @@ Scene readScene(const deck::Deck& deck) {
   if (scene.coupling)
     faults.attempt(
         [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });
-  faults.attempt([&] { scene.held = supports.held(scene.string.nodeCount()); });
+  faults.attempt([&] { scene.held = heldDofs(supports, scene.string); });
   faults.raise();
   if (contact)
     faults.attempt(
         [&] { scene.contactPoints = contactPoints(*contact, scene.string, scene.held); });
-  faults.attempt([&] { loads::pointLoads(loads, rotary, scene.string.depths()); });
+  faults.attempt([&] { checkLoads(scene, faults); });
   if (scene.reduces()) {
     faults.attempt([&] {
       requireKnownNodes(scene.string, partition);

@@ -4,6 +4,7 @@
 /// run start from.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@
 #include "substructures/drillstring/Partition.hpp"
 #include "substructures/drillstring/Supports.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
-#include "substructures/loads/Loads.hpp"
+#include "substructures/loads/Damping.hpp"
+#include "substructures/loads/Load.hpp"
 #include "substructures/loads/RotarySpeed.hpp"
-#include "substructures/mud/Mud.hpp"
+#include "substructures/mud/MudModel.hpp"
 #include "substructures/path/Path.hpp"
 #include "substructures/well/Well.hpp"
 
@@ -31,12 +33,12 @@ struct Scene {
   well::Well well;
   DrillString string;
   SupportSettings supports;
-  std::vector<char> held;  ///< 6 per node
-  std::optional<mud::Mud> mud;
+  std::vector<char> held;  ///< 6 per node: by a support, or since no element there has the dof
+  std::shared_ptr<const mud::MudModel> mud;  ///< null: no mud
   std::optional<contact::ContactSettings> contact;
   contact::ContactPoints contactPoints;  ///< empty without contact
   loads::RotarySpeed rotary;
-  loads::LoadsData loads;
+  loads::Loads loads;
   loads::RayleighDamping damping;
   path::PathOptions path;
   equilibrium::StaticOptions statics;

@@ -43,10 +43,7 @@ Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) 
 
 path::PathState bend(const Scene& scene) {
   path::PathInput input;
-  for (const auto& element : scene.string.elements) {
-    input.sections.push_back(element.section);
-    input.lengths.push_back(element.length);
-  }
+  input.elements = scene.string.formulations();
   input.trajectory = &scene.well.trajectory();
   return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
 }
@@ -62,13 +59,11 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
   input.geometricStiffness = scene.statics.geometricStiffness;
   for (int e = 0; e < equations.model.elements(); ++e) {
     const auto i = static_cast<std::size_t>(e);
-    const auto& section = scene.string.elements[i].section;
+    const auto& section = scene.string.elements[i].section();
     equilibrium::StaticElement element;
+    element.formulation = scene.string.elements[i].formulation;
     element.stiffness = equations.stiffness[i];
     element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
-    element.length = path.initialLength[i];
-    element.axialRigidity = section.axialRigidity();
-    element.torsionalRigidity = section.torsionalRigidity();
     const double curvature =
         std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
                  scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
@@ -158,9 +153,9 @@ StaticStage findEquilibrium(const Scene& scene) {
   StaticStage stage;
   stage.friction = staticFriction(scene);
   stage.path = bend(scene);
-  const mud::Mud* mud = scene.mud ? &*scene.mud : nullptr;
-  const auto equations = buildEquations({scene.string, scene.well, stage.path, scene.held, mud,
-                                         scene.rotary, scene.loads, scene.damping});
+  const auto equations =
+      buildEquations({scene.string, scene.well, stage.path, scene.held, scene.mud.get(),
+                      scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, equations.model);
   const auto input = staticInput(scene, stage.path, equations, stage.friction);
   try {
@@ -187,9 +182,9 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
                             " N m: the balance of torque is off by " +
                             formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
                             formatNumber(std::round(state.torqueScale)) + " N m. ";
-  const bool round =
-      std::all_of(scene.string.elements.begin(), scene.string.elements.end(),
-                  [](const Element& e) { return e.section.inertiaX() == e.section.inertiaY(); });
+  const bool round = std::all_of(
+      scene.string.elements.begin(), scene.string.elements.end(),
+      [](const Element& e) { return e.section().inertiaX() == e.section().inertiaY(); });
   if (scene.path.prestress == path::Prestress::AxialAndTorque)
     log::warn(found +
               "The pre-stress \"Axial and torque\" resists a spin about the curved axis; "
@@ -237,7 +232,7 @@ NodeState nodeState(const Scene& scene, const StaticStage& stage) {
     nodes.candidate[static_cast<std::size_t>(node)] = 1;
   }
   std::set<int> loaded;
-  for (const auto& load : loads::pointLoads(scene.loads, scene.rotary, scene.string.depths())) {
+  for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary)) {
     const int dof = kNodeDofs * (load.node - 1) + load.component;
     if (load.value != 0.0 && !scene.held[static_cast<std::size_t>(dof)]) loaded.insert(dof);
   }

@@ -17,18 +17,14 @@ std::string families(const SupportSettings& supports) {
 }
 
 std::vector<cases::OutlineItem> physics(const Scene& scene) {
-  const auto& loads = scene.loads;
   const bool turns = scene.rotary.present();
   const bool friction = scene.contact && scene.contact->friction;
   const auto resting = staticFriction(scene);
-  const bool unbalance = !loads.unbalances.empty() && turns;
-  return {
+  std::vector<cases::OutlineItem> items{
       {true, "motions", families(scene.supports) + " dofs"},
-      {loads.gravity != 0.0, "weight",
-       loads.gravity != 0.0 ? "g = " + formatNumber(loads.gravity) + " m/s2"
-                            : "no gravity in Loads"},
-      {scene.mud.has_value(), "mud",
-       scene.mud ? "added mass, damping and buoyancy in every element" : "no Mud list"},
+      {scene.mud != nullptr, "mud",
+       scene.mud ? scene.list().sublist("Mud").get<std::string>("Model") + " in every element"
+                 : "no Mud list"},
       {scene.contact.has_value(), "contact",
        scene.contact ? scene.contact->lawName + " law at " +
                            std::to_string(scene.contactPoints.size()) + " nodes"
@@ -40,12 +36,12 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
        scene.statics.geometricStiffness ? "of the static axial force and torque"
                                         : "switched off in Static"},
       {scene.damping.present(), "Rayleigh damping",
-       scene.damping.present() ? "" : "no Damping list"},
-      {loads.weightOnBit != 0.0, "weight on bit", formatNumber(loads.weightOnBit) + " N"},
-      {loads.torqueOnBit != 0.0, "torque on bit", formatNumber(loads.torqueOnBit) + " N m"},
-      {unbalance, "mass unbalance",
-       std::to_string(loads.unbalances.size()) +
-           (turns ? " places" : " places, but nothing turns")}};
+       scene.damping.present() ? "" : "no Damping list"}};
+  if (scene.loads.empty()) items.push_back({false, "loads", "no Loads list"});
+  for (const auto& load : scene.loads)
+    for (const auto& remark : load->describe(scene.rotary))
+      items.push_back({remark.acts, remark.load, remark.text});
+  return items;
 }
 
 }  // namespace

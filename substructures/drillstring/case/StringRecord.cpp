@@ -19,7 +19,7 @@ io::XdmfScene pictureOf(const Scene& scene, const StaticStage& stage) {
   for (int i = 0; i < scene.string.nodeCount(); ++i) {
     const auto n = static_cast<std::size_t>(i);
     const auto& element = scene.string.elements[std::min(n, scene.string.elements.size() - 1)];
-    out.radius.push_back(element.section.outerRadius());
+    out.radius.push_back(element.section().outerRadius());
     out.wallRadius.push_back(scene.well.boreRadius(scene.string.nodes[n].s));
   }
   return out;

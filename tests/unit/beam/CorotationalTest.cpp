@@ -8,6 +8,7 @@
 #include <random>
 
 #include "substructures/beam/Rotation.hpp"
+#include "substructures/beam/Section.hpp"
 
 namespace tooljoint::beam {
 namespace {
@@ -22,7 +23,7 @@ Vector3 randomVector(std::mt19937& generator, double size) {
 Section lopsided() { return Section::general(2.0, 1.3, 0.9, 1.7, Material{1.0, 10.0, 0.3}); }
 
 CorotationalElement bentAtRest() {
-  return CorotationalElement(lopsided(), 1.2, rotationExponential({0.1, 0.2, 0.3}),
+  return CorotationalElement(stiffness(lopsided(), 1.2), 1.2, rotationExponential({0.1, 0.2, 0.3}),
                              rotationExponential({0.2, 0.2, 0.3}),
                              rotationExponential({0.1, 0.1, 0.5}));
 }
@@ -103,7 +104,7 @@ TEST(Corotational, TangentIsExact) {
 
 TEST(Corotational, RigidMotionLeavesTheElementUnstrained) {
   const Section steel = Section::hollow(0.06, 0.05, Material{});
-  const CorotationalElement element(steel, 0.7);
+  const CorotationalElement element(stiffness(steel, 0.7), 0.7);
   std::mt19937 generator(4);
   for (int i = 0; i < 5; ++i) {
     ElementPose pose;
@@ -137,7 +138,7 @@ TEST(Corotational, ForcesTurnWithTheElementAndBalance) {
 
 TEST(Corotational, TangentAtRestIsTheLinearElement) {
   const Section steel = Section::hollow(0.08, 0.04, Material{});
-  const CorotationalElement element(steel, 1.1);
+  const CorotationalElement element(stiffness(steel, 1.1), 1.1);
   const ElementPose pose{
       Vector3::Zero(), {0.0, 0.0, 1.1}, Matrix3::Identity(), Matrix3::Identity()};
   const Matrix12 linear = stiffness(steel, 1.1);
@@ -150,7 +151,7 @@ TEST(Corotational, TangentCarriesTheAxialForceAndTheTorque) {
   // Hermite matrix adds bending of the element, which the corotational one leaves to the mesh).
   const Section steel = Section::hollow(0.08, 0.04, Material{});
   const double l = 1.0;
-  const CorotationalElement element(steel, l);
+  const CorotationalElement element(stiffness(steel, l), l);
   const double strain = 1e-4;
   const ElementPose pose{
       Vector3::Zero(), {0.0, 0.0, l * (1.0 + strain)}, Matrix3::Identity(), Matrix3::Identity()};
@@ -165,7 +166,7 @@ TEST(Corotational, TangentCarriesTheAxialForceAndTheTorque) {
 }
 
 TEST(Corotational, CoincidentNodesAreRefused) {
-  const CorotationalElement element(lopsided(), 1.0);
+  const CorotationalElement element(stiffness(lopsided(), 1.0), 1.0);
   const ElementPose pose{Vector3::Zero(), Vector3::Zero(), Matrix3::Identity(),
                          Matrix3::Identity()};
   EXPECT_THROW(element.evaluate(pose, false), ModelError);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 #include "tests/support/PolynomialMotion.hpp"
 
 namespace tooljoint::beam {

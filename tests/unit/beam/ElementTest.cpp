@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Signs, symmetries and totals of the element matrices.
-#include "substructures/beam/Element.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "common/Constants.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 #include "substructures/beam/Rotation.hpp"
 
 namespace tooljoint::beam {

@@ -10,133 +10,16 @@
 #include <set>
 #include <string>
 
-#include "common/Constants.hpp"
 #include "common/Index.hpp"
-#include "substructures/beam/Rotation.hpp"
-#include "substructures/drillstring/EquationBuilder.hpp"
-#include "tests/support/PolynomialMotion.hpp"
+#include "substructures/mud/AnnularFlow.hpp"
+#include "tests/unit/drillstring/InclinedString.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
 
-using testing_::firstMotion;
-using testing_::integral;
-using testing_::PolynomialMotion;
-using testing_::secondMotion;
-
+using namespace testing_;
 using constants::pi;
-const std::vector<double> depths{0.0, 2.0, 5.0};
-const std::vector<double> bore{0.15, 0.108};      // of the two elements [m]
-const std::vector<double> outer{0.0795, 0.0635};  // [m]
-const std::vector<double> inner{0.0355, 0.054};   // [m]
-const std::vector<double> axialForce{3e4, -2e4};  // of the path state [N]
-const std::vector<double> torque{-4e3, 7e3};      // [N m]
-constexpr double density = 7900.0, youngModulus = 2.03e11, shearModulus = youngModulus / 2.6,
-                 gravity = 9.81;
-
-double square(double x) { return x * x; }
-
-/// Omega = 3 + 2 t: no number of one law is that of another.
-class Rising final : public loads::SpeedLaw {
- public:
-  double speed(double t) const override { return 3.0 + 2.0 * t; }
-  double acceleration(double) const override { return 2.0; }
-  double angle(double t) const override { return 3.0 * t + t * t; }
-};
-
-mud::MudProperties fluid() {
-  mud::MudProperties p;
-  p.density = 1200.0;
-  p.frictionCoefficient = 0.013;
-  p.kinematicViscosity = 3e-6;
-  p.flowRate = 0.02;
-  return p;
-}
-
-/// The scene. Element axes lie along a well of 40 degrees inclination; the nodal axes are those of
-/// the elements turned about the tangent by 0.3 rad times the number of the node.
-struct Scene {
-  well::Well well{well::straight(20.0, 0.7, 0.4),
-                  0.108,
-                  {{"casing", 0.0, 1.5, 0.15}, {"liner", 1.5, 3.0, 0.13}}};
-  DrillString string;
-  path::PathState path;
-  std::vector<char> held = std::vector<char>(18, 0);
-  loads::RotarySpeed rotary;
-  loads::LoadsData loads;
-  loads::RayleighDamping damping;
-  const mud::Mud* mud = nullptr;
-  Matrix3 axes;
-
-  Scene() {
-    const Vector3 tangent = well.at(1.0).tangent;
-    axes.col(2) = tangent;
-    axes.col(0) = Vector3(0.0, 1.0, 0.0).cross(tangent).normalized();
-    axes.col(1) = tangent.cross(axes.col(0));
-    const beam::Material steel{density, youngModulus, 0.3};
-    for (std::size_t n = 0; n < 3; ++n) {
-      Node node;
-      node.s = depths[n];
-      string.nodes.push_back(node);
-      path.frame.push_back(
-          axes * beam::rotationExponential(Vector3(0.0, 0.0, 0.3 * static_cast<double>(n))));
-    }
-    for (std::size_t e = 0; e < 2; ++e) {
-      Element element;
-      element.length = depths[e + 1] - depths[e];
-      element.section = beam::Section::hollow(outer[e], inner[e], steel).withoutShear();
-      string.elements.push_back(element);
-      path.elementFrame.push_back(axes);
-      path.initialLength.push_back(element.length);
-      path.chordLength.push_back(element.length);
-    }
-    path.reaction = Matrix::Zero(6, 3);
-    path.axialForce = Vector::Zero(2);
-    path.torque = Vector::Zero(2);
-  }
-
-  void prestress() {
-    path.axialForce << axialForce[0], axialForce[1];
-    path.torque << torque[0], torque[1];
-  }
-  void turn() { rotary = loads::RotarySpeed(std::make_shared<Rising>()); }
-
-  PathEquations atPath() const {
-    return buildEquations({string, well, path, held, mud, rotary, loads, damping});
-  }
-  StringModel equations() const { return atPath().model; }
-
-  /// Nodal dofs of a motion given in element axes.
-  Vector dofs(const PolynomialMotion& motion) const {
-    Vector d = motion.dofs(depths);
-    for (std::size_t n = 0; n < 3; ++n) {
-      const Matrix3 toNode = path.frame[n].transpose() * axes;
-      for (const int first : {0, 3}) {
-        const auto at = 6 * static_cast<Eigen::Index>(n) + first;
-        d.segment<3>(at) = (toNode * d.segment<3>(at)).eval();
-      }
-    }
-    return d;
-  }
-
-  double form(const Sparse& matrix) const {
-    return dofs(firstMotion()).dot(matrix * dofs(secondMotion()));
-  }
-  double work(const Vector& load) const { return dofs(firstMotion()).dot(load); }
-};
-
-/// Sum over the elements of the integral of f(virtual, real, z, element).
-template <class Integrand>
-double alongString(const Integrand& f) {
-  double sum = 0.0;
-  const PolynomialMotion a = firstMotion(), b = secondMotion();
-  for (std::size_t e = 0; e < 2; ++e)
-    sum += integral(depths[e], depths[e + 1], [&](double z) { return f(a, b, z, e); });
-  return sum;
-}
-
-double area(std::size_t e) { return pi * (square(outer[e]) - square(inner[e])); }
-double inertia(std::size_t e) { return pi / 4.0 * (std::pow(outer[e], 4) - std::pow(inner[e], 4)); }
+using Scene = InclinedString;
 
 const model::MatrixTerm* find(const model::SharedList<model::MatrixTerm>& terms,
                               const std::string& name) {
@@ -228,7 +111,7 @@ TEST(Equations, TheTangentOfThePathTakesThePlaceOfStiffnessAndPrestress) {
 
 TEST(Equations, WeightActsDownwardsAlongTheWholeString) {
   Scene scene;
-  scene.loads.gravity = gravity;
+  scene.loads = acting(gravity, 0.0, 0.0);
   const Vector3 down = scene.axes.transpose() * Vector3(0.0, 0.0, gravity);
   EXPECT_GT(std::abs(down.x()), 3.0);
   expectLoad(scene, assemble(scene.equations()), "weight", "1",
@@ -291,7 +174,7 @@ TEST(Equations, LawsAreThoseOfTheRotarySpeed) {
 /// c_M M_a + c_K (K_a + K_gpa + K_gpo(D_s)), equation (28): the mass of the mud has no part in it.
 TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
   Scene scene;
-  const mud::Mud mud(fluid());
+  const mud::AnnularFlow mud(fluid());
   scene.mud = &mud;
   scene.prestress();
   scene.damping = {0.3, 2e-4};
@@ -330,6 +213,22 @@ TEST(Equations, RayleighDampingHasTheMassOfTheSteelAndTheWholeStaticStiffness) {
       << "too small to be seen";
 }
 
+/// Damped by a thousandth of its stiffness.
+class Lossy : public beam::Timoshenko {
+ public:
+  using Timoshenko::Timoshenko;
+  beam::Matrix12 damping() const override { return 1e-3 * stiffness(); }
+};
+
+TEST(Equations, AnElementHasDampingOfItsOwn) {
+  Scene scene;
+  for (Element& element : scene.string.elements)
+    element.formulation = std::make_shared<Lossy>(element.section(), element.length());
+  const auto model = assemble(scene.equations());
+  ASSERT_EQ(model.damping.size(), 1u);
+  expectTerm(scene, model, model.damping, "element damping", "1", 1e-3 * alongString(strain));
+}
+
 // -------------------------------------------------------------------------------------------------
 // mud
 
@@ -344,8 +243,8 @@ double annulusMass(std::size_t e) {
 
 TEST(Equations, MudAddsItsMassAndItsBuoyancyInTheBoreOfEachElement) {
   Scene scene;
-  scene.loads.gravity = gravity;
-  const mud::Mud mud(fluid());
+  scene.loads = acting(gravity, 0.0, 0.0);
+  const mud::AnnularFlow mud(fluid());
   scene.mud = &mud;
   const auto model = assemble(scene.equations());
   const double m = alongString([](const auto& a, const auto& b, double z, std::size_t e) {
@@ -366,7 +265,7 @@ TEST(Equations, MudAddsItsMassAndItsBuoyancyInTheBoreOfEachElement) {
 TEST(Equations, MudDampsBendsAndCarriesTheFlowOfEachElement) {
   Scene scene;
   scene.turn();
-  const mud::Mud mud(fluid());
+  const mud::AnnularFlow mud(fluid());
   scene.mud = &mud;
   const auto model = assemble(scene.equations());
   expectTerm(scene, model, model.damping, "mud axial flow damping", "1",
@@ -399,8 +298,7 @@ TEST(Equations, MudDampsBendsAndCarriesTheFlowOfEachElement) {
 TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
   Scene scene;
   scene.path.reaction = Matrix::Random(6, 3);
-  scene.loads.weightOnBit = 1e4;
-  scene.loads.torqueOnBit = 5e3;
+  scene.loads = acting(0.0, 1e4, 5e3);
   const auto model = assemble(scene.equations());
   const Vector d = scene.dofs(firstMotion());
   const Matrix nodes = Eigen::Map<const Matrix>(d.data(), 6, 3);
@@ -413,12 +311,11 @@ TEST(Equations, PathReactionAndBitLoadsActOnTheirNodesAsTheyAre) {
 /// F_s and K_pa have what is constant in time and nothing of the rotation; R_ipa stands alone.
 TEST(Equations, StaticStateBalancesWhatIsConstantInTime) {
   Scene scene;
-  const mud::Mud mud(fluid());
+  const mud::AnnularFlow mud(fluid());
   scene.mud = &mud;
   scene.turn();
   scene.prestress();
-  scene.loads.gravity = gravity;
-  scene.loads.weightOnBit = 1e4;
+  scene.loads = acting(gravity, 1e4, 0.0);
   scene.path.reaction = Matrix::Random(6, 3);
   const PathEquations turning = scene.atPath();
   const std::set<std::string> constant{"weight", "mud", "weight on bit"};
@@ -449,8 +346,7 @@ TEST(Equations, PartsAddUpToTheWhole) {
   Scene scene;
   scene.turn();
   scene.prestress();
-  scene.loads.gravity = gravity;
-  scene.loads.weightOnBit = 1e4;
+  scene.loads = acting(gravity, 1e4, 0.0);
   scene.path.reaction = Matrix::Random(6, 3);
   for (const int dof : {0, 1, 2, 5, 12, 13}) scene.held[at(dof)] = 1;
   StringModel equations = scene.equations();

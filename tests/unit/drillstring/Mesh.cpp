@@ -38,9 +38,9 @@ TEST(Mesh, SegmentsFollowInTheOrderOfTheDeck) {
                                                                real("Outer Radius", "0.07"))))) +
       array("Assembly", "tool"));
   ASSERT_EQ(string.elementCount(), 4);
-  EXPECT_EQ(string.elements[0].length, 0.5);
-  EXPECT_EQ(string.elements[3].length, 1.5);
-  EXPECT_EQ(string.elements[3].section.outerRadius(), 0.07);
+  EXPECT_EQ(string.elements[0].length(), 0.5);
+  EXPECT_EQ(string.elements[3].length(), 1.5);
+  EXPECT_EQ(string.elements[3].section().outerRadius(), 0.07);
 }
 
 TEST(Mesh, ClearanceIsTheSmallerOneWhereSectionOrBoreChange) {
@@ -71,7 +71,7 @@ TEST(Mesh, GaugeReplacesTheBodyAtItsNode) {
     EXPECT_NEAR(string.nodes[i].contactRadius, i == 5 ? 0.1 : 0.08, 1e-15) << i;
   }
   EXPECT_EQ(string.nodes[5].component, "stabiliser");
-  EXPECT_NEAR(string.elements[4].section.outerRadius(), 0.08, 1e-15);
+  EXPECT_NEAR(string.elements[4].section().outerRadius(), 0.08, 1e-15);
 }
 
 TEST(Mesh, GeneralSectionsAndMaterials) {
@@ -88,7 +88,7 @@ TEST(Mesh, GeneralSectionsAndMaterials) {
       list("Material", real("Density", "8000") + real("Young Modulus", "2e11") +
                            real("Poisson Ratio", "0.25")) +
       array("Assembly", "beam, pipe, stiff"));
-  const beam::Section& section = string.elements[0].section;
+  const beam::Section& section = string.elements[0].section();
   EXPECT_EQ(section.area(), 1e-2);
   EXPECT_EQ(section.inertiaX(), 2e-5);
   EXPECT_EQ(section.inertiaY(), 3e-5);
@@ -97,10 +97,10 @@ TEST(Mesh, GeneralSectionsAndMaterials) {
   EXPECT_EQ(section.density(), 2700.0);
   EXPECT_EQ(section.youngModulus(), 2e11);
   EXPECT_NEAR(string.nodes[0].clearance, 0.108, 1e-15);
-  EXPECT_EQ(string.elements[1].section.density(), 8000.0);
-  EXPECT_EQ(string.elements[1].section.material().poissonRatio, 0.25);
-  EXPECT_TRUE(string.elements[1].section.shearDeformable());
-  EXPECT_FALSE(string.elements[2].section.shearDeformable());
+  EXPECT_EQ(string.elements[1].section().density(), 8000.0);
+  EXPECT_EQ(string.elements[1].section().material().poissonRatio, 0.25);
+  EXPECT_TRUE(string.elements[1].section().shearDeformable());
+  EXPECT_FALSE(string.elements[2].section().shearDeformable());
 }
 
 TEST(Mesh, WarnsOfABoreNoNodeSees) {

@@ -100,10 +100,10 @@ TEST(ReferenceString, TouchesAtEveryNodeButTheHeldEnds) {
 
 TEST(ReferenceString, HasTheMaterialOfTheDeck) {
   const DrillString string = reference();
-  EXPECT_EQ(string.elements[0].section.density(), 7900.0);
-  EXPECT_EQ(string.elements[0].section.youngModulus(), 2.03e11);
-  EXPECT_EQ(string.elements[0].section.innerRadius(), 0.054);
-  EXPECT_NEAR(string.elements[0].length, 1.8, 1e-15);
+  EXPECT_EQ(string.elements[0].section().density(), 7900.0);
+  EXPECT_EQ(string.elements[0].section().youngModulus(), 2.03e11);
+  EXPECT_EQ(string.elements[0].section().innerRadius(), 0.054);
+  EXPECT_NEAR(string.elements[0].length(), 1.8, 1e-15);
 }
 
 TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
@@ -121,8 +121,8 @@ TEST(ApiLibrary, BuildsAStringAndHasTheCatalogueWeights) {
         double mass = 0.0, length = 0.0;
         for (int e = instance.firstElement; e <= instance.lastElement; ++e) {
           const Element& element = string.elements[static_cast<std::size_t>(e)];
-          mass += element.section.massPerLength() * element.length;
-          length += element.length;
+          mass += element.section().massPerLength() * element.length();
+          length += element.length();
         }
         return mass / length;
       }

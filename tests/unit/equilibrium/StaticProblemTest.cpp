@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "substructures/beam/Timoshenko.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 #include "tests/support/JacobianDifference.hpp"
@@ -43,11 +44,9 @@ struct Case {
     input.nodes = nodes;
     for (std::size_t e = 0; e < lengths.size(); ++e) {
       StaticElement element;
-      element.stiffness = beam::stiffness(section(e), lengths[e]);
+      element.formulation = std::make_shared<beam::Timoshenko>(section(e), lengths[e]);
+      element.stiffness = element.formulation->stiffness();
       element.rotation.setIdentity();
-      element.length = lengths[e];
-      element.axialRigidity = section(e).axialRigidity();
-      element.torsionalRigidity = section(e).torsionalRigidity();
       input.elements.push_back(element);
     }
     input.held.assign(6 * nodes, 0);

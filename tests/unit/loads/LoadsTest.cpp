@@ -3,12 +3,11 @@
 /// Loads: the unbalance force against the momentum of the mass it comes from, directions of weight
 /// and torque on bit, nodal forces in time, places by number and by depth, and what decks are
 /// refused.
-#include "substructures/loads/Loads.hpp"
-
 #include <Teuchos_Array.hpp>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,9 @@
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
+#include "substructures/loads/Damping.hpp"
+#include "substructures/loads/Load.hpp"
+#include "substructures/loads/Place.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
@@ -33,10 +35,30 @@ RotarySpeed turning(double finalSpeed = 12.0) {
   return RotarySpeed(list);
 }
 
-LoadsData unbalanced(double moment, double phase) {
-  LoadsData loads;
-  loads.unbalances.push_back({"off axis", {3, std::nullopt}, moment, phase});
-  return loads;
+Teuchos::ParameterList deckList() { return test::defaultsOf(parameters()); }
+
+Teuchos::ParameterList& entry(Teuchos::ParameterList& loads, const char* kind, const char* name) {
+  Teuchos::ParameterList& list = loads.sublist(kind).sublist(name);
+  list.setParameters(test::defaultsOf(*parameters().findList(kind)->pattern()));
+  return list;
+}
+
+void addMass(Teuchos::ParameterList& loads, const char* name, int node, double moment,
+             double phase) {
+  entry(loads, "Unbalance", name).set("Node", node).set("Moment", moment).set("Phase", phase);
+}
+
+Loads unbalanced(double moment, double phase) {
+  Teuchos::ParameterList list = deckList();
+  addMass(list, "off axis", 3, moment, phase);
+  return readLoads(list);
+}
+
+/// Names of the laws of time of the loads.
+std::set<std::string> lawsOf(const std::vector<PointLoad>& loads) {
+  std::set<std::string> names;
+  for (const auto& load : loads) names.insert(load.law.name);
+  return names;
 }
 
 /// Sum of the loads on one dof at time t.
@@ -56,7 +78,7 @@ TEST(Unbalance, IsTheRateOfChangeOfTheMomentumOfTheMass) {
   const double moment = 0.7;
   const double phase = 0.9;
   const RotarySpeed rotary = turning();
-  const auto loads = pointLoads(unbalanced(moment, phase), rotary, depths);
+  const auto loads = pointLoads(unbalanced(moment, phase), depths, rotary);
   const auto x = [&](double t) { return moment * std::cos(rotary.angle(t) + phase); };
   const auto y = [&](double t) { return moment * std::sin(rotary.angle(t) + phase); };
   const double h = 1e-4;
@@ -70,7 +92,7 @@ TEST(Unbalance, IsTheRateOfChangeOfTheMomentumOfTheMass) {
 
 TEST(Unbalance, AtSteadySpeedIsTheCentrifugalForce) {
   const RotarySpeed rotary = turning(12.0);
-  const auto loads = pointLoads(unbalanced(0.5, 0.0), rotary, depths);
+  const auto loads = pointLoads(unbalanced(0.5, 0.0), depths, rotary);
   const double t = 30.0;
   EXPECT_NEAR(std::hypot(total(loads, 3, 0, t), total(loads, 3, 1, t)), 0.5 * 144.0, 1e-9);
   EXPECT_NEAR(std::atan2(total(loads, 3, 1, t), total(loads, 3, 0, t)),
@@ -78,24 +100,22 @@ TEST(Unbalance, AtSteadySpeedIsTheCentrifugalForce) {
 }
 
 TEST(Unbalance, AllShareTwoLawsWhateverTheirPhase) {
-  LoadsData loads = unbalanced(0.5, 0.3);
-  loads.unbalances.push_back({"other", {2, std::nullopt}, 0.1, -2.0});
-  model::SecondOrderModel model;
-  for (int node = 1; node <= 5; ++node)
-    for (int c = 0; c < 6; ++c) model.dofs.push_back(model::DofLabel::physical(node, c));
-  addTo(model, pointLoads(loads, turning(), depths));
-  EXPECT_EQ(model.laws.size(), 3U);
-  EXPECT_EQ(model.loads.size(), 2U);
+  Teuchos::ParameterList list = deckList();
+  addMass(list, "off axis", 3, 0.5, 0.3);
+  addMass(list, "other", 2, 0.1, -2.0);
+  const auto found = pointLoads(readLoads(list), depths, turning());
+  EXPECT_EQ(found.size(), 8U);
+  EXPECT_EQ(lawsOf(found).size(), 2U);
 }
 
 TEST(Unbalance, WithoutRotationIsLeftOutWithAWarning) {
   log::clearWarnings();
   resetEvaluationCounters();
-  EXPECT_TRUE(pointLoads(unbalanced(0.5, 0.0), RotarySpeed(), depths).empty());
+  EXPECT_TRUE(pointLoads(unbalanced(0.5, 0.0), depths, RotarySpeed()).empty());
   ASSERT_EQ(log::warnings().size(), 1U);
   EXPECT_NE(log::warnings()[0].find("nothing turns"), std::string::npos);
   EXPECT_EQ(counted("unbalance loads"), 0);
-  pointLoads(unbalanced(0.5, 0.0), turning(), depths);
+  pointLoads(unbalanced(0.5, 0.0), depths, turning());
   EXPECT_EQ(counted("unbalance loads"), 1);
   log::clearWarnings();
   resetEvaluationCounters();
@@ -105,10 +125,9 @@ TEST(Unbalance, WithoutRotationIsLeftOutWithAWarning) {
 // bit loads
 
 TEST(BitLoads, WeightPushesUpAndTorqueResists) {
-  LoadsData loads;
-  loads.weightOnBit = 1e4;
-  loads.torqueOnBit = 5000.0;
-  const auto list = pointLoads(loads, RotarySpeed(), depths);
+  Teuchos::ParameterList given = deckList();
+  given.set("Weight On Bit", 1e4).set("Torque On Bit", 5000.0);
+  const auto list = pointLoads(readLoads(given), depths, RotarySpeed());
   EXPECT_EQ(list.size(), 2U);
   EXPECT_EQ(total(list, 5, 2, 0.0), -1e4);
   EXPECT_EQ(total(list, 5, 5, 3.0), -5000.0);
@@ -116,55 +135,54 @@ TEST(BitLoads, WeightPushesUpAndTorqueResists) {
 }
 
 TEST(BitLoads, NoneWithoutNumbers) {
-  EXPECT_TRUE(pointLoads(LoadsData(), turning(), depths).empty());
+  EXPECT_TRUE(pointLoads(readLoads(deckList()), depths, turning()).empty());
+  EXPECT_TRUE(pointLoads(Loads(), depths, turning()).empty());
 }
 
 // -------------------------------------------------------------------------------------------------
 // nodal forces
 
-NodalForce force(double frequency, double phase, double start, double end) {
-  return {"push", {2, std::nullopt}, 1, 100.0, frequency, phase, start, end};
+constexpr double never = std::numeric_limits<double>::infinity();
+
+void addForce(Teuchos::ParameterList& loads, const char* name, double frequency, double phase,
+              double start, double end) {
+  auto& list = entry(loads, "Forces", name);
+  list.set("Node", 2).set("Component", "v").set("Value", 100.0);
+  list.set("Frequency", frequency).set("Phase", phase).set("Start Time", start);
+  if (std::isfinite(end)) list.set("End Time", end);
 }
 
-const double never = std::numeric_limits<double>::infinity();
+std::vector<PointLoad> force(double frequency, double phase, double start, double end) {
+  Teuchos::ParameterList list = deckList();
+  addForce(list, "push", frequency, phase, start, end);
+  return pointLoads(readLoads(list), depths, RotarySpeed());
+}
 
 TEST(NodalForces, SteadyOneIsAStaticLoad) {
-  LoadsData loads;
-  loads.forces.push_back(force(0.0, 0.7, 0.0, never));
-  const auto list = pointLoads(loads, RotarySpeed(), depths);
+  const auto list = force(0.0, 0.7, 0.0, never);
   ASSERT_EQ(list.size(), 1U);
   EXPECT_EQ(list[0].law.name, "1");
   EXPECT_EQ(total(list, 2, 1, 5.0), 100.0);
 }
 
 TEST(NodalForces, HarmonicAndWindowed) {
-  LoadsData loads;
-  loads.forces.push_back(force(2.0, 0.5, 1.0, 3.0));
-  const auto list = pointLoads(loads, RotarySpeed(), depths);
+  const auto list = force(2.0, 0.5, 1.0, 3.0);
   EXPECT_EQ(total(list, 2, 1, 0.999), 0.0);
   EXPECT_NEAR(total(list, 2, 1, 1.3), 100.0 * std::cos(4.0 * constants::pi * 1.3 + 0.5), 1e-12);
   EXPECT_EQ(total(list, 2, 1, 3.0), 0.0);
 }
 
 TEST(NodalForces, EqualLawsAreOneAndDifferentOnesAreNot) {
-  LoadsData loads;
-  loads.forces = {force(2.0, 0.5, 0.0, never), force(2.0, 0.5, 0.0, never),
-                  force(2.0, 0.6, 0.0, never), force(2.0, 0.5, 0.0, 1.0),
-                  force(2.0, 0.5, 0.5, never), force(3.0, 0.5, 0.0, never)};
-  model::SecondOrderModel model;
-  for (int c = 0; c < 6; ++c) model.dofs.push_back(model::DofLabel::physical(2, c));
-  addTo(model, pointLoads(loads, RotarySpeed(), depths));
-  EXPECT_EQ(model.laws.size(), 6U);  // "1" and five
-  EXPECT_NEAR(model.loads[0].vector[1], 200.0, 1e-12);
-}
-
-TEST(NodalForces, HeldDofsTakeNoLoad) {
-  LoadsData loads;
-  loads.forces.push_back(force(0.0, 0.0, 0.0, never));
-  model::SecondOrderModel model;
-  model.dofs = {model::DofLabel::physical(2, 0), model::DofLabel::physical(3, 1)};
-  addTo(model, pointLoads(loads, RotarySpeed(), depths));
-  EXPECT_TRUE(model.loads.empty());
+  Teuchos::ParameterList list = deckList();
+  addForce(list, "a", 2.0, 0.5, 0.0, never);
+  addForce(list, "b", 2.0, 0.5, 0.0, never);
+  addForce(list, "c", 2.0, 0.6, 0.0, never);
+  addForce(list, "d", 2.0, 0.5, 0.0, 1.0);
+  addForce(list, "e", 2.0, 0.5, 0.5, never);
+  addForce(list, "f", 3.0, 0.5, 0.0, never);
+  const auto found = pointLoads(readLoads(list), depths, RotarySpeed());
+  EXPECT_EQ(found.size(), 6U);
+  EXPECT_EQ(lawsOf(found).size(), 5U);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -195,22 +213,15 @@ TEST(Places, ThatDoNotExistAreRefused) {
 // -------------------------------------------------------------------------------------------------
 // deck
 
-Teuchos::ParameterList deckList() { return test::defaultsOf(parameters()); }
-
-Teuchos::ParameterList& entry(Teuchos::ParameterList& loads, const char* kind, const char* name) {
-  Teuchos::ParameterList& list = loads.sublist(kind).sublist(name);
-  list.setParameters(test::defaultsOf(*parameters().findList(kind)->pattern()));
-  return list;
-}
-
 TEST(LoadsDeck, GravityIsThereUnlessSwitchedOff) {
   Teuchos::ParameterList list = deckList();
-  EXPECT_EQ(readLoads(list).gravity, 9.81);
+  EXPECT_EQ(acceleration(readLoads(list)), Vector3(0.0, 0.0, 9.81));
   list.set("Gravity", 0.0);
-  EXPECT_EQ(readLoads(list).gravity, 0.0);
-  EXPECT_EQ(LoadsData().gravity, 0.0);  // no list, no weight
+  EXPECT_EQ(acceleration(readLoads(list)), Vector3::Zero());
+  EXPECT_EQ(acceleration(Loads()), Vector3::Zero());  // no list, no weight
 }
 
+/// Each entry of the list at its node, in its direction, with its numbers.
 TEST(LoadsDeck, ReadsEverything) {
   Teuchos::ParameterList list = deckList();
   list.set("Weight On Bit", 1e4).set("Torque On Bit", 5000.0);
@@ -227,21 +238,20 @@ TEST(LoadsDeck, ReadsEverything) {
       .set("Frequency", 3.0)
       .set("Phase", 0.2)
       .set("Start Time", 1.0);
-  const LoadsData loads = readLoads(list);
-  EXPECT_EQ(loads.weightOnBit, 1e4);
-  EXPECT_EQ(loads.torqueOnBit, 5000.0);
-  ASSERT_EQ(loads.unbalances.size(), 2U);
-  EXPECT_DOUBLE_EQ(loads.unbalances[0].moment, 0.02);
-  EXPECT_EQ(loads.unbalances[0].phase, 1.5);
-  EXPECT_EQ(loads.unbalances[1].moment, 0.3);
-  EXPECT_EQ(loads.unbalances[1].place.position, 1.8);
-  ASSERT_EQ(loads.forces.size(), 1U);
-  EXPECT_EQ(loads.forces[0].component, 4);
-  EXPECT_EQ(loads.forces[0].value, 7.0);
-  EXPECT_EQ(loads.forces[0].frequency, 3.0);
-  EXPECT_EQ(loads.forces[0].phase, 0.2);
-  EXPECT_EQ(loads.forces[0].startTime, 1.0);
-  EXPECT_TRUE(std::isinf(loads.forces[0].endTime));
+  const RotarySpeed rotary = turning();
+  const auto found = pointLoads(readLoads(list), depths, rotary);
+  EXPECT_EQ(found.size(), 2U + 1U + 8U);
+  const double t = 1.7;
+  EXPECT_EQ(total(found, 5, 2, t), -1e4);
+  EXPECT_EQ(total(found, 5, 5, t), -5000.0);
+  EXPECT_EQ(total(found, 2, 4, 0.9), 0.0);
+  EXPECT_NEAR(total(found, 2, 4, t), 7.0 * std::cos(6.0 * constants::pi * t + 0.2), 1e-12);
+  const auto alongX = [&](double moment, double phase) {
+    return moment * (std::pow(rotary.speed(t), 2) * std::cos(rotary.angle(t) + phase) +
+                     rotary.acceleration(t) * std::sin(rotary.angle(t) + phase));
+  };
+  EXPECT_NEAR(total(found, 3, 0, t), alongX(0.02, 1.5), 1e-12);
+  EXPECT_NEAR(total(found, 2, 0, t), alongX(0.3, 0.0), 1e-12);
 }
 
 TEST(LoadsDeck, EndTimeEndsAForce) {
@@ -251,7 +261,7 @@ TEST(LoadsDeck, EndTimeEndsAForce) {
       .set("Component", "u")
       .set("Value", 7.0)
       .set("End Time", 2.0);
-  const auto loads = pointLoads(readLoads(list), RotarySpeed(), depths);
+  const auto loads = pointLoads(readLoads(list), depths, RotarySpeed());
   EXPECT_EQ(total(loads, 2, 0, 1.9), 7.0);
   EXPECT_EQ(total(loads, 2, 0, 2.1), 0.0);
 }

@@ -22,7 +22,7 @@ const Vector3 downElement(0.0, 0.0, 9.81);
 Vector collarFrequencies(int elements, bool shearAndRotaryInertia) {
   MudProperties p = referenceMud();
   p.flowRate = 0.0;
-  const Mud mud(p);
+  const AnnularFlow mud(p);
   const beam::Section section = shearAndRotaryInertia ? collar() : collar().withoutShear();
   const double l = 100.0 / elements;
   const Eigen::Index n = elements + 1;

@@ -2,8 +2,6 @@
 /// \file
 /// Mud: limits of every coefficient, what each deck parameter changes, work of the Coriolis forces,
 /// the swirl.
-#include "substructures/mud/Mud.hpp"
-
 #include <array>
 #include <cmath>
 #include <functional>
@@ -15,6 +13,7 @@
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
+#include "substructures/mud/AnnularFlow.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::mud {
@@ -35,7 +34,7 @@ double skewPart(const beam::Matrix12& m) { return (m - m.transpose()).norm() / m
 // coefficients
 
 TEST(MudFlow, ReferenceNumbersByHand) {
-  const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
+  const SectionFlow f = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   EXPECT_NEAR(f.innerMass, 1200.0 * pi * 0.0355 * 0.0355, 1e-12);
   EXPECT_NEAR(f.confinement, (0.108 * 0.108 + 0.0795 * 0.0795) / (0.108 * 0.108 - 0.0795 * 0.0795),
               1e-12);
@@ -63,12 +62,12 @@ TEST(MudFlow, AddedMassIsTheKineticEnergyOfTheAnnularFlow) {
     energy += 0.5 * 1200.0 * pi * (radial * radial + tangential * tangential) * r *
               (boreRadius - outerRadius) / rings;
   }
-  const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
+  const SectionFlow f = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   EXPECT_NEAR(f.annulusMass, 2.0 * energy, 1e-7 * f.annulusMass);
 }
 
 TEST(MudFlow, WideBoreIsAnOpenFluid) {
-  const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, unbounded);
+  const SectionFlow f = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, unbounded);
   EXPECT_DOUBLE_EQ(f.confinement, 1.0);
   EXPECT_DOUBLE_EQ(f.annulusSpeed, 0.0);
   EXPECT_DOUBLE_EQ(f.axialFlowDamping, 0.0);
@@ -77,12 +76,13 @@ TEST(MudFlow, WideBoreIsAnOpenFluid) {
   // and the limit is approached: chi - 1 = 2 gamma^2 + ...
   const double gamma = 1e-3;
   EXPECT_NEAR(
-      Mud(referenceMud()).flow(innerRadius, outerRadius, outerRadius / gamma).confinement - 1.0,
+      AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, outerRadius / gamma).confinement -
+          1.0,
       2.0 * gamma * gamma, 1e-11);
 }
 
 TEST(MudFlow, NarrowBoreConfinesMore) {
-  const Mud mud(referenceMud());
+  const AnnularFlow mud(referenceMud());
   double mass = 0.0;
   double damping = 0.0;
   for (double bore : {1.0, 0.2, 0.108, 0.09, 0.085}) {
@@ -95,7 +95,7 @@ TEST(MudFlow, NarrowBoreConfinesMore) {
 }
 
 TEST(MudFlow, BodyThatFillsTheBoreIsRefused) {
-  const Mud mud(referenceMud());
+  const AnnularFlow mud(referenceMud());
   for (double bore : {outerRadius, 0.9 * outerRadius}) {
     try {
       mud.flow(innerRadius, outerRadius, bore);
@@ -109,7 +109,7 @@ TEST(MudFlow, BodyThatFillsTheBoreIsRefused) {
 
 TEST(MudFlow, ThinFilmIsWarnedOf) {
   log::clearWarnings();
-  const Mud mud(referenceMud());
+  const AnnularFlow mud(referenceMud());
   mud.flow(innerRadius, outerRadius, boreRadius);
   EXPECT_TRUE(log::warnings().empty());
   mud.flow(innerRadius, outerRadius, outerRadius * 1.01);
@@ -120,17 +120,17 @@ TEST(MudFlow, ThinFilmIsWarnedOf) {
 }
 
 TEST(MudFlow, NothingIsPumpedThroughASolidBar) {
-  EXPECT_THROW(Mud(referenceMud()).flow(0.0, outerRadius, boreRadius), ModelError);
+  EXPECT_THROW(AnnularFlow(referenceMud()).flow(0.0, outerRadius, boreRadius), ModelError);
   MudProperties still = referenceMud();
   still.flowRate = 0.0;
-  EXPECT_DOUBLE_EQ(Mud(still).flow(0.0, outerRadius, boreRadius).innerMass, 0.0);
+  EXPECT_DOUBLE_EQ(AnnularFlow(still).flow(0.0, outerRadius, boreRadius).innerMass, 0.0);
 }
 
 TEST(MudFlow, ReversedFlowDragsDownAndStillDamps) {
   MudProperties reversed = referenceMud();
   reversed.flowRate = -0.01;
-  const SectionFlow down = Mud(reversed).flow(innerRadius, outerRadius, boreRadius);
-  const SectionFlow up = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
+  const SectionFlow down = AnnularFlow(reversed).flow(innerRadius, outerRadius, boreRadius);
+  const SectionFlow up = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   EXPECT_GT(down.axialDrag, 0.0);
   EXPECT_DOUBLE_EQ(down.axialDrag, -up.axialDrag);
   EXPECT_DOUBLE_EQ(down.axialFlowDamping, up.axialFlowDamping);
@@ -143,7 +143,7 @@ const Vector3 downElement(0.0, 0.0, 9.81);
 
 ElementContribution contribution(const MudProperties& p, double bore = boreRadius,
                                  const Vector3& gravity = downElement) {
-  return Mud(p).element(collar(), bore, 1.0, gravity);
+  return AnnularFlow(p).element(collar(), bore, 1.0, gravity);
 }
 
 TEST(MudElement, WeightlessMudAddsNothing) {
@@ -236,8 +236,9 @@ TEST(MudElement, SymmetryOfEachTerm) {
 }
 
 TEST(MudElement, RigidTranslationCarriesAllTheMass) {
-  const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
-  const ElementContribution c = Mud(referenceMud()).element(collar(), boreRadius, 2.5, downElement);
+  const SectionFlow f = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
+  const ElementContribution c =
+      AnnularFlow(referenceMud()).element(collar(), boreRadius, 2.5, downElement);
   for (int direction : {0, 1}) {
     beam::Vector12 unit = beam::Vector12::Zero();
     unit[direction] = unit[6 + direction] = 1.0;
@@ -249,7 +250,7 @@ TEST(MudElement, RigidTranslationCarriesAllTheMass) {
 /// whose ends are held, and there it is the skew pair that is assembled: also where the section
 /// changes, each element keeps its own m U.
 TEST(MudElement, CoriolisForcesOfAHeldChainDoNoWork) {
-  const Mud mud(referenceMud());
+  const AnnularFlow mud(referenceMud());
   const int elements = 6;
   const Eigen::Index dofs = 6 * (elements + 1);
   Matrix assembled = Matrix::Zero(dofs, dofs);
@@ -282,7 +283,7 @@ TEST(MudElement, SwirlingMudDoesNotResistWhirlingWithIt) {
   p.rotatingAnnulus = true;
   p.centrifugal = false;
   p.coriolis = false;
-  const Mud mud(p);
+  const AnnularFlow mud(p);
   const ElementContribution c = mud.element(collar(), boreRadius, 1.0, downElement);
   const double omega = -12.0;  // the sign must not matter
   const auto lawValue = [omega](const std::string& law) {
@@ -336,12 +337,12 @@ TEST(MudLoad, SteelAsLightAsMudFloats) {
 TEST(MudLoad, BuoyancyIsTheWeightOfTheDisplacedMudLessThatInside) {
   MudProperties p = referenceMud();
   p.axialDrag = false;
-  const ElementContribution c = Mud(p).element(collar(), boreRadius, 3.0, downElement);
+  const ElementContribution c = AnnularFlow(p).element(collar(), boreRadius, 3.0, downElement);
   EXPECT_NEAR(c.load[2] + c.load[8], -3.0 * 9.81 * 1200.0 * collar().area(), 1e-9);
 }
 
 TEST(MudLoad, DragPullsUpTheHoleAndCanBeSwitchedOff) {
-  const SectionFlow f = Mud(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
+  const SectionFlow f = AnnularFlow(referenceMud()).flow(innerRadius, outerRadius, boreRadius);
   MudProperties p = referenceMud();
   const beam::Vector12 with = contribution(p, boreRadius, Vector3::Zero()).load;
   EXPECT_NEAR(with[2] + with[8], f.axialDrag, 1e-12);
@@ -361,7 +362,7 @@ Teuchos::ParameterList deckList() {
 }
 
 TEST(MudDeck, DefaultsAreTheReferenceFluid) {
-  const MudProperties p = Mud(deckList()).properties();
+  const MudProperties p = readProperties(deckList());
   EXPECT_EQ(p.frictionCoefficient, 0.013);
   EXPECT_EQ(p.kinematicViscosity, 1e-6);
   EXPECT_TRUE(p.coriolis && p.centrifugal && p.axialDrag);
@@ -373,7 +374,7 @@ TEST(MudDeck, EachParameterCounts) {
   const auto element = [](const std::function<void(Teuchos::ParameterList&)>& change) {
     Teuchos::ParameterList list = deckList();
     change(list);
-    return Mud(list).element(collar(), boreRadius, 1.0, downElement);
+    return readMud(list)->element(collar(), boreRadius, 1.0, downElement);
   };
   const ElementContribution base = element([](auto&) {});
   EXPECT_GT(element([](auto& l) { l.set("Density", 1500.0); }).mass.norm(), base.mass.norm());
@@ -410,7 +411,7 @@ TEST(MudDeck, EveryElementIsCounted) {
 
 TEST(MudDeck, SectionWithoutRadiiIsRefused) {
   const beam::Section bare = beam::Section::general(0.01, 1e-5, 1e-5, 2e-5, {7900.0, 2.03e11, 0.3});
-  EXPECT_THROW(Mud(referenceMud()).element(bare, boreRadius, 1.0, downElement), ModelError);
+  EXPECT_THROW(AnnularFlow(referenceMud()).element(bare, boreRadius, 1.0, downElement), ModelError);
 }
 
 }  // namespace

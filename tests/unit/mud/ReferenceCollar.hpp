@@ -3,7 +3,7 @@
 /// The collar of the reference scene in its bore, and the mud around it.
 #pragma once
 
-#include "substructures/mud/Mud.hpp"
+#include "substructures/mud/AnnularFlow.hpp"
 
 namespace tooljoint::mud {
 

@@ -23,8 +23,9 @@ FrameProblem cantilever(int elements) {
   for (int i = 0; i <= elements; ++i)
     positions.emplace_back(0.0, 0.0, static_cast<double>(i) / elements);
   const std::vector<Matrix3> triads(positions.size(), Matrix3::Identity());
-  const std::vector<CorotationalElement> chain(static_cast<std::size_t>(elements),
-                                               CorotationalElement(s, 1.0 / elements));
+  const std::vector<CorotationalElement> chain(
+      static_cast<std::size_t>(elements),
+      CorotationalElement(stiffness(s, 1.0 / elements), 1.0 / elements));
   return FrameProblem(positions, triads, chain, 1.0, 1.0);
 }
 
@@ -87,8 +88,8 @@ TEST(LargeDisplacement, Bathes45DegreeBend) {
   std::vector<CorotationalElement> chain;
   for (std::size_t e = 0; e < static_cast<std::size_t>(elements); ++e) {
     const Matrix3 triad = elementTriad(positions[e], positions[e + 1], triads[e], triads[e + 1]);
-    chain.emplace_back(s, (positions[e + 1] - positions[e]).norm(), triad, triads[e],
-                       triads[e + 1]);
+    const double length = (positions[e + 1] - positions[e]).norm();
+    chain.emplace_back(stiffness(s, length), length, triad, triads[e], triads[e + 1]);
   }
   FrameProblem problem(positions, triads, chain, 600.0, 60000.0);
   ASSERT_TRUE(loadUp(problem, {0.0, 0.0, 600.0}, Vector3::Zero(), 6, 1e-8));

@@ -2,10 +2,12 @@
 /// \file
 /// The string bent into straight, arced and helical wells, against what a bent elastic rod must do.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
 #include "common/Constants.hpp"
+#include "substructures/beam/Timoshenko.hpp"
 #include "substructures/path/PathProblem.hpp"
 #include "substructures/well/Frames.hpp"
 #include "tests/support/DirectNewton.hpp"
@@ -24,10 +26,14 @@ beam::Section collar() {
   return beam::Section::hollow(0.0795, 0.0355, beam::Material{7900.0, 2.03e11, 0.3}).withoutShear();
 }
 
+std::vector<std::shared_ptr<const beam::Element>> chain(int elements, double length,
+                                                        const beam::Section& section) {
+  return {static_cast<std::size_t>(elements), std::make_shared<beam::Timoshenko>(section, length)};
+}
+
 PathInput uniform(const well::Trajectory& well, int elements, double length) {
   PathInput input;
-  input.sections.assign(static_cast<std::size_t>(elements), pipe());
-  input.lengths.assign(static_cast<std::size_t>(elements), length / elements);
+  input.elements = chain(elements, length / elements, pipe());
   input.trajectory = &well;
   return input;
 }
@@ -37,6 +43,10 @@ std::unique_ptr<well::Trajectory> quarterArc(double radius) {
   shape.radius = radius;
   shape.endInclination = 0.5 * pi;
   return well::arc(shape);
+}
+
+beam::Section thick() {
+  return beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2});
 }
 
 PathOptions options(Mode mode, Prestress prestress = Prestress::FullTangent) {
@@ -85,7 +95,7 @@ TEST(Path, PlanarArcAwayFromItsEnds) {
   const auto responses = problem.responses(x, false);
   const auto moment = [&](int e) {
     const auto& r = responses[static_cast<std::size_t>(e)];
-    return rigidity * (r.rotation2 - r.rotation1).norm() / input.lengths[0];
+    return rigidity * (r.rotation2 - r.rotation1).norm() / input.elements[0]->length();
   };
   EXPECT_NEAR(moment(50) / (rigidity * kappa), 1.0, 1e-4);
   const PathState state = computePath(input, options(Mode::CentreLine), testing_::directNewton);
@@ -95,7 +105,7 @@ TEST(Path, PlanarArcAwayFromItsEnds) {
   const Vector3 towardsCentre =
       state.frame[50].transpose() * well->at(state.arcLength[50]).curvature.normalized();
   EXPECT_NEAR(state.reaction.col(50).head<3>().dot(towardsCentre) /
-                  (-rigidity * std::pow(kappa, 3) * input.lengths[0]),
+                  (-rigidity * std::pow(kappa, 3) * input.elements[0]->length()),
               1.0, 5e-3);
   EXPECT_LT(state.reaction.col(50).tail<3>().norm(), 1e-3);
   EXPECT_LT(state.report.maxPositionError, 1e-10);
@@ -130,7 +140,8 @@ TEST(Path, ReactionsFormACoupleWhereTheStiffnessJumps) {
   // difference there
   const auto well = quarterArc(100.0);
   PathInput input = uniform(*well, 80, 80.0);
-  for (std::size_t e = 40; e < 80; ++e) input.sections[e] = collar();
+  const auto lower = chain(40, 1.0, collar());
+  std::copy(lower.begin(), lower.end(), input.elements.begin() + 40);
   const PathState state = computePath(input, options(Mode::CentreLine), testing_::directNewton);
   double couple = 0.0;
   for (int node = 28; node <= 52; ++node) {
@@ -162,9 +173,9 @@ TEST(Path, OnlyTheFullTangentLetsACurvedStringTurnAboutItsAxis) {
     full += turn.dot(state.tangent[e] * turn);
     const beam::Matrix12 r =
         beam::rotation12(state.elementFrame[e], state.frame[e], state.frame[e + 1]);
-    const beam::Matrix12 k = beam::stiffness(pipe(), state.initialLength[e]) +
-                             state.axialForce(n) * beam::geometricAxial(state.initialLength[e]) +
-                             state.torque(n) * beam::geometricTorque(state.initialLength[e]);
+    const beam::Matrix12 k = beam::stiffness(pipe(), 1.0) +
+                             state.axialForce(n) * beam::geometricAxial(1.0) +
+                             state.torque(n) * beam::geometricTorque(1.0);
     geometric += (r * turn).dot(k * (r * turn));
   }
   const double charge = pipe().youngModulus() * pipe().inertiaX() * kappa * kappa * length;
@@ -189,8 +200,7 @@ TEST(Path, HelixIsFreeOfTorque) {
 TEST(Path, JacobianOfTheCentreLineIsExact) {
   const auto well = well::helix(8.0, 1.2, 14.0);
   PathInput input = uniform(*well, 6, 12.0);
-  input.sections.assign(6,
-                        beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
+  input.elements = chain(6, 2.0, thick());
   std::vector<double> depths{0, 2, 4, 6, 8, 10, 12};
   const CentreLineProblem problem(input, depths, well::bishopFrames(*well, depths));
   std::srand(7);
@@ -203,8 +213,7 @@ TEST(Path, JacobianOfTheCentreLineIsExact) {
 TEST(Path, JacobianOfImposedNodesIsExact) {
   const auto well = well::helix(8.0, 1.2, 14.0);
   PathInput input = uniform(*well, 6, 12.0);
-  input.sections.assign(6,
-                        beam::Section::general(1.0, 0.3, 0.5, 0.4, beam::Material{1.0, 10.0, 0.2}));
+  input.elements = chain(6, 2.0, thick());
   std::srand(8);
   for (const Imposition imposition : {Imposition::Elimination, Imposition::Penalty}) {
     ImposedNodesProblem problem(input, {3, 6}, imposition, 10.0);

@@ -9,7 +9,7 @@
 #include "coupling/assembly/Assembler.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/Reduce.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {

@@ -53,14 +53,14 @@ TEST(ReferenceStatic, AgreesWithTheSoftString) {
   int compressed = 0;
   for (auto element = scene.string.elements.rbegin(); element != scene.string.elements.rend();
        ++element) {
-    const auto& section = element->section;
+    const auto& section = element->section();
     const double in = constants::pi * std::pow(section.innerRadius(), 2),
                  out = constants::pi * std::pow(section.outerRadius(), 2);
     const double weight = gravity * (steel * (out - in) - mud * out + mud * in);
-    middle = tension + 0.5 * weight * down * element->length;
+    middle = tension + 0.5 * weight * down * element->length();
     compressed += middle < 0;
-    pressed += std::hypot(middle * curvature, weight * aside) * element->length;
-    tension += weight * down * element->length;
+    pressed += std::hypot(middle * curvature, weight * aside) * element->length();
+    tension += weight * down * element->length();
   }
   EXPECT_NEAR(state.topAxialForce, middle, 3e-3 * middle);
   EXPECT_NEAR(state.totalNormalForce, pressed, 2e-2 * pressed);

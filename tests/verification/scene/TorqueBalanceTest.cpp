@@ -96,9 +96,10 @@ TEST(TorqueOfTheWell, IsThatOfTheSoftString) {
     const int pieces = 20;
     // weight of body and joint spread over the stand
     const double weight =
-        9.81 * 7850.0 * (9.0 * elements[0].section.area() + 0.5 * elements[1].section.area()) / 9.5;
+        9.81 * 7850.0 * (9.0 * elements[0].section().area() + 0.5 * elements[1].section().area()) /
+        9.5;
     for (int piece = 0; piece < pieces; ++piece) {
-      const double ds = element->length / pieces;
+      const double ds = element->length() / pieces;
       const auto well = scene.well.trajectory().at(s - 0.5 * ds);
       const Vector3 g(0.0, 0.0, 1.0);
       torque +=

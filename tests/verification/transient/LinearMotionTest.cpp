@@ -8,7 +8,7 @@
 
 #include "../../unit/transient/Models.hpp"
 #include "common/Constants.hpp"
-#include "substructures/beam/Element.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {

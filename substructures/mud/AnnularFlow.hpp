@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Drilling mud inside and around the string: what it adds to the matrices and loads of one beam
-/// element.
+/// Mud that flows down the string and up the annulus: what it adds to the matrices and loads of one
+/// beam element.
 ///
 /// The inner flow U_i = Q/A_i goes down the string, the annular flow U_o = Q/A_ch comes back up.
 /// With
@@ -21,31 +21,9 @@
 /// damping, as cited in section 2.3 of Nguyen et al. 2020.
 #pragma once
 
-#include <Teuchos_ParameterList.hpp>
-#include <string>
-#include <vector>
-
-#include "common/Types.hpp"
-#include "deck/ListSpec.hpp"
-#include "substructures/beam/Element.hpp"
-#include "substructures/beam/Section.hpp"
+#include "substructures/mud/MudModel.hpp"
 
 namespace tooljoint::mud {
-
-/// What the deck list `Mud` says. A deck without the list has no Mud object at all.
-struct MudProperties {
-  double density = 0.0;              ///< rho_f [kg/m3]
-  double frictionCoefficient = 0.0;  ///< C_f of the axial flow along the string [-]
-  double kinematicViscosity = 0.0;   ///< nu_f [m2/s]
-  double flowRate = 0.0;             ///< Q [m3/s]; positive down the string and up the annulus
-  bool coriolis = true;              ///< Coriolis pair of both flows
-  bool centrifugal = true;           ///< centrifugal stiffness of both flows
-  bool axialDrag = true;             ///< axial drag load of the annular flow
-  bool rotatingAnnulus = false;      ///< annular mud swirls at Omega/2 on average
-};
-
-/// The deck list `Mud`.
-deck::ListSpec parameters();
 
 /// Numbers per length of one section in one bore; see the file's head for the symbols.
 struct SectionFlow {
@@ -61,41 +39,19 @@ struct SectionFlow {
   double buoyantMass = 0.0;       ///< rho_f (A_i - A_o), to be added to rho S in the weight [kg/m]
 };
 
-/// A 12 x 12 element matrix times a law of the rotary speed: "1", "sqrt|Omega|", "Omega", "Omega^2"
-/// or "Omega sqrt|Omega|".
-struct MatrixTerm {
-  std::string name;  ///< "mud drag", "mud Coriolis", ...: the same for every element
-  std::string law;
-  beam::Matrix12 matrix;  ///< element frame, on the left-hand side
-};
-
-/// What the mud adds to one element, in its element frame. Terms that are zero by the deck are not
-/// in the lists.
-struct ElementContribution {
-  beam::Matrix12 mass = beam::Matrix12::Zero();  ///< lateral only [kg ...]
-  std::vector<MatrixTerm> damping;
-  std::vector<MatrixTerm> stiffness;
-  beam::Vector12 load = beam::Vector12::Zero();  ///< on the right-hand side [N, N m]
-};
-
-class Mud {
+class AnnularFlow : public MudModel {
  public:
-  explicit Mud(const MudProperties& properties);
-  /// From the validated deck list `Mud`.
-  explicit Mud(const Teuchos::ParameterList& list);
-
-  const MudProperties& properties() const { return properties_; }
+  explicit AnnularFlow(const MudProperties& properties);
 
   /// Flow numbers for body radii R_i, R_e (never a gauge radius) in a bore of radius R_w [m]. R_w
   /// may be infinite. Throws ModelError when the body does not fit the bore, or when mud is pumped
   /// through a solid section.
   SectionFlow flow(double innerRadius, double outerRadius, double boreRadius) const;
 
-  /// Contribution of an element of length l [m]; `gravity` is the acceleration vector in the
-  /// element frame [m/s2] (zero for a deck without gravity). Counted in the census as "mud
-  /// matrices". Errors as flow(), and ModelError for a section without radii.
+  /// Counted as "mud matrices" (EvaluationCounters.hpp). Errors as flow(), and ModelError for a
+  /// section without radii.
   ElementContribution element(const beam::Section& section, double boreRadius, double length,
-                              const Vector3& gravity) const;
+                              const Vector3& gravity) const override;
 
  private:
   MudProperties properties_;

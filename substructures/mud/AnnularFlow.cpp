@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/mud/Mud.hpp"
+#include "substructures/mud/AnnularFlow.hpp"
 
 #include <cmath>
 
@@ -20,19 +20,6 @@ constexpr double filmConfinement = 20.0;
 
 double square(double x) { return x * x; }
 
-MudProperties read(const Teuchos::ParameterList& list) {
-  MudProperties p;
-  p.density = list.get<double>("Density");
-  p.frictionCoefficient = list.get<double>("Friction Coefficient");
-  p.kinematicViscosity = list.get<double>("Kinematic Viscosity");
-  p.flowRate = list.get<double>("Flow Rate");
-  p.coriolis = list.get<bool>("Coriolis");
-  p.centrifugal = list.get<bool>("Centrifugal");
-  p.axialDrag = list.get<bool>("Axial Drag");
-  p.rotatingAnnulus = list.get<bool>("Rotating Annulus");
-  return p;
-}
-
 std::string metres(double value) { return formatNumber(value) + " m"; }
 
 /// Turns (u, v) into (v, -u) and (theta_x, theta_y) into (theta_y, -theta_x) at both ends. It
@@ -52,44 +39,16 @@ void addTerm(std::vector<MatrixTerm>& terms, const char* name, const char* law, 
   if (factor != 0.0) terms.push_back({name, law, factor * matrix});
 }
 
+const bool registered = addMudModel<AnnularFlow>(
+    "Annular flow",
+    "flow down the string and up the annulus: added mass, damping, Coriolis and centrifugal "
+    "forces, axial drag and buoyancy (Ritto, Soize and Sampaio 2009; Chen 1981; Fritz 1970).");
+
 }  // namespace
 
-deck::ListSpec parameters() {
-  using deck::Range;
-  return deck::ListSpec("Mud",
-                        "Drilling mud inside and around the string; without this list nothing of "
-                        "it is modelled.")
-      .real("Density", "kg/m3", deck::Required{}, Range::nonNegative(),
-            "Mass density of the mud: added lateral mass inside and outside, and buoyancy.")
-      .real("Friction Coefficient", "", 0.013, Range::nonNegative(),
-            "Friction coefficient of the axial flow along the string, C_f: lateral damping and "
-            "axial drag.")
-      .real("Kinematic Viscosity", "m2/s", 1e-6, Range::nonNegative(),
-            "Kinematic viscosity of the mud: lateral damping that grows with the square root of "
-            "the rotary speed.")
-      .real("Flow Rate", "m3/s", 0.0, Range::any(),
-            "Volume pumped per second, down the string and up the annulus when positive.")
-      .boolean("Coriolis", true,
-               "Keep the Coriolis forces of both axial flows; needs a flow rate to matter.")
-      .expert()
-      .boolean("Centrifugal", true,
-               "Keep the centrifugal stiffness of both axial flows; needs a flow rate to matter.")
-      .expert()
-      .boolean(
-          "Axial Drag", true,
-          "Keep the axial drag of the returning flow on the string; needs a flow rate to matter.")
-      .expert()
-      .boolean("Rotating Annulus", false,
-               "Let the annular mud swirl at half the rotary speed: cross-coupled damping, "
-               "negative and circulatory stiffness. It "
-               "changes the motion strongly; terms of the angular acceleration are left out.")
-      .expert();
-}
+AnnularFlow::AnnularFlow(const MudProperties& properties) : properties_(properties) {}
 
-Mud::Mud(const MudProperties& properties) : properties_(properties) {}
-Mud::Mud(const Teuchos::ParameterList& list) : properties_(read(list)) {}
-
-SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius) const {
+SectionFlow AnnularFlow::flow(double innerRadius, double outerRadius, double boreRadius) const {
   if (!(outerRadius < boreRadius)) {
     throw ModelError("The mud needs an annulus, but a body of outer radius " + metres(outerRadius) +
                      " does not fit a bore of radius " + metres(boreRadius) +
@@ -132,8 +91,8 @@ SectionFlow Mud::flow(double innerRadius, double outerRadius, double boreRadius)
   return f;
 }
 
-ElementContribution Mud::element(const beam::Section& section, double boreRadius, double length,
-                                 const Vector3& gravity) const {
+ElementContribution AnnularFlow::element(const beam::Section& section, double boreRadius,
+                                         double length, const Vector3& gravity) const {
   if (!(section.outerRadius() > 0.0)) {
     throw ModelError(
         "The mud needs the radii of a section, but an element has a general one that gives only "

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The interface of a mud model: what the drilling mud adds to the matrices and loads of one
+/// element. A model is one file that registers itself, in the tree or outside; a deck names it as
+/// `Mud/Model`.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/Registry.hpp"
+#include "substructures/beam/BeamMatrices.hpp"
+#include "substructures/beam/Section.hpp"
+
+namespace tooljoint::mud {
+
+/// What the deck list `Mud` says of the fluid and of the effects to keep, for all models. A deck
+/// without the list has no mud model at all.
+struct MudProperties {
+  double density = 0.0;              ///< rho_f [kg/m3]
+  double frictionCoefficient = 0.0;  ///< C_f of the axial flow along the string [-]
+  double kinematicViscosity = 0.0;   ///< nu_f [m2/s]
+  double flowRate = 0.0;             ///< Q [m3/s]; positive down the string and up the annulus
+  bool coriolis = true;              ///< Coriolis pair of both flows
+  bool centrifugal = true;           ///< centrifugal stiffness of both flows
+  bool axialDrag = true;             ///< axial drag load of the annular flow
+  bool rotatingAnnulus = false;      ///< annular mud swirls at Omega/2 on average
+};
+
+/// A 12 x 12 element matrix times a law of the rotary speed: "1", "sqrt|Omega|", "Omega", "Omega^2"
+/// or "Omega sqrt|Omega|".
+struct MatrixTerm {
+  std::string name;  ///< "mud drag", "mud Coriolis", ...: the same for every element
+  std::string law;
+  beam::Matrix12 matrix;  ///< element frame, on the left-hand side
+};
+
+/// What the mud adds to one element, in its element frame. Terms that are zero by the deck are not
+/// in the lists.
+struct ElementContribution {
+  beam::Matrix12 mass = beam::Matrix12::Zero();
+  std::vector<MatrixTerm> damping;
+  std::vector<MatrixTerm> stiffness;
+  beam::Vector12 load = beam::Vector12::Zero();  ///< on the right-hand side [N, N m]
+};
+
+class MudModel {
+ public:
+  virtual ~MudModel() = default;
+
+  /// Contribution of an element of length l [m] in a bore of radius R_w [m]; `gravity` is the
+  /// acceleration vector in the element frame [m/s2] (zero for a deck without gravity). ModelError
+  /// for a section or a bore the model has no answer for.
+  virtual ElementContribution element(const beam::Section& section, double boreRadius,
+                                      double length, const Vector3& gravity) const = 0;
+};
+
+/// name -> model, made from the list of its own parameters and the properties of the mud.
+using MudModels = deck::Registry<MudModel, const Teuchos::ParameterList&, const MudProperties&>;
+
+/// Registers a model, made from (list of its own parameters, properties) or from (properties).
+/// `doc`: one sentence and the source it follows.
+/// `const bool registered = addMudModel<Type>("Name", "...", parameters());`
+template <class Type>
+bool addMudModel(const std::string& name, const std::string& doc, deck::ListSpec parameters = {}) {
+  return MudModels::instance().add(
+      name, {doc, std::move(parameters),
+             [](const Teuchos::ParameterList& list, const MudProperties& properties) {
+               if constexpr (std::is_constructible_v<Type, const MudProperties&>)
+                 return static_cast<void>(list), std::make_unique<Type>(properties);
+               else
+                 return std::make_unique<Type>(list, properties);
+             }});
+}
+
+/// The deck list `Mud`, with one sublist per registered model that has parameters of its own.
+deck::ListSpec parameters();
+/// The properties of the validated deck list `Mud`.
+MudProperties readProperties(const Teuchos::ParameterList& list);
+/// The model that the validated deck list `Mud` names. DeckError as the model gives it.
+std::unique_ptr<MudModel> readMud(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::mud
