@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""An element, a load and a mud model outside of the library, each in a file of its own, against closed forms.
+
+    check_string.py PROGRAM FOLDER
+
+PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so. The string hangs in a vertical
+well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+import h5py
+
+E, NU, RHO, G = 2.1e11, 0.3, 7850.0, 9.81
+OUTER, INNER = 0.06, 0.05
+AREA = math.pi * (OUTER**2 - INNER**2)
+PIPE, TOOL, ELEMENTS = 120.0, 80.0, 40
+FACTOR = 0.25  # on E S of the rods
+
+DECK = """<ParameterList name="string">
+  <ParameterList name="Well">
+    <Parameter name="Trajectory" type="string" value="Vertical"/>
+    <ParameterList name="Vertical">
+      <Parameter name="Length" type="double" value="300"/>
+    </ParameterList>
+    <Parameter name="Bore Radius" type="double" value="0.108"/>
+  </ParameterList>
+  <ParameterList name="Drillstring">
+    <Parameter name="Assembly" type="Array(string)" value="{{pipe, tool}}"/>
+    <ParameterList name="Components">
+      {pipe}
+      {tool}
+    </ParameterList>
+    <ParameterList name="Material">
+      <Parameter name="Density" type="double" value="7850"/>
+      <Parameter name="Young Modulus" type="double" value="2.1e11"/>
+      <Parameter name="Poisson Ratio" type="double" value="0.3"/>
+    </ParameterList>
+  </ParameterList>
+  {supports}
+  {mud}
+  <ParameterList name="Loads">
+    <Parameter name="Gravity" type="double" value="9.81"/>
+    <Parameter name="Weight On Bit" type="double" value="{weight_on_bit}"/>
+    {loads}
+  </ParameterList>
+</ParameterList>
+"""
+ROD = f"""<Parameter name="Element" type="string" value="Rod"/>
+        <ParameterList name="Rod">
+          <Parameter name="Axial Factor" type="double" value="{FACTOR}"/>
+        </ParameterList>"""
+GUIDE = f"""<ParameterList name="Supports">
+    <ParameterList name="guide">
+      <Parameter name="Node" type="int" value="{ELEMENTS + 1}"/>
+      <Parameter name="Dofs" type="string" value="u v"/>
+    </ParameterList>
+  </ParameterList>"""
+DRAG = """<ParameterList name="Wall Drag">
+      <Parameter name="From" type="double" value="31"/>
+      <Parameter name="To" type="double" value="154"/>
+      <Parameter name="Force Per Length" type="double" value="{drag}"/>
+    </ParameterList>"""
+MUD = """<ParameterList name="Mud">
+    <Parameter name="Model" type="string" value="Cuttings"/>
+    <Parameter name="Density" type="double" value="1200"/>
+    <ParameterList name="Cuttings">
+      <Parameter name="Cuttings Density" type="double" value="300"/>
+    </ParameterList>
+  </ParameterList>"""
+
+
+def component(name, length, element=""):
+    return f"""<ParameterList name="{name}">
+        <Parameter name="Length" type="double" value="{length}"/>
+        <Parameter name="Elements" type="int" value="{ELEMENTS}"/>
+        <Parameter name="Outer Radius" type="double" value="{OUTER}"/>
+        <Parameter name="Inner Radius" type="double" value="{INNER}"/>
+        {element}
+      </ParameterList>"""
+
+
+class Checks:
+    def __init__(self, program, folder):
+        self.program, self.failures = program, 0
+        modules = [folder / f"lib{name}.so" for name in ("Rod", "WallDrag", "Cuttings")]
+        self.environment = dict(os.environ, LD_PRELOAD=" ".join(str(module) for module in modules))
+
+    def expect(self, good, what):
+        self.failures += not good
+        print(f"{'ok    ' if good else 'FAILED'} {what}", flush=True)
+
+    def close(self, found, exact, tolerance, what):
+        error = abs(found - exact) / abs(exact)
+        self.expect(error < tolerance, f"{what}: {found:.9g}, exact {exact:.9g}, relative error {error:.1e}")
+
+    def call(self, *words, code=0):
+        done = subprocess.run([self.program, *words], env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, check=False)
+        self.expect(done.returncode == code, f"tooljoint {' '.join(words)} ends with {code}")
+        if done.returncode != code:
+            print(done.stdout)
+        return done.stdout
+
+    def deck(self, name, weight_on_bit=0.0, rods=("tool",), supports=GUIDE, mud="", loads=""):
+        parts = {part: component(part, length, ROD if part in rods else "") for part, length in (("pipe", PIPE), ("tool", TOOL))}
+        path = pathlib.Path(f"{name}.xml")
+        path.write_text(DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads), encoding="utf-8")
+        return str(path)
+
+    def rest(self, name, **choices):
+        """w of the bit and axial force of the first element at rest."""
+        self.call("run", self.deck(name, **choices), "--output", name)
+        summary = json.loads((pathlib.Path(name) / "summary.json").read_text(encoding="utf-8"))
+        with h5py.File(f"{name}/results.h5") as file:
+            return file["/static/displacement"][-1, 2], summary["static"]["top_axial_force"], summary["model"]["free_dofs"]
+
+
+def stretch_under_weight(length_above, length, stiffness, area):
+    """How much longer a piece becomes by gravity, with as much string as `length_above` below it."""
+    return RHO * area * G * (length_above * length + length**2 / 2) / stiffness
+
+
+def an_element(checks):
+    """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its top."""
+    force = 2e4
+    free, _, dofs = checks.rest("rods")
+    pressed, _, _ = checks.rest("rods_pressed", weight_on_bit=force)
+    compliance = (PIPE + TOOL / FACTOR) / (E * AREA)
+    checks.close(free - pressed, force * compliance, 1e-9, "the weight on bit shortens pipe and rods by F (L1/ES + L2/(factor ES))")
+    hanging = stretch_under_weight(TOOL, PIPE, E * AREA, AREA) + stretch_under_weight(0, TOOL, FACTOR * E * AREA, AREA)
+    checks.close(free, hanging, 1e-9, "their weight stretches them as it stretches rods")
+    held = 4 + 2  # u v w theta_z of the top, u v of the guide
+    checks.expect(dofs == 6 * (ELEMENTS + 1) - held + 2 * ELEMENTS, f"{dofs} free dofs: nodes of rods alone have two")
+
+    checks.call("modes", checks.deck("rods_alone", rods=("pipe", "tool"), supports=""), "--output", "modes", "--count", "4")
+    with open("modes/modes.csv", encoding="utf-8") as file:
+        lines = [line for line in file if not line.startswith("#")]
+    found = [float(row[1]) for row in list(csv.reader(lines))[1:]]
+    speeds = {"axial": math.sqrt(FACTOR * E / RHO), "torsional": math.sqrt(E / (2 * (1 + NU)) / RHO)}
+    exact = sorted((2 * n - 1) * speed / (4 * (PIPE + TOOL)) for n in (1, 2, 3) for speed in speeds.values())[:4]
+    # linear shape functions: (k h)^2/24 too high, k h = (2n - 1) pi/(4 ELEMENTS) on average
+    for n, (frequency, closed) in enumerate(zip(found, exact), 1):
+        checks.close(frequency, closed, 2e-3, f"frequency {n} of the rods [Hz]")
+    checks.expect(len(found) == 4, "four frequencies listed")
+
+
+def a_load(checks):
+    """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside elements."""
+    total = 50.0 * (154 - 31)
+    _, dry, _ = checks.rest("dry")
+    _, dragged, _ = checks.rest("dragged", loads=DRAG.format(drag=50.0))
+    checks.close(dry - dragged, total, 1e-9, "the drag takes its sum off the axial force at the top")
+    shown = checks.call("check", "dragged.xml")
+    checks.expect("wall drag" in shown and "6150" in shown, "check names the load and its size")
+    wrong = checks.deck("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
+    checks.expect("ends (To) before it starts" in checks.call("check", wrong, code=2), "a senseless load is refused")
+
+
+def a_mud_model(checks):
+    """Buoyancy with a denser mud outside."""
+    _, dry, _ = checks.rest("no_mud")
+    _, wet, _ = checks.rest("mud", mud=MUD)
+    buoyancy = math.pi * (1200 * INNER**2 - 1500 * OUTER**2)
+    checks.close(wet / dry, 1 + buoyancy / (RHO * AREA), 1e-9, "the mud takes its share off the weight")
+
+
+def the_manual(checks):
+    """Names, parameters and units of all three."""
+    manual = json.dumps(json.loads(checks.call("doc", "--format", "json")))
+    for word in ('"Rod"', '"Axial Factor"', '"Wall Drag"', '"Force Per Length"', '"Cuttings"', '"Cuttings Density"'):
+        checks.expect(word in manual, f"the manual has {word}")
+
+
+def main():
+    checks = Checks(sys.argv[1], pathlib.Path(sys.argv[2]))
+    an_element(checks)
+    a_load(checks)
+    a_mud_model(checks)
+    the_manual(checks)
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
