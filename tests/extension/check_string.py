@@ -67,6 +67,26 @@ DRAG = """<ParameterList name="Wall Drag">
       <Parameter name="To" type="double" value="154"/>
       <Parameter name="Force Per Length" type="double" value="{drag}"/>
     </ParameterList>"""
+PUSH = """<ParameterList name="Forces">
+      <ParameterList name="push">
+        <Parameter name="Node" type="int" value="{node}"/>
+        <Parameter name="Component" type="string" value="w"/>
+        <Parameter name="Value" type="double" value="{force}"/>
+        <Parameter name="End Time" type="double" value="{end}"/>
+      </ParameterList>
+    </ParameterList>"""
+MOTION = """<ParameterList name="Transient">
+    <Parameter name="End Time" type="double" value="{end}"/>
+    <Parameter name="Sampling Interval" type="double" value="0.01"/>
+    <Parameter name="Step" type="double" value="2e-4"/>
+  </ParameterList>"""
+PARTS = """<ParameterList name="Substructures">
+    <Parameter name="Rule" type="string" value="By component"/>
+  </ParameterList>
+  <ParameterList name="Reduction">
+    <Parameter name="Modes" type="int" value="40"/>
+  </ParameterList>
+  """
 MUD = """<ParameterList name="Mud">
     <Parameter name="Model" type="string" value="Cuttings"/>
     <Parameter name="Density" type="double" value="1200"/>
@@ -151,6 +171,22 @@ def an_element(checks):
     checks.expect(len(found) == 4, "four frequencies listed")
 
 
+def a_wave(checks):
+    """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the wave is back, in the full model
+    and in a reduced one."""
+    force, end = 1e4, 0.12
+    speed = force / (AREA * math.sqrt(FACTOR * E * RHO))
+    checks.expect(end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO), "the wave is not back yet")
+    loads = PUSH.format(node=2 * ELEMENTS + 1, force=force, end=end)
+    for name, parts in (("full", ""), ("reduced", PARTS)):
+        deck = checks.deck(f"wave_{name}", rods=("pipe", "tool"), supports=parts + MOTION.format(end=end), loads=loads)
+        checks.call("run", deck, "--output", f"wave_{name}")
+        with h5py.File(f"wave_{name}/results.h5") as file:
+            w = file["/transient/displacement"][:, -1, 2]
+        # the front is as wide as an element of 2.5 m, 1 % of the 310 m it has run
+        checks.close(w[-1] - w[0], speed * end, 1e-2, f"way of the free end in {end} s, {name} model")
+
+
 def a_load(checks):
     """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside elements."""
     total = 50.0 * (154 - 31)
@@ -181,6 +217,7 @@ def the_manual(checks):
 def main():
     checks = Checks(sys.argv[1], pathlib.Path(sys.argv[2]))
     an_element(checks)
+    a_wave(checks)
     a_load(checks)
     a_mud_model(checks)
     the_manual(checks)
