@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// What every time integrator is: it carries a state from one accepted step to the next on a
-/// compiled model. A new integrator is one new file that registers itself.
+/// compiled model. A new integrator is one new file that registers itself, in the tree or outside;
+/// schemes/FixedStepIntegrator.hpp is the shorter way for steps of one length. Recording, the
+/// energy ledger, checkpoints and the interrupt are the work of the run (Transient.hpp).
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -89,11 +91,20 @@ class Integrator {
   /// ConvergenceError.
   virtual void advance(const State& from, State& to) = 0;
 
-  /// After the last step: throws ConvergenceError when the steps, taken together, did not follow
-  /// the motion.
+  // Accuracy of the steps. An integrator judges its steps itself, or lets the run measure them by
+  // taking some a second time as two halves (accuracy/RepeatedSteps.hpp); of others the run says
+  // that their accuracy is not known.
+  /// By error control, by the limit of stability, or in finish() and stepErrors().
+  virtual bool judgesSteps() const { return false; }
+  /// After the last step: throws ConvergenceError when the steps, taken together, are too large.
   virtual void finish() const {}
   /// Of the steps done so far.
   virtual StepErrors stepErrors() const { return {}; }
+  /// Length of equal steps that repeat() can take again [s], known after prepare(); 0: none.
+  virtual double repeatedStep() const { return 0; }
+  /// Called on a second object, prepared with half the step: the step from `from`, any state of the
+  /// run, to to.t. False when its equations have no solution.
+  virtual bool repeat(const State& /*from*/, State& /*to*/) { return false; }
 
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes
   /// on with the same numbers.

@@ -152,10 +152,10 @@ void addOptions(const TransientOptions& options, Bytes& bytes) {
   bytes.add(options.integrator);
   for (double x : {options.start, options.end, options.step, options.sampling}) bytes.add(x);
   bytes.add(static_cast<std::int64_t>(options.ledger));
-  const auto& integrator = IntegratorRegistry::instance().find(options.integrator);
-  const bool anywhere = integrator.make(options.own)->goesOnFromAnywhere();
+  const auto& registry = IntegratorRegistry::instance();
+  const bool anywhere = registry.make(options.integrator, options.own)->goesOnFromAnywhere();
   bytes.add(anywhere ? 0.0 : options.checkpointInterval);
-  addList(withDefaults(options.own, integrator.parameters), bytes);
+  addList(withDefaults(options.own, registry.find(options.integrator).parameters), bytes);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <optional>
 #include <sstream>
 
 #include "common/Error.hpp"
@@ -15,6 +16,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/Progress.hpp"
 #include "transient/ModelIdentity.hpp"
+#include "transient/accuracy/RepeatedSteps.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -122,7 +124,7 @@ class Run {
       : options_(options),
         hooks_(hooks),
         model_(model),
-        integrator_(IntegratorRegistry::instance().make(options.integrator, options.own)),
+        integrator_(make()),
         sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
@@ -141,7 +143,7 @@ class Run {
     report.end = state_.t;
     report.interrupted = interrupted;
     report.counters = integrator_->counters();
-    report.stepErrors = integrator_->stepErrors();
+    report.stepErrors = repeated_ ? repeated_->errors() : integrator_->stepErrors();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
     report.hasEnergy = options_.ledger;
@@ -160,6 +162,10 @@ class Run {
   }
 
  private:
+  std::unique_ptr<Integrator> make() const {
+    return IntegratorRegistry::instance().make(options_.integrator, options_.own);
+  }
+
   void begin() {
     const auto& source = model_.source();
     state_.t = options_.start;
@@ -167,8 +173,10 @@ class Run {
     model_.toPositions(source.initialVelocity, state_.v);
     model_.setTime(state_.t);
     if (model_.stateSize() > 0) startStates();
-    integrator_->prepare(model_, {options_.start, options_.end, options_.sampling, options_.step},
-                         state_);
+    const Window window{options_.start, options_.end, options_.sampling, options_.step};
+    integrator_->prepare(model_, window, state_);
+    if (const double h = integrator_->repeatedStep(); h > 0)
+      repeated_.emplace(model_, make(), window, state_, h);
     if (hooks_.resume != nullptr) {
       resume(*hooks_.resume);
       return;
@@ -180,15 +188,10 @@ class Run {
   }
 
   void startStates() {
-    if (!integrator_->carriesPointStates()) {
-      std::vector<std::string> others;
-      for (const auto& [name, entry] : IntegratorRegistry::instance().entries())
-        if (entry.make(Teuchos::ParameterList())->carriesPointStates()) others.push_back(name);
+    if (!integrator_->carriesPointStates())
       throw ModelError("The integrator \"" + options_.integrator +
                        "\" does not carry the states of point laws, but the law of \"" +
-                       firstWithStates() +
-                       "\" has states. Integrators that do: " + quotedList(others) + ".");
-    }
+                       firstWithStates() + "\" has states. Use \"Generalized-alpha\" or \"RK4\".");
     model_.initialStates(state_.t, state_.q.data(), state_.v.data(), state_.x.data());
   }
 
@@ -215,6 +218,7 @@ class Run {
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
+    if (repeated_) repeated_->restore(memory);
     if (memory != point.memory.data() + point.memory.size())
       throw FileError(
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
@@ -245,6 +249,7 @@ class Run {
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
     if (options_.ledger) ledger_.save(point.memory);
+    if (repeated_) repeated_->save(point.memory);
     return point;
   }
 
@@ -259,8 +264,10 @@ class Run {
         if (hooks_.keep && integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
         return true;
       }
+      const long steps = integrator_->counters().steps;
       integrator_->advance(state_, next_);
       checkFinite(model_, *integrator_, state_, next_);
+      if (repeated_) repeated_->look(steps, state_, next_);
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
@@ -276,7 +283,23 @@ class Run {
     if (bar) bar->finish();
     if (options_.ledger && ledger_.runaway(model_, state_)) runaway();
     integrator_->finish();
+    judgeSteps();
     return false;
+  }
+
+  /// Of an integrator that does not judge its steps itself.
+  void judgeSteps() const {
+    if (integrator_->judgesSteps()) return;
+    if (!repeated_) {
+      log::info("accuracy    not known: the integrator \"" + options_.integrator +
+                "\" does not measure its steps. Compare with a run of half the step.");
+      return;
+    }
+    const auto errors = repeated_->errors();
+    const auto verdict = assess(errors);
+    if (verdict != StepVerdict::Good)
+      log::warn(describe(verdict, errors, integrator_->counters().maxStep) + " " +
+                integrator_->advice() + ".");
   }
 
   /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its
@@ -318,6 +341,7 @@ class Run {
   std::unique_ptr<Integrator> integrator_;
   Sampler sampler_;
   EnergyLedger ledger_;
+  std::optional<RepeatedSteps> repeated_;  ///< accuracy of the steps, where the run measures it
   State state_, next_;
   long evaluationsBefore_ = 0;
   int runawaySamples_ = 0;

@@ -44,7 +44,7 @@ struct TransientReport {
   double wall = 0;            ///< [s]
   double cpu = 0;             ///< [s]
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
-  StepErrors stepErrors;      ///< of fixed implicit steps
+  StepErrors stepErrors;      ///< of equal steps whose accuracy is measured
   bool hasEnergy = false;
   EnergyAccount energy;
 };

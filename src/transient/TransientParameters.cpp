@@ -70,9 +70,9 @@ void requireCounts(const TransientOptions& options) {
 
 bool isExplicit(const Teuchos::ParameterList& transient) {
   const auto list = withDefaults(transient, parameters());
-  return IntegratorRegistry::instance()
-      .make(list.get<std::string>("Integrator"), Teuchos::ParameterList())
-      ->isExplicit();
+  const auto& name = list.get<std::string>("Integrator");
+  const auto own = list.isSublist(name) ? list.sublist(name) : Teuchos::ParameterList(name);
+  return IntegratorRegistry::instance().make(name, own)->isExplicit();
 }
 
 TransientOptions readOptions(const Teuchos::ParameterList& given) {

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <cmath>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "transient/Integrator.hpp"
@@ -69,6 +71,19 @@ inline StepVerdict assess(const StepErrors& errors) {
   const bool astray = d > lostHalves || (d > suspectHalves && (d > mostOfIt * r || r > large));
   if (r > lost || (r > moving && astray)) return StepVerdict::TooLarge;
   return r > coarse || (r > moving && d > coarseHalves) ? StepVerdict::Coarse : StepVerdict::Good;
+}
+
+/// "The time step (0.01 s) is too large: local error 3 % per step, step-doubling difference 4 %."
+inline std::string describe(StepVerdict verdict, const StepErrors& errors, double step) {
+  const auto percent = [](double part) { return std::round(1000 * part) / 10; };
+  std::ostringstream text;
+  text << "The time step (" << step << " s) is "
+       << (verdict == StepVerdict::TooLarge ? "too large" : "coarse") << ": local error "
+       << percent(errors.local) << " % per step";
+  if (errors.stepDoubling > 0)
+    text << ", step-doubling difference " << percent(errors.stepDoubling) << " %";
+  text << ".";
+  return text.str();
 }
 
 }  // namespace tooljoint::transient

@@ -15,26 +15,19 @@ constexpr long usualStride = 100, shortestStride = 25, fewest = 8, most = 128;
 constexpr std::size_t least = 4;
 /// One in so many steps differs by what happens once, a bounce or a grip, and not by how steps go.
 constexpr std::size_t leftOut = 4;
-/// The halves are solved better than the step, so that what its iterations leave is seen.
-constexpr double strictness = 0.1;
 
 }  // namespace
 
-void StepDoublingError::bind(const AlphaStep& step, const State& state, double h, long steps) {
-  auto parameters = step.parameters();
-  parameters.equations.tolerance *= strictness;
-  halves_.emplace(parameters);
+void StepDoublingError::bind(CompiledModel& model, std::unique_ptr<HalvedStep> halves,
+                             const State& state, double h, long steps) {
+  model_ = &model;
+  halves_ = std::move(halves);
   points_.clear();
-  for (const auto& set : step.model().source().points)
-    points_.emplace_back(set, step.model().pattern());
-  withModel(step.model(), [&] {
-    halves_->startLike(step);
-    halves_->prepare(0.5 * h, state.t);
-  });
-  h_ = h;
-  size_.bind(step.model());
-  start_ = middle_ = end_ = state;
-  velocity_ = difference_ = state.v;
+  for (const auto& set : model.source().points) points_.emplace_back(set, model.pattern());
+  withModel([&] { halves_->prepare(model, state, h); });
+  size_.bind(model);
+  end_ = state;
+  before_ = velocity_ = ofHalves_ = state.v;
   stride_ = std::max(std::clamp(steps / fewest, shortestStride, usualStride), steps / most);
   errors_.reserve(static_cast<std::size_t>(steps / stride_ + 2));
   plan();
@@ -42,12 +35,12 @@ void StepDoublingError::bind(const AlphaStep& step, const State& state, double h
 
 /// What is done with the model while the points are those of the halves; then it is as it was.
 template <class Work>
-void StepDoublingError::withModel(CompiledModel& model, const Work& work) {
-  model.remember(snapshot_);
-  points_.swap(model.points());
+void StepDoublingError::withModel(const Work& work) {
+  model_->remember(snapshot_);
+  points_.swap(model_->points());
   work();
-  points_.swap(model.points());
-  model.comeBack(snapshot_);
+  points_.swap(model_->points());
+  model_->comeBack(snapshot_);
 }
 
 /// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
@@ -57,40 +50,31 @@ void StepDoublingError::plan() {
   next_ = static_cast<long>(static_cast<double>(stride_) * (i + spread - std::floor(spread)));
 }
 
-bool StepDoublingError::takeHalves(const AlphaStep& step, const State& from, double end) {
-  halves_->startWhere(step);
-  start_ = from;
-  step.addImpactVelocity(-0.5, h_, true, start_.v);
-  middle_.t = from.t + 0.5 * h_;
-  end_.t = end;
-  if (!halves_->take(start_, middle_, 0.5 * h_, false, unused_)) return false;
-  halves_->keep();
-  return halves_->take(middle_, end_, 0.5 * h_, false, unused_);
-}
-
 /// What meets a wall as an impact in the step does so in its halves: what the scheme remembers has
 /// no part of its force.
-void StepDoublingError::shareImpacts(const std::vector<PointBatch>& points) {
+void StepDoublingError::shareImpacts() {
+  const auto& points = model_->points();
   for (std::size_t b = 0; b < points.size(); ++b)
     for (int p = 0; p < points[b].points(); ++p) points_[b].setScale(p, points[b].scale(p));
 }
 
-void StepDoublingError::look(const AlphaStep& step, const State& from, const State& to) {
+bool StepDoublingError::look(const State& from, const State& to) {
   ++seen_;
   plan();
-  shareImpacts(step.model().points());
+  shareImpacts();
   bool solved = false;
-  withModel(step.model(), [&] { solved = takeHalves(step, from, to.t); });
-  if (!solved) return;  // says nothing: the step itself has been solved
-  const auto add = [&](double& sum, const Vector& x) { sum += size_(x) * size_(x); };
+  end_.t = to.t;
+  withModel([&] { solved = halves_->take(from, end_); });
+  if (!solved) return false;  // says nothing: the step itself has been solved
+  before_ = from.v;
   velocity_ = to.v;
-  step.addImpactVelocity(-1.0, h_, false, velocity_);
-  difference_ = velocity_ - end_.v;
-  halves_->addImpactVelocity(1.0, 0.5 * h_, false, difference_);
-  add(errors_.emplace_back(0.0), difference_);
-  difference_ = velocity_ - from.v;
-  step.addImpactVelocity(1.0, h_, true, difference_);
-  add(change_, difference_);
+  ofHalves_ = end_.v;
+  halves_->clean(before_, velocity_, ofHalves_);
+  ofHalves_ -= velocity_;
+  before_ -= velocity_;
+  errors_.push_back(size_(ofHalves_) * size_(ofHalves_));
+  change_ += size_(before_) * size_(before_);
+  return true;
 }
 
 double StepDoublingError::ratio(double speed) const {
@@ -121,7 +105,7 @@ void StepDoublingError::restore(const double*& memory) {
   plan();
   const double* points = memory;
   for (auto& batch : points_) batch.restore(memory);
-  withModel(halves_->model(), [&] { halves_->restore(memory); });
+  withModel([&] { halves_->restore(memory); });
   for (auto& batch : points_) batch.restore(points);  // the scheme has set scales of its own
 }
 

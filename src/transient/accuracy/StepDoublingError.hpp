@@ -11,27 +11,30 @@
 /// with |.| of MassNorm and means over the steps looked at; of |e_v|^2 without its largest quarter,
 /// which is what happens once, such as a ball that lands within the step; of |v|^2 = |q_{n+1} -
 /// q_n|^2 / h^2 over the run. What a contact that lasts as an impact leaves in v
-/// (AlphaStep::addImpactVelocity) depends on the step and is no motion: it is taken out. The halves
-/// have points, factor, counters and memory of their own and leave the model as it was: the run
-/// does not notice them.
+/// (HalvedStep::clean) depends on the step and is no motion: it is taken out. The halves have
+/// points, factor, counters and memory of their own and leave the model as it was: the run does not
+/// notice them.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
+#include "transient/accuracy/HalvedStep.hpp"
 #include "transient/accuracy/StepControl.hpp"
-#include "transient/schemes/AlphaStep.hpp"
 
 namespace tooljoint::transient {
 
 class StepDoublingError {
  public:
-  /// For steps of length h of `step`, which has started with `state`, in a run of this many.
-  void bind(const AlphaStep& step, const State& state, double h, long steps);
+  /// For steps of length h in a run of this many, which starts at `state`.
+  void bind(CompiledModel& model, std::unique_ptr<HalvedStep> halves, const State& state, double h,
+            long steps);
   /// Whether the step after so many is to be looked at.
   bool isDue(long steps) const { return steps >= next_; }
-  /// The step that `step` has just taken and not kept yet.
-  void look(const AlphaStep& step, const State& from, const State& to);
+  /// The step that the run has just taken; false when its halves say nothing.
+  bool look(const State& from, const State& to);
+  /// Where the halves of the last look() ended.
+  const State& end() const { return end_; }
   /// D, for a root of the mean square of the velocity taken from the whole run; 0 for a run too
   /// short to say.
   double ratio(double speed) const;
@@ -41,19 +44,17 @@ class StepDoublingError {
 
  private:
   template <class Work>
-  void withModel(CompiledModel& model, const Work& work);
-  bool takeHalves(const AlphaStep& step, const State& from, double end);
-  void shareImpacts(const std::vector<PointBatch>& points);
+  void withModel(const Work& work);
+  void shareImpacts();
   void plan();
 
-  std::optional<AlphaStep> halves_;
+  CompiledModel* model_ = nullptr;
+  std::unique_ptr<HalvedStep> halves_;
   std::vector<PointBatch> points_;    ///< of the halves
   CompiledModel::Snapshot snapshot_;  ///< of the run
   MassNorm size_;
-  State start_, middle_, end_;
-  Vector velocity_, difference_;
-  Counters unused_;
-  double h_ = 0;
+  State end_;
+  Vector before_, velocity_, ofHalves_;
   long stride_ = 0;             ///< mean distance of the steps looked at
   long seen_ = 0;               ///< steps looked at
   long next_ = 0;               ///< the next one

@@ -50,7 +50,7 @@
 #include "transient/accuracy/StepAccuracy.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepDoublingError.hpp"
-#include "transient/schemes/AlphaStep.hpp"
+#include "transient/schemes/AlphaHalves.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -98,12 +98,6 @@ deck::ListSpec specification() {
       .expert();
 }
 
-std::string percent(double part) {
-  std::ostringstream text;
-  text << std::round(1000 * part) / 10 << " %";
-  return text.str();
-}
-
 /// Largest step of the default when the deck gives none.
 constexpr double defaultStep = 1e-3;
 
@@ -143,6 +137,7 @@ class GeneralizedAlpha final : public Integrator {
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
+  bool judgesSteps() const override { return true; }
   void finish() const override;
   StepErrors stepErrors() const override;
   void save(std::vector<double>& memory) const override;
@@ -201,7 +196,8 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
   change_ = state.q;
   if (resolveImpacts_) impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
   if (!controlled_)
-    doubling_.bind(*scheme_, state, step_, std::lround((window.end - window.begin) / step_));
+    doubling_.bind(model, std::make_unique<AlphaHalves>(*scheme_), state, step_,
+                   std::lround((window.end - window.begin) / step_));
 }
 
 double GeneralizedAlpha::gridTime() const {
@@ -306,7 +302,7 @@ void GeneralizedAlpha::look(const State& from, const State& to, double h) {
     change_ = to.q - from.q;
     accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }
-  if (h == step_ && doubling_.isDue(index_)) doubling_.look(*scheme_, from, to);
+  if (h == step_ && doubling_.isDue(index_)) doubling_.look(from, to);
 }
 
 StepErrors GeneralizedAlpha::stepErrors() const {
@@ -318,13 +314,9 @@ void GeneralizedAlpha::finish() const {
   const auto errors = stepErrors();
   const auto verdict = assess(errors);
   if (verdict == StepVerdict::Good) return;
-  const bool tooLarge = verdict == StepVerdict::TooLarge;
   std::ostringstream text;
-  text << "The time step (" << counters_.maxStep << " s) is " << (tooLarge ? "too large" : "coarse")
-       << ": local error " << percent(errors.local) << " per step";
-  if (errors.stepDoubling > 0)
-    text << ", step-doubling difference " << percent(errors.stepDoubling);
-  text << ". Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
+  text << describe(verdict, errors, counters_.maxStep)
+       << " Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
   if (tolerance_ > defaultTolerance)
     text << " The iteration tolerance (Transient/Generalized-alpha/Tolerance = " << tolerance_
          << ") adds to the error.";
@@ -334,7 +326,7 @@ void GeneralizedAlpha::finish() const {
   if (hits && !resolveImpacts_)
     text << " Contact is too stiff for this step and has no rebound. Leave "
             "Transient/Generalized-alpha/Resolve Impacts switched on.";
-  if (!tooLarge || acceptCoarse_) return log::warn(text.str());
+  if (verdict != StepVerdict::TooLarge || acceptCoarse_) return log::warn(text.str());
   throw ConvergenceError(text.str());
 }
 

@@ -49,6 +49,7 @@ class RungeKutta4Adaptive final : public Integrator {
 
   bool isExplicit() const override { return true; }
   bool carriesPointStates() const override { return true; }
+  bool judgesSteps() const override { return true; }
   std::string advice() const override {
     return "Reduce Transient/RK4 adaptive/Tolerance, or use the integrator "
            "\"Generalized-alpha\"";

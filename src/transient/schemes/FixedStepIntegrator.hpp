@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Integrators with steps of one length: a scheme gives the start and the step, from a state alone.
+/// Times, restart and the measured accuracy of the steps come with it.
+#pragma once
+
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+class FixedStepIntegrator : public Integrator {
+ public:
+  std::string advice() const override { return "Reduce Transient/Step"; }
+  void prepare(CompiledModel& model, const Window& window, State& state) final;
+  void advance(const State& from, State& to) final;
+  double repeatedStep() const override { return step_; }
+  bool repeat(const State& from, State& to) final;
+  /// A scheme that remembers more than its factors overrides both and calls these.
+  void save(std::vector<double>& memory) const override;
+  void restore(const double*& memory) override;
+
+ protected:
+  /// Binds to the model and completes state.a and state.xDot, as Integrator::prepare().
+  virtual void start(CompiledModel& model, State& state) = 0;
+  /// Step where the deck gives none [s]; called after start(). The default divides the motion into
+  /// thousand steps.
+  virtual double usualStep(const Window& window, const State& start);
+  /// One step of length to.t - from.t, equal but for rounding and at the end of the motion. Writes
+  /// all of `to` but its time. Throws ConvergenceError.
+  virtual void step(const State& from, State& to) = 0;
+
+ private:
+  Window window_;
+  double step_ = 0;
+  long index_ = 0;
+};
+
+}  // namespace tooljoint::transient
