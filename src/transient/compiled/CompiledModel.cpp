@@ -356,6 +356,11 @@ void CompiledModel::bindStates(const double* base, double factor, const double* 
   });
 }
 
+void CompiledModel::bindKnownStates(const double* x, double factor) {
+  forStates(points_,
+            [&](auto&, PointStates& states, int offset) { states.bindKnown(x + offset, factor); });
+}
+
 void CompiledModel::stateRates(double* xDot) const {
   forStates(points_, [&](auto&, PointStates& states, int offset) { states.rates(xDot + offset); });
 }

@@ -164,6 +164,8 @@ class CompiledModel {
   /// What the points are evaluated with from now on, see PointStates::bind(); arrays of
   /// stateSize() that must outlive their use.
   void bindStates(const double* base, double factor = 0.0, const double* rate = nullptr);
+  /// See PointStates::bindKnown().
+  void bindKnownStates(const double* x, double factor);
   /// Rates of the last evaluation of all points.
   void stateRates(double* xDot) const;
   /// The end (q, v) of an implicit step: states, their rates, held ones accepted.

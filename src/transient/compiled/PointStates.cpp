@@ -45,8 +45,14 @@ PointStates::PointStates(const model::StatefulPointLaw& law)
 void PointStates::bind(const double* base, double factor, const double* rate) {
   base_ = base;
   factor_ = factor;
+  known_ = factor == 0.0 || rated_ == 0;
   rate_ = rate;
   std::copy(base, base + size(), x_.begin());
+}
+
+void PointStates::bindKnown(const double* x, double factor) {
+  bind(x, factor, nullptr);
+  known_ = true;
 }
 
 model::StateTangents PointStates::tangents() {
@@ -54,8 +60,8 @@ model::StateTangents PointStates::tangents() {
 }
 
 /// I - factor dg/dx
-void PointStates::setJacobian(int point) {
-  jacobian_ = -factor_ * Rows(&gx_[at(point * rated_ * rated_)], rated_, rated_);
+void PointStates::setJacobian(int point, double factor) {
+  jacobian_ = -factor * Rows(&gx_[at(point * rated_ * rated_)], rated_, rated_);
   jacobian_.diagonal().array() += 1.0;
   factorised_.compute(jacobian_);
 }
@@ -68,7 +74,7 @@ bool PointStates::solve(double t, int point, const double* d, const double* v) {
   const double* base = base_ + point * states_;
   for (int iteration = 0; iteration < maxIterations; ++iteration) {
     law_->forcesWithTangents(t, one_, d, v, x_.data(), f_.data(), g_.data(), tangents());
-    setJacobian(point);
+    setJacobian(point, factor_);
     double size = 0, update = 0;
     for (int i = 0; i < rated_; ++i)
       defect_[i] = base[i] + factor_ * g_[at(point * rated_ + i)] - x[i];
@@ -87,7 +93,7 @@ bool PointStates::solve(double t, int point, const double* d, const double* v) {
 void PointStates::evaluate(double t, const std::vector<int>& points, const double* d,
                            const double* v, double* f) {
   bool good = true;
-  if (factor_ != 0.0 && rated_ > 0)
+  if (!known_)
     for (int p : points) good = solve(t, p, d, v) && good;
   law_->forces(t, points, d, v, x_.data(), f, g_.data());
   if (!good)
@@ -105,7 +111,7 @@ void PointStates::evaluateWithTangent(double t, const std::vector<int>& points, 
     std::copy_n(&fd_[at(p * entries)], entries, dfdd + p * entries);
     std::copy_n(&fv_[at(p * entries)], entries, dfdv + p * entries);
     if (!follows) continue;
-    setJacobian(p);
+    setJacobian(p, factor_);
     const Rows fx(&fx_[at(p * width_ * rated_)], width_, rated_);
     const auto add = [&](const std::vector<double>& by, double* tangent) {
       right_ = factor_ * Rows(&by[at(p * width_ * rated_)], rated_, width_);
@@ -123,6 +129,30 @@ void PointStates::evaluateWithTangent(double t, const std::vector<int>& points, 
 model::PointLaw::Power PointStates::power(double t, const std::vector<int>& points, const double* d,
                                           const double* v) const {
   return law_->powers(t, points, d, v, base_, rate_ != nullptr ? rate_ : still_.data());
+}
+
+void PointStates::forceOf(double factor, const double* r, double* rows) {
+  for (int p = 0; p < points_ && rated_ > 0; ++p) {
+    setJacobian(p, factor);
+    step_ = factorised_.solve(Eigen::Map<const Vector>(r + p * rated_, rated_));
+    Eigen::Map<Vector>(rows + p * width_, width_).noalias() =
+        Rows(&fx_[at(p * width_ * rated_)], width_, rated_) * step_;
+  }
+}
+
+void PointStates::follow(double factor, const double* d, const double* v, double* r) {
+  for (int p = 0; p < points_ && rated_ > 0; ++p) {
+    setJacobian(p, factor);
+    Eigen::Map<Vector> mine(r + p * rated_, rated_);
+    defect_ = mine;
+    const auto add = [&](const std::vector<double>& by, const double* rows) {
+      defect_.noalias() += factor * (Rows(&by[at(p * width_ * rated_)], rated_, width_) *
+                                     Eigen::Map<const Vector>(rows + p * width_, width_));
+    };
+    add(gd_, d);
+    add(gv_, v);
+    mine = factorised_.solve(defect_);
+  }
 }
 
 void PointStates::rates(double* xDot) const {

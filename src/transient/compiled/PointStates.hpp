@@ -8,7 +8,10 @@
 /// with factor 0 where x is known (stages of explicit schemes), and each point is then a function
 /// of its d and v alone, with the tangents that follow:
 ///
-///     df/dd + df/dx (I - factor dg/dx)^-1 factor dg/dd,   likewise for v
+///     df/dd + df/dx S factor dg/dd,   S = (I - factor dg/dx)^-1,   likewise for v
+///
+/// Solvers of first-order systems iterate on x themselves and eliminate it from their Newton
+/// equations: bindKnown() and the functions below it.
 #pragma once
 
 #include <Eigen/LU>
@@ -27,6 +30,16 @@ class PointStates {
   int size() const { return points_ * states_; }
   /// States from now on; `base` must outlive their use. `rate` is that of power(), null for none.
   void bind(const double* base, double factor, const double* rate);
+  /// States x, with the tangents that follow from this factor.
+  void bindKnown(const double* x, double factor);
+  /// Of the last tangents, and r with rated() numbers per point: the forces df/dx S r, width() rows
+  /// per point.
+  void forceOf(double factor, const double* r, double* rows);
+  /// r := S (r + factor (dg/dd d + dg/dv v)), d and v being rows.
+  void follow(double factor, const double* d, const double* v, double* r);
+  int points() const { return points_; }
+  int states() const { return states_; }
+  int rated() const { return rated_; }
 
   /// As the functions of model::PointLaw. Forces of a point whose states cannot be found are not
   /// numbers, so that the step fails.
@@ -54,12 +67,13 @@ class PointStates {
  private:
   bool solve(double t, int point, const double* d, const double* v);
   model::StateTangents tangents();
-  void setJacobian(int point);
+  void setJacobian(int point, double factor);
 
   const model::StatefulPointLaw* law_;
   int points_, width_, states_, rated_;
   const double* base_ = nullptr;
   double factor_ = 0;
+  bool known_ = true;  ///< x is base_
   const double* rate_ = nullptr;
   std::vector<double> x_, g_, f_, fd_, fv_, fx_, gd_, gv_, gx_, still_;
   std::vector<int> one_;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// `SUNDIALS ARKODE` (diagonally implicit Runge-Kutta) and `SUNDIALS CVODE` (backward
-/// differentiation) on y = (q, v), with the error of each step held below
+/// differentiation) on y = (q, v, rated states of point laws), with the error of each step held
+/// below
 ///
-///     sqrt( 1/2n sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of positions or of
-///     velocities
+///     sqrt( 1/N sum_i (e_i / (rtol |y_i| + atol_i))^2 ) <= 1,   atol_i that of velocities for v,
+///     of positions else
 ///
-/// Both choose their steps; samples are interpolated.
+/// Both choose their steps; samples are interpolated. Held states of point laws change where a step
+/// ends; where that changes a force, the method begins anew.
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -31,8 +33,8 @@ void addCommon(deck::ListSpec& spec) {
             "Error of a step allowed in each coordinate and velocity, relative to its size.")
       .real("Absolute Tolerance", "m", deck::Optional{}, deck::Range::positive(),
             "Error of a step allowed in displacements beside that, and by the same number in "
-            "rotations (rad) and coordinates of "
-            "modes; by default 0.01 m times Relative Tolerance.")
+            "rotations (rad), coordinates of "
+            "modes and states of point laws; by default 0.01 m times Relative Tolerance.")
       .expert()
       .real("Absolute Velocity Tolerance", "m/s", deck::Optional{}, deck::Range::positive(),
             "The same for velocities; by default 1 m/s times Relative Tolerance.")
@@ -94,6 +96,8 @@ class Sundials final : public Integrator {
     maxSteps_ = own.get<int>("Maximum Steps");
   }
 
+  bool carriesPointStates() const override { return true; }
+  bool judgesSteps() const override { return true; }
   std::string advice() const override {
     return "Reduce Transient/" + name_ +
            "/Relative Tolerance and the absolute tolerances there if given, or use the "
@@ -118,12 +122,12 @@ class Sundials final : public Integrator {
     form_.bind(model, name_);
     window_ = window;
     if (!(options_.firstStep > 0)) options_.firstStep = window.step;
+    form_.setStates(state.x);
     y_.setZero(form_.size());
-    yDot_.setZero(form_.size());
     stepper_ = makeStepper();
     firstStep_ = options_.firstStep;
-    stepper_->restart(state.t, state.q.data(), state.v.data(), window.end, firstStep_);
-    complete(state);
+    restart(state);
+    form_.complete(state);
     count();
   }
 
@@ -134,14 +138,21 @@ class Sundials final : public Integrator {
     const double reached = stepper_->time();
     const double sample = nextSample(from.t);
     to.t = sample < reached - 1e-6 * window_.sampling ? sample : reached;
-    stepper_->at(to.t, to.q.data(), to.v.data());
-    complete(to);
+    stepper_->at(to.t, y_.data());
+    form_.unpack(y_.data(), to);
+    form_.complete(to);
+    ended_ = to.t == reached;
+    if (ended_ && form_.accept(to, options_.relative) && to.t < window_.end)
+      beginsAnew_ = true, firstStep_ = 0.0;
     count();
   }
 
-  void save(std::vector<double>& memory) const override { memory.push_back(firstStep_); }
+  void save(std::vector<double>& memory) const override {
+    memory.insert(memory.end(), {firstStep_, ended_ ? 1.0 : 0.0});
+  }
   void restore(const double*& memory) override {
     firstStep_ = *memory++;
+    ended_ = *memory++ != 0.0;
     beginsAnew_ = true;
   }
 
@@ -167,11 +178,22 @@ class Sundials final : public Integrator {
 #endif
   }
 
-  /// From a checkpoint, with its step but without what the method remembers of earlier ones. The
-  /// rest of a step that reached beyond the checkpoint is given up.
+  void restart(const State& from) {
+    form_.pack(from, y_.data());
+    stepper_->restart(from.t, y_.data(), window_.end, firstStep_);
+  }
+
+  /// From a checkpoint, or from where a held state has changed a force, with its step but without
+  /// what the method remembers of earlier ones. The rest of a step that reached beyond is given up:
+  /// the step then ends here, also for the held states.
   void beginAnew(const State& from) {
     beginsAnew_ = false;
-    stepper_->restart(from.t, from.q.data(), from.v.data(), window_.end, firstStep_);
+    form_.setStates(from.x);
+    if (!ended_) {
+      State end = from;
+      form_.accept(end, options_.relative);
+    }
+    restart(from);
     seen_ = {};
     evaluations_ = form_.evaluations();
     factorisations_ = form_.factorisations();
@@ -201,15 +223,6 @@ class Sundials final : public Integrator {
            (std::floor((t - window_.begin) / window_.sampling + 1e-6) + 1) * window_.sampling;
   }
 
-  /// state.a from the equations of motion.
-  void complete(State& state) {
-    const int n = form_.dofs();
-    y_.head(n) = state.q;
-    y_.tail(n) = state.v;
-    form_.rightHandSide(state.t, y_.data(), yDot_.data());
-    state.a = yDot_.tail(n);
-  }
-
   /// What SUNDIALS and the form counted since the last time.
   void count() {
     const SundialsCounts now = stepper_->counts();
@@ -232,7 +245,7 @@ class Sundials final : public Integrator {
     for (const double later : {0.0, 1e-9 * (window_.end - window_.begin)}) {
       if (!state.a.allFinite()) continue;
       state.t = t + later;
-      complete(state);
+      form_.complete(state);
     }
     if (!state.a.allFinite()) trouble = SundialsTrouble::NotFinite;
     switch (trouble) {
@@ -242,9 +255,8 @@ class Sundials final : public Integrator {
         break;
       case SundialsTrouble::ErrorTest:
         text << name_ << " cannot hold its tolerances at t = " << t
-             << " s however short the step, least at "
-             << form_.model().dofName(stepper_->worstPosition()) << ": a force jumps there. Raise "
-             << own
+             << " s however short the step, least at " << form_.nameOf(stepper_->worstPosition())
+             << ": a force jumps there. Raise " << own
              << "Absolute Velocity Tolerance and Relative Tolerance, or use the integrator "
                 "\"Generalized-alpha\".";
         break;
@@ -258,7 +270,7 @@ class Sundials final : public Integrator {
         const int worst =
             state.a.allFinite() ? stepper_->worstPosition() : transient::worstPosition(state.a);
         text << "The motion is not finite however short the step of " << name_ << " from t = " << t
-             << " s, first at " << form_.model().dofName(worst)
+             << " s, first at " << form_.nameOf(worst)
              << ": a load, a law of time or a point law gives no number there.";
         break;
       }
@@ -274,10 +286,11 @@ class Sundials final : public Integrator {
   FirstOrderForm form_;
   Window window_;
   std::unique_ptr<SundialsStepper> stepper_;
-  Vector y_, yDot_;
+  Vector y_;
   SundialsCounts seen_;
   long evaluations_ = 0, factorisations_ = 0;
   double firstStep_ = 0;     ///< of the next start; 0: chosen by SUNDIALS
+  bool ended_ = true;        ///< the state handed out last is the end of a step
   bool beginsAnew_ = false;  ///< before the next step
 };
 

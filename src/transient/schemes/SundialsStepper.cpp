@@ -12,6 +12,8 @@
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
 
+#include "common/Error.hpp"
+
 namespace tooljoint::transient {
 namespace {
 
@@ -29,7 +31,7 @@ class Stepper : public SundialsStepper {
     y_ = N_VNew_Serial(form.size(), context_);
     tolerance_ = N_VNew_Serial(form.size(), context_);
     work_ = N_VNew_Serial(form.size(), context_);
-    std::fill_n(data(tolerance_), form.dofs(), options.positions);
+    std::fill_n(data(tolerance_), form.size(), options.positions);
     std::fill_n(data(tolerance_) + form.dofs(), form.dofs(), options.velocities);
     matrix_ = SUNMatNewEmpty(context_);
     matrix_->content = this;
@@ -63,11 +65,16 @@ class Stepper : public SundialsStepper {
   static Stepper& self(void* data) { return *static_cast<Stepper*>(data); }
   static double* data(N_Vector x) { return N_VGetArrayPointer(x); }
 
-  /// yDot = f(t, y): 0, or 1 when it is no number (a shorter step may do), or -1 when the model
-  /// threw.
+  /// yDot = f(t, y): 0, or 1 when it is no number or a law cannot give one (a shorter step may do),
+  /// or -1 when the model threw something else.
   static int rightHandSide(realtype t, N_Vector y, N_Vector yDot, void* me) {
     return self(me).guarded([&](FirstOrderForm& form) {
-      form.rightHandSide(t, data(y), data(yDot));
+      try {
+        form.rightHandSide(t, data(y), data(yDot));
+      } catch (const ConvergenceError&) {
+        self(me).refused_ = std::current_exception();
+        return 1;
+      }
       return isFinite(yDot) ? 0 : 1;
     });
   }
@@ -89,16 +96,12 @@ class Stepper : public SundialsStepper {
     self(me).message_ = text;
   }
 
-  void load(double t, const double* q, const double* v) {
-    std::copy_n(q, form_.dofs(), data(y_));
-    std::copy_n(v, form_.dofs(), data(y_) + form_.dofs());
+  void load(double t, const double* y) {
+    std::copy_n(y, form_.size(), data(y_));
     time_ = t;
     length_ = 0;
   }
-  void unload(N_Vector from, double* q, double* v) const {
-    std::copy_n(data(from), form_.dofs(), q);
-    std::copy_n(data(from) + form_.dofs(), form_.dofs(), v);
-  }
+  void unload(N_Vector from, double* y) const { std::copy_n(data(from), form_.size(), y); }
   /// Largest of the errors in work_, weighted by y.
   int worst() const {
     int position = 0;
@@ -106,15 +109,18 @@ class Stepper : public SundialsStepper {
     for (int i = 0; i < form_.size(); ++i) {
       const double size = std::abs(data(work_)[i]) /
                           (options_.relative * std::abs(data(y_)[i]) + data(tolerance_)[i]);
-      if (!std::isfinite(size)) return i % form_.dofs();
-      if (size > largest) largest = size, position = i % form_.dofs();
+      if (!std::isfinite(size)) return i;
+      if (size > largest) largest = size, position = i;
     }
     return position;
   }
   void require(int flag, const char* call) const {
     if (flag < 0) throw std::runtime_error(std::string(call) + " of SUNDIALS failed: " + message_);
   }
-  void rethrow() {
+  /// \param flag  what the step returned: a failed one rethrows what a law refused last
+  void rethrow(int flag = 0) {
+    if (!thrown_ && flag < 0) thrown_ = refused_;
+    refused_ = nullptr;
     if (!thrown_) return;
     const auto thrown = thrown_;
     thrown_ = nullptr;
@@ -148,7 +154,7 @@ class Stepper : public SundialsStepper {
     }
   }
   bool regular_ = false;
-  std::exception_ptr thrown_;
+  std::exception_ptr thrown_, refused_;
 };
 
 /// ARKStep, all terms implicit.
@@ -162,8 +168,8 @@ class Arkode final : public Stepper {
     for (N_Vector each : {from_, fromRate_, rate_}) N_VDestroy(each);
   }
 
-  void restart(double t, const double* q, const double* v, double end, double firstStep) override {
-    load(t, q, v);
+  void restart(double t, const double* y, double end, double firstStep) override {
+    load(t, y);
     if (memory_ == nullptr)
       create(t);
     else
@@ -176,7 +182,7 @@ class Arkode final : public Stepper {
   SundialsTrouble step() override {
     interpolates_ = false;
     const int flag = ARKStepEvolve(memory_, end_, y_, &time_, ARK_ONE_STEP);
-    rethrow();
+    rethrow(flag);
     if (flag >= 0) {
       require(ARKStepGetLastStep(memory_, &length_), "ARKStepGetLastStep");
       return SundialsTrouble::None;
@@ -205,9 +211,9 @@ class Arkode final : public Stepper {
     return h;
   }
   /// The interpolation of ARKODE is of the third degree, less than the methods are worth; q, v and
-  /// a at both ends of the step give one of the fifth.
-  void at(double t, double* q, double* v) override {
-    if (t == time_) return unload(y_, q, v);
+  /// a at both ends of the step give one of the fifth. States of point laws have the third.
+  void at(double t, double* y) override {
+    if (t == time_) return unload(y_, y);
     if (!interpolates_) {
       require(ARKStepGetDky(memory_, time_ - length_, 0, from_), "ARKStepGetDky");
       require(ARKStepGetDky(memory_, time_ - length_, 1, fromRate_), "ARKStepGetDky");
@@ -230,9 +236,13 @@ class Arkode final : public Stepper {
     const double *Y0 = data(from_), *F0 = data(fromRate_), *Y1 = data(y_), *F1 = data(rate_);
     for (int i = 0, k = n; i < n; ++i, ++k) {
       const double step = Y1[i] - Y0[i];
-      q[i] = Y0[i] + p * step + v0 * Y0[k] + v1 * Y1[k] + a0 * F0[k] + a1 * F1[k];
-      v[i] = dp * step + dv0 * Y0[k] + dv1 * Y1[k] + da0 * F0[k] + da1 * F1[k];
+      y[i] = Y0[i] + p * step + v0 * Y0[k] + v1 * Y1[k] + a0 * F0[k] + a1 * F1[k];
+      y[k] = dp * step + dv0 * Y0[k] + dv1 * Y1[k] + da0 * F0[k] + da1 * F1[k];
     }
+    const double h01 = x * x * (3 - 2 * x), h10 = h * x * (1 - x) * (1 - x),
+                 h11 = h * x * x * (x - 1);
+    for (int i = 2 * n; i < form_.size(); ++i)
+      y[i] = Y0[i] + h01 * (Y1[i] - Y0[i]) + h10 * F0[i] + h11 * F1[i];
   }
   SundialsCounts counts() const override {
     SundialsCounts c;
@@ -284,8 +294,8 @@ class Cvode final : public Stepper {
   using Stepper::Stepper;
   ~Cvode() override { CVodeFree(&memory_); }
 
-  void restart(double t, const double* q, const double* v, double end, double firstStep) override {
-    load(t, q, v);
+  void restart(double t, const double* y, double end, double firstStep) override {
+    load(t, y);
     if (memory_ == nullptr)
       create(t);
     else
@@ -297,7 +307,7 @@ class Cvode final : public Stepper {
 
   SundialsTrouble step() override {
     const int flag = CVode(memory_, end_, y_, &time_, CV_ONE_STEP);
-    rethrow();
+    rethrow(flag);
     if (flag >= 0) {
       require(CVodeGetLastStep(memory_, &length_), "CVodeGetLastStep");
       return SundialsTrouble::None;
@@ -325,10 +335,10 @@ class Cvode final : public Stepper {
     require(CVodeGetCurrentStep(memory_, &h), "CVodeGetCurrentStep");
     return h;
   }
-  void at(double t, double* q, double* v) override {
-    if (t == time_) return unload(y_, q, v);
+  void at(double t, double* y) override {
+    if (t == time_) return unload(y_, y);
     require(CVodeGetDky(memory_, t, 0, work_), "CVodeGetDky");
-    unload(work_, q, v);
+    unload(work_, y);
   }
   SundialsCounts counts() const override {
     SundialsCounts c;

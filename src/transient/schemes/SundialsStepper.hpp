@@ -14,7 +14,7 @@ namespace tooljoint::transient {
 
 struct SundialsOptions {
   double relative = 1e-4;    ///< relative tolerance
-  double positions = 1e-6;   ///< absolute tolerance of q
+  double positions = 1e-6;   ///< absolute tolerance of q and of states of point laws
   double velocities = 1e-4;  ///< absolute tolerance of v
   double firstStep = 0;      ///< 0: chosen by SUNDIALS
   double maxStep = 0;        ///< 0: no limit
@@ -42,9 +42,9 @@ class SundialsStepper {
  public:
   virtual ~SundialsStepper() = default;
   /// Begin at (t, y) and never step past `end`; firstStep 0 leaves the first step to SUNDIALS.
-  virtual void restart(double t, const double* q, const double* v, double end,
-                       double firstStep) = 0;
-  /// One step, however short. Rethrows what the model throws.
+  virtual void restart(double t, const double* y, double end, double firstStep) = 0;
+  /// One step, however short. Rethrows what the model throws; a ConvergenceError (a delay shorter
+  /// than the step) only when a shorter step meets it too.
   virtual SundialsTrouble step() = 0;
   /// Time the last step reached, and its length.
   virtual double time() const = 0;
@@ -52,10 +52,9 @@ class SundialsStepper {
   /// Length proposed for the next step.
   virtual double nextStep() const = 0;
   /// The solution at a time within the last step, by an interpolation as good as the method.
-  virtual void at(double t, double* q, double* v) = 0;
+  virtual void at(double t, double* y) = 0;
   virtual SundialsCounts counts() const = 0;
-  /// Position (of q, whose velocity or acceleration it may be) where the error of the last try was
-  /// largest against its tolerance.
+  /// Where in y the error of the last try was largest against its tolerance.
   virtual int worstPosition() = 0;
   /// What SUNDIALS itself said last.
   virtual const std::string& message() const = 0;

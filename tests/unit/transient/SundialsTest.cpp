@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "Models.hpp"
+#include "StatefulModels.hpp"
 #include "common/Error.hpp"
 #include "tests/support/ErrorText.hpp"
 #include "transient/schemes/FirstOrderForm.hpp"
@@ -276,13 +276,13 @@ model::SecondOrderModel entangled() {
   return model;
 }
 
-TEST(FirstOrderForm, solvesWithItsJacobian) {
-  const auto source = entangled();
+/// The Newton matrix of a model against that of differences, rated states of point laws included.
+void expectItsJacobian(const model::SecondOrderModel& source, int rated) {
   CompiledModel model(source);
   FirstOrderForm form;
   form.bind(model, "a test");
   const int m = form.size();
-  ASSERT_EQ(m, 2 * source.size());
+  ASSERT_EQ(m, 2 * source.size() + rated);
   const double t = 0.4;
   Vector y(m), up(m), down(m);
   for (int i = 0; i < m; ++i) y[i] = 0.05 * std::sin(1.0 + 3.1 * i);
@@ -300,12 +300,21 @@ TEST(FirstOrderForm, solvesWithItsJacobian) {
   }
   for (const double gamma : {1e-4, 1e-2, 0.3}) {
     ASSERT_TRUE(form.factor(t, y.data(), gamma));
+    form.rightHandSide(t, y.data(), up.data());  // solvers evaluate between the two
     Vector x(m);
     for (int i = 0; i < m; ++i) x[i] = std::cos(2.0 * i);
     const Vector expected = (Matrix::Identity(m, m) - gamma * J).partialPivLu().solve(x);
     form.solve(x.data());
     EXPECT_LT((x - expected).norm(), 1e-7 * expected.norm()) << "gamma " << gamma;
   }
+}
+
+TEST(FirstOrderForm, solvesWithItsJacobian) { expectItsJacobian(entangled(), 0); }
+
+TEST(FirstOrderForm, solvesWithItsJacobianForStatesOfPointLaws) {
+  auto source = entangled();
+  addStatefulLaws(source);
+  expectItsJacobian(source, source.size());
 }
 
 TEST(FirstOrderForm, aPointActsWhereverItIsLookedAt) {

@@ -13,6 +13,8 @@
 #include "common/Error.hpp"
 #include "model/laws/DelayLine.hpp"
 #include "tests/unit/transient/StatefulModels.hpp"
+#include "transient/schemes/Explicit.hpp"
+#include "transient/schemes/FixedStepIntegrator.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -53,6 +55,47 @@ TEST(StatefulLaw, AdaptiveRungeKuttaHoldsTheToleranceForMaxwell) {
     EXPECT_GT(report.counters.rejected, 0);  // the first step is far too long
     // some hundred steps, each within the tolerance in v, act over a time of 0.05 s
     EXPECT_LT(largestError(samples, mass), 20 * tolerance);
+  }
+}
+
+/// The integrators of SUNDIALS in this build.
+std::vector<std::string> sundials() {
+  std::vector<std::string> built;
+  for (const auto* name : {"SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
+    try {
+      IntegratorRegistry::instance().make(name, Teuchos::ParameterList())->checkParameters(0);
+      built.emplace_back(name);
+    } catch (const DeckError&) {  // built without SUNDIALS
+    }
+  }
+  return built;
+}
+
+/// The error of a step is held to the tolerance beside the size of the motion, 3 cm and 1 m/s, and
+/// 1 cm and 1 m/s more; errors of v act over the relaxation time of 0.05 s. All steps together err
+/// by their sum at most. Masses of their own keep the states apart.
+TEST(StatefulLaw, MaxwellElementFollowsTheToleranceOfSundials) {
+  const MaxwellMass mass;
+  for (const auto& integrator : sundials()) {
+    double before = 0;
+    for (const double tolerance : {1e-5, 1e-8}) {
+      auto o = options(integrator, kEnd, 0.0, 0.02);
+      o.own.set("Relative Tolerance", tolerance);
+      Keep samples, exact;
+      const auto report = integrate(mass.model(3), o, samples);
+      const double bound =
+          static_cast<double>(report.counters.steps) * tolerance * (0.03 + 0.01 + 2 * 0.05);
+      const double error = largestError(samples, mass);
+      EXPECT_LT(error, bound) << integrator;
+      if (before > 0) {
+        EXPECT_LT(error, before / 30) << integrator;
+      }
+      before = error;
+      integrate(mass.model(3), options("RK4", kEnd, 1e-3, 0.02), exact);
+      for (std::size_t i = 0; i < exact.q.size(); ++i)
+        EXPECT_LT((samples.q[i] - exact.q[i]).cwiseAbs().maxCoeff(), bound + 1e-8)
+            << integrator << " and RK4 at " << exact.time[i];
+    }
   }
 }
 
@@ -102,9 +145,14 @@ struct PlasticMass {
 /// The force has kinks at two instants, so schemes are of second order here whatever their own.
 TEST(StatefulLaw, ElasticPlasticSpringSlidesAndSticks) {
   const PlasticMass mass;
-  for (const auto* integrator : {"Generalized-alpha", "RK4", "RK4 adaptive"}) {
+  auto integrators = sundials();
+  for (const auto* integrator : {"Generalized-alpha", "RK4", "RK4 adaptive"})
+    integrators.emplace_back(integrator);
+  for (const auto& integrator : integrators) {
     auto o = options(integrator, 0.05, 2e-5, 1e-3);
-    if (std::string(integrator) == "RK4 adaptive") o.own.set("Tolerance", 1e-6);
+    if (integrator == "RK4 adaptive") o.own.set("Tolerance", 1e-6);
+    if (integrator.find("SUNDIALS") == 0)
+      o.own.set("Relative Tolerance", 1e-7).set("Maximum Step", 1e-4);
     Keep samples;
     const auto report = integrate(mass.model(), o, samples);
     for (std::size_t i = 0; i < samples.time.size(); ++i)
@@ -172,6 +220,9 @@ TEST(StatefulLaw, DelayedForceFollowsTheMethodOfSteps) {
     return largest;
   };
   EXPECT_LT(error("RK4", 1e-3), 1e-6);
+  // at the default tolerance of 1e-4 of motion of about 1 m; steps shorten to the delay by
+  // themselves
+  for (const auto& integrator : sundials()) EXPECT_LT(error(integrator, 0), 5e-3) << integrator;
   EXPECT_LT(error("Generalized-alpha", 1e-3), 1e-4);
   EXPECT_NEAR(error("Generalized-alpha", 1e-3) / error("Generalized-alpha", 5e-4), 4.0, 0.4);
 }
@@ -189,19 +240,50 @@ TEST(StatefulLaw, DelayShorterThanTheStepIsRefused) {
   }
 }
 
-TEST(StatefulLaw, IntegratorsThatDoNotCarryStatesRefuseTheLaw) {
-  Keep samples;
-  for (const auto* integrator : {"SUNDIALS ARKODE", "SUNDIALS CVODE"}) {
-    try {
-      integrate(MaxwellMass().model(), options(integrator, 0.1, 0, 0.01), samples);
-      FAIL() << "no error";
-    } catch (const ModelError& error) {
-      EXPECT_NE(std::string(error.what())
-                    .find("does not carry the states of point laws, but the law of \"Maxwell\""),
-                std::string::npos)
-          << error.what();
-    }
+/// Explicit Euler that knows nothing of states, with a parameter that is required.
+class Stateless final : public FixedStepIntegrator {
+ public:
+  explicit Stateless(const Teuchos::ParameterList& own) : factor_(own.get<double>("Factor")) {}
+
+ protected:
+  void start(CompiledModel& model, State& state) override {
+    rhs_.bind(model, "Stateless", counters_);
+    rhs_.look(state.t, 0, state.q.data());
+    rhs_.complete(state);
   }
+  void step(const State& from, State& to) override {
+    const double h = factor_ * (to.t - from.t);
+    to.q = from.q + h * from.v;
+    to.v = from.v + h * from.a;
+    rhs_.complete(to);
+  }
+
+ private:
+  double factor_;
+  ExplicitRightHandSide rhs_;
+};
+const bool registered = IntegratorRegistry::instance().add(
+    "Stateless",
+    {"Euler (1768).",
+     deck::ListSpec("Stateless", "")
+         .real("Factor", "", deck::Required{}, deck::Range::positive(), "1."),
+     [](const Teuchos::ParameterList& own) { return std::make_unique<Stateless>(own); }});
+
+TEST(StatefulLaw, IntegratorsThatDoNotCarryStatesRefuseTheLaw) {
+  ASSERT_TRUE(registered);
+  Keep samples;
+  auto o = options("Stateless", 0.1, 1e-3, 0.01);
+  o.own.set("Factor", 1.0);
+  try {
+    integrate(MaxwellMass().model(), o, samples);
+    FAIL() << "no error";
+  } catch (const ModelError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "The integrator \"Stateless\" does not carry the states of point laws, but the law "
+        "of \"Maxwell\" has states. Use \"Generalized-alpha\" or \"RK4\".");
+  }
+  EXPECT_EQ(integrate(oscillator(1, 0, 9, 0.1, 0), o, samples).counters.steps, 100);
 }
 
 }  // namespace
