@@ -5,10 +5,14 @@
 #include <cstdint>
 #include <mpi.h>
 
+#include "common/Communicator.hpp"
 #include "common/Message.hpp"
 
 namespace tooljoint::parallel {
 namespace {
+
+/// The ranks that work together.
+MPI_Comm world = MPI_COMM_WORLD;
 
 bool active() {
   int initialised = 0;
@@ -23,23 +27,34 @@ bool alone() { return size() == 1; }
 double reduce(double value, MPI_Op operation) {
   if (alone()) return value;
   double result = 0.0;
-  MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, operation, MPI_COMM_WORLD);
+  MPI_Allreduce(&value, &result, 1, MPI_DOUBLE, operation, world);
   return result;
 }
 
 }  // namespace
 
+CommunicatorScope::CommunicatorScope(MPI_Comm comm) : before_(world), own_(MPI_COMM_NULL) {
+  if (!active()) return;
+  MPI_Comm_dup(comm, &own_);
+  world = own_;
+}
+
+CommunicatorScope::~CommunicatorScope() {
+  world = before_;
+  if (own_ != MPI_COMM_NULL && active()) MPI_Comm_free(&own_);
+}
+
 int rank() {
   if (!active()) return 0;
   int value = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &value);
+  MPI_Comm_rank(world, &value);
   return value;
 }
 
 int size() {
   if (!active()) return 1;
   int value = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &value);
+  MPI_Comm_size(world, &value);
   return value;
 }
 
@@ -47,11 +62,11 @@ int size() {
 void broadcastBytes(std::string& bytes, int root) {
   constexpr std::size_t piece = 1U << 30U;
   std::uint64_t length = bytes.size();
-  MPI_Bcast(&length, 1, MPI_UINT64_T, root, MPI_COMM_WORLD);
+  MPI_Bcast(&length, 1, MPI_UINT64_T, root, world);
   bytes.resize(length);
   for (std::size_t done = 0; done < bytes.size(); done += piece)
     MPI_Bcast(bytes.data() + done, static_cast<int>(std::min(piece, bytes.size() - done)), MPI_BYTE,
-              root, MPI_COMM_WORLD);
+              root, world);
 }
 
 template void broadcast(std::string&, int);
@@ -106,7 +121,7 @@ void agree(const std::function<void()>& work) {
   const int ranks = size();
   const int mine = code != 0 ? rank() : ranks;
   int lowest = ranks;
-  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+  MPI_Allreduce(&mine, &lowest, 1, MPI_INT, MPI_MIN, world);
   if (lowest == ranks) return;
   broadcast(code, lowest);
   broadcast(sentence, lowest);

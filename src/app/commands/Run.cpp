@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cases/run/Run.hpp"
+#include "run.hpp"
 
 #include "app/commands/Commands.hpp"
-#include "cases/CaseKinds.hpp"
 
 namespace tooljoint::app {
 
 void run(const RunOptions& options) {
-  const auto one = cases::readCase(options.deck, options.overrides);
-  cases::run(*one, {options.output, options.restart});
+  runDeck(options.deck, options.overrides, MPI_COMM_WORLD, {options.output, options.restart});
 }
 
 }  // namespace tooljoint::app

@@ -40,12 +40,13 @@ class Run {
  public:
   Run(const Case& one, const RunOptions& options) : case_(one), files_(options, one) {}
 
-  void go() {
+  std::string go() {
     case_.summarise(files_.summary());
     files_.complete([this] { stages(); },
                     [this] {
                       if (recorder_) recorder_->stagePictures(files_.folder());
                     });
+    return files_.folder().folder();
   }
 
  private:
@@ -162,6 +163,6 @@ std::string predictCost(const Case& one, const model::SecondOrderModel& full,
   return describeCost(costOfFull, costOfReduced);
 }
 
-void run(const Case& one, const RunOptions& options) { Run(one, options).go(); }
+std::string run(const Case& one, const RunOptions& options) { return Run(one, options).go(); }
 
 }  // namespace tooljoint::cases

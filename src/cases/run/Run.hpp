@@ -15,7 +15,8 @@ namespace tooljoint::cases {
 /// docs/file-formats.md describes them. With `restart` the motion continues from a checkpoint.
 /// Collective. DeckError, ModelError, ConvergenceError, FileError, InterruptedError; an error
 /// leaves what is there readable.
-void run(const Case& one, const RunOptions& options);
+/// \return the folder
+std::string run(const Case& one, const RunOptions& options);
 
 /// Logs what the case is, and warns of its remarks.
 void announce(const Case& one);

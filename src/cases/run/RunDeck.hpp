@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Runs a deck in this process, as `tooljoint run` does, and gives its results.
+#pragma once
+
+#include <map>
+#include <mpi.h>
+#include <string>
+#include <vector>
+
+#include "cases/run/RunFiles.hpp"
+#include "io/ResultsReader.hpp"
+
+namespace tooljoint {
+
+/// What a run has left; the same on all ranks.
+class Results {
+ public:
+  /// Reads the summary in the folder of a run. Collective. FileError.
+  explicit Results(std::string folder);
+
+  const std::string& folder() const { return folder_; }
+  /// Names of the files in the folder: results.h5, summary.json, tables.
+  std::vector<std::string> files() const { return list("files"); }
+  std::vector<std::string> warnings() const { return list("warnings"); }
+  /// "finished", or "interrupted" or "failed" for the folder of a run that threw.
+  std::string status() const { return text("status"); }
+
+  /// A value of summary.json by its keys joined by dots, rows of arrays counted from 0:
+  /// "static.top_axial_force", "reduction.substructures.0.modes". docs/file-formats.md lists them.
+  /// UsageError for a key that is not there, is null (its stage did not run) or is of another kind.
+  double number(const std::string& key) const;
+  std::string text(const std::string& key) const;
+  bool flag(const std::string& key) const;
+  /// Whether the summary has the key, and it is not null.
+  bool has(const std::string& key) const;
+
+  /// results.h5: /transient/time, /transient/displacement (samples x nodes x components) and all
+  /// else that was recorded. Any rank may read. FileError.
+  io::ResultsReader histories() const;
+
+ private:
+  const std::string& find(const std::string& key) const;
+  std::vector<std::string> list(const std::string& key) const;
+
+  std::string folder_;
+  std::map<std::string, std::string> values_;  ///< JSON text of each value
+};
+
+/// Runs a deck of any kind of case, full or reduced. `overrides` as `--set` takes them,
+/// "PATH=VALUE", and "!PATH" for a list taken out. A deck is read by the kinds of cases that the
+/// linked libraries register (CaseKinds.hpp). Lines of the log go to standard output
+/// (log::setQuiet()).
+///
+/// Collective over `comm`. Call it after MPI and Kokkos have been initialised
+/// (`Tpetra::ScopeGuard scope(&argc, &argv);` in main). Errors are exceptions with the sentence
+/// that the program prints and its exit code, the same on all ranks: DeckError, ModelError,
+/// ConvergenceError, FileError, InterruptedError (common/Error.hpp).
+Results runDeck(const std::string& file, const std::vector<std::string>& overrides = {},
+                MPI_Comm comm = MPI_COMM_WORLD, const cases::RunOptions& options = {});
+
+}  // namespace tooljoint
