@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A point law outside of the library, in a file of its own, between parts and in the bore.
 
-    check_extension.py PROGRAM LAW MPIEXEC SOURCE
+    check_extension.py PROGRAM EXTENSION MPIEXEC SOURCE
 
 PROGRAM is tooljoint, LAW the shared object compiled from CreepingWall.cpp, SOURCE the folder tests/.
 """
@@ -82,13 +82,19 @@ class Checks:
         self.failures += not good
         print(f"{'ok    ' if good else 'FAILED'} {what}", flush=True)
 
-    def run(self, deck, output, *arguments, ranks=1):
+    def output(self, deck, output, *arguments, ranks=1, command="run"):
+        """What a command prints."""
         launch = [self.mpiexec, "-np", str(ranks)] if ranks > 1 else []
-        done = subprocess.run([*launch, self.program, "run", str(deck), "--output", output, *arguments], env=self.environment,
+        done = subprocess.run([*launch, self.program, command, str(deck), "--output", output, *arguments], env=self.environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if done.returncode != 0:
             print(done.stdout)
         self.expect(done.returncode == 0, f"{output} ends with 0")
+        return done.stdout
+
+    def run(self, deck, output, *arguments, ranks=1):
+        """The summary of a run."""
+        self.output(deck, output, *arguments, ranks=ranks)
         return json.loads((pathlib.Path(output) / "summary.json").read_text(encoding="utf-8"))
 
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/methods/BasisBuilder.hpp"
 
+#include <algorithm>
+
+#include "reduction/vectors/ModalVectors.hpp"
+
 namespace tooljoint::reduction {
 
 Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors) {
@@ -12,6 +16,18 @@ Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors) 
   basis.removable = vectors.removable;
   basis.orthogonality = vectors.orthogonality;
   return basis;
+}
+
+Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std::string& kind) {
+  constexpr double dependent = 1e-10;
+  const Sparse& M = part.interiorMass();
+  OrthonormalSet set(M, dependent, part.who(kind + " vectors"));
+  for (Eigen::Index j = 0; j < X.cols(); ++j) set.add(X.col(j));
+  InteriorVectors vectors;
+  vectors.groups = {part.partition().interior};
+  addRitzVectors(part.symmetricInteriorStiffness(), M, set.basis(), 0, kind, vectors);
+  vectors.kept = std::min(count, sizeOf(vectors.vectors));
+  return fixedInterfaceBasis(part, vectors);
 }
 
 void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,

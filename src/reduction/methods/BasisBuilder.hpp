@@ -14,6 +14,11 @@ namespace tooljoint::reduction {
 /// of them.
 Basis fixedInterfaceBasis(const PartView& part, const InteriorVectors& vectors);
 
+/// The basis of the constraint modes of `part` and the `count` lowest Ritz vectors in the span of
+/// the columns of X (interior x columns), which need be neither orthonormal nor independent; `kind`
+/// is said of them in tables.
+Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std::string& kind);
+
 /// Sets partition, Phi, eigenvalues and kinds of `basis`; the rest is left as it is. \param psi
 /// dofs of the part x boundary dofs
 void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,
