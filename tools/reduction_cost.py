@@ -38,7 +38,7 @@ def main():
         held.write(work / "bar.h5", {"end": end})
         structures.solid(across, across, 2, (0.5, 0.5, 1.0 / across)).write(work / "cap.h5", {"end": list(range(1, layer + 1))})
         structures.deck(work / "bar.xml", {"bar": "bar.h5", "cap": "cap.h5"}, ["bar:end = cap:end"],
-                        f'<Parameter name="Basis" type="string" value="{options.basis}"/><Parameter name="Modes" type="int" value="{options.modes}"/>')
+                        f'<Parameter name="Basis" type="string" value="{options.basis}"/><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="{options.modes}"/></ParameterList>')
         start = time.monotonic()
         try:
             done = subprocess.run([options.program, "modes", str(work / "bar.xml"), "--count", "12"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -220,7 +220,7 @@ def source_table(bench):
     for state in ("Least squares", "Keep static"):
         for eta, (_, ratio) in published.items():
             name = f"source_{eta}_{state.split()[0].lower()}"
-            summary = bench.run(name, "helical_170m_source", ["--set", f"Reduction/Modes={eta}", "--set", f"Reduction/Initial State={state}",
+            summary = bench.run(name, "helical_170m_source", ["--set", f"Reduction/Mode Selection/Modes={eta}", "--set", f"Reduction/Initial State={state}",
                                                               "--set", f"Transient/End Time={bench.end}"])
             if summary is None:
                 rows.append(f"| {eta} | {state} | failed |||||||")

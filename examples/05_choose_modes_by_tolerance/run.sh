@@ -4,9 +4,9 @@
 set -euo pipefail
 deck="$(dirname "${BASH_SOURCE[0]}")/../../xml/helical_170m.xml"
 short=(--set "Transient/End Time=0.5" --set Output/XDMF=false)
-tolerances=(--without Reduction --set "Reduction/Frequency Tolerance=1e-4" --set "Reduction/Motion Tolerance=0.05")
+tolerances=(--without Reduction --set "Reduction/Mode Selection/Frequency Tolerance=1e-4" --set "Reduction/Mode Selection/Motion Tolerance=0.05")
 tooljoint run "$deck" --output chosen "${tolerances[@]}" --set "Reduction/Error Estimate=Both" "${short[@]}"
-tooljoint modes "$deck" --output modes --without Reduction --set "Reduction/Frequency Tolerance=1e-4" "${short[@]}"
+tooljoint modes "$deck" --output modes --without Reduction --set "Reduction/Mode Selection/Frequency Tolerance=1e-4" "${short[@]}"
 tooljoint run "$deck" --output full --without Reduction --without Substructures "${short[@]}"
 tooljoint compare chosen full --to 0.5 --json > compared.json
 python3 - <<'PY'

@@ -11,6 +11,7 @@
 #include "cases/run/Run.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "reduction/selection/ModeSelection.hpp"
 
 namespace tooljoint::cases {
 
@@ -28,12 +29,13 @@ void list(const OutlineItem& item) {
 void listEstimates(const Teuchos::ParameterList& reduction) {
   std::vector<std::string> tolerances;
   for (const char* name : {"Frequency Tolerance", "Motion Tolerance"})
-    if (reduction.isParameter(name))
-      tolerances.push_back(std::string(name) + " " + formatNumber(reduction.get<double>(name)));
+    if (const double tolerance = reduction::toleranceOf(reduction, name); tolerance > 0)
+      tolerances.push_back(std::string(name) + " " + formatNumber(tolerance));
   if (!tolerances.empty())
     list({true, "modes by tolerance",
           join(tolerances, ", ") + ": in rounds" +
-              (reduction.isParameter("Motion Tolerance") ? ", each with a transient" : "")});
+              (reduction::selectsModesBy(reduction, "Motion Tolerance") ? ", each with a transient"
+                                                                        : "")});
   const auto estimated = reduction.get<std::string>("Error Estimate");
   list({estimated != "None", "error estimate",
         estimated == "None" ? "Error Estimate is None" : "a posteriori, \"" + estimated + "\""});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/ReducedCase.hpp"
 
+#include "reduction/selection/ModeSelection.hpp"
+
 namespace tooljoint::cases {
 
 namespace {
@@ -28,7 +30,7 @@ ReducedCase reduce(const Case& one, const RestingCase& rest, bool progress) {
 
 bool estimatesMotion(const Case& one) {
   return estimate::readEstimateOptions(one.reduction()).motion ||
-         one.reduction().isParameter("Motion Tolerance");
+         reduction::selectsModesBy(one.reduction(), "Motion Tolerance");
 }
 
 std::unique_ptr<estimate::MotionEstimator> motionEstimator(const RestingCase& rest,

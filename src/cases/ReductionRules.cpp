@@ -7,6 +7,7 @@
 #include "common/Text.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/ReductionMethod.hpp"
+#include "reduction/selection/ModeSelection.hpp"
 #include "transient/TransientParameters.hpp"
 
 namespace tooljoint::cases {
@@ -25,19 +26,19 @@ class Rules {
   std::vector<RuleFault> find() {
     if (dual_ && explicit_)
       add("Coupling/Assembly",
-          "is \"Dual\", whose multipliers have no mass, but the integrator " + integrator() +
-              " needs a mass everywhere. Take \"Primal\", or an implicit integrator.");
+          "is \"Dual\", but its multipliers have no mass and the integrator " + integrator() +
+              " needs a nonsingular mass matrix. Choose \"Primal\" or an implicit integrator.");
     if (!deck_.isSublist("Reduction")) {
       if (dual_)
         add("Coupling/Assembly",
-            "is \"Dual\", which has no effect without a Reduction list: the full model is primal. "
-            "Add one, or take \"Primal\".");
+            "is \"Dual\", which has no effect without a Reduction list. Add this list, or choose "
+            "\"Primal\".");
       return faults_;
     }
     if (dual_ && choice("Interface Reduction") != "None")
       add("Reduction/Interface Reduction",
-          "needs joined dofs, but Coupling/Assembly \"Dual\" leaves every part its own. Take "
-          "\"Primal\", or \"None\".");
+          "needs joined dofs, but with Coupling/Assembly \"Dual\" every part keeps its own dofs. "
+          "Choose \"Primal\", or \"None\" here.");
     estimates();
     basis();
     return std::move(faults_);
@@ -45,14 +46,14 @@ class Rules {
 
  private:
   const Teuchos::ParameterList& reduction() const { return deck_.sublist("Reduction"); }
-  bool has(const char* name) const { return reduction().isParameter(name); }
+  bool selects(const char* name) const { return reduction::selectsModesBy(reduction(), name); }
   std::string choice(const char* name) const { return reduction().get<std::string>(name); }
   std::string integrator() const {
     return inQuotes(deck_.sublist("Transient").get<std::string>("Integrator"));
   }
   bool estimatesMotion() const {
     const std::string estimated = choice("Error Estimate");
-    return estimated == "Transient" || estimated == "Both" || has("Motion Tolerance");
+    return estimated == "Transient" || estimated == "Both" || selects("Motion Tolerance");
   }
   void add(const std::string& path, const std::string& sentence) {
     faults_.push_back({path, sentence});
@@ -60,21 +61,21 @@ class Rules {
   /// The parameter that asks for an estimate of errors.
   std::string estimate() const {
     for (const char* name : {"Motion Tolerance", "Frequency Tolerance"})
-      if (has(name)) return std::string("Reduction/") + name;
+      if (selects(name)) return std::string("Reduction/Mode Selection/") + name;
     return "Reduction/Error Estimate";
   }
 
   void estimates() {
     if (moves_) return;
-    if (has("Motion Tolerance"))
-      add("Reduction/Motion Tolerance",
-          "needs a motion, and the scene has no Transient list. Add one, or take \"Frequency "
+    if (selects("Motion Tolerance"))
+      add("Reduction/Mode Selection/Motion Tolerance",
+          "needs a motion, but the deck has no Transient list. Add one, or give \"Frequency "
           "Tolerance\".");
     const std::string estimated = choice("Error Estimate");
     if (estimated == "Transient" || estimated == "Both")
       add("Reduction/Error Estimate",
-          "asks for the error of the motion, and the scene has no Transient list. Add one, or take "
-          "\"Frequencies\".");
+          "estimates the error of the motion, but the deck has no Transient list. Add one, or "
+          "choose \"Frequencies\".");
   }
 
   /// What the basis is asked for, and cannot give.
@@ -87,50 +88,46 @@ class Rules {
     }
     const std::string name = inQuotes(choice("Basis"));
     if (!traits.ownMass && explicit_)
-      add("Reduction/Basis", "is " + name + ", whose mass is singular, but the integrator " +
-                                 integrator() +
-                                 " needs a mass everywhere. Take \"Rubin\", which has the same "
-                                 "modes, or an implicit integrator.");
+      add("Reduction/Basis",
+          "is " + name + ", which has a singular mass matrix, but the integrator " + integrator() +
+              " needs a nonsingular one. Choose \"Rubin\", which has the same modes, or an "
+              "implicit integrator.");
     const bool estimates =
-        choice("Error Estimate") != "None" || has("Frequency Tolerance") || has("Motion Tolerance");
+        choice("Error Estimate") != "None" || reduction::selectsModesByTolerance(reduction());
     if (!traits.ownMass && estimates)
-      add(estimate(), "asks for errors of the basis " + name +
-                          ", whose mass or interfaces are not those of the motions it can make, so "
-                          "that residuals do "
-                          "not tell the error. Take \"Rubin\", which has the same modes, or leave "
-                          "the estimate out.");
+      add(estimate(), "needs an error estimate, but the basis " + name +
+                          " has none: its mass or interface is approximate. Choose \"Rubin\", "
+                          "which has the same modes, or remove the estimate.");
     if (estimatesMotion() && moves_ && traits.ownMass && (dual_ || traits.dependent))
       add(estimate(),
-          std::string("asks for the error of the motion, which is not estimated with ") +
+          std::string("estimates the error of the motion, which is not available with ") +
               (dual_ ? "Coupling/Assembly \"Dual\""
-                     : "coordinates that depend on others (\"Residual Coordinates\" = \"Tied\")") +
-              ". Take \"Frequencies\", or another choice there.");
+                     : "dependent coordinates (\"Residual Coordinates\" = \"Tied\")") +
+              ". Choose \"Frequencies\", or change that parameter.");
     if (dual_ && traits.dependent)
-      add("Coupling/Assembly", "is \"Dual\", but the basis " + name +
-                                   " needs the inverse of the coupled mass, which is singular "
-                                   "then. Take \"Primal\", or set "
-                                   "\"Residual Coordinates\" to \"Free\".");
+      add("Coupling/Assembly",
+          "is \"Dual\", but the basis " + name +
+              " needs the inverse of the coupled mass, which is then singular. Choose \"Primal\", "
+              "or set \"Residual Coordinates\" to \"Free\".");
     if (choice("Load Vectors") != "None" && !traits.ownMass)
       add("Reduction/Load Vectors",
-          "are answers of the interior with its kept dofs held, and cannot be added to the basis " +
-              name +
-              ". Take a basis with fixed interface, such as \"Craig-Bampton\", or leave them out.");
+          "need modes with fixed boundary dofs and cannot be added to the basis " + name +
+              ". Choose a fixed-interface basis such as \"Craig-Bampton\", or \"None\".");
     for (const char* criterion : {"Effective Interface Mass", "Interface Moment"})
-      if (has(criterion) && !traits.selectable)
-        add(std::string("Reduction/") + criterion,
-            "chooses among modes with fixed interface, and the basis " + name +
-                " has none that can be left out one by one. Give \"Modes\", or take "
-                "\"Craig-Bampton\".");
+      if (selects(criterion) && !traits.selectable)
+        add(std::string("Reduction/Mode Selection/") + criterion,
+            "selects fixed-interface modes one by one, but the basis " + name +
+                " has none to select. Give \"Modes\", or choose \"Craig-Bampton\".");
     if (!traits.interfaceForces || !several_) return;
     if (choice("Interface Reduction") != "None")
       add("Reduction/Interface Reduction",
           "needs joined dofs, but the basis " + name +
-              " joins parts by the forces between them. Take another basis, or \"None\".");
+              " joins parts by interface forces. Choose another basis, or \"None\".");
     if (deck_.isSublist("Output") &&
         deck_.sublist("Output").get<std::string>("Export Parts") != "None")
       add("Output/Export Parts", "cannot export parts of the basis " + name +
-                                     ", whose coordinates do not contain the interface dofs. Take "
-                                     "another basis, \"Craig-Bampton\" for instance.");
+                                     ", because their coordinates do not contain the interface "
+                                     "dofs. Choose another basis, for example \"Craig-Bampton\".");
   }
 
   const Teuchos::ParameterList& deck_;

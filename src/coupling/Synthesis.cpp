@@ -53,8 +53,9 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts,
     });
     result.coupled = coupleWithPositions(result.parts, coupling);
   }
-  throw ConvergenceError("The basis \"" + options.basis + "\" still changed after " +
-                         std::to_string(rounds) + " rounds of improvement with the coupled model.");
+  throw ConvergenceError("The basis \"" + options.basis + "\" did not converge after " +
+                         std::to_string(rounds) +
+                         " augmentation rounds with the coupled model. Choose another basis.");
 }
 
 Synthesis synthesise(const std::vector<model::Substructure>& parts,

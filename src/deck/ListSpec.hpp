@@ -77,7 +77,7 @@ class ListSpec {
   ListSpec& unitBy(std::string parameter, std::function<std::string(const std::string&)> unitOf);
   /// The parameter declared last is for experts.
   ListSpec& expert();
-  /// The parameter declared last was called `name` in earlier versions.
+  /// The parameter declared last was called `name` in earlier versions; "../X": X, one list up.
   ListSpec& formerly(std::string name);
   ListSpec& integer(std::string name, Default value, Range range, std::string doc);
   ListSpec& boolean(std::string name, Default value, std::string doc);

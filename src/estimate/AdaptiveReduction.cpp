@@ -10,6 +10,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "reduction/selection/ModeSelection.hpp"
 
 namespace tooljoint::estimate {
 
@@ -17,8 +18,10 @@ namespace {
 
 /// Modes every part starts with.
 constexpr int firstModes = 2;
-/// Estimates of motions are less sharp than those of frequencies: twice the safety.
-constexpr double motionSafety = 2.0;
+/// An estimate times its safety factor stays below the tolerance. Estimates of the motion are less
+/// sharp than those of the frequencies.
+constexpr double frequencySafety = 1.5;
+constexpr double motionSafety = 2.0 * frequencySafety;
 /// A motion is given up when its error is so many times what is allowed.
 constexpr double hopeless = 2.0;
 /// An error up to which a model tells how large the motion is.
@@ -103,7 +106,7 @@ class Rounds {
   void lookAtFrequencies(std::vector<char>& wanted) {
     const auto start = std::chrono::steady_clock::now();
     outcome_.frequencies = estimateFrequencies(parts_, outcome_.synthesis, estimates_.window);
-    const double allowed = rule_.frequencyTolerance / rule_.safety;
+    const double allowed = rule_.frequencyTolerance / frequencySafety;
     for (const auto& e : outcome_.frequencies)
       if (!e.definite || std::abs(e.error) > allowed)
         for (std::size_t p : mark(e.byPart, 0.5 * allowed)) wanted[p] = 1;
@@ -118,7 +121,7 @@ class Rounds {
       return;
     }
     const auto start = std::chrono::steady_clock::now();
-    const double allowed = rule_.motionTolerance / (motionSafety * rule_.safety);
+    const double allowed = rule_.motionTolerance / motionSafety;
     MotionLimit limit;
     if (motion_ > 0) limit = {hopeless * allowed, motion_};
     const auto estimate = probe_(outcome_.synthesis, limit);
@@ -173,12 +176,10 @@ class Rounds {
       what += std::string(what.empty() ? "" : ", ") + "of the motion " +
               formatNumber(round.motionError);
     throw ConvergenceError(
-        "The tolerance of the reduction is not met although its parts have all the modes that "
-        "would lower the estimate: "
-        "errors " +
-        what + " with " + std::to_string(round.modes) + " modes after " +
+        "The tolerance of the reduction is not met with all available modes: errors " + what +
+        " with " + std::to_string(round.modes) + " modes after " +
         std::to_string(outcome_.rounds.size()) +
-        " rounds. Allow a larger tolerance, or retain more nodes.");
+        " rounds. Increase the tolerance, or retain more nodes.");
   }
 
   const std::vector<model::Substructure>& parts_;
@@ -208,23 +209,21 @@ EstimateOptions readEstimateOptions(const Teuchos::ParameterList& list) {
   const auto& choice = list.get<std::string>("Error Estimate");
   options.frequencies = choice == "Frequencies" || choice == "Both";
   options.motion = choice == "Transient" || choice == "Both";
-  const bool tolerance =
-      list.isParameter("Frequency Tolerance") || list.isParameter("Motion Tolerance");
+  const bool tolerance = reduction::selectsModesByTolerance(list);
   if ((options.frequencies || options.motion || tolerance) &&
       list.isParameter("Interface Reduction") &&
       list.get<std::string>("Interface Reduction") != "None")
-    throw DeckError(
-        "Reduction gives \"Interface Reduction\" together with " +
-        std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
-        ", but estimates do not see what an interface reduction leaves out. Give one of the two.");
+    throw DeckError("Reduction gives \"Interface Reduction\" together with " +
+                    std::string(tolerance ? "a tolerance" : "\"Error Estimate\"") +
+                    ", but estimates do not include the error of the interface reduction. Give one "
+                    "of the two.");
   options.window.count = list.get<int>("Estimated Frequencies");
   if (list.isParameter("Estimated Below")) {
     options.window.belowHz = list.get<double>("Estimated Below");
-    if (!options.frequencies && !list.isParameter("Frequency Tolerance"))
+    if (!options.frequencies && !reduction::selectsModesBy(list, "Frequency Tolerance"))
       throw DeckError(
-          "Reduction gives \"Estimated Below\", but nothing looks at frequencies: set \"Error "
-          "Estimate\" to \"Frequencies\", give a "
-          "\"Frequency Tolerance\", or leave it out.");
+          "Reduction gives \"Estimated Below\", but frequencies are not estimated. Set \"Error "
+          "Estimate\" to \"Frequencies\", give a \"Frequency Tolerance\", or remove it.");
   }
   return options;
 }
@@ -237,8 +236,8 @@ Outcome synthesise(const std::vector<model::Substructure>& parts,
   if (options.modes.kind == reduction::ModeRule::Kind::Tolerance) {
     if (options.modes.motionTolerance > 0 && !probe)
       throw DeckError(
-          "\"Motion Tolerance\" needs a motion: give the scene a Transient list, or take "
-          "\"Frequency Tolerance\".");
+          "\"Motion Tolerance\" needs a motion. Add a Transient list, or give \"Frequency "
+          "Tolerance\".");
     outcome = Rounds(parts, basis, options, estimates, probe, coupling).run();
   } else {
     outcome.synthesis = coupling::synthesise(parts, basis, options, coupling);
@@ -260,7 +259,7 @@ Outcome synthesise(const std::vector<model::Substructure>& parts,
 
 std::string roundTable(const std::vector<Round>& rounds) {
   std::string text =
-      "Modes by tolerance:\n  round   modes   parts kept whole   error of frequencies   error of "
+      "Modes by tolerance:\n  round   modes    unreduced parts   error of frequencies   error of "
       "motion\n";
   const auto number = [](double value) { return value < 0 ? "-" : fmt::format("{:.2e}", value); };
   for (std::size_t i = 0; i < rounds.size(); ++i) {
@@ -268,7 +267,7 @@ std::string roundTable(const std::vector<Round>& rounds) {
     text += fmt::format("  {:5}  {:6}  {:17}  {:>21}  {:>16}", i + 1, round.modes, round.whole,
                         number(round.frequencyError), number(round.motionError));
     if (round.reached < 1)
-      text += fmt::format(", given up after {:.2g} of the window", round.reached);
+      text += fmt::format(", stopped after {:.2g} of the window", round.reached);
     text += "\n";
   }
   return text;

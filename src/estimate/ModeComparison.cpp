@@ -182,7 +182,7 @@ ComplexMatrix fitted(int size, const coupling::Synthesis& synthesis, const Compl
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
   if (solver.info() != Eigen::Success)
     throw ModelError(
-        "A dof of the full model is in no part, so full and coupled modes cannot be compared.");
+        "A dof of the full model is not in any part. Full and coupled modes cannot be compared.");
   ComplexMatrix z(size, shapes.cols());
   z.real() = solver.solve(Matrix(right.real()));
   z.imag() = solver.solve(Matrix(right.imag()));
@@ -214,7 +214,7 @@ ComplexMatrix recover(const model::SecondOrderModel& full,
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!found[i])
       throw ModelError("The " + model::describe(full.dofs[i], full.componentNames) +
-                       " is in no part, so full and coupled modes cannot be compared.");
+                       " is not in any part. Full and coupled modes cannot be compared.");
   return out;
 }
 
@@ -369,7 +369,7 @@ std::string comparisonTable(const std::vector<ModeComparison>& modes, bool dampe
     const ModeComparison& m = modes[i];
     const std::string estimate = m.estimated ? fmt::format("{:10.2e}", m.estimate) : "         -";
     if (m.coupledMode < 0)
-      text += fmt::format("  {:4}  {:14.8g}  no coupled mode is left for it\n", i + 1, m.fullHz());
+      text += fmt::format("  {:4}  {:14.8g}  no coupled mode corresponds\n", i + 1, m.fullHz());
     else if (damped)
       text += fmt::format(
           "  {:4} {:14.8g}  {:14.8g}     {:14.8g}     {:14.8g}   {:11.4e} {:11.4e}  {:10.7f}  "

@@ -58,14 +58,13 @@ struct MotionEstimator::Impl {
     if (synthesis_.coupled.interfaceModes >= 0 || synthesis_.coupled.dependent > 0 ||
         !synthesis_.coupled.multipliers.empty())
       throw ModelError(
-          "The error of the motion is estimated only where the coordinates of the parts are those "
-          "of the coupled model: without interface reduction, "
-          "coordinates that follow others (\"Residual Coordinates\" = \"Tied\") and dual assembly. "
-          "Leave \"Error Estimate\" at \"Frequencies\".");
+          "The error of the motion is not estimated with interface reduction, dependent "
+          "coordinates (\"Residual Coordinates\" = \"Tied\") or dual assembly. Set \"Error "
+          "Estimate\" to \"Frequencies\".");
     if (compiled.stateSize() > 0)
       throw ModelError(
-          "The error of the motion cannot be estimated for point laws with states. Leave \"Error "
-          "Estimate\" at \"Frequencies\".");
+          "The error of the motion is not estimated for point laws with states. Set \"Error "
+          "Estimate\" to \"Frequencies\".");
     std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p],
@@ -85,7 +84,7 @@ struct MotionEstimator::Impl {
       throw ModelError(
           "The error of the motion cannot be estimated: the mass matrix of the coupled model is "
           "singular at " +
-          compiled.dofName(bad) + ". Leave \"Error Estimate\" at \"Frequencies\".");
+          compiled.dofName(bad) + ". Set \"Error Estimate\" to \"Frequencies\".");
     mapRecovery();
     u = uDot = s = Vector::Zero(model.size());
   }
@@ -332,7 +331,7 @@ MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderM
   if (!report.interrupted) return estimate;
   if (interruptRequested())
     throw InterruptedError("Interrupted at " + formatNumber(report.end) +
-                           " s of a motion from which the modes are chosen.");
+                           " s of a transient for the mode selection.");
   estimate.reached = (report.end - options.start) / (options.end - options.start);
   // errors / reached over the motion expected in the end; estimate.error is that over the motion so
   // far

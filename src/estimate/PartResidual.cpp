@@ -22,12 +22,10 @@ bool isRitz(const coupling::Synthesis& synthesis) {
 void requireRitz(const coupling::Synthesis& synthesis) {
   for (const auto& part : synthesis.parts)
     if (!ownMass(part))
-      throw ModelError("The errors of the basis \"" + part.report.basis + "\" (part \"" +
-                       part.name +
-                       "\") cannot be estimated: its mass or its interfaces are not those of the "
-                       "motions it can make, and residuals do not tell the error then. "
-                       "Take \"Rubin\", which has the same modes, or leave \"Error Estimate\" and "
-                       "tolerances out.");
+      throw ModelError(
+          "The errors of the basis \"" + part.report.basis + "\" (part \"" + part.name +
+          "\") cannot be estimated: its mass or interface is approximate. Choose \"Rubin\", which "
+          "has the same modes, or remove \"Error Estimate\" and tolerances.");
 }
 
 PartResidual::PartResidual(const model::Substructure& part,

@@ -25,9 +25,9 @@ ResidualFlexibility::ResidualFlexibility(const model::Substructure& part,
   factor_->compute(Eigen::SparseMatrix<double>(stiffness_));
   if (factor_->info() != Eigen::Success)
     throw ModelError("Part \"" + part.name +
-                     "\": its interior is a mechanism while its interface and retained dofs are "
-                     "held, so the error of its reduction cannot be "
-                     "estimated. Retain more dofs there, or leave \"Error Estimate\" out.");
+                     "\": its interior is a mechanism with its interface and retained dofs fixed, "
+                     "so the error of its reduction cannot be "
+                     "estimated. Retain more dofs there, or remove \"Error Estimate\".");
   if (columns.empty()) return;
   modes_ = reduction::block(basis.vectors, interior_, columns);
   const Matrix projected = modes_.transpose() * (stiffness_ * modes_);

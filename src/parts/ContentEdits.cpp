@@ -97,7 +97,7 @@ std::vector<int> filtered(const PartContent& content, const std::vector<int>& po
   for (const auto& name : components) {
     const auto it = std::find(m.componentNames.begin(), m.componentNames.end(), name);
     if (it == m.componentNames.end())
-      throw DeckError("names the component " + inQuotes(name) + "; those of part " +
+      throw DeckError("names the component " + inQuotes(name) + ", but the components of part " +
                       inQuotes(content.part.name) + " are " + quotedList(m.componentNames));
     const auto component = static_cast<int>(it - m.componentNames.begin());
     const std::size_t before = out.size();
@@ -114,7 +114,7 @@ std::vector<int> filtered(const PartContent& content, const std::vector<int>& po
 
 std::vector<int> positionsOf(const PartContent& content, const std::string& text) {
   const auto all = words(text);
-  if (all.empty()) throw DeckError("holds an empty text; name a node or an interface set");
+  if (all.empty()) throw DeckError("holds an empty text. Give a node or an interface set");
   for (std::size_t length = all.size(); length > 0; --length) {  // names of sets may hold blanks
     const std::string name =
         join({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(length)}, " ");
@@ -129,7 +129,8 @@ std::vector<int> positionsOf(const PartContent& content, const std::string& text
     std::vector<std::string> sets;
     for (const auto& set : content.interfaces) sets.push_back(set.name);
     const auto meant = closest(first, sets);
-    throw DeckError("names " + inQuotes(text) + ", which is no node and no interface set of part " +
+    throw DeckError("names " + inQuotes(text) +
+                    ", which is neither a node nor an interface set of part " +
                     inQuotes(content.part.name) +
                     (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
                      : sets.empty() ? "; it has no sets"

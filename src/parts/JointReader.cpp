@@ -19,7 +19,7 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
   out.text = trim(text);
   const auto colon = out.text.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == out.text.size())
-    fail(whole, "a place is written PART:NODE or PART:SET, \"left:tip\" for instance.");
+    fail(whole, "a place is written PART:NODE or PART:SET, for example \"left:tip\".");
   const std::string name = trim(out.text.substr(0, colon)),
                     place = trim(out.text.substr(colon + 1));
   std::vector<std::string> names;
@@ -44,7 +44,7 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
     fail(whole, "part " + inQuotes(name) + " (" + content.file + ") has no interface set " +
                     inQuotes(place) +
                     (!meant.empty() ? ". Did you mean " + inQuotes(meant) + "?"
-                     : sets.empty() ? "; it has none."
+                     : sets.empty() ? ". It has none."
                                     : "; its sets are " + quotedList(sets) + "."));
   }
   if (set != content.interfaces.end())
@@ -77,17 +77,18 @@ JointReader::Side JointReader::side(const std::string& text, const std::string& 
 ReadJoint JointReader::read(const std::string& text) const {
   std::vector<Side> sides;
   for (const auto& one : split(text, '=')) sides.push_back(side(one, text));
-  if (sides.size() < 2) fail(text, "a joint is two places or more with \"=\" between them.");
+  if (sides.size() < 2) fail(text, "a joint needs two or more places with \"=\" between them.");
   for (std::size_t s = 0; s < sides.size(); ++s) {
     for (std::size_t other = 0; other < s; ++other)
       if (sides[other].part == sides[s].part)
         fail(text, "both places are in part \"" +
                        parts_[static_cast<std::size_t>(sides[s].part)].part.name +
-                       "\". Tie nodes of one part by constraints of the list Coupling.");
+                       "\". Join nodes of one part by constraints of the list Coupling.");
     if (sides[s].nodes.size() != sides[0].nodes.size())
       fail(text, inQuotes(sides[0].text) + " has " + std::to_string(sides[0].nodes.size()) +
                      " nodes and " + inQuotes(sides[s].text) + " has " +
-                     std::to_string(sides[s].nodes.size()) + "; sets are joined node by node.");
+                     std::to_string(sides[s].nodes.size()) +
+                     ". Sets are joined node by node: give sets of the same size.");
   }
   const auto& names = parts_.front().part.model.componentNames;
   ReadJoint out;

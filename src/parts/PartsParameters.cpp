@@ -21,23 +21,20 @@ using Teuchos::ParameterList;
 
 ListSpec importedParameters() {
   return ListSpec("part",
-                  "A part from a file; the name of the list is its name. Several parts may come "
-                  "from one file.")
+                  "A part from a file; the name of the list is the name of the part. Several parts "
+                  "may use one file.")
       .text("File", Required{},
             "The part: a folder with part.json, a .json file, or an HDF5 file, relative to the "
             "deck; docs/file-formats.md "
             "describes them.")
-      .realArray(
-          "Rotation Axis", "", std::vector<double>{0.0, 0.0, 1.0}, Range::any(),
-          "Axis about which the part is turned from the frame of its file into the common one.")
-      .real("Rotation Angle", "rad", 0.0, Range::any(), "Angle of that turn, right-handed.")
+      .realArray("Rotation Axis", "", std::vector<double>{0.0, 0.0, 1.0}, Range::any(),
+                 "Axis of the rotation from the frame of the file to the common frame.")
+      .real("Rotation Angle", "rad", 0.0, Range::any(), "Angle of this rotation, right-handed.")
       .textArray("Fixed", Optional{}, {},
-                 "Dofs that do not move: a node or the name of an interface set, and components "
-                 "unless all of them are meant, "
-                 "e.g. {1, 5 u v, "
-                 "clamp}.")
+                 "Fixed dofs: a node or the name of an interface set, followed by components (all "
+                 "of them without), for example {1, 5 u v, clamp}.")
       .textArray("Retained", Optional{}, {},
-                 "Dofs that stay physical beside those the file says, written as in \"Fixed\".")
+                 "Retained dofs beside those of the file, written as in \"Fixed\".")
       .boolean("Reduce", true,
                "Let the list Reduction reduce this part; false keeps all its dofs, for a part that "
                "was reduced before.");
@@ -58,7 +55,7 @@ ListSpec loadParameters() {
 
 ListSpec startParameters() {
   return ListSpec("start",
-                  "Initial displacement and velocity of one dof, added to what the files say, in "
+                  "Initial displacement and velocity of one dof, added to those of the files, in "
                   "the frame of the part.")
       .text("Part", Required{}, "Name of the part.")
       .integer("Node", Required{}, Range::atLeast(1), "Node, as the file of the part numbers it.")
@@ -91,11 +88,10 @@ ImportedPart readImported(const std::string& name, const ParameterList& list) {
   const auto axis = list.get<Teuchos::Array<double>>("Rotation Axis").toVector();
   if (axis.size() != 3)
     throw DeckError(list.name() + "/Rotation Axis has " + std::to_string(axis.size()) +
-                    " numbers; give three.");
+                    " numbers. Give three.");
   const Vector3 direction(axis[0], axis[1], axis[2]);
   if (!(direction.norm() > 0.0))
-    throw DeckError(list.name() +
-                    "/Rotation Axis has no direction: give a vector that is not zero.");
+    throw DeckError(list.name() + "/Rotation Axis has a zero direction. Give a nonzero vector.");
   const double angle = list.get<double>("Rotation Angle");
   part.turned = angle != 0.0;
   if (part.turned) part.axes = Eigen::AngleAxisd(angle, direction.normalized()).toRotationMatrix();
@@ -108,32 +104,26 @@ ImportedPart readImported(const std::string& name, const ParameterList& list) {
 }  // namespace
 
 deck::ListSpec parameters() {
-  ListSpec list("Parts",
-                "A scene of parts that came from files, instead of (or beside) what the other "
-                "lists describe.");
+  ListSpec list("Parts", "A model of parts from files.");
   ListSpec imported("Imported", "The parts, in the order of the deck.");
   imported.namedLists(importedParameters());
   list.requiredList(imported);
   list.textArray("Joints", Optional{}, {},
-                 "What is joined: nodes or interface sets of two or more parts, {left:tip = "
-                 "right:root, a:7 = b:1 = c:1}; sets "
-                 "are joined node by node in "
-                 "their order, in the components all of them have. Every part then numbers its "
-                 "nodes for itself; without Joints, "
-                 "interface nodes of one number "
-                 "are one node unless Coupling/Node Numbers is \"Own\".")
+                 "Joined nodes or interface sets of two or more parts, {left:tip = right:root, a:7 "
+                 "= b:1 = c:1}. Sets are joined node by node in their order, in their common "
+                 "components. With Joints every part has its own node numbers; without, interface "
+                 "nodes of equal numbers are one node unless Coupling/Node Numbers is \"Own\".")
       .choice("Initial State", std::string("From files"), {"From files", "Equilibrium"},
-              "\"From files\": initial displacements of the files, which are zero where they give "
-              "none; \"Equilibrium\": rest "
-              "under the loads of the start time, "
-              "about which parts are then reduced.");
+              "\"From files\": initial displacements of the files, zero where a file has none. "
+              "\"Equilibrium\": static equilibrium under the loads of the start time; parts are "
+              "reduced about it.");
   ListSpec loads("Loads", "Loads on single dofs, beside those of the files.");
   loads.namedLists(loadParameters());
   list.list(loads);
   ListSpec starts("Starts", "Initial displacements and velocities of single dofs.");
   starts.namedLists(startParameters());
   list.list(starts);
-  ListSpec laws("Laws", "Laws of time that files and loads name; \"1\" is always there.");
+  ListSpec laws("Laws", "Laws of time for files and loads; \"1\" always exists.");
   laws.namedLists(timeLawParameters());
   list.list(laws);
   return list;
@@ -146,7 +136,7 @@ PartsSettings readSettings(const ParameterList& list) {
     settings.imported.push_back(readImported(name, one));
   });
   if (settings.imported.empty())
-    throw DeckError(list.name() + "/Imported is empty: a scene has one part at least.");
+    throw DeckError(list.name() + "/Imported is empty. Give at least one part.");
   settings.joints = texts(list, "Joints");
   settings.atRest = list.get<std::string>("Initial State") == "Equilibrium";
   forEachList(list, "Loads", [&](const std::string& name, const ParameterList& one) {
@@ -162,7 +152,7 @@ PartsSettings readSettings(const ParameterList& list) {
   forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
     if (name == "1")
       throw DeckError(one.name() +
-                      " gives the law \"1\", which is 1 at all times. Name it otherwise.");
+                      " has the name \"1\", which is the constant law. Choose another name.");
     settings.laws.push_back(readTimeLaw(name, one));
   });
   return settings;

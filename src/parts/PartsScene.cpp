@@ -123,16 +123,16 @@ class Builder {
         if (it != settings_.laws.end())
           law = *it;
         else
-          faults_.push_back(settings_.where + "/Laws does not give the law " + inQuotes(law.name) +
-                            ", which terms or loads of part " + inQuotes(content.part.name) + " (" +
-                            content.file + ") follow. Add a list " + inQuotes(law.name) +
+          faults_.push_back(settings_.where + "/Laws has no law " + inQuotes(law.name) +
+                            ", but terms or loads of part " + inQuotes(content.part.name) + " (" +
+                            content.file + ") use it. Add a list " + inQuotes(law.name) +
                             " with its Form.");
       }
     for (const auto& law : settings_.laws)
       if (used.count(law.name) == 0)
         faults_.push_back(
             settings_.where + "/Laws/" + law.name +
-            " has no effect: no part and no load follows it. Leave it out, or name it as they do.");
+            " has no effect: no part and no load uses it. Remove it, or correct its name.");
   }
 
   void holdAndRetain() {
@@ -158,16 +158,15 @@ class Builder {
       for (int i : kept)
         if (!std::binary_search(inner.begin(), inner.end(), i)) content.part.retained.push_back(i);
       if (std::count(held.begin(), held.end(), char{0}) == 0)
-        faults_.push_back(given.where +
-                          "/Fixed holds every dof of the part; nothing is left to compute. Leave "
-                          "the part out, or release some.");
+        faults_.push_back(
+            given.where +
+            "/Fixed fixes every dof of the part. Remove the part, or free some dofs.");
       else
         hold(content, held);
     }
     for (const auto& [where, p, label] : loaded_)
       if (held_.count({p, label}) > 0)
-        faults_.push_back(where +
-                          " acts on a dof that is fixed. Release it, or leave the load out.");
+        faults_.push_back(where + " acts on a fixed dof. Free the dof, or remove the load.");
   }
 
   void checkHeld(const ImportedPart& given, const PartContent& content, int i) {
@@ -175,9 +174,9 @@ class Builder {
     held_.insert(
         {static_cast<int>(&content - scene_.contents.data()), m.dofs[static_cast<std::size_t>(i)]});
     if (m.initialDisplacement[i] == 0.0 && m.initialVelocity[i] == 0.0) return;
-    faults_.push_back(given.where + "/Fixed holds " + dofName(m, i) + ", which " + content.file +
+    faults_.push_back(given.where + "/Fixed fixes " + dofName(m, i) + ", which " + content.file +
                       " starts at " + formatNumber(m.initialDisplacement[i]) + " with velocity " +
-                      formatNumber(m.initialVelocity[i]) + ". A fixed dof stays at zero.");
+                      formatNumber(m.initialVelocity[i]) + ". A fixed dof must start at zero.");
   }
 
   /// Joints of the list Parts as joints and releases of the plan.
@@ -193,7 +192,7 @@ class Builder {
             throw DeckError(
                 settings_.where + "/Joints joins only some components in " + inQuotes(text) +
                 ", and part \"" + imported()[static_cast<std::size_t>(side)].name +
-                "\" is turned. Join whole nodes, and release components in the list Coupling.");
+                "\" is rotated. Join all components, and release some in the list Coupling.");
         plan_.joints.insert(plan_.joints.end(), joint.joints.begin(), joint.joints.end());
         plan_.releases.insert(plan_.releases.end(), joint.releases.begin(), joint.releases.end());
       });
@@ -290,7 +289,7 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
                      [&](const auto& content) { return content.part.name == start.part; });
     if (it == scene.contents.end())
       throw DeckError(start.where + "/Part names part " + inQuotes(start.part) +
-                      ", but there is no such part.");
+                      ", but no part has this name.");
     int position = 0;
     try {
       position = positionsOf(*it, std::to_string(start.node) + " " + start.component).front();
@@ -303,7 +302,8 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
         full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
     if (std::abs(row.squaredNorm() - 1.0) > 1e-9)
       throw DeckError(start.where +
-                      " starts a dof that a constraint ties to others. Start those instead.");
+                      " gives a start of a dof that depends on others by a constraint. Give the "
+                      "start of the independent dofs.");
     z += row * start.displacement;
     zDot += row * start.velocity;
   }

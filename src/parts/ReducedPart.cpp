@@ -45,12 +45,11 @@ PartContent reducedContent(const PartContent& original,
   if (reduced.derivedInterface)
     throw ModelError("Part \"" + reduced.name + "\" cannot be exported: its basis \"" +
                      reduced.report.basis +
-                     "\" does not have the interface dofs among its coordinates, so there is "
-                     "nothing that others could be joined to. Take "
-                     "another basis, Craig-Bampton for instance.");
+                     "\" has no interface dofs among its coordinates. Choose another basis, for "
+                     "example \"Craig-Bampton\".");
   const auto& kept = reduced.basis->partition.boundary;
   if (reduced.basis->vectors.rows() != original.part.model.size())
-    throw Error(ExitCode::Internal, "A part was exported with a basis of other dofs.");
+    throw Error(ExitCode::Internal, "The basis of an exported part has other dofs than the part.");
   PartContent out;
   out.part.name = reduced.name;
   auto& m = out.part.model;
@@ -67,7 +66,7 @@ PartContent reducedContent(const PartContent& original,
   if (!s.isZero(0.0)) {
     for (const auto& term : m.stiffness)
       m.loads.push_back(
-          {"reference state of kept dofs: " + term.name, Vector(term.matrix * s), term.law});
+          {"reference state of boundary dofs: " + term.name, Vector(term.matrix * s), term.law});
     m.initialDisplacement += s;
     if (m.recovery.rows() > 0) m.recoveryOffset -= m.recovery * s;
     out.part.reference = s;

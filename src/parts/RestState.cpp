@@ -58,19 +58,20 @@ Vector restState(const model::SecondOrderModel& model, double t,
   try {
     const linalg::DirectSolver held(J, [&](int i) { return problem.unknownName(i); });
   } catch (const ModelError& error) {
-    throw ModelError(
-        std::string("There is no equilibrium to start from, since something floats. ") +
-        error.what() + " Hold or join that dof, or set Parts/Initial State to \"From files\".");
+    throw ModelError(std::string("The parts have no equilibrium: a dof is not supported. ") +
+                     error.what() +
+                     " Fix or join this dof, or set Parts/Initial State to \"From files\".");
   }
   model::SolveRequest request;
   request.what = "the equilibrium of the parts";
   request.tolerance = 1e-10;
   const auto outcome = solver(problem, q, request);
   if (!outcome.converged)
-    throw ConvergenceError("The equilibrium of the parts was not found: residual " +
-                           formatNumber(outcome.residual) + " of the largest load after " +
-                           std::to_string(outcome.iterations) + " iterations. " + outcome.message +
-                           " Start \"From files\" and let a damped transient find it.");
+    throw ConvergenceError(
+        "The equilibrium of the parts did not converge: residual " +
+        formatNumber(outcome.residual) + " of the largest load after " +
+        std::to_string(outcome.iterations) + " iterations. " + outcome.message +
+        " Set Parts/Initial State to \"From files\" and find it by a damped transient.");
   return q;
 }
 

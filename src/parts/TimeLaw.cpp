@@ -44,7 +44,7 @@ class Harmonic : public TimeLaw {
                                           : std::numeric_limits<double>::infinity()) {
     if (!(end_ > start_))
       throw DeckError(list.name() + "/End Time is " + formatNumber(end_) +
-                      " s, which is not after its start, " + formatNumber(start_) + " s.");
+                      " s, which is not after its start " + formatNumber(start_) + " s.");
   }
   double value(double t) const override {
     return t < start_ || t >= end_ ? mean_ : mean_ + amplitude_ * std::sin(pulsation_ * t + phase_);
@@ -78,7 +78,7 @@ class Table : public TimeLaw {
         values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
     if (times_.empty() || times_.size() != values_.size())
       throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " +
-                      std::to_string(values_.size()) + " values; give one value for each time.");
+                      std::to_string(values_.size()) + " values. Give one value for each time.");
     for (std::size_t i = 1; i < times_.size(); ++i)
       if (!(times_[i] > times_[i - 1]))
         throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) +
@@ -113,24 +113,24 @@ bool add(ListSpec parameters) {
 [[maybe_unused]] const bool harmonic =
     add<Harmonic>(ListSpec("Harmonic", "Mean + Amplitude sin(2 pi Frequency t + Phase).")
                       .real("Mean", "", 0.0, Range::any(),
-                            "Value about which it swings, and before and after it does.")
+                            "Mean value; also the value before the start and after the end.")
                       .real("Amplitude", "", 1.0, Range::any(), "Amplitude.")
                       .real("Frequency", "Hz", deck::Required{}, Range::nonNegative(), "Frequency.")
                       .real("Phase", "rad", 0.0, Range::any(), "Phase at time 0.")
-                      .real("Start Time", "s", 0.0, Range::any(), "Time at which the swing begins.")
+                      .real("Start Time", "s", 0.0, Range::any(), "Start of the oscillation.")
                       .real("End Time", "s", deck::Optional{}, Range::any(),
-                            "Time at which it ends; never by default."));
+                            "End of the oscillation; none by default."));
 
-[[maybe_unused]] const bool ramp =
-    add<Ramp>(ListSpec("Ramp", "From one value to another along a straight line.")
-                  .real("From", "", 0.0, Range::any(), "Value before the ramp.")
-                  .real("To", "", 1.0, Range::any(), "Value after it.")
-                  .real("Start Time", "s", 0.0, Range::any(), "Time at which the ramp begins.")
-                  .real("Duration", "s", deck::Required{}, Range::positive(), "Time it takes."));
+[[maybe_unused]] const bool ramp = add<Ramp>(
+    ListSpec("Ramp", "Linear change from one value to another.")
+        .real("From", "", 0.0, Range::any(), "Value before the ramp.")
+        .real("To", "", 1.0, Range::any(), "Value after it.")
+        .real("Start Time", "s", 0.0, Range::any(), "Start of the ramp.")
+        .real("Duration", "s", deck::Required{}, Range::positive(), "Duration of the ramp."));
 
 [[maybe_unused]] const bool table = add<Table>(
     ListSpec("Table",
-             "Straight lines between points, constant before the first and after the last.")
+             "Linear interpolation between points, constant before the first and after the last.")
         .realArray("Times", "s", deck::Required{}, Range::any(), "Times of the points, increasing.")
         .realArray("Values", "", deck::Required{}, Range::any(), "Values at these times."));
 
@@ -138,9 +138,9 @@ bool add(ListSpec parameters) {
 
 deck::ListSpec timeLawParameters() {
   const auto& laws = TimeLaws::instance();
-  ListSpec spec("law", "A law of time, named as the files of the parts or the loads name it.");
+  ListSpec spec("law", "A law of time; its name is used by part files and loads.");
   spec.choice("Form", deck::Required{}, laws.names(),
-              "Form of the law; its numbers stand in the sublist of the same name.");
+              "Form of the law; its parameters are in the sublist of the same name.");
   for (const auto& [name, entry] : laws.entries()) spec.list(entry.parameters);
   return spec;
 }
@@ -149,7 +149,7 @@ model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list)
   const auto form = list.get<std::string>("Form");
   if (!list.isSublist(form))
     throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " +
-                    inQuotes(form) + " with its numbers is missing.");
+                    inQuotes(form) + " with its parameters is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
   return {name, [law](double t) { return law->value(t); }};
 }

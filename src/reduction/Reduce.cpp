@@ -78,7 +78,7 @@ ReducedCore makeCore(const PartView& part, const Basis& basis, const ReductionOp
   report.rows = std::make_shared<const std::vector<BasisRow>>(std::move(rows));
   if (basis.orthonormal && !report.structureEnforced && report.modes > 0)
     report.remarks.push_back(
-        "the modes are not orthonormal to 1e-10; the projected matrices are kept as they are");
+        "the modes are not orthonormal to 1e-10; the projected matrices are not cleaned");
   if (options.checks) checkBasis(part, basis, core.matrices, report);
   count("parts reduced");
   return core;
@@ -124,11 +124,9 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         break;
       case ModeRule::Kind::Tolerance:
         throw DeckError(
-            "\"Frequency Tolerance\" and \"Motion Tolerance\" are met by the coupled model, not "
-            "part by part: `tooljoint run` "
-            "and "
-            "`tooljoint modes` take them (estimate::synthesise). Here, give a number of modes or a "
-            "cut-off frequency.");
+            "\"Frequency Tolerance\" and \"Motion Tolerance\" need the coupled model: use "
+            "`tooljoint run`, `tooljoint modes` or estimate::synthesise. Here, give \"Modes\" or "
+            "\"Cut-off Frequency\".");
     }
   }
   return requests;
@@ -211,7 +209,7 @@ class Team {
     if (idle > 0 && !cache_.remembers)
       log::warn("There are " + std::to_string(weights.size()) + " different substructures for " +
                 std::to_string(parallel::size()) + " ranks: " + std::to_string(idle) +
-                " of them will be idle during reduction.");
+                " of them are idle during the reduction.");
   }
 
   std::vector<ReducedSubstructure> run() {
@@ -270,9 +268,8 @@ class Team {
         for (;;) {
           if (!bases_[p].orthonormal || !bases_[p].removable)
             throw DeckError("The basis \"" + options_.basis +
-                            "\" has no modes with fixed interface for an interface criterion to "
-                            "choose from. Give \"Modes\", or take "
-                            "the basis \"Craig-Bampton\".");
+                            "\" has no fixed-interface modes to select by an interface criterion. "
+                            "Give \"Modes\", or choose the basis \"Craig-Bampton\".");
           const Vector shares = interfaceShares(views_[p], bases_[p], rule.kind);
           auto keep = keepByShare(shares, bases_[p].eigenvalues, rule.fraction, rule.pairTolerance);
           const bool all = bases_[p].complete && bases_[p].modes() == bases_[p].candidates.size();

@@ -95,16 +95,15 @@ class Stages {
 
   std::string complaint(double tolerance) const {
     std::string text = "The static equilibrium did not converge to " + shortNumber(tolerance) +
-                       " of the largest load; tried ";
+                       " of the largest load. Stages: ";
     for (const StageReport& stage : report_.stages)
       text += stage.name + " (" + std::to_string(stage.iterations) + " iterations, residual " +
               shortNumber(stage.residual) + "), ";
     return text + (options_.recipe == Recipe::Source
-                       ? "by the recipe \"Source\". Use /Static/Recipe \"Continuation\". "
-                       : "by the recipe \"Continuation\". Allow more /Static/Max Iterations or "
-                         "/Static/Friction Steps, a shorter "
-                         "/Static/Lateral Step Limit, or check that the supports and the well can "
-                         "carry the loads. ");
+                       ? "by the recipe \"Source\". Set /Static/Recipe to \"Continuation\". "
+                       : "by the recipe \"Continuation\". Raise /Static/Max Iterations or "
+                         "/Static/Friction Steps, reduce /Static/Lateral Step Limit, or check that "
+                         "the supports and the well can carry the loads. ");
   }
 
   StaticProblem& problem_;
@@ -172,29 +171,31 @@ void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& s
                  following, x);
 }
 
-/// Some laws pull open points to the wall, and friction turns what is pulled about the axis. Throws
-/// ConvergenceError saying so when the string does not come to rest under the whole of the pull.
+/// Adds the attraction of open points to the wall, which some laws have. ConvergenceError with the
+/// attraction in its text when the string has no equilibrium under it.
 void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& switches, Vector& x) {
   const auto pull = [](double share, StaticSwitches& with) {
     with.pull = share;
-    return share < 1.0 ? shortNumber(share) + " of the pull on open points"
-                       : std::string("the laws as they are");
+    return share < 1.0 ? shortNumber(share) + " of the attraction on open points"
+                       : std::string("the complete contact law");
   };
   try {
     stages.march(0.0, 1.0, 0.0, pull, switches, following, x);
   } catch (const ConvergenceError& error) {
     throw ConvergenceError(
         std::string(error.what()) +
-        " The string rests against walls that only push; the contact law also pulls every " +
-        "open point to the wall with up to " + shortNumber(input.contact->largestPull()) +
-        " N and, by friction, around the hole. Raise " +
-        "/Contact/Stiffness Regularisation, or use /Contact/Law \"Clamped\", which does not pull.");
+        " The equilibrium without attraction was found. The contact law attracts every open point "
+        "to the wall with up to " +
+        shortNumber(input.contact->largestPull()) +
+        " N. Raise /Contact/Stiffness Regularisation, or set /Contact/Law to \"Clamped\", which "
+        "has "
+        "no attraction.");
   }
 }
 
-/// Held on the axis; then walls that only push, from soft to sharp, without friction; then friction
-/// in steps; then what the contact laws pull with. The cap on lateral motion keeps the first steps
-/// inside the hole.
+/// Fixed on the axis; then contact without attraction, from soft to stiff, without friction; then
+/// friction in steps; then the attraction of the contact laws. The cap on lateral motion keeps the
+/// first steps inside the hole.
 void continuation(const StaticInput& input, const StaticOptions& options, StaticProblem& problem,
                   Stages& stages, StaticSwitches switches, Vector& x) {
   if (input.contact == nullptr || input.contact->size() == 0) {

@@ -9,28 +9,25 @@ namespace tooljoint::equilibrium {
 deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec spec("Static",
-                      "How the static equilibrium is found (Nguyen et al. 2020, section 3.2).");
-  spec.choice("Recipe", std::string("Continuation"), {"Continuation", "Source"},
-              "\"Continuation\" starts on the axis between walls that only push, sharpens them in "
-              "stages, then brings in friction, then "
-              "what the contact law pulls with; \"Source\" starts from the linear solution without "
-              "contact and takes full steps.");
+                      "Solution of the static equilibrium (Nguyen et al. 2020, section 3.2).");
+  spec.choice(
+      "Recipe", std::string("Continuation"), {"Continuation", "Source"},
+      "\"Continuation\" starts on the axis with a soft contact law without attraction and stiffens "
+      "it in stages; then it adds friction, then the attraction of the contact law. \"Source\" "
+      "starts from the linear solution without contact and takes full Newton steps.");
   spec.choice("Jacobian", std::string("Exact"), {"Exact", "Source"},
-              "\"Source\" leaves out how the geometric stiffness changes with the displacement, "
-              "equation (25).")
+              "\"Exact\": the complete Jacobian. \"Source\": without the derivative of the "
+              "geometric stiffness, equation (25).")
       .expert();
   spec.choice("Friction", std::string("Sliding Speed"), {"Sliding Speed", "Peak", "None"},
-              "Friction of a string that turns in its hole without moving sideways. \"Sliding "
-              "Speed\": the coefficient at the "
-              "speed Omega R_c with which "
-              "the motion starts, so that a string at constant speed starts in equilibrium; the "
-              "peak, in the sense of the first "
-              "rotation, where it "
-              "starts from rest. \"Peak\": always the static coefficient, as the source. \"None\": "
-              "no friction. A string that "
-              "never turns has none.");
+              "Friction in the static state, where the string rotates without lateral motion. "
+              "\"Sliding Speed\": the coefficient at the sliding speed Omega R_c of the start of "
+              "the motion, so that a string at constant speed starts in equilibrium; where the "
+              "string starts from rest, the static coefficient in the direction of the first "
+              "rotation. \"Peak\": always the static coefficient, as the source. \"None\": no "
+              "friction. A string that never rotates has no friction.");
   spec.boolean("Geometric Stiffness", true,
-               "Whether axial force and torque of the static state stiffen the string.")
+               "Include the geometric stiffness of axial force and torque in the static state.")
       .expert();
   spec.real("Tolerance", "", 1e-9, Range::positive(),
             "Largest residual at convergence, relative to the largest load (moments: to that load "
@@ -41,14 +38,14 @@ deck::ListSpec parameters() {
             "Largest change of a lateral displacement in one iteration of \"Continuation\".")
       .expert();
   spec.realArray("Lambda Stages", "1/m", std::vector<double>{1e3, 1e4, 1e6}, Range::positive(),
-                 "Contact regularisations that \"Continuation\" goes through before the one of the "
-                 "contact list.")
+                 "Contact regularisations of the stages of \"Continuation\" before the value of "
+                 "the list Contact.")
       .expert();
   spec.integer("Friction Steps", 4, Range::atLeast(1),
-               "Equal steps in which \"Continuation\" brings in friction.")
+               "Number of equal steps in which \"Continuation\" adds friction.")
       .expert();
-  spec.passThrough("NOX", "Handed on to NOX.");
-  spec.passThrough("Belos", "Handed on to Belos.");
+  spec.passThrough("NOX", "Parameters passed to NOX unchanged.");
+  spec.passThrough("Belos", "Parameters passed to Belos unchanged.");
   return spec;
 }
 

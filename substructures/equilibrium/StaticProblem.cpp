@@ -21,11 +21,12 @@ void check(const StaticInput& input) {
                     (input.pathReaction.size() == 0 || input.pathReaction.size() == dofs) &&
                     static_cast<int>(input.held.size()) == dofs;
   if (!fits)
-    throw ModelError("The static equilibrium got elements, loads and supports of different sizes.");
+    throw ModelError(
+        "The elements, loads and supports of the static problem have different sizes.");
   if (input.contact != nullptr)
     for (const int node : input.contact->points().node)
       if (node < 1 || node > input.nodes)
-        throw ModelError("Contact at node " + std::to_string(node) +
+        throw ModelError("A contact point is at node " + std::to_string(node) +
                          ", but the string has nodes 1 to " + std::to_string(input.nodes) + ".");
 }
 
@@ -39,7 +40,7 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
     if (input.held[i] == 0) index_[i] = unknowns_++;
   if (unknowns_ == 0)
     throw ModelError(
-        "The supports hold every degree of freedom of the string: nothing is left to compute.");
+        "The supports fix every degree of freedom of the string. Free at least one dof.");
 
   std::vector<std::vector<int>> lists;
   double length = 0.0;

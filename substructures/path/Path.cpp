@@ -23,11 +23,11 @@ std::vector<double> unstretchedDepths(const PathInput& input) {
 }
 
 void check(const PathInput& input, Mode mode) {
-  if (input.trajectory == nullptr) throw ModelError("The path needs a well trajectory.");
+  if (input.trajectory == nullptr) throw ModelError("The path has no well trajectory. Give one.");
   if (input.elements.empty()) throw ModelError("The path needs a string of at least one element.");
   for (std::size_t e = 0; e < input.elements.size(); ++e) {
     const std::string who = "Element " + std::to_string(e + 1) + " of the string ";
-    if (!(input.elements[e]->length() > 0.0)) throw ModelError(who + "has no positive length.");
+    if (!(input.elements[e]->length() > 0.0)) throw ModelError(who + "does not have a positive length.");
     const beam::DofMap dofs = input.elements[e]->dofs();
     if (mode == Mode::ImposedNodes &&
         !std::all_of(dofs.begin(), dofs.end(), [](bool has) { return has; }))
@@ -164,7 +164,7 @@ std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options
   for (const int node : options.nodes) {
     if (node < 1 || node > last + 1)
       throw ModelError("Imposed node " + std::to_string(node) +
-                       " does not exist: the string has nodes 1 to " + std::to_string(last + 1) +
+                       " does not exist. The string has nodes 1 to " + std::to_string(last + 1) +
                        ".");
     nodes.push_back(node - 1);
   }
@@ -180,7 +180,7 @@ std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   nodes.erase(std::remove(nodes.begin(), nodes.end(), 0), nodes.end());
-  if (nodes.empty()) throw ModelError("The path needs at least one imposed node below the first.");
+  if (nodes.empty()) throw ModelError("The path needs at least one imposed node below node 1.");
   return nodes;
 }
 

@@ -9,19 +9,17 @@ namespace tooljoint::path {
 deck::ListSpec parameters() {
   using deck::Range;
   deck::ListSpec spec(
-      "Path", "How the straight string is bent into the well (Nguyen et al. 2020, section 3.1).");
+      "Path", "Bending of the straight string into the well (Nguyen et al. 2020, section 3.1).");
   spec.choice("Mode", std::string("Centre line"), {"Centre line", "Imposed nodes"},
-              "\"Centre line\" holds every node laterally on the axis, free to slide and to turn; "
-              "\"Imposed nodes\" moves X "
-              "and Y of a few nodes from the vertical to the well, and the string strays from the "
-              "axis between them.");
+              "\"Centre line\": every node is fixed laterally on the axis and free to slide and to "
+              "rotate. \"Imposed nodes\": X and Y of some nodes are moved from the vertical to the "
+              "well; between these nodes the string deviates from the axis.");
   spec.choice("Pre-stress", std::string("Full tangent"), {"Full tangent", "Axial and torque"},
-              "What the bent state adds to the static and dynamic stiffness: the whole "
-              "corotational tangent with its moments, "
-              "or the geometric stiffness of axial force and torque alone, which violates the "
-              "torque balance of a curved string.");
+              "Contribution of the bent state to the static and dynamic stiffness: the full "
+              "corotational tangent with its moments, or the geometric stiffness of axial force "
+              "and torque alone, which violates the torque balance of a curved string.");
   spec.integer("Increments", 10, Range::atLeast(1),
-               "Load steps of \"Imposed nodes\"; halved where one does not converge.")
+               "Load steps of \"Imposed nodes\"; a step that does not converge is halved.")
       .expert();
   spec.integer("Node Count", 9, Range::atLeast(2),
                "Number of imposed nodes, equally spaced in arc length with both ends included, "
@@ -41,8 +39,8 @@ deck::ListSpec parameters() {
   spec.integer("Max Iterations", 50, Range::atLeast(1),
                "Newton iterations allowed in one load step.")
       .expert();
-  spec.passThrough("NOX", "Handed on to NOX.");
-  spec.passThrough("Belos", "Handed on to Belos.");
+  spec.passThrough("NOX", "Parameters passed to NOX unchanged.");
+  spec.passThrough("Belos", "Parameters passed to Belos unchanged.");
   return spec;
 }
 

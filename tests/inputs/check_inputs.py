@@ -102,7 +102,7 @@ def without_end():
     refused("survey of a terabyte", 2, "is larger than", "check", SURVEY, "--set", f"Well/Survey/File={path}/huge.csv")
     refused("library of a terabyte", 2, "is larger than 64 MB", "check", STRING, "--set", f"Drillstring/Library={path}/huge.xml")
     refused("part of a terabyte", 2, "is larger than", "check", deck_of("huge.json"))
-    refused("HDF5 part of a terabyte", 2, "is no part file", "check", deck_of("huge.h5"))
+    refused("HDF5 part of a terabyte", 2, "is not a part file", "check", deck_of("huge.h5"))
     refused("matrix of a terabyte", 2, "has a line of more than 1024 characters", "check", deck_of(part("matrix", stiffness=str(path / "huge.mtx"))))
 
 
@@ -173,26 +173,26 @@ def check_refuses_what_run_refuses():
     calm = ["--without", "Parts/Starts"]
     explicit = ["--set", "Transient/Integrator=RK4", "--without", "Transient/Step"]
     short = ["--set", "Transient/End Time=0.01"]
-    mass = ["--without", "Reduction/Cut-off Frequency", "--set", "Reduction/Effective Interface Mass=0.5"]
+    mass = ["--without", "Reduction/Mode Selection", "--set", "Reduction/Mode Selection/Effective Interface Mass=0.5"]
     rows = [
         (STRING, ["--set", "Supports/Top=u v theta_z"], "The string floats: w is free at all of its"),
         (STRING, ["--set", "Supports/Top=w"], "The string floats: theta_z is free at all of its"),
         (STRING, ["--set", "Supports/Top=none", "--set", "Well/Trajectory=Vertical", "--set", "Well/Vertical/Length=60"], "The string floats: nothing holds it."),
-        (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", whose mass is singular, but the integrator \"RK4\" needs a mass everywhere"),
-        (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", whose mass is singular"),
-        (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate asks for errors of the basis \"MacNeal\""),
-        (FRAME, [*dual, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "joins parts by the forces between them"),
+        (FRAME, [*macneal, *calm, *explicit], "is \"MacNeal\", which has a singular mass matrix, but the integrator \"RK4\" needs a nonsingular one"),
+        (FRAME, [*dual, *calm, *explicit], "is \"Dual Craig-Bampton\", which has a singular mass matrix"),
+        (FRAME, [*macneal, "--set", "Reduction/Error Estimate=Frequencies"], "Error Estimate needs an error estimate, but the basis \"MacNeal\""),
+        (FRAME, [*dual, "--set", "Reduction/Interface Reduction=System", "--set", "Reduction/System/Modes=3"], "joins parts by interface forces"),
         (FRAME, [*dual, "--set", "Output/Export Parts=HDF5"], "cannot export parts of the basis \"Dual Craig-Bampton\""),
         (FRAME, [*macneal, "--set", "Reduction/Load Vectors=Loads"], "cannot be added to the basis \"MacNeal\""),
-        (FRAME, ["--set", "Reduction/Basis=Rubin", *mass], "chooses among modes with fixed interface, and the basis \"Rubin\" has none"),
+        (FRAME, ["--set", "Reduction/Basis=Rubin", *mass], "selects fixed-interface modes one by one, but the basis \"Rubin\" has none"),
         (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Coupling/Assembly=Dual"], "needs the inverse of the coupled mass"),
-        (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Reduction/Error Estimate=Both"], "asks for the error of the motion, which is not estimated with"),
-        (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not estimated with Coupling/Assembly \"Dual\""),
-        (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, at which no substructure has a point law"),
+        (FRAME, ["--set", "Reduction/Basis=Enhanced Craig-Bampton", "--set", "Reduction/Error Estimate=Both"], "estimates the error of the motion, which is not available with"),
+        (FRAME, ["--set", "Coupling/Assembly=Dual", "--set", "Reduction/Error Estimate=Transient"], "which is not available with Coupling/Assembly \"Dual\""),
+        (FRAME, ["--set", "Reduction/Load Vectors=Points", "--set", "Reduction/Load Vector Nodes={9999}"], "names node 9999, but no substructure has a point law there"),
         (FRAME, ["--set", "Transient/Step=1e-300"], "which makes 2e+300 of them"),
         (FRAME, ["--set", "Transient/Sampling Interval=1e-300"], "which makes"),
         (deck_of(part("strange", positions=[[1, 0, 0, 0], [9, 0, 0, 0]]), "strange.xml"), [], "names node 9 in row 2, which the part does not have"),
-        (deck_of(part("number", name=7), "number.xml"), [], "\"name\" should be a text"),
+        (deck_of(part("number", name=7), "number.xml"), [], "\"name\" must be a text"),
     ]
     for deck, changes, sentence in rows:
         motion = short if deck == FRAME and not any("Transient/" in one for one in changes) else []

@@ -182,7 +182,7 @@ def reduced():
     parts, joints = {"a": "half.h5", "b": "half.h5"}, ["a:right = b:left"]
     for basis in ("Craig-Bampton", "Rubin", "Craig-Chang", "MacNeal", "Dual Craig-Bampton", "Dual Craig-Bampton+"):
         own = '<ParameterList name="Dual Craig-Bampton"><Parameter name="Residual Mass" type="bool" value="true"/></ParameterList>'
-        text = (f'<Parameter name="Basis" type="string" value="{basis.rstrip("+")}"/><Parameter name="Modes" type="int" value="14"/>' +
+        text = (f'<Parameter name="Basis" type="string" value="{basis.rstrip("+")}"/><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="14"/></ParameterList>' +
                 (own if basis.endswith("+") else ""))
         name = "halves_" + basis.replace(" ", "_").replace("+", "_mass")
         rows, lists, output, _ = modes(name, None, 12, text, parts, joints)

@@ -264,7 +264,7 @@ def other_decks():
     changes = {
         "Transient/End Time was 15 and is 16": ["--set", "Transient/End Time=16"],
         "Parts/Loads/wind/Value was 2000 and is 2001": ["--set", "Parts/Loads/wind/Value=2001"],
-        "Reduction/Cut-off Frequency was 400 and is 300": ["--set", "Reduction/Cut-off Frequency=300"],
+        "Reduction/Mode Selection/Cut-off Frequency was 400 and is 300": ["--set", "Reduction/Mode Selection/Cut-off Frequency=300"],
         "Reduction was list and is not given": ["--without", "Reduction"],
         "Output/Fields was": ["--set", "Output/Fields={displacement}"],
     }

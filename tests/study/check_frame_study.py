@@ -72,7 +72,7 @@ def same_as_separate_calls():
     """A row is what `run`, `compare` and `modes` give."""
     tooljoint("run", DECK, "--output", "alone_reference", *settings("!Reduction", "Transient/Step=1e-4"))
     found = rows("whole")
-    for label, overrides in (("CMS, Rubin, Modes 4", ("Reduction/Basis=Rubin", "Reduction/Modes=4")),
+    for label, overrides in (("CMS, Rubin, Modes 4", ("Reduction/Basis=Rubin", "Reduction/Mode Selection/Modes=4")),
                              ("reduced interfaces, Modes 8", ("Reduction/Interface Reduction=System", "Reduction/System/Modes=8", "!Reduction/Error Estimate"))):
         row = found[label]
         ran = tooljoint("run", DECK, "--output", "alone", *settings(*overrides))
@@ -113,7 +113,7 @@ def failures():
     expect("a reference that fails ends with 4", done.returncode == 4 and "The reference run failed" in done.stderr, f"({done.returncode})")
     expect("and its summary says so", summary("lost")["status"] == "failed")
     for override, code, sentence in (
-            ("Study/Methods/own vectors/Set={Reduction/Modes=many}", 2, "Study/Methods/own vectors/Set says \"Reduction/Modes=many\""),
+            ("Study/Methods/own vectors/Set={Reduction/Mode Selection/Modes=many}", 2, "Study/Methods/own vectors/Set says \"Reduction/Mode Selection/Modes=many\""),
             ("Study/Methods/CMS/Set={Parts/Loads/wind/Part=roof}", 2, "Study/Methods/CMS"),
             ("Study/Methods/CMS/Set={Substructures/Rule=All}", 2, "/frame/Substructures is not a list"),
             ("Study/Window=1", 2, "Study/Window reaches to 1 s, but the runs end at 0.6 s")):

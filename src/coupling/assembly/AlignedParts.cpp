@@ -104,9 +104,8 @@ void alignComponents(std::vector<AlignedPart>& alignedParts) {
     if (names.size() != first.size() ||
         !std::is_permutation(names.begin(), names.end(), first.begin()))
       throw ModelError("Parts \"" + alignedParts.front().name + "\" and \"" + alignedPart.name +
-                       "\" do not speak of the same dofs: the components of a node are " +
-                       quotedList(first) + " in the first and " + quotedList(names) +
-                       " in the second.");
+                       "\" have different node components: " + quotedList(first) +
+                       " in the first and " + quotedList(names) + " in the second.");
     auto m = std::make_shared<SecondOrderModel>(*alignedPart.model);
     const int width = static_cast<int>(first.size());
     std::vector<int> to;  // of each component of the part
@@ -168,12 +167,12 @@ void checkRotation(const Frame& frame) {
       (frame.node == 0 ? std::string("all nodes") : "node " + std::to_string(frame.node)) +
       " of part \"" + frame.part + "\"";
   if (!(defect <= 1e-8))
-    throw ModelError(who + " is no rotation: its axes are not orthonormal, |axes' axes - 1| = " +
+    throw ModelError(who + " is not a rotation: its axes are not orthonormal, |axes' axes - 1| = " +
                      formatNumber(defect) +
                      ". Give three unit vectors at right angles, as columns.");
   if (frame.axes.determinant() < 0)
     throw ModelError(
-        who + " is no rotation: its axes are left-handed. Turn one of them round, or swap two.");
+        who + " is not a rotation: its axes are left-handed. Reverse one of them, or swap two.");
 }
 
 /// Turns one part.
@@ -269,12 +268,11 @@ class Turning {
     for (int a : have) {
       const int position = positions.at(vector[at(a)]);
       if (!contains(alignedPart_.interface, position)) continue;
-      throw ModelError("The frame of node " + std::to_string(node) + " of part \"" +
-                       alignedPart_.name + "\" mixes " + names[at(vector[at(a)])] + " with " +
-                       quotedList(missing) +
-                       ", which the part does not have there as an interface or retained dof. Make "
-                       "all of them interface dofs, or give a "
-                       "frame that turns only among those it has.");
+      throw ModelError(
+          "The frame of node " + std::to_string(node) + " of part \"" + alignedPart_.name +
+          "\" mixes " + names[at(vector[at(a)])] + " with " + quotedList(missing) +
+          ", but these are not interface or retained dofs of the part. Make all of them interface "
+          "dofs, or give a frame that rotates only the dofs the part has.");
     }
   }
 

@@ -35,7 +35,7 @@ class Coupler {
         connections_(options.connections) {}
 
   Coupling run() {
-    if (alignedParts_.empty()) throw ModelError("There is no part to couple.");
+    if (alignedParts_.empty()) throw ModelError("The model has no part to couple.");
     alignComponents(alignedParts_);
     turn(alignedParts_, connections_.frames);
     DofLookup lookup(alignedParts_);
@@ -79,8 +79,8 @@ class Coupler {
         const AlignedPart& alignedPart = alignedParts_[at(place.part)];
         if (!contains(alignedPart.interface, place.dof))
           throw ModelError("A release names " + describe(dof) +
-                           ", which is no interface dof of part \"" + alignedPart.name +
-                           "\", so nothing is joined to it.");
+                           ", which is not an interface dof of part \"" + alignedPart.name +
+                           "\". Name an interface dof.");
         rules.released.insert({place.part, place.dof});
       }
     const auto attach = [&](const std::vector<Term>& terms, const std::string& who) {
@@ -104,7 +104,7 @@ class Coupler {
         throw ModelError(who + " names " + describe(dof) + " without a part, but parts \"" +
                          alignedParts_[at(places.front().part)].name + "\" and \"" +
                          alignedParts_[at(other.part)].name +
-                         "\" have it and are not joined there. Name the part.");
+                         "\" both have it and are not joined there. Give the part.");
     return places.front();
   }
 
@@ -162,8 +162,7 @@ class Coupler {
       checkKinds(constraint, row.name);
       for (const auto& term : constraint.terms) {
         if (!std::isfinite(term.factor) || !std::isfinite(constraint.value))
-          throw ModelError("The " + row.name +
-                           " has a factor or a value that is not a finite number.");
+          throw ModelError("The " + row.name + " has a factor or a value that is not finite.");
         const DofPosition where = place(lookup, term.dof, "The " + row.name);
         row.entries.emplace_back(column(where), term.factor);
         row.value -= term.factor * offset(where);
@@ -181,8 +180,8 @@ class Coupler {
         if (constraint.sameKind && kindOf(a.dof.component) == ComponentKind::Translation &&
             kindOf(b.dof.component) == ComponentKind::Rotation)
           throw ModelError("The " + name + " makes " + describe(a.dof) + " and " + describe(b.dof) +
-                           " equal, a translation and a rotation. Tie dofs of one kind, or give a "
-                           "constraint with a lever arm as factor.");
+                           " equal, but one is a translation and the other a rotation. Join dofs "
+                           "of one kind, or give a constraint with a lever arm as factor.");
   }
 
   /// u_p - u_first = 0 for every further part of a joint.
@@ -202,9 +201,8 @@ class Coupler {
       const AlignedPart& alignedPart = alignedParts_[p];
       if (alignedPart.forces > 0)
         throw ModelError("The coordinates of part \"" + alignedPart.name +
-                         "\" contain the forces on its interface, which only multipliers can join. "
-                         "Set the assembly to Dual, or "
-                         "take a basis that keeps the interface dofs.");
+                         "\" contain its interface forces, which need multipliers. Set "
+                         "Coupling/Assembly to \"Dual\", or choose a basis with interface dofs.");
       for (int j = 0; j < alignedPart.boundaryRows.rows(); ++j) {
         const int dof = alignedPart.coordinates + j;
         ConstraintRow row{"interface of part \"" + alignedPart.name + "\" in " +
@@ -248,7 +246,7 @@ class Coupler {
                          " of " + model::dofName(labelled_.model, solved.unknown) + " is " +
                          formatNumber(y[solved.unknown]) + ", but the " +
                          rows_[at(solved.row)].name + " asks for " + formatNumber(value) +
-                         ". Parts that meet must start from one state.");
+                         ". Joined parts must start from the same state.");
       }
     };
     check(labelled_.model.initialDisplacement, false);

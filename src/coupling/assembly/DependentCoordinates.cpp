@@ -34,9 +34,8 @@ void condenseDependent(Coupling& coupling, const reduction::DependentCoordinates
   model::SecondOrderModel& model = coupling.model;
   if (!coupling.multipliers.empty())
     throw ModelError(
-        "Coordinates that follow the others need joined dofs, but dual assembly leaves every part "
-        "its own. Set the assembly to Primal, or give the "
-        "basis coordinates of its own (\"Residual Coordinates\" = \"Free\").");
+        "Dependent coordinates need joined dofs, but with dual assembly every part keeps its own "
+        "dofs. Set Coupling/Assembly to \"Primal\", or \"Residual Coordinates\" to \"Free\".");
   std::vector<char> keep(at(model.size()), 1);
   for (int i : dependent.dofs) keep[at(i)] = 0;
   std::vector<int> others;
@@ -58,7 +57,7 @@ void condenseDependent(Coupling& coupling, const reduction::DependentCoordinates
     if (keep[at(i)]) interface.push_back(column[at(i)]);
   coupling.interface = std::move(interface);
   coupling.remarks.push_back(std::to_string(dependent.dofs.size()) +
-                             " coordinates follow the others; the coupled matrices are full");
+                             " coordinates depend on the others; the coupled matrices are full");
 }
 
 }  // namespace tooljoint::coupling

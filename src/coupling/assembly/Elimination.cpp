@@ -93,11 +93,11 @@ class Eliminator {
     if (std::abs(a.right.value) > 1e-9 * std::max(a.right.size, 1e-300))
       throw ModelError("The " + row.name +
                        (by.empty() ? " has no dof in it" : " contradicts " + by) +
-                       ": together they ask for 0 = " + formatNumber(a.right.value) +
-                       ". Take one of them out, or change its value.");
+                       ": together they require 0 = " + formatNumber(a.right.value) +
+                       ". Remove one of them, or change its value.");
     out_.redundant.push_back("The " + row.name +
-                             (by.empty() ? " says nothing" : " follows from " + by) +
-                             " and was left out.");
+                             (by.empty() ? " has no effect" : " follows from " + by) +
+                             " and is ignored.");
   }
 
   int pivot(const ConstraintRow& row, const Accumulator& a) const {

@@ -63,13 +63,13 @@ class Labeller {
         const DofLabel label = labelOf(p, i);
         if (!own.emplace(label, i).second)
           throw ModelError("Part \"" + name(p) + "\" has " + describe(label) +
-                           " twice; every dof of a part needs a label of its own.");
+                           " twice. Give every dof of a part its own label.");
         if (open[at(i)]) {
           shared[label].push_back({p, i});
         } else if (const auto [it, fresh] = inner.emplace(label, DofPosition{p, i}); !fresh) {
           throw ModelError("Parts \"" + name(it->second.part) + "\" and \"" + name(p) +
                            "\" both have " + describe(label) +
-                           ", but as an inner dof, which nothing can be joined to. Declare it an "
+                           ", but as an interior dof, which cannot be joined. Declare it an "
                            "interface dof of both parts.");
         }
       }
@@ -77,14 +77,14 @@ class Labeller {
     for (const auto& [label, places] : shared) {
       if (const auto it = inner.find(label); it != inner.end())
         throw ModelError(describe(label) + " is an interface dof of part \"" +
-                         name(places.front().part) + "\" but an inner dof of part \"" +
+                         name(places.front().part) + "\" but an interior dof of part \"" +
                          name(it->second.part) + "\". Declare it an interface dof of both parts.");
       const DofPosition& first = places.front();
       if (places.size() < 2 && rules_.attached.count({first.part, first.dof}) == 0 &&
           !released(first.part, first.dof))
         throw ModelError("The interface dof " + describe(label) + " of part \"" + name(first.part) +
-                         "\" joins nothing: no other part has it. Check the labels, or take it out "
-                         "of the interface.");
+                         "\" is not joined: no other part has it. Check the labels, or remove it "
+                         "from the interface.");
       Joint joint{label, {}};
       for (const auto& place : places)
         if (!released(place.part, place.dof)) joint.places.push_back(place);
@@ -206,8 +206,8 @@ class Labeller {
 
   void assembleStates() {
     gather([this](int p) -> const Vector& { return alignedParts_[at(p)].offset; },
-           "reference state", "Parts that meet must be reduced about one state.");
-    const std::string advice = "Parts that meet must start from one state.";
+           "reference state", "Joined parts must be reduced about the same state.");
+    const std::string advice = "Joined parts must start from the same state.";
     out_.model.initialDisplacement =
         gather([this](int p) -> const Vector& { return part(p).initialDisplacement; },
                "initial displacement", advice);
@@ -292,8 +292,7 @@ class Labeller {
         throw ModelError("The motion of " + describe(DofLabel::physical(node, c)) +
                          " is recovered differently by part \"" + name(a.part) + "\" and part \"" +
                          name(b.part) +
-                         "\". A node that two parts share must be joined in every dof, or "
-                         "recovered by one of them only.");
+                         "\". Join the shared node in every dof, or recover it by one part only.");
     }
   }
 

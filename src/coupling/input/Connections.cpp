@@ -23,7 +23,7 @@ void needTranslations(const ComponentAxes& axes, const model::ComponentNames& na
                       const std::string& what) {
   if (std::all_of(axes.translation.begin(), axes.translation.end(), [](int c) { return c < 0; }))
     throw ModelError(what + " needs translations, but none of the components " + quotedList(names) +
-                     " is one. Call them u, v, w (and theta_x, theta_y, theta_z).");
+                     " is a translation. Name them u, v, w (and theta_x, theta_y, theta_z).");
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::vector<Constraint> hinge(const PartNode& a, const PartNode& b, const Vector
   needTranslations(axes, names, "A hinge");
   if (!(axis.norm() > 0) || !axis.allFinite())
     throw ModelError("The hinge between " + nodeName(a) + " and " + nodeName(b) +
-                     " has no axis: give a vector that is not zero.");
+                     " has a zero axis. Give a nonzero vector.");
   const std::string title = "hinge between " + nodeName(a) + " and " + nodeName(b) + ", ";
   const auto dof = [&](const PartNode& n, int c) { return PartDof{n.part, n.node, names[at(c)]}; };
   std::vector<Constraint> rows;
@@ -93,7 +93,7 @@ std::vector<Term> separation(const PartNode& a, const PartNode& b, const Vector3
   needTranslations(axes, names, "A separation");
   if (!(direction.norm() > 0) || !direction.allFinite())
     throw ModelError("The separation of " + nodeName(a) + " and " + nodeName(b) +
-                     " has no direction: give a vector that is not zero.");
+                     " has a zero direction. Give a nonzero vector.");
   const Vector3 e = direction.normalized();
   std::vector<Term> row;
   for (int i = 0; i < 3; ++i)
@@ -138,7 +138,7 @@ class Numberer {
         if (before >= 0)
           throw ModelError("A joint puts node " + std::to_string(before) + " and node " +
                            std::to_string(node) + " of part \"" + parts_[p].name +
-                           "\" in one place. Use constraints for that.");
+                           "\" at the same place. Use constraints instead.");
         before = node;
       }
     }

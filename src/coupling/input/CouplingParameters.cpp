@@ -41,9 +41,9 @@ PartNode parseNode(const std::string& text, const std::string& path) {
   const std::string number = trim(colon == std::string::npos ? text : text.substr(colon + 1));
   if (colon != std::string::npos) node.part = trim(text.substr(0, colon));
   if (!integer(number, node.node) || (colon != std::string::npos && node.part.empty()))
-    refuse(path, "is " + inQuotes(text) +
-                     ", but a node is written PART:NODE with the number of the node, \"left "
-                     "column:4\" for instance, or NODE alone.");
+    refuse(path,
+           "is " + inQuotes(text) +
+               ". A node is written PART:NODE, for example \"left column:4\", or NODE alone.");
   return node;
 }
 
@@ -51,9 +51,8 @@ PartNode parseNode(const std::string& text, const std::string& path) {
 PartDof parseDof(const std::string& text, const std::string& path) {
   const auto colon = text.rfind(':');
   if (colon == std::string::npos || trim(text.substr(colon + 1)).empty())
-    refuse(path,
-           "holds " + inQuotes(text) +
-               ", but a dof is written PART:NODE:COMPONENT, \"left column:4:u\" for instance.");
+    refuse(path, "holds " + inQuotes(text) +
+                     ". A dof is written PART:NODE:COMPONENT, for example \"left column:4:u\".");
   const PartNode node = parseNode(text.substr(0, colon), path);
   return {node.part, node.node, trim(text.substr(colon + 1))};
 }
@@ -62,10 +61,10 @@ Vector3 triple(const ParameterList& list, const std::string& name, bool directio
   const auto values = list.get<Teuchos::Array<double>>(name);
   if (values.size() != 3)
     refuse(list.name() + "/" + name,
-           "has " + std::to_string(values.size()) + " numbers; it needs three.");
+           "has " + std::to_string(values.size()) + " numbers. Give three.");
   const Vector3 v(values[0], values[1], values[2]);
   if (direction && !(v.norm() > 0))
-    refuse(list.name() + "/" + name, "is zero, but a direction is needed.");
+    refuse(list.name() + "/" + name, "is zero. Give a nonzero vector.");
   return v;
 }
 
@@ -89,10 +88,10 @@ JointInput readJoint(const ParameterList& list) {
     if (joint.nodes.back().part.empty())
       refuse(list.name() + "/Nodes",
              "names node " + text +
-                 " without its part: every part has numbers of its own. Write PART:NODE.");
+                 " without its part, but every part has its own node numbers. Write PART:NODE.");
   }
   if (joint.nodes.size() < 2)
-    refuse(list.name() + "/Nodes", "names fewer than two nodes, so there is nothing to join.");
+    refuse(list.name() + "/Nodes", "names fewer than two nodes. Give at least two.");
   return joint;
 }
 
@@ -128,7 +127,7 @@ ConstraintInput readConstraint(const ParameterList& list) {
   if (terms.size() != factors.size() || terms.empty())
     refuse(list.name() + "/Factors", "has " + std::to_string(factors.size()) + " numbers for " +
                                          std::to_string(terms.size()) +
-                                         " terms; each term needs one.");
+                                         " terms. Give one factor for each term.");
   input.constraint.name = input.name;
   input.constraint.value = list.get<double>("Value");
   for (Teuchos::Ordinal k = 0; k < terms.size(); ++k)
@@ -150,7 +149,7 @@ HingeInput readHinge(const ParameterList& list) {
   input.second = node(list, "Second");
   input.axis = triple(list, "Axis", true);
   if (input.first.part == input.second.part && input.first.node == input.second.node)
-    refuse(list.name() + "/Second", "is the first node again.");
+    refuse(list.name() + "/Second", "is the same node as First.");
   if (input.second.part.empty() && input.first.node == input.second.node)
     refuse(list.name() + "/Second", "names no part, but both nodes have the number " +
                                         std::to_string(input.second.node) + ". Write PART:NODE.");
@@ -163,7 +162,7 @@ PointInput readEnds(const ParameterList& list) {
   if (list.isParameter("Second")) {
     input.second = node(list, "Second");
     if (input.first.part == input.second->part && input.first.node == input.second->node)
-      refuse(list.name() + "/Second", "is the first node again.");
+      refuse(list.name() + "/Second", "is the same node as First.");
   }
   if (list.isParameter("Direction") == list.isParameter("Component"))
     refuse(list.name(), std::string("gives ") +
@@ -289,8 +288,8 @@ CouplingInput readCoupling(const ParameterList& list) {
   readAll(list, "Point Laws", readPointLaw, input.points, faults);
   if (!input.joints.empty() && !input.ownNumbers)
     faults.push_back(list.name() +
-                     "/Joints has no effect while node numbers are shared: equal numbers are "
-                     "joined. Set \"Node Numbers\" to \"Own\", or leave Joints out.");
+                     "/Joints has no effect with shared node numbers, where equal numbers are "
+                     "joined. Set \"Node Numbers\" to \"Own\", or remove Joints.");
   if (!faults.empty()) throw DeckError(join(faults, "\n"));
   return input;
 }

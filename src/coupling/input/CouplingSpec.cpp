@@ -14,11 +14,11 @@ namespace {
 using deck::Range;
 
 deck::ListSpec jointSpec() {
-  deck::ListSpec entry("Joint", "Nodes in one place; the name is free.");
-  entry.textArray("Nodes", deck::Required{}, {}, "Nodes that become one, written PART:NODE.");
+  deck::ListSpec entry("Joint", "Nodes at the same place; the name is free.");
+  entry.textArray("Nodes", deck::Required{}, {}, "Nodes to join, written PART:NODE.");
   return deck::ListSpec("Joints",
-                        "Nodes of parts that number theirs for themselves (Node Numbers = Own), "
-                        "joined in all their components.")
+                        "Nodes joined in all their components, for parts with their own node "
+                        "numbers (Node Numbers = Own).")
       .namedLists(entry);
 }
 
@@ -32,8 +32,8 @@ deck::ListSpec frameSpec() {
       .realArray("Axis 2", "", deck::Required{}, Range::any(),
                  "Second axis, perpendicular to the first; the third makes them right-handed.");
   return deck::ListSpec("Frames",
-                        "Parts that have their dofs in axes of their own; connections and joints "
-                        "are meant in the common frame.")
+                        "Axes of parts whose dofs are not in the common frame. Connections and "
+                        "joints are in the common frame.")
       .namedLists(entry);
 }
 
@@ -56,16 +56,14 @@ deck::ListSpec constraintSpec() {
       "One linear equation between dofs, measured from the reference states; the name is free.");
   entry.textArray("Terms", deck::Required{}, {}, "Dofs, written PART:NODE:COMPONENT.")
       .realArray("Factors", "", deck::Required{}, Range::any(), "Factor of each term.")
-      .real("Value", "", 0.0, Range::any(),
-            "What the sum of the terms times their factors is held at.");
+      .real("Value", "", 0.0, Range::any(), "Value of the sum of the terms times their factors.");
   return deck::ListSpec("Constraints", "Multipoint constraints.").namedLists(entry);
 }
 
 deck::ListSpec linkSpec() {
-  deck::ListSpec entry(
-      "Link", "A node that moves as if it were rigidly fixed to another; the name is free.");
-  entry.text("From", deck::Required{}, "Node that leads, PART:NODE.")
-      .text("To", deck::Required{}, "Node that follows, PART:NODE.")
+  deck::ListSpec entry("Link", "A node rigidly connected to another; the name is free.");
+  entry.text("From", deck::Required{}, "Independent node, PART:NODE.")
+      .text("To", deck::Required{}, "Dependent node, PART:NODE.")
       .realArray("Arm", "m", deck::Required{}, Range::any(),
                  "From the first to the second node in the common frame, three numbers.");
   return deck::ListSpec("Rigid Links", "Rigid arms between nodes.").namedLists(entry);
@@ -73,8 +71,7 @@ deck::ListSpec linkSpec() {
 
 deck::ListSpec hingeSpec() {
   deck::ListSpec entry(
-      "Hinge",
-      "Two nodes that share everything but the rotation about one axis; the name is free.");
+      "Hinge", "Two nodes joined except for the rotation about one axis; the name is free.");
   entry.text("First", deck::Required{}, "Node, PART:NODE.")
       .text("Second", deck::Required{},
             "Node, PART:NODE; of the same number, its dofs are released first.")
@@ -122,7 +119,7 @@ deck::ListSpec springSpec() {
 
 deck::ListSpec stopSpec() {
   deck::ListSpec entry(
-      "Stop", "A stop that is met when the separation falls to minus the gap; the name is free.");
+      "Stop", "A stop that closes when the separation reaches minus the gap; the name is free.");
   return deck::ListSpec("Stops", "One-sided contacts between parts or with the ground.")
       .namedLists(law(ends(entry), "Stop", false));
 }
@@ -148,21 +145,20 @@ deck::ListSpec pointLawSpec() {
 
 deck::ListSpec parameters() {
   deck::ListSpec list("Coupling",
-                      "What joins parts beyond equal node numbers. Displacements are measured from "
-                      "the reference (static) states of the parts. A node "
+                      "Connections between parts beside equal node numbers. Displacements are "
+                      "relative to the reference (static) states of the parts. A node "
                       "is written PART:NODE with the name of the part, as tooljoint check lists "
                       "them, or NODE alone where all parts that have it are joined.");
   list.choice("Assembly", std::string("Primal"), {"Primal", "Dual"},
-              "Primal: joined dofs become one coordinate. Dual: every reduced part keeps its own, "
-              "and Lagrange multipliers, the forces between parts, join them; needs an "
-              "implicit integrator. The full model is always primal.");
+              "Primal: joined dofs become one coordinate. Dual: every reduced part keeps its own "
+              "dofs, joined by Lagrange multipliers (the interface forces); this needs an implicit "
+              "integrator. The full model is always primal.");
   list.choice("Node Numbers", std::string("Shared"), {"Shared", "Own"},
-              "Shared: equal numbers are one node, wherever they stand. Own: every part numbers "
-              "its nodes for itself, and only Joints join them.");
-  list.boolean(
-          "Keep Static Forces", true,
-          "Released dofs keep the force they carry in the static state as a constant load on both "
-          "sides, so that the model stays at rest there; otherwise it starts with a jump.")
+              "Shared: equal numbers are one node in all parts. Own: every part has its own "
+              "numbers, and only Joints join nodes.");
+  list.boolean("Keep Static Forces", true,
+               "Apply the static force of released dofs as a constant load on both sides, so that "
+               "the model stays at rest; otherwise the motion starts with a jump of this force.")
       .expert();
   for (auto& sublist : {jointSpec(), frameSpec(), releaseSpec(), constraintSpec(), linkSpec(),
                         hingeSpec(), springSpec(), stopSpec(), sliderSpec(), pointLawSpec()})

@@ -18,7 +18,7 @@ DofLookup::DofLookup(const std::vector<AlignedPart>& alignedParts) : alignedPart
 
 std::string noSuchPart(const std::string& name, const std::vector<std::string>& names) {
   const auto meant = closest(name, names);
-  return " names part \"" + name + "\", but there is no such part." +
+  return " names part \"" + name + "\", but no part has this name." +
          (meant.empty() ? " The parts are " + quotedList(names) + "."
                         : " Did you mean \"" + meant + "\"?");
 }
@@ -58,10 +58,9 @@ std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& 
     const auto it = std::find(dofs.begin(), dofs.end(), label);
     if (it == dofs.end()) continue;
     if (alignedPart.unturned.count(label) > 0)
-      throw ModelError(
-          who + " names " + coupling::describe(dof) +
-          ", which the frame of that node mixes with dofs the part does not have there. Retain "
-          "all components of the node, or give it no frame.");
+      throw ModelError(who + " names " + coupling::describe(dof) +
+                       ", but the frame of this node combines it with dofs that the part does not "
+                       "have. Retain all components of the node, or remove its frame.");
     places.push_back({p, static_cast<int>(it - dofs.begin())});
   }
   if (!places.empty()) return places;
@@ -69,8 +68,7 @@ std::vector<DofPosition> DofLookup::find(const PartDof& dof, const std::string& 
   if (nodeKnown)
     throw ModelError(
         who + " names " + coupling::describe(dof) +
-        ", but it is held there, or an inner dof that the reduction has taken away. Retain that "
-        "node, or name another dof.");
+        ", but this dof is fixed or a reduced interior dof. Retain the node, or name another dof.");
   throw ModelError(who + " names node " + std::to_string(dof.node) + ", but " + where + " has " +
                    (dof.part.empty() ? "such a node." : "no such node."));
 }

@@ -24,7 +24,7 @@ class Planner {
       : plan_(input) {
     out_.parts = parts;
     out_.options.assembly = input.assembly;
-    if (out_.parts.empty()) throw ModelError("There is no part to couple.");
+    if (out_.parts.empty()) throw ModelError("The model has no part to couple.");
     std::vector<PartOutline> outlines;
     for (const auto& part : parts) outlines.push_back({part.name, {}});
     checkNames(input, outlines, names());
@@ -86,7 +86,7 @@ class Planner {
     if (node.part.empty())
       throw ModelError(
           path + " names node " + std::to_string(node.node) +
-          " without its part, but every part has numbers of its own. Write PART:NODE.");
+          " without its part, but every part has its own node numbers. Write PART:NODE.");
     const auto part = numbers_.find(node.part);
     if (part == numbers_.end()) return node;  // couple() says so
     const auto number = part->second.find(node.node);
@@ -210,9 +210,9 @@ class Planner {
     connector.name = one.name;
     connector.rows.push_back(row(one, first, second, one.direction.value_or(Vector3::Zero())));
     if (connector.rows.front().empty())
-      throw ModelError(one.path +
-                       "/Direction has nothing along the components of a node, so the separation "
-                       "is always zero.");
+      throw ModelError(
+          one.path +
+          "/Direction has no part along the components of the node. Give another direction.");
     std::vector<Vector3> tangents;
     if (one.direction) {
       const Vector3 e = one.direction->normalized(), across = e.unitOrthogonal();

@@ -26,15 +26,13 @@ class Reducer {
   void run() {
     if (!coupling_.multipliers.empty())
       throw ModelError(
-          "An interface reduction needs joined dofs, but dual assembly leaves every part its own. "
-          "Set the assembly to Primal, or leave the interface "
-          "reduction out.");
+          "An interface reduction needs joined dofs, but with dual assembly every part keeps its "
+          "own dofs. Set Coupling/Assembly to \"Primal\", or \"Interface Reduction\" to \"None\".");
     choose();
     coupling_.joinedDofs = static_cast<int>(reduced_.size());
     if (reduced_.empty()) {
       coupling_.interfaceModes = 0;
-      coupling_.remarks.push_back(
-          "There is no joined dof to reduce: point laws act on all of them.");
+      coupling_.remarks.push_back("No joined dof can be reduced: point laws act on all of them.");
       return;
     }
     const auto problem = makeProblem();

@@ -75,12 +75,20 @@ std::string didYouMean(const ListSpec& list, const std::string& name, bool lists
          "\"? " + introduce(*list.findParameter(parameter));
 }
 
+std::string nowCalled(const std::string& path, const std::string& name, const std::string& now,
+                      const ParameterSpec& parameter) {
+  return path + "/" + name + " is now called \"" + now + "\". " + introduce(parameter);
+}
+
 }  // namespace
 
 std::string unknownParameter(const ListSpec& root, const ListSpec& list, const std::string& path,
                              const std::string& name) {
   if (const ParameterSpec* renamed = list.findFormer(name))
-    return path + "/" + name + " is now called \"" + renamed->name + "\". " + introduce(*renamed);
+    return nowCalled(path, name, renamed->name, *renamed);
+  for (const ListSpec& sublist : list.lists())
+    if (const ParameterSpec* moved = sublist.findFormer("../" + name))
+      return nowCalled(path, name, sublist.name() + "/" + moved->name, *moved);
   std::string text = path + "/" + name + " is not a parameter.";
   if (declares(list, name))
     return text + " It is a list: write <ParameterList name=\"" + name + "\">.";

@@ -30,7 +30,7 @@ class Hdf5Source : public PartSource {
   }
 
   std::vector<std::string> names(const std::string& group) const override {
-    if (!group.empty() && !isGroup(group)) fail(group, "should be a group");
+    if (!group.empty() && !isGroup(group)) fail(group, "must be a group");
     const std::string prefix = group.empty() ? "" : group + "/";
     std::vector<std::string> out;
     for (const auto& path : datasets_) {
@@ -52,7 +52,7 @@ class Hdf5Source : public PartSource {
         values = reader_->texts("/" + path);
     });
     if (isAttribute(path)) return value;
-    if (values.size() != 1) fail(path, "should be one text");
+    if (values.size() != 1) fail(path, "must be one text");
     return values.front();
   }
 
@@ -69,7 +69,7 @@ class Hdf5Source : public PartSource {
     const auto values = numbers(path);
     const std::size_t width = shape.size() == 2 ? shape[1] : 1;
     if (shape.empty() || shape.size() > 2 || width < 1 || width > 2)
-      fail(path, "should be a list of nodes, or rows (node, component)");
+      fail(path, "must be a list of nodes, or rows (node, component)");
     std::vector<DofName> out(values.size() / width);
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].node = whole(path, values[i * width]);
@@ -94,7 +94,7 @@ class Hdf5Source : public PartSource {
     }
     need(path);
     const auto shape = shapeOf(path);
-    if (shape.empty() || shape.size() > 2) fail(path, "should be a matrix or a vector");
+    if (shape.empty() || shape.size() > 2) fail(path, "must be a matrix or a vector");
     const auto values = numbers(path);
     const auto rows = static_cast<Eigen::Index>(shape[0]),
                columns = static_cast<Eigen::Index>(shape.size() == 2 ? shape[1] : 1);
@@ -128,12 +128,12 @@ class Hdf5Source : public PartSource {
       std::string reason = fault.what();
       const std::string opening = "The results file " + file_ + " ";
       if (reason.rfind(opening, 0) == 0) reason = reason.substr(opening.size());
-      throw DeckError(file_ + " is no part file: it " + reason);
+      throw DeckError(file_ + " is not a part file: it " + reason);
     }
   }
   void need(const std::string& path) const {
     if (datasets_.count(path) == 0)
-      fail(path, isGroup(path) ? "should be a dataset, and is a group" : "is missing");
+      fail(path, isGroup(path) ? "must be a dataset, but is a group" : "is missing");
   }
   std::int64_t whole(const std::string& path, double value) const {
     if (!(std::abs(value) < 2147483648.0) || value != std::floor(value))
@@ -166,13 +166,13 @@ class Hdf5Source : public PartSource {
     throw io::MatrixFileError(file_ + ": the entry of " + inQuotes(path) + " in row " +
                                   std::to_string(row + 1) + ", column " +
                                   std::to_string(column + 1) + " is " + formatNumber(value) +
-                                  ", which is no finite number.",
+                                  ", which is not a finite number.",
                               row, column);
   }
 
   Sparse coordinates(const std::string& path) const {
     if (!isCoordinates(path))
-      fail(path, "should be a dataset, or a group with row, column and value");
+      fail(path, "must be a dataset, or a group with row, column and value");
     const auto values = numbers(path + "/value"), rows = numbers(path + "/row"),
                columns = numbers(path + "/column");
     if (rows.size() != values.size() || columns.size() != values.size())
@@ -182,7 +182,7 @@ class Hdf5Source : public PartSource {
     double height = 0, width = 0;
     if (datasets_.count(path + "/shape") > 0) {
       const auto shape = numbers(path + "/shape");
-      if (shape.size() != 2) fail(path + "/shape", "should be two numbers");
+      if (shape.size() != 2) fail(path + "/shape", "must be two numbers");
       for (double extent : shape)
         if (!(extent >= 1 && extent <= static_cast<double>(io::largestDimension)) ||
             extent != std::floor(extent))
@@ -200,7 +200,7 @@ class Hdf5Source : public PartSource {
       whole(path + "/column", columns[i]);
       if (!(rows[i] >= 0 && rows[i] < height && columns[i] >= 0 && columns[i] < width))
         fail(path, "has an entry in row " + formatNumber(rows[i]) + ", column " +
-                       formatNumber(columns[i]) + " (counted from 0), outside of the " +
+                       formatNumber(columns[i]) + " (numbered from 0), outside the " +
                        formatNumber(height) + " x " + formatNumber(width) + " matrix");
       checkFinite(path, static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);
       entries.emplace_back(static_cast<int>(rows[i]), static_cast<int>(columns[i]), values[i]);

@@ -34,7 +34,7 @@ class JsonSource : public PartSource {
       throw DeckError(file_ + " is no JSON: " + fault.what() + ".");
     }
     if (!root_.is_object())
-      throw DeckError(file_ + " should hold one object, {\"format\": ..., \"dofs\": ..., ...}.");
+      throw DeckError(file_ + " must hold one object, {\"format\": ..., \"dofs\": ..., ...}.");
   }
 
   std::string file() const override { return file_; }
@@ -42,21 +42,21 @@ class JsonSource : public PartSource {
 
   std::vector<std::string> names(const std::string& group) const override {
     const Json& value = group.empty() ? root_ : at(group);
-    if (!value.is_object()) fail(group, "should be an object of names");
+    if (!value.is_object()) fail(group, "must be an object of names");
     std::vector<std::string> out;
     for (const auto& [key, one] : value.items()) out.push_back(key);
     return out;
   }
 
   std::string text(const std::string& path) const override {
-    if (!at(path).is_string()) fail(path, "should be a text");
+    if (!at(path).is_string()) fail(path, "must be a text");
     return at(path).get<std::string>();
   }
 
   std::vector<std::string> texts(const std::string& path) const override {
     std::vector<std::string> out;
     for (const auto& one : list(path)) {
-      if (!one.is_string()) fail(path, "should be a list of texts");
+      if (!one.is_string()) fail(path, "must be a list of texts");
       out.push_back(one.get<std::string>());
     }
     return out;
@@ -110,7 +110,7 @@ class JsonSource : public PartSource {
     return *value;
   }
   const Json& list(const std::string& path) const {
-    if (!at(path).is_array()) fail(path, "should be a list");
+    if (!at(path).is_array()) fail(path, "must be a list");
     return at(path);
   }
 
@@ -121,11 +121,11 @@ class JsonSource : public PartSource {
       for (const auto& [key, one] : value.items())
         if (key != "matrix" && key != "vector" && key != "law" && key != "name")
           fail(path, "holds " + inQuotes(key) +
-                         "; a term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
+                         ". A term has \"name\", \"law\" and \"matrix\" (or \"vector\")");
       for (const char* key : {"law", "name"})
         if (value.contains(key)) {
           if (!value[key].is_string())
-            fail(path, std::string("has a \"") + key + "\" that is no text");
+            fail(path, std::string("has a \"") + key + "\" that is not a text");
           (std::string(key) == "law" ? out.law : out.name) = value[key].get<std::string>();
         }
       const char* key = value.contains("vector") ? "vector" : "matrix";
@@ -154,7 +154,7 @@ class JsonSource : public PartSource {
   Sparse matrixOf(const std::string& path, const Json& value) const {
     if (value.is_string()) return io::readMatrixMarket(beside(value));
     if (!value.is_array() || value.empty())
-      fail(path, "should be the name of a Matrix Market file or a list of rows");
+      fail(path, "must be the name of a Matrix Market file or a list of rows");
     const auto columns = value[0].is_array() ? value[0].size() : 1;
     Triplets entries;
     for (std::size_t i = 0; i < value.size(); ++i) {
@@ -165,7 +165,7 @@ class JsonSource : public PartSource {
       for (std::size_t j = 0; j < columns; ++j) {
         if (!row[j].is_number())
           fail(path, "has an entry in row " + std::to_string(i + 1) +
-                         " that is no number: " + row[j].dump());
+                         " that is not a number: " + row[j].dump());
         entries.emplace_back(static_cast<int>(i), static_cast<int>(j), row[j].get<double>());
       }
     }
@@ -194,14 +194,14 @@ class JsonSource : public PartSource {
     } else {
       fail(path,
            "has the entry " + one.dump() +
-               "; a dof is [node, \"component\"] or [\"mode\", number], a node is its number");
+               ". A dof is [node, \"component\"] or [\"mode\", number]; a node is its number");
     }
     return dof;
   }
 
   DofName fromRow(const std::string& path, const Vector& row) const {
     if (row.size() > 2 || (row.array() != row.array().round()).any())
-      fail(path, "should have rows \"node\" or \"node component\" of whole numbers");
+      fail(path, "must have rows \"node\" or \"node component\" of whole numbers");
     DofName dof;
     dof.node = static_cast<std::int64_t>(row[0]);
     if (row.size() == 2) dof.number = static_cast<int>(row[1]);

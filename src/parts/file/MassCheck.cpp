@@ -56,7 +56,7 @@ class MassCheck {
     if (worst <= rounding) return;
     fail("is not symmetric: " + formatNumber(M_.coeff(row, column)) + " in the row of " + dof(row) +
          " and the column of " + dof(column) + ", but " + formatNumber(M_.coeff(column, row)) +
-         " the other way round. Write both triangles alike, or one of them in a symmetric file.");
+         " in the transposed entry. Write equal triangles, or one triangle in a symmetric file.");
   }
 
   /// No negative pivot of S M S + 1e-10, S scaling the diagonal to 1.
@@ -65,7 +65,7 @@ class MassCheck {
     for (Eigen::Index i = 0; i < diagonal.size(); ++i)
       if (diagonal[i] < 0.0)
         fail("is indefinite: " + formatNumber(diagonal[i]) + " on the diagonal of " + dof(i) +
-             ". Kinetic energy is never negative.");
+             ". A mass matrix must be positive semidefinite.");
     Vector scale(diagonal.size());
     for (Eigen::Index i = 0; i < diagonal.size(); ++i)
       scale[i] = diagonal[i] > 0.0 ? 1.0 / std::sqrt(diagonal[i]) : 0.0;
@@ -73,7 +73,7 @@ class MassCheck {
       for (Sparse::InnerIterator it(M_, i); it; ++it)
         if (it.value() != 0.0 && (diagonal[i] == 0.0 || diagonal[it.col()] == 0.0))
           fail("is indefinite: " + dof(diagonal[i] == 0.0 ? i : it.col()) +
-               " has none of its own, but is coupled with " +
+               " has a zero diagonal entry, but is coupled with " +
                dof(diagonal[i] == 0.0 ? it.col() : i) + " by " + formatNumber(it.value()) + ".");
     using ColumnMajor = Eigen::SparseMatrix<double>;
     ColumnMajor scaled = ColumnMajor(scale.asDiagonal() * ColumnMajor(M_) * scale.asDiagonal());
@@ -86,9 +86,8 @@ class MassCheck {
     if (factor.info() == Eigen::Success && (pivots.size() == 0 || pivots.minCoeff(&at) > 0.0))
       return;
     const auto& order = factor.permutationPinv().indices();
-    fail("is indefinite: there is a motion with negative kinetic energy, and " +
-         dof(order.size() > 0 ? order[at] : at) +
-         " takes part in it. Check the signs of its entries.");
+    fail("is indefinite: a motion that includes " + dof(order.size() > 0 ? order[at] : at) +
+         " has negative kinetic energy. Check the signs of its entries.");
   }
 
   const PartContent& content_;

@@ -38,13 +38,13 @@ class Reader {
     content_.part.name = name_;
     readComponents();
     m.dofs = labels("dofs");
-    if (m.dofs.empty()) fail("dofs", "is empty: a part has one dof at least");
+    if (m.dofs.empty()) fail("dofs", "is empty: a part needs at least one dof");
     refuseTwice("dofs", m.dofs);
     for (int i = 0; i < static_cast<int>(m.dofs.size()); ++i)
       positions_[m.dofs[static_cast<std::size_t>(i)]] = i;
     const auto mass = squareTerms("mass");
     if (mass.size() != 1 || mass.front().law != "1")
-      fail("mass", "should be one matrix without a law");
+      fail("mass", "must be one matrix without a law");
     m.mass = mass.front().matrix;
     for (const auto& term : squareTerms("stiffness"))
       m.stiffness.push_back({term.name, term.matrix, law(term.law)});
@@ -83,15 +83,15 @@ class Reader {
 
   void checkNames() const {
     if (!source_->has("format"))
-      fail("format", std::string("is missing: it says \"") + partFormat + "\" in a part file");
+      fail("format", std::string("is missing: a part file has \"") + partFormat + "\" there");
     const auto format = source_->text("format");
     if (format != partFormat)
       fail("format", "is " + inQuotes(format) + ", expected " + inQuotes(partFormat) +
-                         ". Another version, or a file of another kind");
+                         ". The file has another version or another kind");
     for (const auto& name : source_->names("")) {
       if (std::find(knownNames.begin(), knownNames.end(), name) != knownNames.end()) continue;
       const auto meant = closest(name, knownNames);
-      fail(name, "is nothing a part file holds" +
+      fail(name, "is not an entry of a part file" +
                      (meant.empty() ? ". Available: " + quotedList(knownNames)
                                     : ". Did you mean " + inQuotes(meant) + "?"));
     }
@@ -105,7 +105,8 @@ class Reader {
     auto& names = content_.part.model.componentNames;
     names = source_->texts("components");
     if (names.empty())
-      fail("components", "is empty: name the components of a node, e.g. \"u\", \"v\", \"w\"");
+      fail("components",
+           "is empty: name the components of a node, for example \"u\", \"v\", \"w\"");
     for (auto it = names.begin(); it != names.end(); ++it) {
       if (it->empty()) fail("components", "holds an empty name");
       if (std::find(names.begin(), it, *it) != it)
@@ -125,7 +126,7 @@ class Reader {
     }
     if (dof.number < 1 || dof.number > static_cast<int>(names.size()))
       fail(path, "names component " + std::to_string(dof.number) + " of node " +
-                     std::to_string(dof.node) + "; components are numbered 1 to " +
+                     std::to_string(dof.node) + ". Components are numbered 1 to " +
                      std::to_string(names.size()));
     return dof.number - 1;
   }
@@ -133,14 +134,14 @@ class Reader {
   DofLabel label(const std::string& path, const DofName& dof) const {
     if (dof.mode) {
       if (dof.number < 1)
-        fail(path, "names mode " + std::to_string(dof.number) + "; modes are numbered from 1");
+        fail(path, "names mode " + std::to_string(dof.number) + ". Modes are numbered from 1");
       return DofLabel::modal(0, dof.number - 1);
     }
     if (dof.node < 1)
-      fail(path, "names node " + std::to_string(dof.node) + "; nodes are numbered from 1");
+      fail(path, "names node " + std::to_string(dof.node) + ". Nodes are numbered from 1");
     if (dof.whole())
       fail(path, "names node " + std::to_string(dof.node) +
-                     " without a component; a dof is a node and a component");
+                     " without a component. A dof is a node and a component");
     return DofLabel::physical(dof.node, component(path, dof));
   }
 
@@ -157,7 +158,7 @@ class Reader {
       if (!isNew)
         fail(path, "gives " + describe(all[i]) + " twice, as dof " +
                        std::to_string(it->second + 1) + " and as dof " + std::to_string(i + 1) +
-                       ". Every dof has a label of its own");
+                       ". Give every dof its own label");
     }
   }
 
@@ -174,7 +175,7 @@ class Reader {
       std::set<std::pair<std::string, std::string>> names;
       for (const auto& term : terms)
         if (!names.emplace(term.name, term.law).second)
-          fail(path, "has two terms of the name " + inQuotes(term.name) + " and the law " +
+          fail(path, "has two terms with the name " + inQuotes(term.name) + " and the law " +
                          inQuotes(term.law));
       return terms;
     } catch (const io::MatrixFileError& fault) {
@@ -199,12 +200,12 @@ class Reader {
     for (const auto& term : terms) {
       const auto rows = term.matrix.rows(), columns = term.matrix.cols();
       if (rows != columns)
-        fail(term.where, "is " + shapeText(rows, columns) + ", which is not square; the part has " +
+        fail(term.where, "is " + shapeText(rows, columns) + ", which is not square. The part has " +
                              std::to_string(size()) + " dofs");
       if (rows != size())
-        fail(term.where,
-             "is " + shapeText(rows, columns) + ", but \"dofs\" names " + std::to_string(size()) +
-                 " dofs. Every row of the matrices needs its label, and every label a row");
+        fail(term.where, "is " + shapeText(rows, columns) + ", but \"dofs\" names " +
+                             std::to_string(size()) +
+                             " dofs. Give one label for each row of the matrices");
     }
     return terms;
   }
@@ -292,7 +293,8 @@ class Reader {
         for (int i : set.dofs) {
           const auto& l = part.model.dofs[static_cast<std::size_t>(i)];
           if (l.kind == DofLabel::Kind::Modal)
-            fail("interfaces/" + name, "names " + describe(l) + ", which no other part can have");
+            fail("interfaces/" + name,
+                 "names " + describe(l) + ", which cannot be a dof of another part");
           if (std::find(set.nodes.begin(), set.nodes.end(), l.entity) == set.nodes.end())
             set.nodes.push_back(l.entity);
           joined.insert(i);

@@ -30,7 +30,8 @@ class FolderWriter {
     std::error_code failed;
     std::filesystem::create_directories(folder_, failed);
     if (failed)
-      throw FileError("The folder \"" + folder_ + "\" cannot be made: " + failed.message() + ".");
+      throw FileError("The folder \"" + folder_ + "\" cannot be created: " + failed.message() +
+                      ".");
     root_["format"] = partFormat;
     root_["name"] = content_.part.name;
     root_["components"] = m_.componentNames;

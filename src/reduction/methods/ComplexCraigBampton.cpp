@@ -81,17 +81,16 @@ class ComplexCraigBampton : public ReductionMethod {
     const int found = vectors.kept;
     vectors.complete = found == interior;
     if (request.kind == ModeRequest::Kind::All && !vectors.complete)
-      throw ConvergenceError(
-          who(part) + "the halves of all of them span " + std::to_string(found) + " of " +
-          std::to_string(interior) +
-          " interior dofs. Lower \"Independence\", or take the basis \"Craig-Bampton\".");
+      throw ConvergenceError(who(part) + "their real and imaginary parts span " +
+                             std::to_string(found) + " of " + std::to_string(interior) +
+                             " interior dofs. Choose the basis \"Craig-Bampton\".");
     vectors.method = std::to_string(taken.modes) + " complex modes";
     if (request.kind == ModeRequest::Kind::Count && found != request.count)
       vectors.remarks.push_back(
-          "asked for " + std::to_string(request.count) + " vectors, kept " +
-          (vectors.complete ? "all " + std::to_string(interior) + " there are"
-                            : std::to_string(found) +
-                                  " so as not to part the halves of a mode or a close pair"));
+          "requested " + std::to_string(request.count) + " vectors, kept " +
+          (vectors.complete
+               ? "all " + std::to_string(interior)
+               : std::to_string(found) + " to keep conjugate parts and close pairs together"));
     return fixedInterfaceBasis(part, vectors);
   }
 
@@ -224,8 +223,8 @@ deck::ListSpec ownParameters() {
       "Complex Craig-Bampton",
       "Complex modes of the interior with its damping, gyroscopics and unsymmetric stiffness.");
   list.real("Time", "s", 0.0, Range::any(),
-            "When laws of time are looked at: damping and stiffness of the modes are those of this "
-            "time. Gyroscopics need a time at which the rotor turns.");
+            "Time at which damping and stiffness are evaluated. Gyroscopic terms need a time at "
+            "which the rotor turns.");
   list.real("Independence", "", 1e-6, Range{0.0, 0.1, true, false},
             "The part of a half of a mode, measured by mass, that must be new for it to be taken; "
             "lightly damped modes have one half.")
@@ -235,7 +234,7 @@ deck::ListSpec ownParameters() {
 
 const bool registered = addMethod<ComplexCraigBampton>(
     "Complex Craig-Bampton",
-    "Constraint modes and the real and imaginary halves of complex fixed-interface modes, for "
+    "Constraint modes and the real and imaginary parts of complex fixed-interface modes, for "
     "damped and gyroscopic parts (Hasselman and Kaplan 1974; Craig and Ni 1989).",
     ownParameters());
 

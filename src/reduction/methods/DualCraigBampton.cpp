@@ -87,13 +87,13 @@ class DualCraigBampton : public ReductionMethod {
 };
 
 deck::ListSpec parameters() {
-  deck::ListSpec list("Dual Craig-Bampton", "What goes with the forces between substructures.");
-  list.boolean("Residual Mass", false,
-               "Give the forces the mass and damping of the residual flexibility, as Rixen 2004: "
-               "frequencies gain an order of accuracy, but for every force the model "
-               "has a spurious negative eigenvalue, with which motions grow without bound: for "
-               "`tooljoint modes` alone. Without it the forces have no mass, as in "
-               "\"MacNeal\", and implicit integrators run the model.")
+  deck::ListSpec list("Dual Craig-Bampton", "Mass and damping of the interface forces.");
+  list.boolean(
+          "Residual Mass", false,
+          "Give the interface forces the mass and damping of the residual flexibility (Rixen "
+          "2004). Frequencies gain an order of accuracy, but every force adds a spurious negative "
+          "eigenvalue, so that motions are unstable: for `tooljoint modes` alone. Without it the "
+          "forces have no mass, as in \"MacNeal\", and implicit integrators can run the model.")
       .expert();
   return list;
 }

@@ -80,8 +80,8 @@ class EnhancedCraigBampton : public ReductionMethod {
     if (factor.info() != Eigen::Success)
       throw ModelError(
           "\"Enhanced Craig-Bampton\" needs the inverse of the coupled mass, which is not positive "
-          "definite. Give every boundary dof mass, assemble primally, or set \"Residual "
-          "Coordinates\" to \"Free\".");
+          "definite. Give every boundary dof a mass, set Coupling/Assembly to \"Primal\", or set "
+          "\"Residual Coordinates\" to \"Free\".");
     dependent.rows.resize(sizeOf(dependent.dofs), sizeOf(others));
     Eigen::Index row = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -152,11 +152,11 @@ deck::ListSpec ownParameters() {
   deck::ListSpec list("Enhanced Craig-Bampton",
                       "Residual flexibility of the modes left out, as far as the inertia of the "
                       "constraint modes excites it.");
-  list.choice("Residual Coordinates", std::string("Tied"), {"Tied", "Free"},
-              "\"Tied\": the residual vectors follow the other coordinates by M^-1 K of the "
-              "coupled model (Kim and Lee 2015), which adds no dofs but makes the "
-              "coupled matrices full; \"Free\": they are coordinates of their own, one for each "
-              "boundary dof at most, and the model stays sparse.");
+  list.choice(
+      "Residual Coordinates", std::string("Tied"), {"Tied", "Free"},
+      "\"Tied\": the residual coordinates depend on the others by M^-1 K of the coupled model (Kim "
+      "and Lee 2015); this adds no dofs but fills the coupled matrices. \"Free\": they are "
+      "independent coordinates, at most one for each boundary dof, and the model stays sparse.");
   list.real("Independence", "", 1e-6, deck::Range{0.0, 0.1, true, false},
             "The part of a residual vector, measured by mass, that must be new for it to be taken.")
       .expert();

@@ -69,7 +69,7 @@ Matrix toModeAmplitudes(const PartView& part, FreeInterfaceBasis& free) {
       basis.eigenvalues[k] = y.dot(K * y) / y.dot(part.mass() * y);
     }
     basis.remarks.push_back("the " + std::to_string(modes) +
-                            " modes leave residual flexibility for " + std::to_string(rank) +
+                            " modes span residual flexibility for " + std::to_string(rank) +
                             " modal amplitudes only: the other coordinates are Ritz modes");
   }
   // Rows of boundary dofs are the identity and zero, to the last digit.

@@ -35,7 +35,7 @@ class Guyan : public ReductionMethod {
       remark(request, masters, sizeOf(part.partition().interior), basis);
     } else if (request.kind != ModeRequest::Kind::Count || request.count > 0) {
       basis.remarks.push_back(
-          "static condensation without masters: the number of modes asked for is not used");
+          "static condensation without masters does not use the number of modes");
     }
     const ConstraintModes& constraint = condensed.constraintModes();
     basis.partition = condensed.partition();
@@ -58,10 +58,10 @@ class Guyan : public ReductionMethod {
 
   static void remark(const ModeRequest& request, int masters, int interior, Basis& basis) {
     if (request.kind == ModeRequest::Kind::Count && request.count > interior)
-      basis.remarks.push_back("asked for " + std::to_string(request.count) +
-                              " master dofs, kept all " + std::to_string(interior) + " there are");
+      basis.remarks.push_back("requested " + std::to_string(request.count) +
+                              " master dofs, kept all " + std::to_string(interior));
     if (masters > 0)
-      basis.remarks.push_back("in the place of modes, " + std::to_string(masters) +
+      basis.remarks.push_back("instead of modes, " + std::to_string(masters) +
                               " interior dofs are masters");
   }
 
@@ -69,15 +69,14 @@ class Guyan : public ReductionMethod {
 };
 
 deck::ListSpec parameters() {
-  deck::ListSpec list("Guyan",
-                      "Static condensation has no modes; what the deck says about their number may "
-                      "choose further dofs to keep.");
+  deck::ListSpec list(
+      "Guyan",
+      "Static condensation has no modes; the mode selection can set the number of master dofs.");
   list.choice("Masters", std::string("Automatic"), {"Automatic", "None"},
-              "\"Automatic\" keeps, in the place of modes, as many interior dofs as physical "
-              "coordinates: those left when the dof with the largest k_ii / m_ii "
-              "is condensed again and again (Henshell and Ong 1975; a cut-off frequency is "
-              "compared with sqrt(k_ii / m_ii)). \"None\" keeps interface and "
-              "retained dofs alone.")
+              "\"Automatic\": the mode selection gives the number of interior dofs that become "
+              "masters, found by repeated condensation of the dof with the largest k_ii / m_ii "
+              "(Henshell and Ong 1975; a cut-off frequency is compared with sqrt(k_ii / m_ii)). "
+              "\"None\": interface and retained dofs are the only masters.")
       .expert();
   return list;
 }

@@ -64,7 +64,7 @@ class Herting : public ReductionMethod {
     for (const auto& mode : free.vectors)
       if (mode.rigid)
         basis.rows.push_back({"inertia-relief", "of a rigid-body mode", 0, mode.residual, true,
-                              "static answer to rigid-body acceleration"});
+                              "static response to rigid-body acceleration"});
   }
 
   bool fixed_;
@@ -72,7 +72,7 @@ class Herting : public ReductionMethod {
 };
 
 deck::ListSpec parameters() {
-  deck::ListSpec list("Herting", "Which modes go with the constraint modes.");
+  deck::ListSpec list("Herting", "Modes beside the constraint modes.");
   list.choice("Mode Supports", std::string("Free"), {"Free", "Fixed"},
               "Support of interface and retained dofs while the modes are computed: with \"Free\" "
               "and inertia relief the space is that of \"Rubin\", with \"Fixed\" and "
@@ -81,8 +81,8 @@ deck::ListSpec parameters() {
       .formerly("Modes with Interface");
   list.boolean(
           "Inertia Relief", true,
-          "Add the static answer, boundary dofs held, to the inertia of every rigid-body mode of "
-          "the free part; those of \"Fixed\" come in addition to the number of modes.")
+          "Add the static response, with boundary dofs fixed, to the inertia of every rigid-body "
+          "mode of the free part; with \"Fixed\" these are additional to the number of modes.")
       .expert();
   return list;
 }

@@ -130,8 +130,8 @@ deck::ListSpec own(const std::string& name, const std::string& count) {
   list.real("Cut-off Frequency", "Hz", deck::Optional{}, Range::nonNegative(),
             "Keep the characteristic constraint modes at or below this frequency.");
   list.boolean("Load Vectors", true,
-               "Add the static answer of the interfaces to every load, so that it is exact "
-               "whatever the number of modes.");
+               "Add the static response of the interfaces to every load, which is then exact for "
+               "any number of modes.");
   list.boolean("Keep Contact Dofs", true,
                "Leave joined dofs on which point laws act (contact, springs, stops) as they are.")
       .expert();
@@ -143,7 +143,7 @@ InterfaceOptions read(const Teuchos::ParameterList& list, const std::string& nam
   if (modes == cutOff)
     throw DeckError("Reduction/" + name +
                     (modes ? " gives both \"Modes\" and \"Cut-off Frequency\"."
-                           : " does not say how many modes of the interfaces are kept.") +
+                           : " does not give the number of interface modes.") +
                     " Give exactly one of them.");
   InterfaceOptions options;
   if (modes) options.modes = list.get<int>("Modes");
@@ -153,7 +153,7 @@ InterfaceOptions read(const Teuchos::ParameterList& list, const std::string& nam
 }
 
 const bool noneRegistered = InterfaceRegistry::instance().add(
-    "None", {"All joined dofs are kept.", deck::ListSpec("None", ""),
+    "None", {"All joined dofs stay.", deck::ListSpec("None", ""),
              [](const Teuchos::ParameterList&) { return std::unique_ptr<InterfaceBasis>(); }});
 const bool systemRegistered = InterfaceRegistry::instance().add(
     "System",
@@ -163,8 +163,8 @@ const bool systemRegistered = InterfaceRegistry::instance().add(
        return systemInterfaceModes(read(list, "System"), list.get<bool>("Keep Contact Dofs"));
      }});
 const bool localRegistered = InterfaceRegistry::instance().add(
-    "Local", {"Characteristic constraint modes of each interface, the others held, which keeps a "
-              "chain narrow (Hong, Epureanu and Castanier 2013).",
+    "Local", {"Characteristic constraint modes of each interface with the others fixed, which "
+              "preserves the bandwidth of a chain (Hong, Epureanu and Castanier 2013).",
               own("Local", "Number of characteristic constraint modes of each interface."),
               [](const Teuchos::ParameterList& list) {
                 return localInterfaceModes(read(list, "Local"),

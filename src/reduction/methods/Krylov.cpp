@@ -26,20 +26,20 @@ class Krylov : public ReductionMethod {
 
 deck::ListSpec ownParameters() {
   using deck::Range;
-  deck::ListSpec list(
-      "Krylov",
-      "Vectors that match moments of what the interior answers to motions of the boundary dofs.");
+  deck::ListSpec list("Krylov",
+                      "Vectors that match moments of the response of the interior to motions of "
+                      "the boundary dofs.");
   list.real("Expansion Frequency", "Hz", 0.0, Range::nonNegative(),
-            "Where moments are matched: at this frequency, or with \"Damped\" at s = 2 pi times "
-            "this on the real axis. Take the middle of the band of interest; "
-            "0 gives quasi-static vectors.")
+            "Expansion point of the moments: this frequency, or with \"Damped\" s = 2 pi times "
+            "this on the real axis. Use the middle of the frequency band of interest; 0 gives "
+            "quasi-static vectors.")
       .expert();
   list.boolean("Damped", false,
                "Second-order Krylov vectors of mass, damping and stiffness (Bai and Su 2005) "
                "instead of those of mass and stiffness alone.")
       .expert();
   list.real("Time", "s", 0.0, Range::any(),
-            "When damping that varies, as gyroscopics do with the speed, is looked at; used with "
+            "Time at which varying damping, such as gyroscopic terms, is evaluated; used with "
             "\"Damped\".");
   list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
             "The part of a vector, measured by mass, that must be new for the vector to be taken.")

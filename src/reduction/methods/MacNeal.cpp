@@ -32,7 +32,7 @@ class MacNeal : public ReductionMethod {
 const bool registered = addMethod<MacNeal>(
     "MacNeal",
     "Free-interface modes with the residual flexibility of all others, but not their mass and "
-    "damping (MacNeal 1971): the mass is singular, and only implicit integrators run it.");
+    "damping (MacNeal 1971). The mass is singular, so only implicit integrators can run it.");
 
 }  // namespace
 

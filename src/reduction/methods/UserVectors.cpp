@@ -28,8 +28,8 @@ class UserVectors : public ReductionMethod {
         independence_(list.get<double>("Independence")) {
     if (!list.isParameter("File"))
       throw DeckError(
-          "Reduction takes the basis \"User Vectors\", but has no list \"User Vectors\" with "
-          "the \"File\" they are in. Add it.");
+          "Reduction uses the basis \"User Vectors\", but has no list \"User Vectors\". Add the "
+          "list with its \"File\".");
     file_ = deck::fileName(list, "File");
     if (list.isParameter("Substructures"))
       parts_ = list.get<Teuchos::Array<std::string>>("Substructures").toVector();
@@ -90,11 +90,11 @@ class UserVectors : public ReductionMethod {
     result.complete = result.kept == sizeOf(interior);
     result.method = "Ritz vectors of " + file;
     if (counted && request.count > given.cols() && !interior.empty())
-      result.remarks.push_back("asked for " + std::to_string(request.count) + " modes, " + file +
+      result.remarks.push_back("requested " + std::to_string(request.count) + " modes, " + file +
                                " has " + std::to_string(given.cols()) + " vectors");
     if (request.kind == ModeRequest::Kind::All && !result.complete)
       result.remarks.push_back("all " + std::to_string(result.kept) + " vectors of " + file +
-                               " are kept; the part has " + std::to_string(sizeOf(interior)) +
+                               " are used; the part has " + std::to_string(sizeOf(interior)) +
                                " modes");
     if (!dropped.empty())
       result.remarks.push_back("dependent vectors of " + file + " are dropped: columns " +
@@ -122,8 +122,7 @@ class UserVectors : public ReductionMethod {
     for (const auto& name : parts_) {
       if (contains(names, name)) continue;
       const std::string guess = closest(name, names);
-      throw DeckError("\"User Vectors\" are given for \"" + name +
-                      "\", but no substructure has that name" +
+      throw DeckError("\"User Vectors\" names \"" + name + "\", but no substructure has this name" +
                       (guess.empty() ? "; there are " + quotedList(names) + "."
                                      : "; did you mean \"" + guess + "\"?"));
     }
@@ -157,10 +156,11 @@ class UserVectors : public ReductionMethod {
       const bool constrained = set.norm(inner) <= independence_ * set.norm(before);
       if (!constrained && set.add(inner)) continue;
       if (!drop_)
-        throw DeckError(
-            file + ": column " + std::to_string(j + 1) +
-            " is a combination of the columns before it and of the constraint modes of part \"" +
-            part.part().name + "\". Leave it out, or set \"Dependent Vectors\" to \"Drop\".");
+        throw DeckError(file + ": column " + std::to_string(j + 1) +
+                        " is a linear combination of the preceding columns and the constraint "
+                        "modes of part \"" +
+                        part.part().name +
+                        "\". Remove it, or set \"Dependent Vectors\" to \"Drop\".");
       dependent.push_back(j);
     }
     return dependent;
@@ -173,9 +173,9 @@ class UserVectors : public ReductionMethod {
 };
 
 deck::ListSpec ownParameters() {
-  deck::ListSpec list("User Vectors",
-                      "Where vectors come from. The number of modes asked for takes the first "
-                      "columns of each file.");
+  deck::ListSpec list(
+      "User Vectors",
+      "Source of the vectors. The mode selection uses the first columns of each file.");
   list.text("File", deck::Required{},
             "Matrix Market file of a dense or sparse real matrix, one row for each dof of the part "
             "and one column for each vector, relative to the deck; \"%\" stands "
@@ -184,17 +184,17 @@ deck::ListSpec ownParameters() {
                  "Names of the substructures that have a file; the others take fixed-interface "
                  "modes. All of them when absent.");
   list.choice("Dependent Vectors", std::string("Refuse"), {"Refuse", "Drop"},
-              "What happens to a vector that is a combination of those before it and of constraint "
-              "modes: an error, or it is left out with a remark.");
+              "Treatment of a vector that depends linearly on the preceding ones and the "
+              "constraint modes: an error, or the vector is dropped with a remark.");
   list.real("Independence", "", 1e-8, deck::Range{0.0, 0.1, true, false},
-            "The part of a vector, measured by mass, that must be new, or it is dependent.")
+            "Fraction of a vector (mass norm) that must be independent of the preceding ones.")
       .expert();
   return list;
 }
 
 const bool registered = addMethod<UserVectors>(
     "User Vectors",
-    "Constraint modes and the Ritz vectors of a user's own vectors from files (Wilson, Yuan and "
+    "Constraint modes and the Ritz vectors of the user's vectors from files (Wilson, Yuan and "
     "Dickens 1982).",
     ownParameters());
 

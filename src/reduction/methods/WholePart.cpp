@@ -16,8 +16,8 @@ Basis wholePart(const PartView& part) {
   p.boundary.insert(p.boundary.end(), p.retained.begin(), p.retained.end());
   basis.complete = true;
   basis.removable = false;
-  basis.method = "none: the part is kept whole";
-  addConstraintRows(part, p, Vector::Zero(p.size), basis, "the part is kept whole");
+  basis.method = "none: the part is not reduced";
+  addConstraintRows(part, p, Vector::Zero(p.size), basis, "the part is not reduced");
   Triplets ones;
   for (int j = 0; j < p.size; ++j) ones.emplace_back(p.boundary[at(j)], j, 1.0);
   basis.vectors = sparse(p.size, p.size, ones);

@@ -107,10 +107,10 @@ void InteriorStatics::factor() {
     const Eigen::LLT<Matrix> gram(mechanisms_.transpose() * (M * mechanisms_));
     mechanisms_ = gram.matrixU().solve<Eigen::OnTheRight>(mechanisms_).eval();
   } catch (const ModelError& error) {
-    throw ModelError(part_.who() + "the stiffness of its interior is singular while its " +
+    throw ModelError(part_.who() + "the interior stiffness is singular with its " +
                      std::to_string(part_.partition().boundary.size()) +
-                     " interface and retained dofs are held, and that is no rigid-body motion. "
-                     "Retain a dof that moves then, or check the part's stiffness. " +
+                     " interface and retained dofs fixed, and the null vector is not a rigid-body "
+                     "motion. Retain a dof that moves in it, or check the part's stiffness. " +
                      error.what());
   }
 }

@@ -170,9 +170,9 @@ const PartView::Factor& PartView::factor(int number, bool symmetric) const {
       return Factor{
           linalg::DirectSolver(border.cols() > 0 ? bordered(K, border, border) : K, b.name)};
     } catch (const ModelError& error) {
-      throw ModelError(who() + "its interior is a mechanism while its " +
+      throw ModelError(who() + "its interior is a mechanism with its " +
                        std::to_string(partition().boundary.size()) +
-                       " interface and retained dofs are held" +
+                       " interface and retained dofs fixed" +
                        (own ? " (with the symmetric part of its stiffness)" : "") +
                        ". Retain more dofs there, or cut the part elsewhere. " + error.what());
     }

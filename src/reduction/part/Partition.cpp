@@ -40,8 +40,8 @@ void checkPositions(const model::Substructure& part, const std::vector<int>& pos
     if (i < 0 || i >= n) throw ModelError(who + "is outside its " + std::to_string(n) + " dofs.");
     if (seen[at(i)])
       throw ModelError(who + "(" + model::dofName(part.model, i) +
-                       ") is named twice among its interface and retained dofs.");
-    if (i < last) throw ModelError(who + "is out of order; positions must increase.");
+                       ") appears twice among its interface and retained dofs.");
+    if (i < last) throw ModelError(who + "is not in increasing order. Sort the positions.");
     seen[at(i)] = 1;
     last = i;
   }
@@ -101,7 +101,8 @@ void checkPart(const model::Substructure& part) {
                      std::to_string(part.reference.size()) + " entries for " +
                      std::to_string(size) + " dofs.");
   if (!part.reference.allFinite())
-    throw ModelError("Part \"" + part.name + "\": its reference state is not finite.");
+    throw ModelError("Part \"" + part.name +
+                     "\": its reference state contains a value that is not finite.");
   if (!nearlySymmetric(part.model.mass, 1e-10))
     throw ModelError("Part \"" + part.name + "\": its mass matrix is not symmetric.");
 }

@@ -119,9 +119,8 @@ void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatri
     exact = linalg::DirectSolver(K).solve(full);
   } catch (const ModelError&) {
     report.remarks.push_back(
-        "static exactness was not looked at: with springs on all boundary dofs the part still "
-        "moves "
-        "freely");
+        "static exactness was not checked: the part has a free motion even with springs on all "
+        "boundary dofs");
     return;
   }
   const Matrix recovered = basis.vectors * k.partialPivLu().solve(small);
@@ -188,9 +187,9 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
         linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;
     if (pairs.count() < size)
-      report.remarks.push_back("its mass is singular, for " + std::to_string(size - pairs.count()) +
-                               " of " + std::to_string(size) +
-                               " coordinates: implicit integrators only");
+      report.remarks.push_back("its mass matrix is singular for " +
+                               std::to_string(size - pairs.count()) + " of " +
+                               std::to_string(size) + " coordinates: implicit integrators only");
     else
       report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
     report.zeroEnergyReduced = countZeroEnergy(K, vectors * pairs.vectors, pairs.values);
@@ -198,13 +197,13 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
       throw ModelError(part.who() +
-                       "its reduced mass matrix is not positive definite. Give every dof of "
-                       "the part mass, or retain fewer "
-                       "massless dofs.");
+                       "its reduced mass matrix is not positive definite. Give every dof of the "
+                       "part a mass, or retain fewer massless dofs.");
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> pairs(k, m);
     if (pairs.info() != Eigen::Success)
-      throw ConvergenceError(part.who() +
-                             "the eigenvalues of the reduced part were not found (QR iteration).");
+      throw ConvergenceError(
+          part.who() +
+          "the QR iteration for the eigenvalues of the reduced part did not converge.");
     const Matrix& shapes = pairs.eigenvectors();
     report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
@@ -235,7 +234,7 @@ void checkBasis(const PartView& part, const Basis& basis, const ProjectedMatrice
   checkFrequencies(part, basis, reduced, report);
   if (report.zeroEnergyFull >= 0 && report.zeroEnergyReduced < report.zeroEnergyFull)
     report.remarks.push_back("the part has " + std::to_string(report.zeroEnergyFull) +
-                             " zero-energy modes, the reduced part " +
+                             " zero-energy modes and the reduced part " +
                              std::to_string(report.zeroEnergyReduced) +
                              ": rigid-body motion is not preserved");
   report.checked = true;

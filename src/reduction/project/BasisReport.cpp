@@ -49,7 +49,7 @@ std::string BasisReport::table(bool all) const {
       "{} of part \"{}\": {} interface + {} retained dofs, {} of {} interior coordinates kept as "
       "modes ({})\n",
       basis, part, interface, retained, modes, interior, method.empty() ? "none" : method);
-  if (!sharedWith.empty()) text += "  taken over from the identical part \"" + sharedWith + "\"\n";
+  if (!sharedWith.empty()) text += "  copied from the identical part \"" + sharedWith + "\"\n";
   text += format("  {:16} {:24} {:>18} {:>10}  {:8} {}\n", "kind", "name", "frequency [Hz]",
                  "residual", "", "why");
   double worst = 0;
@@ -65,8 +65,7 @@ std::string BasisReport::table(bool all) const {
     if (!row.kept && ++dropped > 2 && !all) continue;
     text += rowLine(row);
   }
-  if (!all && dropped > 2)
-    text += format("  ... and {} more that were computed and dropped\n", dropped - 2);
+  if (!all && dropped > 2) text += format("  ... and {} more computed and not kept\n", dropped - 2);
   text += format("  |Phi'M Phi - I| {:.1e}; m_DD - I {:.1e}, off-diagonal of sym k_DD {:.1e}{}\n",
                  orthogonality, massDefect, stiffnessDefect,
                  structureEnforced ? " (rounding removed)" : "");
@@ -78,8 +77,8 @@ std::string BasisReport::table(bool all) const {
         zeroEnergyReduced);
     const std::string step = explicitStep > 0 ? format("{:.3e} s", explicitStep) : "any length";
     text += format("  largest frequency of the reduced part {:.6g} Hz: {}\n", largestOmega / twoPi,
-                   explicitStep < 0 ? "RK4 refuses it, its mass is singular"
-                                    : ("RK4 stays stable up to a step of " + step));
+                   explicitStep < 0 ? "not for RK4, the mass matrix is singular"
+                                    : ("RK4 is stable up to a step of " + step));
   }
   for (const auto& sentence : remarks) text += "  note: " + sentence + "\n";
   return text;
@@ -107,7 +106,8 @@ std::string summaryTable(const std::vector<const BasisReport*>& reports) {
         r->sharedWith.empty() ? "" : (" = " + r->sharedWith));
     if (r->negativeModes > 0)
       text += format(
-          "  {} kept mode(s) of \"{}\" have omega^2 < 0: buckled between its boundary dofs\n",
+          "  {} kept mode(s) of \"{}\" have omega^2 < 0: the part is buckled with its boundary "
+          "dofs fixed\n",
           r->negativeModes, r->part);
     interface += r->interface;
     retained += r->retained;

@@ -27,9 +27,9 @@ Vector interfaceShares(const PartView& part, const Basis& basis, ModeRule::Kind 
     response = mass ? linalg::DirectSolver(view.interiorMass()).solve(inertia)
                     : view.solveSymmetricInterior(inertia);
   } catch (const ModelError& error) {
-    throw ModelError(part.who() + "the interface criterion needs a regular interior " +
+    throw ModelError(part.who() + "the interface criterion needs a nonsingular interior " +
                      (mass ? "mass" : "stiffness") +
-                     ". Choose the modes by number or cut-off frequency. " + error.what());
+                     ". Select the modes by \"Modes\" or \"Cut-off Frequency\". " + error.what());
   }
   Vector total(boundary);
   for (int j = 0; j < boundary; ++j) total[j] = inertia.col(j).dot(response.col(j));

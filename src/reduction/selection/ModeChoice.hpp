@@ -34,9 +34,7 @@ struct ModeRule {
   double frequencyTolerance =
       0;  ///< Tolerance: relative error of the coupled frequencies; 0: they are not looked at
   double motionTolerance =
-      0;                ///< Tolerance: vibration error of the transient; 0: it is not looked at
-  double safety = 1.5;  ///< Tolerance: the estimate times this stays below it (that of the motion:
-                        ///< times twice this)
+      0;  ///< Tolerance: vibration error of the transient; 0: it is not looked at
   double pairTolerance = defaultPairTolerance;
 };
 

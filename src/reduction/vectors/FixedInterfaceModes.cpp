@@ -48,8 +48,9 @@ void append(InteriorVectors& result, const InteriorBlock& block, int number,
     ModalVector mode{pairs.values[k], number, pairs.vectors.col(k), pairs.residuals[k],
                      "fixed-interface"};
     mode.floating = floating[at(k)] != 0;
-    if (mode.floating) mode.why = "asked for; rigid-body motion";
-    if (mode.shown() < 0.0) mode.why = "asked for; the part is buckled between its boundary dofs";
+    if (mode.floating) mode.why = "requested; rigid-body motion";
+    if (mode.shown() < 0.0)
+      mode.why = "requested; the part is buckled with its boundary dofs fixed";
     result.vectors.push_back(std::move(mode));
   }
   result.orthogonality = std::max(result.orthogonality, pairs.orthogonality);

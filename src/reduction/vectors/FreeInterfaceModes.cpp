@@ -32,7 +32,7 @@ void classify(const Sparse& K, InteriorVectors& result) {
     }
     mode.kind = mode.rigid ? "rigid-body" : "free-interface";
     mode.why = mode.rigid           ? "rigid-body motion"
-               : mode.shown() < 0.0 ? "asked for; the part buckles with nothing held"
+               : mode.shown() < 0.0 ? "requested; the free part is buckled"
                                     : "asked for";
   }
 }
@@ -67,7 +67,7 @@ InteriorVectors freeInterfaceModes(const PartView& part, const ModeRequest& requ
   int last = available;
   while (last > 0 && !found.vectors[at(last - 1)].rigid) --last;
   if (last > found.kept) {
-    found.remarks.assign(1, "kept " + std::to_string(last) + " modes so as to have all " +
+    found.remarks.assign(1, "kept " + std::to_string(last) + " modes to include all " +
                                 std::to_string(found.rigid()) + " rigid-body modes");
     found.kept = last;
   }

@@ -33,11 +33,11 @@ void InteriorVectors::keepAll() {
 void InteriorVectors::remarkOnCount(const ModeRequest& request, int available,
                                     const std::string& what) {
   if (request.kind != ModeRequest::Kind::Count) return;
-  const std::string asked = "asked for " + std::to_string(request.count) + " " + what + ", kept ";
+  const std::string asked = "requested " + std::to_string(request.count) + " " + what + ", kept ";
   if (request.count > available)
-    remarks.push_back(asked + "all " + std::to_string(available) + " there are");
+    remarks.push_back(asked + "all " + std::to_string(available));
   else if (kept > request.count)
-    remarks.push_back(asked + std::to_string(kept) + " so as not to cut a close pair");
+    remarks.push_back(asked + std::to_string(kept) + " to keep a close pair together");
 }
 
 }  // namespace tooljoint::reduction

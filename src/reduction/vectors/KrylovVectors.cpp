@@ -50,9 +50,10 @@ class DrivenBlock {
     try {
       solver_ = std::make_unique<linalg::DirectSolver>(A, block_.name);
     } catch (const ModelError& error) {
-      throw ModelError(who_ + "the dynamic stiffness at " + formatNumber(options.frequency) +
-                       " Hz is singular: that is a natural frequency of the part with its boundary "
-                       "dofs held. Take another \"Expansion Frequency\". " +
+      throw ModelError(who_ + "the dynamic stiffness is singular at " +
+                       formatNumber(options.frequency) +
+                       " Hz, a natural frequency of the part with its boundary dofs fixed. Choose "
+                       "another \"Expansion Frequency\". " +
                        error.what());
     }
     makeStates(options.deflation);
@@ -298,7 +299,7 @@ InteriorVectors krylovVectors(const PartView& part, const ModeRequest& request,
     InteriorVectors modes = fixedInterfaceModes(part, request, floating, "fixed-interface modes");
     result.orthogonality = std::max(result.orthogonality, modes.orthogonality);
     for (int k = 0; k < modes.kept; ++k) {
-      modes.vectors[at(k)].why = "of a block no boundary dof touches";
+      modes.vectors[at(k)].why = "of a block without coupling to boundary dofs";
       modes.vectors[at(k)].name.clear();
       result.vectors.push_back(modes.vectors[at(k)]);
     }
@@ -309,8 +310,8 @@ InteriorVectors krylovVectors(const PartView& part, const ModeRequest& request,
   if (found > 0 && request.count > found) result.remarkOnCount(request, found, "Krylov vectors");
   if (growth.blocks() == 0 && found > 0)
     result.remarks.push_back("the " + std::to_string(found) +
-                             " Krylov vectors are the largest directions of the first block, "
-                             "which is longer: no moment is matched in full");
+                             " Krylov vectors are the dominant directions of the first block, "
+                             "which has more: no moment is matched completely");
   return result;
 }
 

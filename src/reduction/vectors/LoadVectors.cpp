@@ -33,13 +33,10 @@ Matrix forces(const model::Substructure& part, const LoadVectorOptions& options)
 void requireFixedInterface(const model::Substructure& part, const Basis& basis) {
   const auto refuse = [&] {
     throw DeckError(
-        "\"Load Vectors\" are answers of the interior with its boundary dofs held, but the basis "
-        "of "
-        "part \"" +
+        "\"Load Vectors\" need modes with fixed boundary dofs, but the basis of part \"" +
         part.name +
-        "\" has modes that move them, or that must not be added to. Take a basis with fixed "
-        "interface, such as \"Craig-Bampton\", or leave "
-        "\"Load Vectors\" out.");
+        "\" has others. Choose a fixed-interface basis such as \"Craig-Bampton\", or remove \"Load "
+        "Vectors\".");
   };
   if (basis.forces() > 0 || basis.inertial.size() > 0) refuse();
   for (int j = 0; j < sizeOf(basis.partition.boundary); ++j)
@@ -67,7 +64,7 @@ void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basi
   const int added = appendVectors(part, X, "load", options.independence, orthonormal, basis);
   if (added > 0)
     basis.remarks.push_back(std::to_string(added) + " load vectors of " + std::to_string(F.cols()) +
-                            " loads and unit forces stand beside its modes");
+                            " loads and unit forces are added to its modes");
 }
 
 void requirePointNodes(const std::vector<model::Substructure>& parts,
@@ -80,8 +77,8 @@ void requirePointNodes(const std::vector<model::Substructure>& parts,
         });
     if (!known)
       throw DeckError("\"Load Vector Nodes\" names node " + std::to_string(node) +
-                      ", at which no substructure has a point law. Name nodes with contact, "
-                      "springs or other point laws, or leave the list out for all of them.");
+                      ", but no substructure has a point law there. Give nodes with contact, "
+                      "springs or other point laws, or remove the list to include all of them.");
   }
 }
 
@@ -103,12 +100,11 @@ std::vector<int> sameLoads(const std::vector<model::Substructure>& parts,
 
 void declareLoadVectors(deck::ListSpec& list) {
   list.choice("Load Vectors", std::string("None"), {"None", "Loads", "Points", "Loads and points"},
-              "Static answers of the interior of each substructure that are added to the modes of "
-              "a basis with fixed interface: to its loads, to unit forces on "
-              "the points of contact and other point laws, or to both (Dickens, Nakagawa and "
-              "Wittbrodt 1997).");
+              "Static responses of the interior of each substructure, added to the modes of a "
+              "fixed-interface basis: to its loads, to unit forces at its points of contact and "
+              "other point laws, or to both (Dickens, Nakagawa and Wittbrodt 1997).");
   list.integerArray("Load Vector Nodes", deck::Optional{}, deck::Range::atLeast(1),
-                    "Only points of these nodes get load vectors.")
+                    "Nodes whose points get load vectors; all nodes without it.")
       .expert();
 }
 
@@ -119,9 +115,9 @@ LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list) {
   options.points = choice == "Points" || choice == "Loads and points";
   if (!list.isParameter("Load Vector Nodes")) return options;
   if (!options.points)
-    throw DeckError("Reduction gives \"Load Vector Nodes\", but \"Load Vectors\" is \"" + choice +
-                    "\", which looks at no points. Set it to \"Points\" or \"Loads and "
-                    "points\", or leave the nodes out.");
+    throw DeckError(
+        "Reduction gives \"Load Vector Nodes\", but \"Load Vectors\" is \"" + choice +
+        "\". Set \"Load Vectors\" to \"Points\" or \"Loads and points\", or remove the nodes.");
   for (const int node : list.get<Teuchos::Array<int>>("Load Vector Nodes"))
     options.nodes.push_back(node);
   return options;

@@ -33,7 +33,7 @@ double OrthonormalSet::norm(const Vector& v) const {
   const double rounding = massless * size.dot(absolute_ * size);
   if (square < -rounding)
     throw ModelError(
-        who_ + "its mass is indefinite: the kinetic energy of a vector of the basis is negative.");
+        who_ + "its mass matrix is indefinite: a vector of the basis has negative kinetic energy.");
   return square <= rounding ? 0.0 : std::sqrt(square);
 }
 
@@ -149,7 +149,7 @@ int appendVectors(const PartView& part, const Matrix& X, const std::string& kind
   OrthonormalSet set(M, tolerance, part.who(kind + " vectors"));
   for (Eigen::Index k = 0; k < V.cols(); ++k)
     if (!set.add(V.col(k)))
-      throw ModelError(part.who() + "its modal vectors are dependent before its " + kind +
+      throw ModelError(part.who() + "its modal vectors are linearly dependent before its " + kind +
                        " vectors are added.");
   int added = 0;
   for (Eigen::Index j = 0; j < X.cols(); ++j) added += set.add(X.col(j)) ? 1 : 0;

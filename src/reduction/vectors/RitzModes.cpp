@@ -26,8 +26,8 @@ void addRitzModes(const PartView& part, const VectorGroup& group, const std::str
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor{Eigen::SparseMatrix<double>(M)};
   if (factor.info() != Eigen::Success)
     throw ModelError(part.who() +
-                     "the mass of its interior is not positive definite. Give every interior "
-                     "dof mass, or retain the massless ones.");
+                     "its interior mass matrix is not positive definite. Give every interior dof a "
+                     "mass, or retain the massless dofs.");
   Matrix scaled = factor.matrixU() * (factor.permutationP() * group.columns);
   Eigen::Index used = 0;
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {

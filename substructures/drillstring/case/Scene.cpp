@@ -10,6 +10,7 @@
 #include "estimate/AdaptiveReduction.hpp"
 #include "parts/PartsParameters.hpp"
 #include "reduction/Reduce.hpp"
+#include "reduction/selection/ModeSelection.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
@@ -51,9 +52,9 @@ using cases::Faults;
 void crossCheckCoupling(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   if (scene.coupling->ownNumbers)
-    faults.add("Coupling/Node Numbers",
-               "is \"Own\", but the parts of a string share the numbers of their nodes. Leave it "
-               "at \"Shared\".");
+    faults.add(
+        "Coupling/Node Numbers",
+        "is \"Own\", but the parts of a string share their node numbers. Set it to \"Shared\".");
   const auto& input = *scene.coupling;
   if (scene.reduces()) {
     const auto& reduction = list.sublist("Reduction");
@@ -61,13 +62,11 @@ void crossCheckCoupling(const Scene& scene, Faults& faults) {
     const bool simple = input.assembly == coupling::Assembly::Primal && input.frames.empty() &&
                         input.constraints.empty() && input.links.empty() && input.hinges.empty();
     if (!simple && (estimated == "Transient" || estimated == "Both" ||
-                    reduction.isParameter("Motion Tolerance")))
+                    reduction::selectsModesBy(reduction, "Motion Tolerance")))
       faults.add("Coupling",
-                 "gives frames, constraints, links, hinges or dual assembly, and Reduction asks "
-                 "for the error of the motion, "
-                 "which is estimated only where parts are joined by "
-                 "their labels alone. Leave \"Error Estimate\" at \"Frequencies\", or take out the "
-                 "\"Motion Tolerance\".");
+                 "has frames, constraints, links, hinges or dual assembly. With these the error of "
+                 "the motion is not estimated. Set \"Error Estimate\" to \"Frequencies\", or "
+                 "remove \"Motion Tolerance\".");
   }
 }
 

@@ -79,7 +79,7 @@ TEST(StiffWalls, AHangingStringThatIsPulledAndTurnedIsReported) {
     FAIL() << "it rests";
   } catch (const ConvergenceError& error) {
     EXPECT_NE(
-        std::string(error.what()).find("pulls every open point to the wall with up to 1.01 N"),
+        std::string(error.what()).find("attracts every open point to the wall with up to 1.01 N"),
         std::string::npos)
         << error.what();
   }

@@ -44,7 +44,7 @@ TEST(RunIdentity, hasEveryInput) {
                              "Path/Pre-stress=Axial and torque",
                              "Static/Max Iterations=77",
                              "Substructures/Rule=Single",
-                             "Reduction/Modes=5",
+                             "Reduction/Mode Selection/Modes=5",
                              "Transient/End Time=0.31",
                              "Transient/Step=0.0011",
                              "Transient/Sampling Interval=0.0051",

@@ -203,8 +203,7 @@ TEST(Assembler, SharedStatesMustAgree) {
   parts[1].model.initialDisplacement[0] = 3.5;
   EXPECT_EQ(refusal(parts),
             "The initial displacement of u of node 4 is 3 in part \"top\" and 3.5 in part "
-            "\"bottom\". Parts that meet must start "
-            "from one state.");
+            "\"bottom\". Joined parts must start from the same state.");
   parts[1].model.initialDisplacement[0] = 3;
   parts[1].model.initialVelocity[0] = 1;
   EXPECT_NE(refusal(parts).find("The initial velocity of u of node 4"), std::string::npos);
@@ -223,49 +222,48 @@ TEST(Assembler, ReferencesMustAgree) {
   } catch (const ModelError& error) {
     EXPECT_STREQ(error.what(),
                  "The reference state of u of node 4 is 0.25 in part \"top\" and 0 in part "
-                 "\"bottom\". Parts that meet must be "
-                 "reduced about one state.");
+                 "\"bottom\". Joined parts must be reduced about the same state.");
   }
 }
 
-TEST(AssemblerErrors, NothingToCouple) { EXPECT_EQ(refusal({}), "There is no part to couple."); }
+TEST(AssemblerErrors, NothingToCouple) {
+  EXPECT_EQ(refusal({}), "The model has no part to couple.");
+}
 
 TEST(AssemblerErrors, LabelThatJoinsNothing) {
   auto parts = twoBars();
   samples::classify(parts[0], {1, 4});
   EXPECT_EQ(refusal(parts),
-            "The interface dof u of node 1 of part \"top\" joins nothing: no other part has it. "
-            "Check the labels, or take it out "
-            "of the interface.");
+            "The interface dof u of node 1 of part \"top\" is not joined: no other part has it. "
+            "Check the labels, or remove it from the interface.");
 }
 
 TEST(AssemblerErrors, InnerDofOfAnotherPart) {
   auto parts = twoBars();
   samples::classify(parts[1], {});
-  EXPECT_EQ(refusal(parts),
-            "u of node 4 is an interface dof of part \"top\" but an inner dof of part \"bottom\". "
-            "Declare it an interface dof of "
-            "both parts.");
+  EXPECT_EQ(
+      refusal(parts),
+      "u of node 4 is an interface dof of part \"top\" but an interior dof of part \"bottom\". "
+      "Declare it an interface dof of "
+      "both parts.");
   samples::classify(parts[0], {});
   EXPECT_EQ(refusal(parts),
-            "Parts \"top\" and \"bottom\" both have u of node 4, but as an inner dof, which "
-            "nothing can be joined to. Declare it "
-            "an interface dof of both parts.");
+            "Parts \"top\" and \"bottom\" both have u of node 4, but as an interior dof, which "
+            "cannot be joined. Declare it an interface dof of both parts.");
 }
 
 TEST(AssemblerErrors, LabelTwiceInAPart) {
   auto parts = twoBars();
   parts[0].model.dofs[1] = parts[0].model.dofs[0];
   EXPECT_EQ(refusal(parts),
-            "Part \"top\" has u of node 1 twice; every dof of a part needs a label of its own.");
+            "Part \"top\" has u of node 1 twice. Give every dof of a part its own label.");
 }
 
 TEST(AssemblerErrors, OtherComponents) {
   auto parts = twoBars();
   parts[1].model.componentNames = {"w"};
   EXPECT_EQ(refusal(parts),
-            "Parts \"top\" and \"bottom\" do not speak of the same dofs: the components of a node "
-            "are \"u\" in the first and "
+            "Parts \"top\" and \"bottom\" have different node components: \"u\" in the first and "
             "\"w\" in the second.");
 }
 

@@ -289,7 +289,7 @@ TEST(InterfaceReductionErrors, DualAssemblyHasNoJoinedDofs) {
   dual.assembly = Assembly::Dual;
   const auto sentence =
       errorText([&] { synthesis(frame.parts(), 2, interfaceModes(Level::System, 3), dual); });
-  EXPECT_NE(sentence.find("Set the assembly to Primal"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("Set Coupling/Assembly to \"Primal\""), std::string::npos) << sentence;
 }
 
 TEST(InterfaceReductionErrors, PartsThatAreNotJoinedHaveNothingToReduce) {
@@ -303,14 +303,15 @@ TEST(InterfaceReductionErrors, PartsThatAreNotJoinedHaveNothingToReduce) {
 TEST(InterfaceReductionDeck, ReadsOneCriterion) {
   const auto sentence = [](const std::function<void(Teuchos::ParameterList&)>& change) {
     auto list = test::defaultsOf(reduction::parameters());
-    list.set("Modes", 3);
+    list.sublist("Mode Selection").set("Modes", 3);
     list.set("Interface Reduction", "System");
     change(list.sublist("System"));
     return errorText([&] { reduction::readOptions(list, 2); });
   };
   EXPECT_EQ(sentence([](auto& own) { own.set("Modes", 4); }), "");
-  EXPECT_NE(sentence([](auto&) {}).find("Reduction/System does not say how many modes"),
-            std::string::npos);
+  EXPECT_NE(
+      sentence([](auto&) {}).find("Reduction/System does not give the number of interface modes"),
+      std::string::npos);
   EXPECT_NE(sentence([](auto& own) {
               own.set("Modes", 4).set("Cut-off Frequency", 10.0);
             }).find("gives both"),

@@ -316,7 +316,7 @@ TEST(PlannedCouplingErrors, AreSentences) {
   };
   has(refusal(list("Springs", list("s", text("First", "top") + text("Component", "u") +
                                             value("Stiffness", "double", "1")))),
-      "/scene/Coupling/Springs/s/First is \"top\", but a node is written PART:NODE");
+      "/scene/Coupling/Springs/s/First is \"top\". A node is written PART:NODE");
   has(refusal(
           list("Springs", list("s", text("First", "top:2") + value("Stiffness", "double", "1")))),
       "gives neither Direction and Component");
@@ -336,10 +336,10 @@ TEST(PlannedCouplingErrors, AreSentences) {
                                            numbers("Axis 2", "1, 1, 0")))),
       "is not perpendicular to Axis 1");
   has(refusal(list("Joints", list("j", value("Nodes", "Array(string)", "{top:4, bottom:1}")))),
-      "has no effect while node numbers are shared");
+      "has no effect with shared node numbers");
   has(refusal(list("Hinges", list("h", text("First", "3") + text("Second", "3") +
                                            numbers("Axis", "0, 0, 1")))),
-      "is the first node again");
+      "is the same node as First");
   try {
     checkNames(read(list("Springs", list("s", text("First", "tip:2") + text("Second", "bottom:9") +
                                                   text("Component", "w") +
@@ -348,7 +348,7 @@ TEST(PlannedCouplingErrors, AreSentences) {
     FAIL() << "accepted";
   } catch (const DeckError& error) {
     has(error.what(),
-        "/scene/Coupling/Springs/s/First names part \"tip\", but there is no such part. Did you "
+        "/scene/Coupling/Springs/s/First names part \"tip\", but no part has this name. Did you "
         "mean \"top\"?");
     has(error.what(),
         "names node 9 of part \"bottom\", but the part has no such node. Its nodes lie between 4 "
@@ -369,8 +369,8 @@ TEST(PlannedCouplingErrors, NamePlaceAndPart) {
   EXPECT_NE(
       sentence(list("Sliders", list("brake", text("First", "botom:5") + text("Component", "u") +
                                                  value("Force", "double", "1"))))
-          .find("/scene/Coupling/Sliders/brake/First names part \"botom\", but there is no such "
-                "part. Did you mean \"bottom\"?"),
+          .find("/scene/Coupling/Sliders/brake/First names part \"botom\", but no part has this "
+                "name. Did you mean \"bottom\"?"),
       std::string::npos);
   EXPECT_NE(sentence(list("Sliders", list("brake", text("First", "top:3") + text("Component", "w") +
                                                        value("Force", "double", "1"))))

@@ -59,7 +59,7 @@ reduction::ReductionOptions sixModes() {
 
 TEST(Synthesis, IsReduceAndCouple) {
   auto list = test::defaultsOf(reduction::parameters());
-  list.set("Modes", 3);
+  list.sublist("Mode Selection").set("Modes", 3);
   const auto parts = samples::loopFrame(6, true);
   const Synthesis synthesis = synthesise(parts, list);
   const auto coupled = couple(reduction::reduceAll(parts, list));

@@ -126,6 +126,20 @@ TEST(Validation, AFormerNameIsRefusedWithTheNewOne) {
             "run.xml:2: /run/Halvings is now called \"Max Halvings\". It is the halvings, >= 0.");
 }
 
+TEST(Validation, AFormerNameOfAnotherListIsRefusedWithTheNewPath) {
+  ListSpec run("run", "R.");
+  run.list(ListSpec("Steps", "S.")
+               .integer("Max Halvings", 10, Range::atLeast(0), "The halvings.")
+               .formerly("../Halvings"));
+  EXPECT_EQ(
+      messageOf([&] {
+        Deck::parse("<ParameterList name=\"run\">\n" + parameter("Halvings", "int", "3") +
+                        "</ParameterList>",
+                    "run.xml", run);
+      }),
+      "run.xml:2: /run/Halvings is now called \"Steps/Max Halvings\". It is the halvings, >= 0.");
+}
+
 struct Row {
   std::string contact, transient, message;
   friend std::ostream& operator<<(std::ostream& out, const Row& t) {

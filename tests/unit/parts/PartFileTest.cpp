@@ -160,7 +160,7 @@ TEST(PartFile, NamesFaultsOfLabels) {
   BadPart(json(R"([[1,"u"],[2,"x"]])"))
       .expect<DeckError>("names the component \"x\" of node 2; the components are \"u\"");
   BadPart(json(R"([[1,"u"],[0,"u"]])"))
-      .expect<DeckError>("names node 0; nodes are numbered from 1");
+      .expect<DeckError>("names node 0. Nodes are numbered from 1");
   BadPart(json(R"([[1,"u"],[2,"u"],[3,"u"]])"))
       .expect<DeckError>("mass (M.mtx)\" is 2 x 2, but \"dofs\" names 3 dofs");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "interfaces": {"end": [7]})"))
@@ -176,7 +176,7 @@ TEST(PartFile, NamesFaultsOfLabels) {
           "\"positions\" names node 7 in row 2, which the part does not have (its nodes are 1 to "
           "2)");
   BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": 7)"))
-      .expect<DeckError>("\"name\" should be a text");
+      .expect<DeckError>("\"name\" must be a text");
   EXPECT_NO_THROW(
       BadPart(json(R"([[1,"u"],[2,"u"]])", R"(, "name": "beam", "positions": [[1,0,0,0]])"))
           .read());
@@ -189,15 +189,15 @@ TEST(PartFile, NamesFaultsOfMatrices) {
               "%%MatrixMarket matrix coordinate real general\n2 2 3\n1 1 2\n2 2 1\n1 2 0.5\n");
     bad.expect<ModelError>(
         "its mass is not symmetric: 0.5 in the row of u of node 1 and the column of u of node 2, "
-        "but 0 the other way round");
+        "but 0 in the transposed entry");
     bad.write("M.mtx",
               "%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 2\n2 2 1\n2 1 2\n");
-    bad.expect<ModelError>(
-        "its mass is indefinite: there is a motion with negative kinetic energy, and u of node");
+    bad.expect<ModelError>("its mass is indefinite: a motion that includes u of node");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 2 -1\n");
     bad.expect<ModelError>("its mass is indefinite: -1 on the diagonal of u of node 2");
     bad.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2\n2 1 1\n");
-    bad.expect<ModelError>("u of node 2 has none of its own, but is coupled with u of node 1 by 1");
+    bad.expect<ModelError>(
+        "u of node 2 has a zero diagonal entry, but is coupled with u of node 1 by 1");
   }
   {
     BadPart bad(json());
@@ -234,7 +234,7 @@ TEST(PartFile, NamesFaultsOfHdf5) {
     FAIL() << "was read";
   } catch (const DeckError& error) {
     EXPECT_NE(std::string(error.what())
-                  .find("Part \"bar\": " + path + " is no part file: it cannot be read: "),
+                  .find("Part \"bar\": " + path + " is not a part file: it cannot be read: "),
               std::string::npos)
         << error.what();
   }

@@ -210,7 +210,7 @@ TEST(PartsScene, RefusesWhatDoesNotFit) {
       EXPECT_NE(std::string(error.what()).find(sentence), std::string::npos) << error.what();
     }
   };
-  refused("a:right", "a joint is two places or more");
+  refused("a:right", "a joint needs two or more places");
   refused("a right = b:left", "a place is written PART:NODE or PART:SET");
   refused("a:9 = b:left", "has no node 9");
   settings.imported[0].fixed = {"right"};

@@ -62,14 +62,14 @@ TEST(Partition, RefusesWrongPositions) {
   EXPECT_EQ(refusal(part),
             "Part \"shaft\": position 4 of its interface dofs is outside its 4 dofs.");
   part.interface = {2, 1};
-  EXPECT_EQ(
-      refusal(part),
-      "Part \"shaft\": position 1 of its interface dofs is out of order; positions must increase.");
+  EXPECT_EQ(refusal(part),
+            "Part \"shaft\": position 1 of its interface dofs is not in increasing order. Sort the "
+            "positions.");
   part.interface = {1};
   part.retained = {1};
   EXPECT_EQ(refusal(part),
-            "Part \"shaft\": position 1 of its retained dofs (u of node 2) is named twice among "
-            "its interface and retained dofs.");
+            "Part \"shaft\": position 1 of its retained dofs (u of node 2) appears twice among its "
+            "interface and retained dofs.");
 }
 
 TEST(Partition, RefusesWrongStatesAndMasses) {

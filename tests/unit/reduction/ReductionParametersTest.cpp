@@ -9,6 +9,7 @@
 
 #include "common/Error.hpp"
 #include "reduction/Reduce.hpp"
+#include "reduction/selection/ModeSelection.hpp"
 #include "tests/support/ListDefaults.hpp"
 #include "tests/support/SampleParts.hpp"
 
@@ -36,7 +37,7 @@ std::vector<int> modesOf(const std::vector<ReducedSubstructure>& parts) {
 
 std::vector<int> modesFor(const std::function<void(Teuchos::ParameterList&)>& change) {
   auto list = defaults();
-  change(list);
+  change(list.sublist("Mode Selection"));
   return modesOf(reduceAll(samples::loopFrame(6, false), list));
 }
 
@@ -47,7 +48,8 @@ TEST(ReductionParameters, AreDescribed) {
     EXPECT_FALSE(parameter.doc.empty()) << parameter.name;
   ASSERT_NE(spec.findParameter("Basis"), nullptr);
   EXPECT_EQ(spec.findParameter("Basis")->choices, MethodRegistry::instance().names());
-  EXPECT_EQ(spec.findParameter("Cut-off Frequency")->unit, "Hz");
+  ASSERT_NE(spec.findList("Mode Selection"), nullptr);
+  EXPECT_EQ(spec.findList("Mode Selection")->findParameter("Cut-off Frequency")->unit, "Hz");
   ASSERT_NE(spec.findList("Anasazi"), nullptr);
   EXPECT_TRUE(spec.findList("Anasazi")->passesThrough());
 }
@@ -68,72 +70,74 @@ TEST(ReductionParameters, EveryModeCountWorks) {
   for (std::size_t p = 0; p < 4; ++p) EXPECT_LT(low[p], high[p]);
 }
 
-TEST(ReductionParameters, ExactlyOneModeCount) {
+TEST(ReductionParameters, ExactlyOneModeSelection) {
   auto list = defaults();
+  const std::string missing =
+      "Reduction does not select modes. Give the list \"Mode Selection\" exactly one of \"Modes\", "
+      "\"Cut-off Frequency\", \"Frequency Tolerance\", \"Motion Tolerance\", \"Modes by "
+      "Substructure\", \"Total Modes\", \"All Modes\", \"Effective Interface Mass\", "
+      "\"Interface Moment\".";
+  EXPECT_EQ(refusal(list, 4), missing);
+  auto& selection = list.sublist("Mode Selection");
+  EXPECT_EQ(refusal(list, 4), missing);
+  selection.set("All Modes", false);
+  EXPECT_EQ(refusal(list, 4), missing);
+  selection.set("Modes", 3);
+  EXPECT_EQ(refusal(list, 4), "accepted");
+  selection.set("Total Modes", 30);
   EXPECT_EQ(
       refusal(list, 4),
-      "Reduction does not say how many modes to keep: give exactly one of \"Modes\", \"Modes by "
-      "Substructure\", \"Total Modes\", "
-      "\"Cut-off Frequency\", \"All Modes\", \"Effective Interface Mass\", \"Interface Moment\", "
-      "\"Frequency Tolerance\", \"Motion "
-      "Tolerance\".");
-  list.set("Modes", 3);
-  EXPECT_EQ(refusal(list, 4), "accepted");
-  list.set("Total Modes", 30);
-  EXPECT_EQ(refusal(list, 4),
-            "Reduction gives \"Modes\", \"Total Modes\" together: they are different answers to "
-            "how many modes to "
-            "keep. Give exactly one.");
+      "Reduction/Mode Selection gives \"Modes\", \"Total Modes\" together. Give exactly one.");
 }
 
 TEST(ReductionParameters, CriteriaAndTolerances) {
   auto list = defaults();
-  list.set("Interface Moment", 0.9);
+  auto& selection = list.sublist("Mode Selection");
+  selection.set("Interface Moment", 0.9);
   EXPECT_EQ(readOptions(list, 4).modes.kind, ModeRule::Kind::InterfaceMoment);
   EXPECT_EQ(readOptions(list, 4).modes.fraction, 0.9);
-  list.set("Motion Tolerance", 0.02);
-  EXPECT_EQ(refusal(list, 4),
-            "Reduction gives \"Interface Moment\", \"Motion Tolerance\" together: they are "
-            "different answers to how many modes to keep. Give "
-            "exactly one.");
-  list.remove("Interface Moment");
-  list.set("Frequency Tolerance", 1e-3);
+  EXPECT_FALSE(selectsModesByTolerance(list));
+  selection.set("Motion Tolerance", 0.02);
+  EXPECT_EQ(
+      refusal(list, 4),
+      "Reduction/Mode Selection gives \"Motion Tolerance\", \"Interface Moment\" together. Give "
+      "exactly one.");
+  selection.remove("Interface Moment");
+  selection.set("Frequency Tolerance", 1e-3);
   const auto rule = readOptions(list, 4).modes;
   EXPECT_EQ(rule.kind, ModeRule::Kind::Tolerance) << "both tolerances hold together";
   EXPECT_EQ(rule.frequencyTolerance, 1e-3);
   EXPECT_EQ(rule.motionTolerance, 0.02);
+  EXPECT_TRUE(selectsModesByTolerance(list));
   EXPECT_THROW(reduceAll(samples::loopFrame(4, false), list), DeckError)
       << "no tolerance can be met part by part";
 }
 
 TEST(ReductionParameters, OneEntryForEachSubstructure) {
   auto list = defaults();
-  list.set("Modes by Substructure", Teuchos::Array<int>(3, 5));
-  EXPECT_EQ(refusal(list, 4),
-            "\"Modes by Substructure\" has 3 entries for 4 substructures; give one number for "
-            "each, or \"Modes\" for the same "
-            "number everywhere.");
+  list.sublist("Mode Selection").set("Modes by Substructure", Teuchos::Array<int>(3, 5));
+  EXPECT_EQ(
+      refusal(list, 4),
+      "\"Modes by Substructure\" has 3 entries for 4 substructures. Give one number for each, "
+      "or \"Modes\" for the same number everywhere.");
 }
 
-TEST(ReductionParameters, InitialStateChecksAndPairTolerance) {
+TEST(ReductionParameters, InitialStateAndChecks) {
   auto list = defaults();
-  list.set("Modes", 3);
+  list.sublist("Mode Selection").set("Modes", 3);
   EXPECT_EQ(readOptions(list, 1).initialState, InitialState::KeepStatic);
   EXPECT_TRUE(readOptions(list, 1).checks);
-  EXPECT_EQ(readOptions(list, 1).modes.pairTolerance, 0.01);
   list.set("Initial State", "Least squares");
   list.set("Basis Checks", false);
-  list.set("Pair Tolerance", 0.1);
   const auto options = readOptions(list, 1);
   EXPECT_EQ(options.initialState, InitialState::LeastSquares);
   EXPECT_FALSE(options.checks);
-  EXPECT_EQ(options.modes.pairTolerance, 0.1);
   EXPECT_FALSE(reduceAll(samples::loopFrame(4, false), list)[0].report.checked);
 }
 
 TEST(ReductionParameters, AnasaziReachesTheEigensolver) {
   auto list = defaults();
-  list.set("Modes", 4);
+  list.sublist("Mode Selection").set("Modes", 4);
   auto part = samples::bar("long", 1, 400, 1.0, 1.0);
   samples::classify(part, {}, {1, 401});
   list.sublist("Anasazi").set("Block Size", 2);
@@ -146,7 +150,7 @@ TEST(ReductionParameters, AnasaziReachesTheEigensolver) {
 
 TEST(ReductionParameters, UnknownBasisListsTheKnownOnes) {
   auto list = defaults();
-  list.set("Modes", 4);
+  list.sublist("Mode Selection").set("Modes", 4);
   list.set("Basis", "Craig");
   try {
     reduceAll(samples::loopFrame(4, false), list);

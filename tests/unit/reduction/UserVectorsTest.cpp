@@ -62,7 +62,7 @@ TEST(UserVectors, TheFirstColumnsAreTaken) {
   const auto all = basisOf("many.mtx")->build(bar(), samples::modes(9));
   EXPECT_EQ(all.modes(), 5);
   ASSERT_EQ(all.remarks.size(), 1u);
-  EXPECT_EQ(all.remarks[0], "asked for 9 modes, many.mtx has 5 vectors");
+  EXPECT_EQ(all.remarks[0], "requested 9 modes, many.mtx has 5 vectors");
 }
 
 TEST(UserVectors, SparseFilesWillDo) {
@@ -125,10 +125,10 @@ TEST(UserVectors, DependentVectorsAreRefusedOrDropped) {
   Matrix vectors = linalg::scatteredNumbers(9, 4, 7);
   vectors.col(2) = vectors.col(0) - 3 * vectors.col(1);
   write("dependent.mtx", vectors);
-  const auto sentence =
-      errorText([] { basisOf("dependent.mtx")->build(bar(), samples::modes(4)); });
-  EXPECT_NE(sentence.find("dependent.mtx: column 3 is a combination of the columns before it"),
-            std::string::npos)
+  const auto sentence = errorText([] { basisOf("dependent.mtx")->build(bar(), samples::modes(4)); });
+  EXPECT_NE(
+      sentence.find("dependent.mtx: column 3 is a linear combination of the preceding columns"),
+      std::string::npos)
       << sentence;
   const auto basis = basisOf("dependent.mtx", [](auto& list) {
                        list.set("Dependent Vectors", "Drop");
@@ -155,7 +155,7 @@ TEST(UserVectors, MissingFilesAndListsAreRefused) {
             std::string::npos);
   EXPECT_NE(errorText([] {
               makeBasis("User Vectors", Teuchos::ParameterList("Reduction"));
-            }).find("has no list \"User Vectors\" with the \"File\""),
+            }).find("has no list \"User Vectors\". Add the list with its \"File\""),
             std::string::npos);
 }
 

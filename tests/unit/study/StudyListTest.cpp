@@ -109,7 +109,7 @@ TEST(Expansion, IsTheProductWithTheLastDimensionAlongALine) {
            text("Model", "Reduced") + text("Label", "CB") + texts("Set", "Transient/Step=1e-3") +
                list("Sweep",
                     dimension("state", "Reduction/Initial State", "Keep static, Least squares") +
-                        dimension("modes", "Reduction/Modes", "0, 4, 8")))));
+                        dimension("modes", "Reduction/Mode Selection/Modes", "0, 4, 8")))));
   const auto runs = study::expand(s);
   ASSERT_EQ(runs.size(), 6u);
   EXPECT_EQ(runs[1].label, "CB, Keep static, Modes 4");
@@ -119,7 +119,7 @@ TEST(Expansion, IsTheProductWithTheLastDimensionAlongALine) {
   ASSERT_EQ(runs[5].overrides.size(), 3u);
   EXPECT_EQ(runs[5].overrides[0].text, "Transient/Step=1e-3");
   EXPECT_EQ(runs[5].overrides[0].source, "Study/Methods/cb/Set");
-  EXPECT_EQ(runs[5].overrides[2].text, "Reduction/Modes=8");
+  EXPECT_EQ(runs[5].overrides[2].text, "Reduction/Mode Selection/Modes=8");
   EXPECT_EQ(runs[5].overrides[2].source, "Study/Methods/cb/Sweep/modes");
 }
 

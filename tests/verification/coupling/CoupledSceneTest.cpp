@@ -23,8 +23,9 @@ drillstring::Scene sceneWith(const std::vector<std::string>& overrides) {
 class CoupledScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(CoupledScene, WithAllModesIsTheFullModel) {
-  const auto scene = sceneWith({"!Reduction/Modes", "Reduction/All Modes=true",
-                                std::string("Coupling/Assembly=") + GetParam()});
+  const auto scene =
+      sceneWith({"!Reduction/Mode Selection", "Reduction/Mode Selection/All Modes=true",
+                 std::string("Coupling/Assembly=") + GetParam()});
   const auto stage = drillstring::solveStatic(scene);
   const auto resolved = drillstring::resolvedParts(scene, stage);
   const auto whole = drillstring::joinUnreduced(resolved);

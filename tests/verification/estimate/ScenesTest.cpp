@@ -66,7 +66,7 @@ struct Case {
 
 /// Estimate over true error of every frequency whose error is above rounding.
 std::vector<double> ratios(const Case& c, const std::string& choice, int count) {
-  const auto scene = c.with({"Reduction/" + choice});
+  const auto scene = c.with({"Reduction/Mode Selection/" + choice});
   const auto parts = drillstring::cut(scene, c.stage);
   const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
   std::vector<double> all;
@@ -102,7 +102,8 @@ TEST(FrequencyTolerance, IsMetOnEveryScene) {
     const Case c(file);
     for (double tolerance : {1e-2, 1e-4}) {
       char choice[64];
-      std::snprintf(choice, sizeof choice, "Reduction/Frequency Tolerance=%g", tolerance);
+      std::snprintf(choice, sizeof choice, "Reduction/Mode Selection/Frequency Tolerance=%g",
+                    tolerance);
       const auto scene = c.with({choice});
       const auto parts = drillstring::cut(scene, c.stage);
       const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
@@ -177,7 +178,8 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
   const auto reference = testing_::move(c.scene, c.full);
   int counted = 0;
   for (const char* cutOff : {"25", "50", "100", "200", "400"}) {
-    const auto scene = c.with({std::string("Reduction/Cut-off Frequency=") + cutOff});
+    const auto scene =
+        c.with({std::string("Reduction/Mode Selection/Cut-off Frequency=") + cutOff});
     const auto parts = drillstring::cut(scene, c.stage);
     const auto outcome = estimate::synthesise(parts, scene.list().sublist("Reduction"));
     Watched watched(parts, outcome.synthesis, rest);
@@ -200,7 +202,7 @@ TEST(MotionEstimate, IsWithinAFactorOfThreeOfDynOnTheReferenceScene) {
 double chosen(const Case& c, const std::vector<Vector>& reference, double tolerance) {
   const Vector rest = c.stage.state.displacement;
   char choice[64];
-  std::snprintf(choice, sizeof choice, "Reduction/Motion Tolerance=%g", tolerance);
+  std::snprintf(choice, sizeof choice, "Reduction/Mode Selection/Motion Tolerance=%g", tolerance);
   const auto scene = c.with({choice});
   const auto& transient = scene.list().sublist("Transient");
   const auto parts = drillstring::cut(scene, c.stage);

@@ -38,8 +38,8 @@ TEST_P(AllModes, IsTheFullModel) {
   // Retained nodes are few, so that most of the string is modal; the step and the tolerance are
   // those of both runs.
   std::vector<std::string> overrides{
-      "!Reduction", "Reduction/All Modes=true", "Substructures/Retained Nodes=Gauges",
-      "Transient/End Time=0.5", "Transient/Step=0.001",
+      "!Reduction", "Reduction/Mode Selection/All Modes=true",
+      "Substructures/Retained Nodes=Gauges", "Transient/End Time=0.5", "Transient/Step=0.001",
       "Transient/Generalized-alpha/Tolerance=1e-12",
       // taken at an iterate, so equal in both models to the root of the tolerance alone
       "Transient/Generalized-alpha/Phase Correction=false", "Transient/Progress=false",

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The deck list "Reduction/Mode Selection": how many modes are kept. The name of the one parameter
+/// it holds is the choice, its value the number, frequency, fraction or tolerance.
+#pragma once
+
+#include "deck/ListSpec.hpp"
+#include "reduction/selection/ModeChoice.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::reduction {
+
+/// Description of the list "Mode Selection".
+deck::ListSpec modeSelection();
+
+/// True when the list "Reduction" selects modes by the parameter `name` of "Mode Selection".
+bool selectsModesBy(const Teuchos::ParameterList& reduction, const std::string& name);
+
+/// Value of the tolerance `name` ("Frequency Tolerance" or "Motion Tolerance"); 0 when the list
+/// "Reduction" does not give it.
+double toleranceOf(const Teuchos::ParameterList& reduction, const std::string& name);
+
+/// True when a tolerance selects the modes.
+bool selectsModesByTolerance(const Teuchos::ParameterList& reduction);
+
+/// The selection of the list "Reduction" (defaults filled in) for `parts` substructures. DeckError
+/// when the list "Mode Selection" does not hold exactly one parameter (the two tolerances may stand
+/// together), or when "Modes by Substructure" does not have `parts` entries.
+ModeRule readModeSelection(const Teuchos::ParameterList& reduction, int parts);
+
+}  // namespace tooljoint::reduction
