@@ -2,6 +2,7 @@
 #include "substructures/equilibrium/Equilibrium.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -13,8 +14,10 @@
 namespace tooljoint::equilibrium {
 namespace {
 
-/// Accuracy of the stages that only lead to the next one.
+/// Tolerance of the intermediate stages.
 constexpr double kStageTolerance = 1e-6;
+/// Contact regularisations of the stages before that of the deck [1/m].
+constexpr std::array<double, 3> kLambdaStages{1e3, 1e4, 1e6};
 
 std::string shortNumber(double value) {
   char text[32];
@@ -22,9 +25,8 @@ std::string shortNumber(double value) {
   return text;
 }
 
-/// The line searches tried in turn from the same start. Without friction the string has an energy,
-/// and the work of a step judges it; friction has none, and full steps follow a small change of it
-/// best.
+/// The line searches tried in turn from the same start. Without friction the forces have a
+/// potential, and the work of a step measures its progress; with friction full steps converge best.
 using Searches = std::vector<model::LineSearch>;
 const Searches minimising{model::LineSearch::Work, model::LineSearch::None};
 const Searches following{model::LineSearch::None, model::LineSearch::Work};
@@ -113,7 +115,7 @@ class Stages {
   std::string message_;
 };
 
-/// The string held on the axis: tension and torque of the loads, no lateral motion. From D = 0 a
+/// The string fixed on the axis: tension and torque of the loads, no lateral motion. From D = 0 a
 /// long string has no tension yet to hold it, and the first Newton step would throw it far through
 /// the wall.
 Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
@@ -131,11 +133,11 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
       .solve(-negativeLoad);
 }
 
-/// Contacts from soft to sharp: the stages of the deck while they are softer than the sharpest law
-/// of the scene, then each point's own. Until then a wall is no stiffer than that the largest load
-/// presses a point in by 1/lambda, over which its law bends.
-void sharpen(const StaticInput& input, const StaticOptions& options, StaticProblem& problem,
-             Stages& stages, const StaticSwitches& switches, double tolerance, Vector& x) {
+/// Contacts from soft to stiff: the stages that are softer than the stiffest law of the model, then
+/// the law of each point. In a stage the wall stiffness is limited such that the largest load
+/// presses a point in by 1/lambda, the length over which its law is regularised.
+void sharpen(const StaticInput& input, StaticProblem& problem, Stages& stages,
+             const StaticSwitches& switches, double tolerance, Vector& x) {
   const contact::ContactPoints& points = input.contact->points();
   const double sharpest = *std::max_element(points.lambdaK.begin(), points.lambdaK.end());
   const double stiffest = *std::max_element(points.stiffness.begin(), points.stiffness.end());
@@ -146,7 +148,7 @@ void sharpen(const StaticInput& input, const StaticOptions& options, StaticProbl
     return "lambda " + shortNumber(lambda) + " 1/m";
   };
   std::vector<double> values;
-  for (const double lambda : options.lambdas)
+  for (const double lambda : kLambdaStages)
     if (lambda < sharpest) values.push_back(lambda);
   values.push_back(sharpest);
   double last = 0.1 * values.front();
@@ -207,7 +209,7 @@ void continuation(const StaticInput& input, const StaticOptions& options, Static
   switches.slideAlongWall = true;
   switches.frictionScale = switches.pull = 0.0;
   const bool friction = !input.contact->points().frictionless() && input.direction != 0.0;
-  sharpen(input, options, problem, stages, switches, friction ? kStageTolerance : 0.0, x);
+  sharpen(input, problem, stages, switches, friction ? kStageTolerance : 0.0, x);
   if (friction) slide(options, stages, switches, x);
   switches.frictionScale = 1.0;
   if (input.contact->largestPull() > 0.0) letPull(input, stages, switches, x);
@@ -268,7 +270,7 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
 }
 
 /// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic
-/// force, so the torque at the top equals what loads, friction and supports below ask for.
+/// force, so the torque at the top balances loads, friction and supports below.
 void describeTorque(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
   state.topTorque = state.torque(0);
   const Vector unbalanced = problem.unbalanced(state.displacement);

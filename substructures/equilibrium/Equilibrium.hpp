@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Finds the static equilibrium by one of two recipes that are known to converge (Nguyen et al.
+/// Static equilibrium by one of two recipes (Nguyen et al.
 /// 2020, section 3.2).
 #pragma once
 
@@ -18,12 +18,12 @@ class ParameterList;
 namespace tooljoint::equilibrium {
 
 enum class Recipe {
-  Continuation,  ///< from D = 0: contacts from soft to sharp, then friction in steps; capped steps,
+  Continuation,  ///< from D = 0: contacts from soft to stiff, friction in steps; limited steps,
                  ///< else line search
   Source,        ///< from K_pa^-1 F_s with full Newton steps: first without, then with K_gpo
 };
 
-/// Which coefficient the sliding friction of the static state has.
+/// Coefficient of the sliding friction in the static state.
 enum class FrictionRule {
   SlidingSpeed,  ///< mu(|Omega| R_c) of the law of motion; mu_s when the string starts from rest
   Peak,          ///< mu_s (the source)
@@ -39,9 +39,7 @@ struct StaticOptions {
   double tolerance = 1e-9;         ///< on the largest scaled residual
   int maxIterations = 200;         ///< per stage
   double lateralStepLimit = 0.05;  ///< [m], `Continuation`
-  std::vector<double> lambdas{
-      1e3, 1e4, 1e6};     ///< stages before each point's own lambda [1/m], `Continuation`
-  int frictionSteps = 4;  ///< `Continuation`
+  int frictionSteps = 4;           ///< `Continuation`
 };
 
 /// Description of the deck list `Static`.
@@ -55,7 +53,7 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve);
 
-/// Everything a state is described by, from its displacement (6 per node) alone.
+/// The complete state from its displacement (6 per node).
 StaticState describe(const StaticInput& input, const StaticProblem& problem,
                      const Vector& displacement);
 

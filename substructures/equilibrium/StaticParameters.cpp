@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 
 #include "substructures/equilibrium/Equilibrium.hpp"
@@ -37,10 +36,6 @@ deck::ListSpec parameters() {
   spec.real("Lateral Step Limit", "m", 0.05, Range::positive(),
             "Largest change of a lateral displacement in one iteration of \"Continuation\".")
       .expert();
-  spec.realArray("Lambda Stages", "1/m", std::vector<double>{1e3, 1e4, 1e6}, Range::positive(),
-                 "Contact regularisations of the stages of \"Continuation\" before the value of "
-                 "the list Contact.")
-      .expert();
   spec.integer("Friction Steps", 4, Range::atLeast(1),
                "Number of equal steps in which \"Continuation\" adds friction.")
       .expert();
@@ -62,8 +57,6 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list) {
   options.tolerance = list.get<double>("Tolerance");
   options.maxIterations = list.get<int>("Max Iterations");
   options.lateralStepLimit = list.get<double>("Lateral Step Limit");
-  const auto& lambdas = list.get<Teuchos::Array<double>>("Lambda Stages");
-  options.lambdas.assign(lambdas.begin(), lambdas.end());
   options.frictionSteps = list.get<int>("Friction Steps");
   return options;
 }

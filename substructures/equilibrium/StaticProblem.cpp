@@ -220,7 +220,7 @@ Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
     const double before = std::hypot(x(u), x(v)), after = std::hypot(there(u), there(v));
     if (before == 0.0 || after <= points.clearance[p]) continue;
     const double alongNormal = (x(u) * there(u) + x(v) * there(v)) / before;
-    if (alongNormal < 0.5 * after) continue;  // half around the hole: no wall to follow
+    if (alongNormal < 0.5 * after) continue;  // half around the hole: no sliding along the wall
     there(u) *= alongNormal / after;
     there(v) *= alongNormal / after;
   }

@@ -23,7 +23,7 @@ struct StaticElement {
   double bendingMoment = 0.0;  ///< E I kappa of the well [N m], the scale of the torque balance
 };
 
-/// What the static equilibrium is made of; 6 dofs per node in nodal frames, measured from the path
+/// Input of the static problem; 6 dofs per node in nodal frames, relative to the path
 /// state.
 struct StaticInput {
   int nodes = 0;
@@ -40,7 +40,7 @@ struct StaticInput {
   bool chordSlopes = false;
 };
 
-/// Which parts of the equation are switched on, and how the Jacobian is formed.
+/// Active terms of the equation, and the form of the Jacobian.
 struct StaticSwitches {
   bool geometricStiffness = true;
   bool pathReaction = true;
@@ -49,7 +49,7 @@ struct StaticSwitches {
   double lambda = 0.0;            ///< regularisation of all contacts [1/m]; 0: each point's own
   double frictionScale = 1.0;     ///< factor on mu_s
   double stiffnessScale = 1.0;    ///< on the stiffness of the wall
-  double pull = 1.0;              ///< share of what contact laws pull open points with
+  double pull = 1.0;              ///< fraction of the attraction of open points by contact laws
   double lateralStepLimit = 0.0;  ///< largest change of u or v in a step [m]; 0: none
   bool slideAlongWall =
       false;  ///< steps take points that touch along the wall, not along its tangent

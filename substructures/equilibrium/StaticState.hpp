@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The string at rest in the well: displacements, contact, element forces, and how well the result
-/// balances.
+/// The static state of the string in the well: displacements, contact, element forces, and the
+/// torque balance.
 #pragma once
 
 #include <cmath>
@@ -56,7 +56,7 @@ struct StaticState {
   double totalFrictionTorque = 0.0;  ///< [N m]
   double torqueScale = 0.0;  ///< the larger of |appliedTorque| + sum |friction torque| and E I
                              ///< kappa_max of the well [N m]
-  /// Top torque that loads, friction and supports below ask for [N m].
+  /// Top torque that balances loads, friction and the supports below [N m].
   double topTorqueEquilibrium() const { return appliedTorque + totalFrictionTorque; }
   /// topTorque - topTorqueEquilibrium [N m]: zero for a shaft that turns freely about its curved
   /// axis.

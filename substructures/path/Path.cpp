@@ -72,7 +72,7 @@ void placeNodes(const PathInput& input, const PathOptions& options, const PathPr
   }
 }
 
-/// Turns the converged problem into the result: reactions, element forces and, if asked for,
+/// Turns the converged problem into the result: reactions, element forces and, if requested,
 /// tangents in nodal frames.
 void describe(const PathInput& input, const PathOptions& options, const PathProblem& problem,
               const Vector& x, PathState& state) {
@@ -155,7 +155,7 @@ PathState alongCentreLine(const PathInput& input, const PathOptions& options,
   return state;
 }
 
-/// 0-based imposed nodes: the given list, or equally spaced in arc length; the first node is held
+/// 0-based imposed nodes: the given list, or equally spaced in arc length; the first node is fixed
 /// anyway.
 std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options) {
   const std::vector<double> depths = unstretchedDepths(input);
@@ -186,8 +186,7 @@ std::vector<int> imposedNodes(const PathInput& input, const PathOptions& options
 
 PathState byImposedNodes(const PathInput& input, const PathOptions& options,
                          const model::NonlinearSolver& solve) {
-  ImposedNodesProblem problem(input, imposedNodes(input, options), options.imposition,
-                              options.penaltyFactor);
+  ImposedNodesProblem problem(input, imposedNodes(input, options));
   const std::vector<double> depths = unstretchedDepths(input);
   const int count = static_cast<int>(problem.imposedNodes().size());
   Matrix from(2, count);

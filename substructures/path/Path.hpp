@@ -27,7 +27,6 @@ struct PathInput {
 
 enum class Mode { CentreLine, ImposedNodes };
 enum class Prestress { AxialAndTorque, FullTangent };
-enum class Imposition { Elimination, Penalty };
 
 /// The deck's `Path` list as a plain value.
 struct PathOptions {
@@ -36,11 +35,9 @@ struct PathOptions {
   int increments = 10;  ///< of `Imposed nodes`
   int nodeCount = 9;    ///< imposed nodes, equally spaced in arc length, both ends included, when
                         ///< `nodes` is empty
-  std::vector<int> nodes;  ///< imposed nodes, 1-based, increasing
-  Imposition imposition = Imposition::Elimination;
-  double penaltyFactor = 1e6;  ///< times the largest stiffness entry, equation (13)
-  double tolerance = 1e-9;     ///< on the largest scaled residual
-  int maxIterations = 50;      ///< per load step
+  std::vector<int> nodes;   ///< imposed nodes, 1-based, increasing
+  double tolerance = 1e-9;  ///< on the largest scaled residual
+  int maxIterations = 50;   ///< per load step
 };
 
 /// Description of the deck list `Path`.

@@ -27,13 +27,6 @@ deck::ListSpec parameters() {
       .expert();
   spec.integerArray("Nodes", deck::Optional{}, Range::atLeast(1),
                     "Imposed nodes by number (1 is at the surface).");
-  spec.choice("Imposition", std::string("Elimination"), {"Elimination", "Penalty"},
-              "How imposed displacements enter: exactly, or by a stiff spring as in equations (12) "
-              "and (13).")
-      .expert();
-  spec.real("Penalty Factor", "", 1e6, Range::atLeast(1.0),
-            "Stiffness of that spring over the largest entry of the stiffness matrix.")
-      .expert();
   spec.real("Tolerance", "", 1e-9, Range::positive(),
             "Largest scaled residual at which a load step has converged.");
   spec.integer("Max Iterations", 50, Range::atLeast(1),
@@ -57,10 +50,6 @@ PathOptions optionsFrom(const Teuchos::ParameterList& path) {
     const auto& nodes = path.get<Teuchos::Array<int>>("Nodes");
     options.nodes.assign(nodes.begin(), nodes.end());
   }
-  options.imposition = path.get<std::string>("Imposition") == "Elimination"
-                           ? Imposition::Elimination
-                           : Imposition::Penalty;
-  options.penaltyFactor = path.get<double>("Penalty Factor");
   options.tolerance = path.get<double>("Tolerance");
   options.maxIterations = path.get<int>("Max Iterations");
   return options;

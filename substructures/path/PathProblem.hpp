@@ -13,7 +13,7 @@
 
 namespace tooljoint::path {
 
-/// Where a node is.
+/// Position and orientation of a node.
 struct NodePose {
   Vector3 position;
   Matrix3 triad;  ///< material axes, z normal to the cross section
@@ -62,7 +62,7 @@ class PathProblem : public model::NonlinearProblem {
   /// Second derivative along the only translation; zero where positions are themselves the
   /// unknowns.
   virtual Vector3 positionCurvature(const double* translations) const;
-  /// Last word on the assembled equations (prescribed motions).
+  /// Changes the assembled equations for prescribed motions.
   virtual void constrain(const Vector& /*state*/, Vector& /*r*/) const {}
   virtual void constrain(Sparse& /*jacobian*/) const {}
   virtual void constrainScale(Vector& /*scale*/) const {}
@@ -86,9 +86,9 @@ class PathProblem : public model::NonlinearProblem {
   double momentScale_ = 1.0;
 };
 
-/// `Centre line`: every node stays on the axis of the well, free to slide along it and to turn;
-/// held are the first node's depth and its turn about the tangent. Starts from unstretched depths
-/// and the given nodal frames.
+/// `Centre line`: every node stays on the axis of the well, free to slide along it and to rotate;
+/// fixed are the first node's depth and its rotation about the tangent. Starts from unstretched
+/// depths and the given nodal frames.
 class CentreLineProblem : public PathProblem {
  public:
   CentreLineProblem(const PathInput& input, const std::vector<double>& depths,
@@ -105,15 +105,13 @@ class CentreLineProblem : public PathProblem {
   const well::Trajectory* trajectory_;
 };
 
-/// `Imposed nodes`: X and Y of some nodes are moved to prescribed places; held are the first node's
-/// translations and its turn about its own axis. Starts straight down from the wellhead; each load
-/// step starts from the state accepted last.
+/// `Imposed nodes`: X and Y of some nodes have prescribed values. Fixed are the translations of the
+/// first node and its rotation about its own axis. Starts straight down from the wellhead; each
+/// load step starts from the state accepted last.
 class ImposedNodesProblem : public PathProblem {
  public:
-  /// `imposed` are 0-based nodes without the first one. With `Penalty`, `factor` is that of
-  /// equation (13).
-  ImposedNodesProblem(const PathInput& input, std::vector<int> imposed, Imposition imposition,
-                      double factor);
+  /// `imposed` are 0-based nodes without the first one.
+  ImposedNodesProblem(const PathInput& input, std::vector<int> imposed);
 
   /// Prescribes X and Y (columns of 2 x imposed nodes) of the imposed nodes for the next solve [m].
   void prescribe(const Matrix& target);
@@ -130,9 +128,6 @@ class ImposedNodesProblem : public PathProblem {
 
  private:
   std::vector<int> imposed_;
-  Imposition imposition_;
-  double factor_;
-  double penalty_ = 0.0;  ///< 10^6 c_p [N/m]
   Matrix target_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The string bent into the well: where its nodes are, and the forces it takes to hold it there.
+/// The string bent into the well: positions of its nodes, and the reactions.
 #pragma once
 
 #include <vector>

@@ -22,6 +22,9 @@ namespace tooljoint::reduction {
 namespace {
 
 using Complex = std::complex<double>;
+/// Smallest fraction of a real or imaginary part (mass norm) that is independent of the other
+/// vectors; a lightly damped mode has one independent part.
+constexpr double independent = 1e-6;
 
 /// The quadratic pencil of one interior block and the vectors taken of it.
 struct DampedBlock {
@@ -30,7 +33,7 @@ struct DampedBlock {
   std::unique_ptr<OrthonormalSet> set = {};
   Matrix floating = {};  ///< zero-energy modes; computed when it floats
 
-  /// Its modes are real: nothing damps, gyrates or follows.
+  /// Its modes are real: no damping, gyroscopic or circulatory terms.
   bool conservative() const { return C.norm() == 0.0 && nearlySymmetric(K, 1e-13); }
 };
 
@@ -58,13 +61,13 @@ Matrix halves(const Eigen::VectorXcd& phi, const Sparse& M) {
 class ComplexCraigBampton : public ReductionMethod {
  public:
   explicit ComplexCraigBampton(const Teuchos::ParameterList& list)
-      : time_(list.get<double>("Time")), tolerance_(list.get<double>("Independence")) {}
+      : time_(list.get<double>("Time")) {}
 
   Basis build(const PartView& part, const ModeRequest& request) const override {
     const int interior = sizeOf(part.partition().interior);
     std::vector<DampedBlock> blocks = makeBlocks(part);
     Taken taken;
-    // Modes come by |s|; each gives one vector or two, so that as many as vectors are asked for,
+    // Modes come by |s|; each gives one vector or two, so that as many as the requested vectors,
     // and two to see the cut, are enough or all.
     for (int perBlock = firstCount(blocks, request, interior);;
          perBlock = std::min(2 * perBlock, interior)) {
@@ -169,13 +172,13 @@ class ComplexCraigBampton : public ReductionMethod {
         modes.push_back({found.values[k], &damped, found.vectors.col(k), found.residuals[k]});
   }
 
-  /// Modes by |s| until their halves answer the request.
+  /// Modes by |s| until their parts fill the request.
   Taken take(const PartView& part, std::vector<DampedBlock>& blocks,
              const std::vector<ComplexMode>& modes, const ModeRequest& request) const {
     Taken taken;
     int vectors = 0;
     for (auto& damped : blocks) {
-      damped.set = std::make_unique<OrthonormalSet>(damped.block->mass, tolerance_, who(part));
+      damped.set = std::make_unique<OrthonormalSet>(damped.block->mass, independent, who(part));
       const bool wanted = request.kind != ModeRequest::Kind::Count || request.count > 0;
       for (Eigen::Index k = 0; wanted && k < damped.floating.cols(); ++k)
         vectors += damped.set->add(damped.floating.col(k)) ? 1 : 0;
@@ -208,13 +211,12 @@ class ComplexCraigBampton : public ReductionMethod {
     OrthonormalSet& set = *mode.home->set;
     const Matrix parts = halves(mode.shape, mode.home->block->mass);
     int added = set.add(parts.col(0)) ? 1 : 0;
-    if (set.norm(parts.col(1)) > tolerance_ * set.norm(parts.col(0)))
+    if (set.norm(parts.col(1)) > independent * set.norm(parts.col(0)))
       added += set.add(parts.col(1)) ? 1 : 0;
     return added;
   }
 
   double time_;  ///< of the laws of damping and stiffness [s]
-  double tolerance_;
 };
 
 deck::ListSpec ownParameters() {
@@ -225,10 +227,6 @@ deck::ListSpec ownParameters() {
   list.real("Time", "s", 0.0, Range::any(),
             "Time at which damping and stiffness are evaluated. Gyroscopic terms need a time at "
             "which the rotor turns.");
-  list.real("Independence", "", 1e-6, Range{0.0, 0.1, true, false},
-            "The part of a half of a mode, measured by mass, that must be new for it to be taken; "
-            "lightly damped modes have one half.")
-      .expert();
   return list;
 }
 

@@ -3,8 +3,8 @@
 /// Craig-Bampton with the residual flexibility of the modes left out: J.-G. Kim, P.-S. Lee, An
 /// enhanced Craig-Bampton method, Int. J. Numer. Meth. Engng 103 (2015) 79-93. With F = K_II^-1 -
 /// Phi_D Lambda^-1 Phi_D' and the inertia of the constraint modes L = M_IC + M_II psi, the dropped
-/// modes answer x_I = lambda F L u_C to first order in lambda; O'Callahan's step replaces lambda
-/// u_C by the rows of M^-1 K of the coupled Craig-Bampton model.
+/// modes respond with x_I = lambda F L u_C to first order in lambda; O'Callahan's step replaces
+/// lambda u_C by the rows of M^-1 K of the coupled Craig-Bampton model.
 #include <Eigen/Dense>
 #include <Teuchos_ParameterList.hpp>
 #include <cmath>
@@ -20,13 +20,14 @@ namespace tooljoint::reduction {
 namespace {
 
 const std::string freeKind = "residual";
+/// Smallest fraction of a residual vector (mass norm) that is independent of the other vectors.
+constexpr double independent = 1e-6;
 
 class EnhancedCraigBampton : public ReductionMethod {
  public:
   explicit EnhancedCraigBampton(const Teuchos::ParameterList& list)
       : tied_(list.get<std::string>("Residual Coordinates") == "Tied"),
-        kind_(tied_ ? followingKind : freeKind),
-        independence_(list.get<double>("Independence")) {}
+        kind_(tied_ ? followingKind : freeKind) {}
 
   MethodTraits traits() const override { return {true, false, tied_, true}; }
 
@@ -42,15 +43,15 @@ class EnhancedCraigBampton : public ReductionMethod {
       if (contains(bases[p].modeKind, kind_) ||
           bases[p].modes() >= sizeOf(bases[p].partition.interior))
         continue;
-      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), kind_, independence_,
+      changed = appendVectors(parts[p], residualVectors(parts[p], bases[p]), kind_, independent,
                               false, bases[p]) > 0 ||
                 changed;
     }
     return changed;
   }
 
-  /// The coordinates eta of W follow the others z: their modal equation (Lambda_W - lambda) eta =
-  /// lambda W' L u_C to first order in lambda, with lambda u_C = L_C M^-1 K z,
+  /// The coordinates eta of W depend on the others z: their modal equation (Lambda_W - lambda) eta
+  /// = lambda W' L u_C to first order in lambda, with lambda u_C = L_C M^-1 K z,
   ///
   ///     eta = Lambda_W^-1 W' L L_C M^-1 K z,   which is W' (F L) L_C M^-1 K z.
   DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
@@ -145,7 +146,6 @@ class EnhancedCraigBampton : public ReductionMethod {
 
   bool tied_;
   std::string kind_;
-  double independence_;
 };
 
 deck::ListSpec ownParameters() {
@@ -157,9 +157,6 @@ deck::ListSpec ownParameters() {
       "\"Tied\": the residual coordinates depend on the others by M^-1 K of the coupled model (Kim "
       "and Lee 2015); this adds no dofs but fills the coupled matrices. \"Free\": they are "
       "independent coordinates, at most one for each boundary dof, and the model stays sparse.");
-  list.real("Independence", "", 1e-6, deck::Range{0.0, 0.1, true, false},
-            "The part of a residual vector, measured by mass, that must be new for it to be taken.")
-      .expert();
   return list;
 }
 

@@ -14,7 +14,7 @@ class Krylov : public ReductionMethod {
  public:
   explicit Krylov(const Teuchos::ParameterList& list)
       : options_{list.get<double>("Expansion Frequency"), list.get<bool>("Damped"),
-                 list.get<double>("Time"), list.get<double>("Deflation")} {}
+                 list.get<double>("Time")} {}
 
   Basis build(const PartView& part, const ModeRequest& request) const override {
     return fixedInterfaceBasis(part, krylovVectors(part, request, options_));
@@ -41,9 +41,6 @@ deck::ListSpec ownParameters() {
   list.real("Time", "s", 0.0, Range::any(),
             "Time at which varying damping, such as gyroscopic terms, is evaluated; used with "
             "\"Damped\".");
-  list.real("Deflation", "", 1e-8, Range{0.0, 0.1, true, false},
-            "The part of a vector, measured by mass, that must be new for the vector to be taken.")
-      .expert();
   return list;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "linalg/Deterministic.hpp"
@@ -17,7 +18,9 @@ namespace tooljoint::reduction {
 
 namespace {
 
-constexpr double twoPi = 6.28318530717958647692;
+using constants::twoPi;
+/// Smallest fraction of a vector (mass norm) that is independent of the other vectors.
+constexpr double independent = 1e-8;
 
 /// The Krylov space of one interior block that touches boundary dofs. With y = x_I - psi x_C and B1
 /// = C_IC + C_II psi, B2 = M_IC + M_II psi,
@@ -27,7 +30,7 @@ constexpr double twoPi = 6.28318530717958647692;
 /// Undamped, in lambda = s^2 about lambda_0 = -omega_0^2: r_0 = A^-1 B2, r_j = -A^-1 M r_j-1, A = K
 /// - omega_0^2 M. Damped, about the real s_0: r_0 = A^-1 [B2 B1], r_j = -A^-1 (D r_j-1 + M r_j-2),
 /// A = K + s_0 C + s_0^2 M, D = C + 2 s_0 M; the recurrence runs on states z_j = (r_j, r_j-1),
-/// which are orthonormalised by themselves, so that deflation loses nothing.
+/// which are orthonormalised separately, so that deflation loses no direction.
 class DrivenBlock {
  public:
   DrivenBlock(const PartView& part, int number, const KrylovOptions& options)
@@ -36,7 +39,7 @@ class DrivenBlock {
         number_(number),
         damped_(options.damped),
         who_(part.who("Krylov vectors")) {
-    set_ = std::make_unique<OrthonormalSet>(M_, options.deflation, who_);
+    set_ = std::make_unique<OrthonormalSet>(M_, independent, who_);
     const Sparse& K = block_.stiffness;
     const auto& inner = block_.positions;
     const double omega = twoPi * options.frequency;
@@ -56,7 +59,7 @@ class DrivenBlock {
                        "another \"Expansion Frequency\". " +
                        error.what());
     }
-    makeStates(options.deflation);
+    makeStates();
     const Matrix psi = part.constraintModes().vectors;
     const std::vector<int> all = range(psi.rows());
     Matrix B = block(part.mass(), inner, all) * psi;
@@ -93,7 +96,7 @@ class DrivenBlock {
   void take(Eigen::Index direction) { set_->add(directions_.col(direction)); }
 
   /// The interface drives nothing more: directions without meaning, so that the space can still
-  /// become all of the interior. Dofs without mass follow the others statically.
+  /// become all of the interior. Massless dofs depend on the others statically.
   void restart(int count) {
     const auto seed = static_cast<std::uint64_t>(97 + set_->size());
     Matrix z = linalg::scatteredNumbers(
@@ -127,9 +130,9 @@ class DrivenBlock {
 
   /// States are measured by r_j' M r_j + r_j-1' M r_j-1 / gamma^2, gamma^2 = tr K / tr M, which
   /// gives both the same unit.
-  void makeStates(double deflation) {
+  void makeStates() {
     if (!damped_) {
-      states_ = std::make_unique<OrthonormalSet>(M_, deflation, who_);
+      states_ = std::make_unique<OrthonormalSet>(M_, independent, who_);
       return;
     }
     const double mass = M_.diagonal().sum(), stiff = block_.stiffness.diagonal().cwiseAbs().sum();
@@ -140,7 +143,7 @@ class DrivenBlock {
       entries.emplace_back(i, j, value);
       entries.emplace_back(n + i, n + j, scale * value);
     });
-    states_ = std::make_unique<OrthonormalSet>(sparse(2 * n, 2 * n, entries), deflation, who_);
+    states_ = std::make_unique<OrthonormalSet>(sparse(2 * n, 2 * n, entries), independent, who_);
   }
 
   /// The states after those of the last block.
@@ -266,7 +269,7 @@ class Growth {
   bool exhausted_ = false;
 };
 
-/// Vectors asked of the blocks that are driven.
+/// Number of vectors for the driven blocks.
 int wanted(const PartView& part, const std::vector<int>& driven, const ModeRequest& request) {
   if (request.kind == ModeRequest::Kind::Count) return request.count;
   if (request.kind == ModeRequest::Kind::All) return std::numeric_limits<int>::max();

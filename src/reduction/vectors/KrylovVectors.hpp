@@ -17,8 +17,7 @@ namespace tooljoint::reduction {
 struct KrylovOptions {
   double frequency;  ///< expansion point [Hz]; with damping s0 = 2 pi f on the real axis
   bool damped;
-  double time;       ///< of the laws of the damping matrices [s]
-  double deflation;  ///< a vector of which less than this part is new is left out
+  double time;  ///< of the laws of the damping matrices [s]
 };
 
 /// Ritz vectors of the Krylov space of every interior block; blocks that touch no boundary dof keep

@@ -15,8 +15,6 @@ TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
   list.set("Increments", 7);
   list.set("Node Count", 5);
   list.set("Nodes", Teuchos::Array<int>(Teuchos::tuple(1, 4, 9)));
-  list.set("Imposition", std::string("Penalty"));
-  list.set("Penalty Factor", 1e5);
   list.set("Tolerance", 1e-8);
   list.set("Max Iterations", 33);
   const PathOptions options = optionsFrom(list);
@@ -25,8 +23,6 @@ TEST(PathParameters, AreReadAsTheyStandInTheDeck) {
   EXPECT_EQ(options.increments, 7);
   EXPECT_EQ(options.nodeCount, 5);
   EXPECT_EQ(options.nodes, (std::vector<int>{1, 4, 9}));
-  EXPECT_EQ(options.imposition, Imposition::Penalty);
-  EXPECT_EQ(options.penaltyFactor, 1e5);
   EXPECT_EQ(options.tolerance, 1e-8);
   EXPECT_EQ(options.maxIterations, 33);
   // everything that is read is registered
