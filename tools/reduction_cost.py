@@ -52,7 +52,7 @@ def main():
             print(f"{held.M.shape[0]} dofs: exit code {done.returncode}: {done.stdout.strip().splitlines()[-1]}")
             continue
         print(f"{held.M.shape[0]} dofs, {3 * layer} of them interface, {options.basis}, {options.modes} modes: {wall:.1f} s")
-        line = [text for text in done.stdout.splitlines() if text.startswith("times")]
+        line = [text for text in re.sub(r"\n {12}", " ", done.stdout).splitlines() if text.startswith("times")]
         for name, seconds in re.findall(r"([A-Za-z][A-Za-z \-]*?) ([0-9.]+) s", line[0].split(None, 1)[1] if line else ""):
             print(f"    {name:32s} {float(seconds):10.2f} s")
 

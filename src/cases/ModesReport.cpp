@@ -39,10 +39,8 @@ void writeInto(const std::string& folder, const std::string& name, const io::Csv
 
 const char* const undampedHeading =
     "Undamped modes about the static state: symmetric part of the stiffness, friction left out, "
-    "closed contacts linear. A "
-    "negative frequency stands for "
-    "omega^2 < 0 of that part and 0 for a rigid-body mode; whether the state is stable is for the "
-    "damped modes to say";
+    "closed contacts linear. A negative frequency means omega^2 < 0, and 0 a rigid-body mode. The "
+    "damped modes show whether the state is stable";
 
 std::string dampedHeading(double t) {
   return "Damped modes with the matrices of t = " + formatNumber(t) +
@@ -152,12 +150,11 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   const auto undamped = estimate::compareModes(full, parts, synthesis, options.count, maps);
   if (synthesis.coupled.interfaceModes >= 0)
     log::info(
-        "The estimates see what the reduction of the parts leaves out, not what the interface "
-        "reduction does.");
+        "The estimates include the error of the reduced parts, but not of the interface "
+        "reduction.");
   log::info(std::string(undampedHeading) +
-            ". Beside each full mode the coupled mode of the same shape (repeated modes: of the "
-            "same subspace), " +
-            "its true relative error and the one estimated without the full model:");
+            ". Columns: full mode, coupled mode of the same shape (repeated modes: of the same "
+            "subspace), its relative error, and the estimate of the error without the full model:");
   log::info(estimate::comparisonTable(undamped, false));
   if (!options.output.empty()) writeTable(undamped, options.output, "modes.csv");
   const auto damped = estimate::compareDampedModes(full, parts, synthesis, options.count, t, maps);

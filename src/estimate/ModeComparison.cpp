@@ -361,23 +361,22 @@ std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& fu
 
 std::string comparisonTable(const std::vector<ModeComparison>& modes, bool damped) {
   std::string text =
-      damped ? "  mode  full |s| [Hz]  full Im s [Hz]   coupled |s| [Hz]  coupled Im s [Hz]   "
-               "damping full / "
-               "coupled         MAC       error    estimate\n"
+      damped ? "         |s| [Hz]  Im s [Hz]   |s| [Hz]  Im s [Hz]    damping    damping\n"
+               "  mode       full       full    coupled    coupled       full    coupled     MAC"
+               "     error  estimate\n"
              : "  mode       full [Hz]    coupled [Hz]         MAC       error    estimate\n";
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const ModeComparison& m = modes[i];
-    const std::string estimate = m.estimated ? fmt::format("{:10.2e}", m.estimate) : "         -";
+    const std::string estimate = m.estimated ? fmt::format("{:9.2e}", m.estimate) : "        -";
     if (m.coupledMode < 0)
       text += fmt::format("  {:4}  {:14.8g}  no coupled mode corresponds\n", i + 1, m.fullHz());
     else if (damped)
       text += fmt::format(
-          "  {:4} {:14.8g}  {:14.8g}     {:14.8g}     {:14.8g}   {:11.4e} {:11.4e}  {:10.7f}  "
-          "{:10.2e}  {}\n",
+          "  {:4} {:10.6g} {:10.6g} {:10.6g} {:10.6g} {:10.3e} {:10.3e} {:7.5f} {:9.2e} {}\n",
           i + 1, m.fullHz(), m.fullImHz(), m.coupledHz(), m.coupledImHz(), m.fullDamping(),
           m.coupledDamping(), m.mac, m.error, estimate);
     else
-      text += fmt::format("  {:4}  {:14.8g}  {:14.8g}  {:10.7f}  {:10.2e}  {}{}\n", i + 1,
+      text += fmt::format("  {:4}  {:14.8g}  {:14.8g}  {:10.7f}  {:10.2e}   {}{}\n", i + 1,
                           m.fullHz(), m.coupledHz(), m.mac, m.error, estimate,
                           m.definite ? "" : "  (a part lacks a mode below)");
   }

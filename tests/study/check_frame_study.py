@@ -77,7 +77,7 @@ def same_as_separate_calls():
         row = found[label]
         ran = tooljoint("run", DECK, "--output", "alone", *settings(*overrides))
         expect(f"{label}: the run succeeds", ran.returncode == 0, ran.stderr[-300:] if ran.returncode else "")
-        said = tooljoint("compare", "alone", "alone_reference", "--to", "0.4").stdout
+        said = " ".join(tooljoint("compare", "alone", "alone_reference", "--to", "0.4").stdout.split())
         numbers = {name: float(value) for name, value in re.findall(r"(eps_t max|mean|eps_n max|vibration error) (\S+?)(?:,|\s|$)", said)}
         for name, key in (("vibration error", "vibration_error"), ("eps_t max", "eps_t_max"), ("mean", "eps_t_mean"), ("eps_n max", "eps_n_max")):
             expect(f"{label}: {key} is that of `compare`", near(row[key], numbers[name], 1e-3), f"({row[key]:.4e}, {numbers[name]:.4e})")

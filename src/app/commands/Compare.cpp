@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/Commands.hpp"
 #include "common/Error.hpp"
+#include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "study/FolderComparison.hpp"
@@ -24,7 +26,7 @@ void compare(const CompareOptions& options) {
         {"eps_t", {{"max", errors.overTime.max()}, {"mean", errors.overTime.mean()}}},
         {"eps_n", {{"max", errors.overNodes.max()}}},
         {"vibration_error", errors.vibration}};
-    log::info(report.dump(2));
+    if (parallel::rank() == 0) std::cout << report.dump(2) << std::endl;
   } else {
     char line[256];
     std::snprintf(line, sizeof line,
