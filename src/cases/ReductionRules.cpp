@@ -58,7 +58,7 @@ class Rules {
   void add(const std::string& path, const std::string& sentence) {
     faults_.push_back({path, sentence});
   }
-  /// The parameter that asks for an estimate of errors.
+  /// The parameter that requests an error estimate.
   std::string estimate() const {
     for (const char* name : {"Motion Tolerance", "Frequency Tolerance"})
       if (selects(name)) return std::string("Reduction/Mode Selection/") + name;
@@ -78,13 +78,13 @@ class Rules {
           "choose \"Frequencies\".");
   }
 
-  /// What the basis is asked for, and cannot give.
+  /// Requests that the basis cannot fulfil.
   void basis() {
     reduction::MethodTraits traits;
     try {
       traits = reduction::makeBasis(choice("Basis"), reduction())->traits();
     } catch (const DeckError&) {
-      return;  // its own parameters are wrong, which its reader says
+      return;  // reported by the reader of its parameters
     }
     const std::string name = inQuotes(choice("Basis"));
     if (!traits.ownMass && explicit_)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the lists Reduction, Coupling, Transient and Output ask of each other in any case: found
-/// from the deck alone, before any part is made.
+/// Consistency of the lists Reduction, Coupling, Transient and Output in any case: checked with the
+/// deck alone, before any part is built.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct RuleFault {
   std::string sentence;  ///< continues the path: "is \"Dual\", but ..."
 };
 
-/// Choices that cannot stand together. `deck` is the root list with all defaults; `parts` is the
+/// Choices that exclude each other. `deck` is the root list with all defaults; `parts` is the
 /// number of substructures.
 std::vector<RuleFault> reductionFaults(const Teuchos::ParameterList& deck,
                                        coupling::Assembly assembly, int parts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Undamped modes of a coupled model, whatever way it was assembled.
+/// Undamped modes of a coupled model, primal or dual.
 #pragma once
 
 #include <complex>
@@ -11,9 +11,9 @@
 namespace tooljoint::coupling {
 
 /// Symmetric part of the stiffness at t = 0 about the initial state: closed contacts linear,
-/// friction left out. Friction couples the normal force of a sliding contact into the tangential
-/// direction and not back, so the symmetric part with it would be indefinite whatever the structure
-/// does.
+/// without friction. Friction couples the normal force of a sliding contact into the tangential
+/// direction and not vice versa, so the symmetric part with friction would be indefinite for any
+/// structure.
 Sparse undampedStiffness(const model::SecondOrderModel& model);
 
 /// What the point sets from number `first` on contribute to it.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Component mode synthesis in one call: reduce, couple, and let the basis improve itself with the
-/// coupled model.
+/// Component mode synthesis in one call: reduce, couple, and augment the bases with the coupled
+/// model.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace tooljoint::coupling {
 
-/// Reduced parts and the model they make.
+/// Reduced parts and their coupled model.
 struct Synthesis {
   std::vector<reduction::ReducedSubstructure> parts;
   Coupling coupled;
@@ -25,7 +25,7 @@ Synthesis synthesise(const std::vector<model::Substructure>& parts,
                      const reduction::ReductionOptions& options,
                      const CouplingOptions& coupling = {});
 
-/// The same in rounds over the same parts, which share what they have reduced.
+/// The same in rounds over the same parts; reductions are cached between rounds.
 Synthesis synthesise(const std::vector<model::Substructure>& parts,
                      const reduction::ReductionMethod& basis,
                      const reduction::ReductionOptions& options, reduction::ReductionCache& cache,

@@ -22,25 +22,25 @@ constexpr int firstModes = 2;
 /// sharp than those of the frequencies.
 constexpr double frequencySafety = 1.5;
 constexpr double motionSafety = 2.0 * frequencySafety;
-/// A motion is given up when its error is so many times what is allowed.
+/// A motion is stopped when its error is so many times the allowed error.
 constexpr double hopeless = 2.0;
-/// An error up to which a model tells how large the motion is.
+/// Largest error of a model that gives the size of the motion.
 constexpr double known = 0.5;
-/// A part that would get this fraction of its modes is kept whole.
+/// A part that would get this fraction of its modes is not reduced.
 constexpr double nearlyAll = 0.75;
-/// Likewise one whose matrices, full with modes, would have so many times the entries of its own
-/// stiffness: the longer steps an explicit integrator may take without the highest modes do not
-/// make up for more.
+/// Likewise a part whose full reduced matrices would have so many times the entries of its own
+/// stiffness: longer steps of an explicit integrator without the highest modes do not compensate
+/// for more.
 constexpr double tooFull = 10.0;
-/// Rounds after which something is wrong: each adds two modes at least and half of what there is to
-/// some part.
+/// Limit of the number of rounds: each adds at least two modes and half of the present ones to some
+/// part.
 constexpr int mostRounds = 60;
 
 double since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The parts without which the others would make up at most `rest` of the sum, largest first.
+/// The largest contributions, such that the others sum up to at most `rest`, largest first.
 std::vector<std::size_t> mark(const Vector& shares, double rest) {
   std::vector<std::size_t> order(static_cast<std::size_t>(shares.size()));
   std::iota(order.begin(), order.end(), std::size_t{0});

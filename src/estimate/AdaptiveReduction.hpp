@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Reduction with what the deck asks for beyond it: error estimates, and modes chosen by a
+/// Reduction with error estimates, and mode selection by a
 /// tolerance.
 #pragma once
 
@@ -18,7 +18,7 @@ class ParameterList;
 
 namespace tooljoint::estimate {
 
-/// What the list "Reduction" says about estimates.
+/// Error estimates requested by the list "Reduction".
 struct EstimateOptions {
   bool frequencies = false;
   bool motion = false;
@@ -27,19 +27,19 @@ struct EstimateOptions {
 /// Throws DeckError when the choices contradict each other.
 EstimateOptions readEstimateOptions(const Teuchos::ParameterList& reduction);
 
-/// One round of the choice of modes by a tolerance.
+/// One round of the mode selection by a tolerance.
 struct Round {
   int modes = 0;  ///< of all parts
   double frequencyError =
-      -1;  ///< largest estimate over the window; negative when it was not looked at
+      -1;  ///< largest estimate over the window; negative when it was not estimated
   double motionError = -1;  ///< estimate of the vibration error, likewise
-  double reached = 1;       ///< fraction of the window of the motion that was looked at
+  double reached = 1;       ///< fraction of the window of the motion that was computed
   int whole = 0;            ///< parts that are not reduced
 };
 
 struct Outcome {
   coupling::Synthesis synthesis;
-  std::vector<FrequencyEstimate> frequencies;  ///< empty unless asked for
+  std::vector<FrequencyEstimate> frequencies;  ///< empty unless requested
   std::vector<Round> rounds;                   ///< of a tolerance; empty otherwise
   double wall = 0;                             ///< of the estimates [s]
 };
@@ -54,11 +54,11 @@ using MotionProbe = std::function<MotionEstimate(const coupling::Synthesis&, con
 /// times the safety factor is below the tolerance: those without which the rest would make half of
 /// it (W. Doerfler, SIAM J. Numer. Anal. 33 (1996) 1106-1124). Only parts whose number of modes
 /// changes are reduced again. Motions go to the end of the window until one has an estimate below
-/// 1/2, which tells how large the motion is; later ones are given up as soon as their error is
-/// twice what is allowed of that. With a motion tolerance a part that would get three quarters of
-/// its modes, or whose matrices would have ten times the entries of its own stiffness, is kept
-/// whole (reduction::wholePart): it is exact, and cheaper to move. The motion of a model of whole
-/// parts is not looked at: it is the full one. The same on every rank; collective. ConvergenceError
+/// 1/2, which gives the size of the motion; later ones stop as soon as their error is twice the
+/// error allowed for this size. With a motion tolerance a part that would get three quarters of its
+/// modes, or whose matrices would have ten times the entries of its own stiffness, is not reduced
+/// (reduction::wholePart): it is then exact and faster to integrate. A model without reduced parts
+/// is not estimated: it is the full model. The same on every rank; collective. ConvergenceError
 /// when the tolerance is not met with all modes.
 Outcome synthesise(const std::vector<model::Substructure>& parts,
                    const reduction::ReductionMethod& basis,

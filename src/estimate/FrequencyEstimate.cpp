@@ -24,7 +24,7 @@ namespace {
 /// A frequency below this fraction of the largest diagonal one is a rigid body's.
 constexpr double rigid = 1e-7;
 
-/// What one part says about one mode.
+/// Contribution of one part to the estimate of one mode.
 struct Share {
   ResidualFlexibility::Step step;
   double work = 0;  ///< D' r

@@ -17,9 +17,9 @@ struct FrequencyEstimate {
   double eigenvalue = 0;  ///< omega^2 of the coupled model [rad^2/s^2]
   double error = 0;  ///< estimate of (f - f_full) / f_full, positive where the reduced frequency is
                      ///< too high; 0 for a rigid body
-  Vector byPart;     ///< what the modes left out of each part add to `error`, parts
+  Vector byPart;     ///< contribution of the truncated modes of each part to `error`, parts
   bool definite = true;      ///< false: a part lacks a mode below this frequency, so that modes are
-                             ///< missing and `error` says only that it is large
+                             ///< missing and `error` is only known to be large
   double frequency() const;  ///< sign(omega^2) sqrt(|omega^2|) / 2 pi [Hz]
 };
 
@@ -35,7 +35,7 @@ struct FrequencyWindow {
 ///     lambda - lambda_full = sum_p [ r_I' F_p(lambda) r_I - D_p' r_p ] / D' M D      to first
 ///     order,
 ///
-/// F_p(lambda) the inverse of K_II - lambda M_II on what the basis left out. With fixed-interface
+/// F_p(lambda) the inverse of K_II - lambda M_II outside the basis. With fixed-interface
 /// modes that is the difference of the condensed dynamic stiffnesses of the reduced and the full
 /// part, exactly; D_p' r_p sums up to zero where the reduced matrices are projections. F_p(lambda)
 /// r is taken on two Krylov vectors, and the first-order formula becomes a Rayleigh-Ritz step on D

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Which mode of one model is which mode of another: by shape, repeated modes as subspaces.
+/// Pairing of the modes of two models by shape, repeated modes as subspaces.
 #pragma once
 
 #include <vector>

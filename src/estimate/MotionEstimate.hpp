@@ -19,44 +19,44 @@ struct MotionOptions {
                          ///< has no damping
 };
 
-/// What is known at the end of a motion.
+/// The estimate at the end of a motion.
 struct MotionEstimate {
   double error = 0;  ///< |x - x_full| / |x - x_static| over all recovered nodes and samples: the
                      ///< estimate of the vibration error
   double largest =
       0;  ///< the same for the worst sample, against the mean of |x - x_static| over the samples
-  Vector byPart;  ///< size of the motion that each part leaves out, squared, as a fraction of the
+  Vector byPart;  ///< squared size of the truncated motion of each part, as a fraction of the
                   ///< sum over the parts
   long samples = 0;
   double motion = 0;  ///< |x - x_static|^2, summed over all recovered nodes and samples
   double reached =
-      1;  ///< fraction of the window that was looked at, below 1 where the motion was given up
-  double wall = 0;  ///< what it cost [s]
+      1;  ///< fraction of the window that was computed, below 1 where the motion was stopped
+  double wall = 0;  ///< wall time of the estimate [s]
 };
 
-/// An error that is too large whatever follows: sum |x - x_full|^2 so far exceeds error^2 sum |x -
-/// x_static|^2, with the latter the larger of what it is so far and of what it is expected to be in
-/// the end.
+/// A limit at which a motion is stopped: sum |x - x_full|^2 so far exceeds error^2 sum |x -
+/// x_static|^2, the latter being the larger of its value so far and its expected value at the
+/// end.
 struct MotionLimit {
   double error = std::numeric_limits<double>::infinity();
   double motion = 0;  ///< MotionEstimate::motion of a model that went to the end, 0: unknown
 };
 
-/// Watches a motion and integrates its error on the side. With D = Phi q the motion of all parts
+/// Integrates the error of a motion beside it. With D = Phi q the motion of all parts
 /// and the residual r = M D'' + C D' + K D - F - f_c of the full equations, r is zero in the
 /// coupled coordinates and the error obeys
 ///
 ///     M e'' + C e' + (K - df_c/dD) e = -r,   e = Phi z + w.
 ///
-/// w, what the basis cannot represent, follows statically: w = -F r with the residual flexibility
-/// of each part. It pulls on the coupled model, and with u = z + P w, P = m^-1 Phi' M, no
+/// w, the error outside the basis, is quasi-static: w = -F r with the residual flexibility
+/// of each part. It loads the coupled model, and with u = z + P w, P = m^-1 Phi' M, no
 /// derivative of w is needed:
 ///
 ///     m u'' + c u' + k u = Phi' (K s + C s'),   e = Phi u - s,   s = Phi P w - w,
 ///
 /// k and c with the tangents of the point laws along the motion. One step per sample, residuals as
 /// means over the interval (M D'' is M times the change of velocity), all matrices those of the
-/// model at that time. What it cannot see: motion faster than the samples, and the error of the
+/// model at that time. Not included: motion faster than the samples, and the error of the
 /// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
 /// Finite Element Methods for Differential Equations (2003), chapter 1, of which this is the
 /// forward form.
@@ -81,8 +81,8 @@ class MotionEstimator : public transient::SampleSink {
 };
 
 /// Integrates `model`, the coupled one of the estimator, to its end or until its error exceeds the
-/// limit. The error of a motion that was given up is what it would become if its square went on to
-/// grow at its mean rate: at least sqrt(1 / reached) times the limit. Throws InterruptedError when
+/// limit. The error of a stopped motion is extrapolated with the mean rate of its square:
+/// at least sqrt(1 / reached) times the limit. Throws InterruptedError when
 /// the user stops it, and what transient::integrate throws.
 MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model,
                            const transient::TransientOptions& options,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What one part's basis leaves out of a motion, and how that pulls on the coupled model.
+/// Truncated motion of one part and its load on the coupled model.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct PartMotion {
   Vector displacement, velocity, acceleration;
 };
 
-/// One part with modes left out.
+/// One part with truncated modes.
 class PartResidual {
  public:
   /// \param map coordinates of the part = map * coupled dofs + mapOffset
@@ -35,7 +35,7 @@ class PartResidual {
   /// D = offset + Phi q and its derivatives from coupled coordinates.
   PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
   /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where
-  /// dofs are kept.
+  /// of boundary dofs.
   Vector truncated(double t, const PartMotion& mean) const;
   /// Phi' (M w), Phi' (K(t) w) and so on: into coupled dofs.
   void scatter(const Vector& force, Vector& coupled) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the modes left out of a basis would add to the interior of one part: its residual
+/// Contribution of the truncated modes to the flexibility of the interior of one part: the residual
 /// flexibility.
 #pragma once
 
@@ -17,10 +17,10 @@ namespace tooljoint::estimate {
 /// F = K_II^-1 - W (W' K_II W)^-1 W', W the modal columns of the basis on the interior (S. Rubin,
 /// AIAA Journal 13 (1975) 995-1006; with fixed-interface modes it is the residual flexibility of
 /// J.-G. Kim and P.-S. Lee, Int. J. Numer. Meth. Engng 100 (2014) 581-598). F r is the static
-/// answer, with all kept dofs held, of what the basis cannot represent. One factorisation a part.
+/// response outside the basis, with all boundary dofs fixed. One factorisation per part.
 class ResidualFlexibility {
  public:
-  /// \param stiffness of the part, dofs x dofs; regular on the interior
+  /// \param stiffness of the part, dofs x dofs; nonsingular on the interior
   /// Throws ModelError naming the part when its interior is a mechanism.
   ResidualFlexibility(const model::Substructure& part, const reduction::Basis& basis,
                       const Sparse& stiffness);
@@ -35,7 +35,7 @@ class ResidualFlexibility {
 
   /// The part's share of a Rayleigh-Ritz step from a motion D with the residual r = (K - lambda M)
   /// D and the inertia g = M D, both on the interior: projections on the two Krylov vectors V = (F
-  /// r, F M_II F r) of what the basis left out.
+  /// r, F M_II F r) of the complement of the basis.
   struct Step {
     Eigen::Vector2d residual = Eigen::Vector2d::Zero();   ///< V' r
     Eigen::Vector2d inertia = Eigen::Vector2d::Zero();    ///< V' g

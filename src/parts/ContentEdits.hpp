@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Changes of a part between its file and a scene.
+/// Changes of a part from its file to the model.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ std::string dofName(const model::SecondOrderModel& m, int position);
 /// the new ones.
 void widen(PartContent& content, const model::ComponentNames& names);
 
-/// Takes held dofs out: their rows and columns go, their recovery is 0. `held` has one flag per
+/// Removes fixed dofs with their rows and columns; their recovery is 0. `held` has one flag per
 /// dof.
 void hold(PartContent& content, const std::vector<char>& held);
 

@@ -13,7 +13,7 @@
 
 namespace tooljoint::parts {
 
-/// What one text joins.
+/// Joints of one text.
 struct ReadJoint {
   std::vector<coupling::JointInput> joints;  ///< node by node
   std::vector<coupling::ReleaseInput>

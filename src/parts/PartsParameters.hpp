@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Parts`: which parts a scene is made of, where they come from and what acts on
-/// them.
+/// The deck list `Parts`: the parts of a model, their files, loads and initial
+/// conditions.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -37,7 +37,7 @@ struct PartLoad {
   std::string law = "1";
 };
 
-/// What sets a dof in motion at the start.
+/// Initial displacement and velocity of one dof.
 struct PartStart {
   std::string where;
   std::string part;

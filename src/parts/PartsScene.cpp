@@ -297,7 +297,7 @@ void findStart(const PartsSettings& settings, double t, const model::NonlinearSo
       throw DeckError(start.where + " " + fault.what() + ".");
     }
     // z += row' v: rows of a primal coupling in turned frames are orthonormal; another row would
-    // not give the value asked for
+    // not give the requested value
     const Vector row = Vector(
         full.maps[static_cast<std::size_t>(it - scene.contents.begin())].row(position).transpose());
     if (std::abs(row.squaredNorm() - 1.0) > 1e-9)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Imported parts put together as a deck says: laws, loads, held dofs, joints, numbers of nodes
-/// that are one scene's.
+/// Imported parts of a deck: laws, loads, fixed dofs, joints, and node numbers of the whole
+/// model.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace tooljoint::parts {
 
-/// A node as a person knows it.
+/// A node in the numbers of its file.
 struct NodeName {
   int part = 0;           ///< 0-based
   std::int64_t node = 0;  ///< as the file of the part numbers it

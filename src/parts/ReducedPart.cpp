@@ -25,7 +25,7 @@ PartContent contentOf(const model::Substructure& part) {
 
 namespace {
 
-/// Labels of the coordinates: kept dofs as they were called, modes counted through.
+/// Labels of the coordinates: boundary dofs keep their labels, modes are numbered.
 std::vector<DofLabel> coordinateLabels(const PartContent& original,
                                        const reduction::ReducedSubstructure& reduced) {
   std::vector<DofLabel> labels;
@@ -104,7 +104,7 @@ PartContent reducedContent(const PartContent& original,
   const auto known = nodesOf(out);
   for (const auto& [node, position] : original.positions)
     if (known.count(node) > 0)
-      out.positions.emplace(node, position);  // a held node is none of the part any more
+      out.positions.emplace(node, position);  // a fixed node does not belong to the part any more
   return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Laws of time that a deck gives to the terms of imported parts and to their loads.
+/// Laws of time of a deck for the terms and loads of imported parts.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>

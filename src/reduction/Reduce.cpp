@@ -28,7 +28,7 @@ namespace tooljoint::reduction {
 namespace {
 
 using constants::twoPi;
-/// Modes looked at first when the interface decides how many are kept.
+/// Modes of the first attempt with an interface criterion.
 constexpr int firstCandidates = 12;
 
 /// Modal columns with omega^2 < 0 beyond rounding; a rigid-body motion is at rounding.
@@ -102,7 +102,7 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
             request.count == ModeRule::whole ? ModeRequest::Kind::Whole : ModeRequest::Kind::Count;
         break;
       case ModeRule::Kind::Total: {
-        // The share of the part by size, with some room; asked again where it turns out too small.
+        // The share of the part by size, with some margin; repeated where it is too small.
         const double share =
             interior > 0 ? static_cast<double>(parts[p].interior().size()) / interior : 0.0;
         request.kind = ModeRequest::Kind::Count;
@@ -118,7 +118,7 @@ std::vector<ModeRequest> initialRequests(const std::vector<model::Substructure>&
         break;
       case ModeRule::Kind::InterfaceMass:
       case ModeRule::Kind::InterfaceMoment:
-        // Asked again for twice as many until they hold the fraction.
+        // Doubled until the modes hold the fraction.
         request.kind = ModeRequest::Kind::Count;
         request.count = firstCandidates;
         break;
@@ -259,7 +259,7 @@ class Team {
       if (first(p)) cache_.cores[{cache_.classes[p], requests_[p].count}] = cores_[p];
   }
 
-  /// What the neighbours feel: enough modes are computed to hold the fraction, and those with the
+  /// Coupling to the boundary: enough modes are computed to hold the fraction, and those with the
   /// largest shares are kept.
   void chooseByInterface() {
     const auto& rule = options_.modes;
@@ -282,7 +282,7 @@ class Team {
             bases_[p] = basis_.build(views_[p], requests_[p]);
             continue;
           }
-          bases_[p].remarks.clear();  // they were about the number looked at
+          bases_[p].remarks.clear();  // they refer to the computed number
           select(bases_[p], keep, "couples to the interface", "couples little to the interface");
           break;
         }
@@ -307,7 +307,7 @@ class Team {
     });
   }
 
-  /// Total Modes: ask until every part knows enough of its spectrum, then cut all at the same
+  /// Total Modes: compute until every spectrum is long enough, then cut all at the same
   /// frequency.
   void shareTotalModes() {
     for (;;) {
@@ -348,7 +348,7 @@ class Team {
             bases_[p] = basis_.build(views_[p], requests_[p]);
             return;
           }
-          bases_[p].remarks.clear();  // they were about the number asked of this part alone
+          bases_[p].remarks.clear();  // they refer to the number of this part alone
           truncate(bases_[p], counts[p],
                    "above the lowest " + std::to_string(options_.modes.total) + " of all parts");
         });

@@ -23,7 +23,7 @@ namespace tooljoint::reduction {
 struct ReducedCore;
 class InterfaceBasis;
 
-/// How the state at t = 0 is put into reduced coordinates.
+/// Initial state in reduced coordinates.
 enum class InitialState {
   KeepStatic,    ///< D = D_s + Phi q: the part is reduced about its reference state; q(0) is 0 when
                  ///< it starts there
@@ -37,15 +37,15 @@ struct ReductionOptions {
   ModeRule modes;
   InitialState initialState = InitialState::KeepStatic;
   bool checks = true;
-  LoadVectorOptions loadVectors;  ///< static answers to loads beside the modes; none by default
+  LoadVectorOptions loadVectors;  ///< static responses to loads beside the modes; none by default
   std::shared_ptr<const linalg::EigenOptions> eigen;  ///< null: the defaults of the eigensolver
   std::shared_ptr<const InterfaceBasis> interface;  ///< reduction of the joined dofs of the coupled
                                                     ///< model (coupling::synthesise); null: none
 };
 
-/// Reads the list "Reduction" (defaults filled in). Throws DeckError when not exactly one mode
-/// count is given, or when the number of entries of "Modes by Substructure" is not `parts`. The
-/// options refer to the list (its sublist "Anasazi"), which must outlive them.
+/// Reads the list "Reduction" (defaults filled in). Throws DeckError, also those of
+/// readModeSelection.
+/// The options refer to the list (its sublist "Anasazi"), which must outlive them.
 ReductionOptions readOptions(const Teuchos::ParameterList& reduction, int parts);
 
 /// The basis named in the list, made from the sublist of its name.
@@ -67,19 +67,19 @@ std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options);
 
-/// What rounds of reduction of the same parts share: what was computed of them, which of them are
-/// identical, and every part reduced so far by its number of modes. The same on every rank but for
-/// what the views hold.
+/// Data shared by rounds of reduction of the same parts: their views, the classes of identical
+/// parts, and every part reduced so far by its number of modes. The same on every rank except for
+/// the views.
 struct ReductionCache {
   bool remembers = true;
   std::vector<PartView> views;  ///< one for each part
   std::vector<int> classes;     ///< findIdenticalParts; empty before the first round
   std::map<std::pair<int, int>, std::shared_ptr<const ReducedCore>>
-      cores;  ///< by class and number of modes asked for
+      cores;  ///< by class and requested number of modes
 };
 
-/// The same with what earlier rounds have reduced: only parts whose number of modes is new are,
-/// where the cache remembers them, which needs ModeRule::Kind::PerPart.
+/// The same with the cache of earlier rounds: only parts with a new number of modes are reduced if
+/// the cache remembers the others, which needs ModeRule::Kind::PerPart.
 std::vector<ReducedSubstructure> reduceAll(const std::vector<model::Substructure>& parts,
                                            const ReductionMethod& basis,
                                            const ReductionOptions& options, ReductionCache& cache);

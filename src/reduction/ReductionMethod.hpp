@@ -21,7 +21,7 @@ class ParameterList;
 namespace tooljoint::reduction {
 
 /// D = Phi q with q = (interface dofs, retained dofs, modal coordinates). The rows of Phi of the
-/// boundary dofs are the identity and zero, so that interface dofs stay what they are and parts are
+/// boundary dofs are the identity and zero, so that interface dofs stay physical and parts are
 /// joined by equal labels. Dual bases have interface forces as coordinates, and interface dofs
 /// among the interior ones: q = (retained dofs, modal coordinates, forces).
 struct Basis {
@@ -57,32 +57,32 @@ void truncate(Basis& basis, int modes, const std::string& why);
 void select(Basis& basis, const std::vector<char>& keep, const std::string& kept,
             const std::string& dropped);
 
-/// Coordinates of a coupled model that follow the others: q_dofs = rows q_others, others in
+/// Dependent coordinates of a coupled model: q_dofs = rows q_others, others in
 /// increasing order.
 struct DependentCoordinates {
   std::vector<int> dofs;  ///< of the coupled model
   Matrix rows;            ///< dofs x others
 };
 
-/// What is known of a family of bases before anything is computed.
+/// Properties of a family of bases.
 struct MethodTraits {
   bool ownMass = true;  ///< mass and damping are projected on its vectors; otherwise the coupled
-                        ///< mass is singular and residuals tell no errors
+                        ///< mass is singular and residuals give no error estimate
   bool interfaceForces = false;  ///< interface forces are coordinates, and interface dofs are none
   bool dependent =
       false;  ///< it has coordinates that depend on others, by the inverse of the coupled mass
   bool selectable = false;  ///< its modes have a fixed interface and may be left out one by one
 };
 
-/// What is known of a part before anything is computed.
+/// Data of a part before its reduction.
 struct PartOutline {
   std::string name;
   int dofs = 0;       ///< of the part
-  bool inner = true;  ///< it has dofs no other part has
+  bool inner = true;  ///< it has interior dofs
 };
 
 /// A family of bases (Craig-Bampton, ...). Stateless: build() may be called for many parts, on
-/// several ranks. What the stages of a method need of a part is computed once, by its PartView.
+/// several ranks. The PartView computes the data of a part once for all stages of a method.
 class ReductionMethod {
  public:
   virtual ~ReductionMethod() = default;
@@ -91,16 +91,16 @@ class ReductionMethod {
   /// ConvergenceError.
   virtual Basis build(const PartView& part, const ModeRequest& request) const = 0;
 
-  /// Second hook, for families that need the assembled interface: improve the bases of all parts
+  /// Second hook, for families that need the assembled interface: augment the bases of all parts
   /// given the coupled reduced model, `positions[p][i]` being the coupled dof of reduced coordinate
   /// i of part p. True when a basis was changed, and parts are then projected and coupled again.
-  /// The default has nothing to improve.
+  /// The default changes nothing.
   virtual bool augment(const model::SecondOrderModel& coupled,
                        const std::vector<std::vector<int>>& positions,
                        const std::vector<PartView>& parts, std::vector<Basis>& bases) const;
 
-  /// Third hook, after the last improvement: coordinates that are no unknowns of the coupled model
-  /// but follow the others. maps[p] are the coordinates of part p in coupled dofs. The default has
+  /// Third hook, after the last augmentation: dependent coordinates, which are not unknowns of the
+  /// coupled model. maps[p] are the coordinates of part p in coupled dofs. The default has
   /// none.
   virtual DependentCoordinates dependentCoordinates(const model::SecondOrderModel& coupled,
                                                     const std::vector<Sparse>& maps,
@@ -109,12 +109,12 @@ class ReductionMethod {
 
   virtual MethodTraits traits() const { return {}; }
 
-  /// Looks at what it will read, files above all, before anything is computed. Throws DeckError.
+  /// Checks its input, such as files, before anything is computed. Throws DeckError.
   /// The default reads nothing.
   virtual void checkInput(const std::vector<PartOutline>& parts) const;
 
-  /// True when build() looks at the name of the part: then identical parts are not reduced once for
-  /// all.
+  /// True when build() depends on the name of the part: then identical parts are reduced
+  /// separately.
   virtual bool namesParts() const { return false; }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the assembler sees of a part, reduced or not: its model in the common frame, with the
+/// A part as the assembler uses it, reduced or not: its model in the common frame, with the
 /// components in one order and the interface among its dofs.
 #pragma once
 
@@ -43,7 +43,7 @@ std::vector<AlignedPart> alignParts(const std::vector<model::Substructure>& part
 /// components.
 void alignComponents(std::vector<AlignedPart>& alignedParts);
 
-/// Turns the dofs others can see, and the recovery of all nodes, into the common frame: d_common =
+/// Rotates the boundary dofs, and the recovery of all nodes, into the common frame: d_common =
 /// axes d_part. ModelErrors of Frame.
 void turn(std::vector<AlignedPart>& alignedParts, const std::vector<Frame>& frames);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Joins parts into one model by equal labels of their interface dofs and by constraints. Knows
-/// nothing of where the parts came from: any graph of parts (chain, branch, loop) couples.
+/// Joins parts into one model by equal labels of their interface dofs and by constraints. The
+/// source of the parts does not matter: any graph of parts (chain, branch, loop) can be coupled.
 #pragma once
 
 #include <string>
@@ -34,12 +34,12 @@ struct Coupling {
   std::vector<Sparse> recoveryTurns;  ///< recovery rows of part p in the common frame =
                                       ///< recoveryTurns[p] * its own; empty: the same
   std::vector<Multiplier> multipliers;  ///< dual assembly
-  std::vector<std::string> remarks;     ///< constraints that say nothing new, for instance
+  std::vector<std::string> remarks;     ///< redundant constraints, for example
   std::vector<int> interface;  ///< coupled dofs that join parts: joined physical ones, or the modes
                                ///< they were reduced to, increasing
   int joinedDofs =
       0;  ///< how many of `interface` there are, or were replaced by an interface reduction
-  int dependent = 0;        ///< coordinates that follow the others
+  int dependent = 0;        ///< coordinates that depend on others
   int interfaceModes = -1;  ///< modes of the interfaces; -1: their dofs are not reduced
 
   /// Coordinates of part p for the columns z of the coupled model (motions: without the offset).

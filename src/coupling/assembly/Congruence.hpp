@@ -20,7 +20,7 @@ struct Substitution {
 };
 
 /// Mass, damping, stiffness and loads become L' A L and L' (F - K offset); point rows and recovery
-/// follow.
+/// are transformed alike.
 void substitute(model::SecondOrderModel& model, const Substitution& substitution);
 
 /// Fills `s` with the coordinates that stay, keep[i] != 0, as they are, and `more` new ones behind

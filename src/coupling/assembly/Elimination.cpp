@@ -83,7 +83,7 @@ class Eliminator {
     a.origins.insert(origins_[at(s)].begin(), origins_[at(s)].end());
   }
 
-  /// Nothing is left of the row on the left: it says nothing new, or something else.
+  /// The left side of the row is zero: the row is redundant, or a contradiction.
   void empty(const ConstraintRow& row, const Accumulator& a) {
     std::vector<std::string> others;
     for (int o : a.origins) others.push_back(rows_[at(o)].name);

@@ -31,7 +31,7 @@ struct SolvedRow {
 
 struct Elimination {
   std::vector<SolvedRow> solved;       ///< in the order of the constraints
-  std::vector<std::string> redundant;  ///< sentences: constraints that follow from others
+  std::vector<std::string> redundant;  ///< sentences: redundant constraints
 };
 
 /// Gauss-Jordan elimination, one constraint after the other. Of the unknowns of a row whose

@@ -13,7 +13,7 @@
 
 namespace tooljoint::coupling {
 
-/// What the labels alone do not say.
+/// Exceptions to joining by equal labels.
 struct LabelRules {
   bool apart = false;                      ///< every part keeps its own dofs (dual assembly)
   std::set<std::pair<int, int>> released;  ///< (part, dof): not joined

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What the names of components mean in space.
+/// Directions of the named components.
 #pragma once
 
 #include <array>

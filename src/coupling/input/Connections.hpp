@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What joins parts beyond equal labels: frames, dofs left free, linear constraints, point laws
-/// between parts. All of it is said in nodes, components and names of parts, and in the common
-/// frame where a node has a frame of its own.
+/// Connections of parts beside equal labels: frames, released dofs, linear constraints, point laws
+/// between parts. All refer to nodes, components and names of parts, and to the common frame where
+/// a node has its own frame.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ struct Term {
   double factor = 1;
 };
 
-/// sum_k factor_k d_k = value. [value: m, rad, or what the factors make of it]
+/// sum_k factor_k d_k = value. [value: m, rad, or the unit of the factors times that]
 struct Constraint {
   std::string name;  ///< for messages; empty: "constraint 3"
   std::vector<Term> terms;
@@ -44,8 +44,8 @@ struct Constraint {
 
 /// The triad in which a part gives the dofs of a node: columns are its axes in the common frame,
 /// d_common = axes d_part, for the three translations and the three rotations alike; in a plane (u,
-/// v, theta) a turn about the third axis. All of the turned components of the node must be dofs of
-/// the part that others can see (interface or retained), or none of them.
+/// v, theta) a rotation about the third axis. All rotated components of the node must be boundary
+/// dofs of the part (interface or retained), or none of them.
 struct Frame {
   std::string part;
   std::int64_t node = 0;  ///< 0: all nodes of the part (a later entry for a node replaces it)
@@ -90,13 +90,13 @@ struct CouplingOptions {
 
 /// a = b.
 Constraint tie(const PartDof& a, const PartDof& b);
-/// `to` moves as if it were rigidly fixed to `from`: u_to = u_from + theta_from x arm, theta_to =
+/// A rigid link: `to` is rigidly connected to `from`: u_to = u_from + theta_from x arm, theta_to =
 /// theta_from. One constraint per component the names have. \param arm from `from` to `to`, in the
 /// common frame [m]
 std::vector<Constraint> rigidLink(const PartNode& from, const PartNode& to, const Vector3& arm,
                                   const model::ComponentNames& names);
 /// The nodes share their translations and the rotations across the axis; about the axis (any
-/// length) they turn freely. The nodes must not be joined by their labels: give them different
+/// length) they rotate freely. The nodes must not be joined by their labels: give them different
 /// numbers, or release the dofs.
 std::vector<Constraint> hinge(const PartNode& a, const PartNode& b, const Vector3& axis,
                               const model::ComponentNames& names);
@@ -105,7 +105,7 @@ std::vector<Constraint> hinge(const PartNode& a, const PartNode& b, const Vector
 std::vector<Term> separation(const PartNode& a, const PartNode& b, const Vector3& direction,
                              const model::ComponentNames& names);
 
-/// Parts that number their nodes for themselves, as files do: gives every node a number of its own,
+/// Unique node numbers for parts with their own numbers, as in files. Every node gets the number
 /// (p + 1) 10^k + node for part p (0-based) with the smallest k that has room, and one number, that
 /// of the first, to the nodes of each joint, so that they are joined by their labels. Renames dofs,
 /// recovery nodes and points. `interface` is taken as given, and extended by the dofs of the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The deck list `Coupling`: how parts are joined beyond equal labels. Read without any part, then
-/// turned into connections when the parts are there, wherever they came from.
+/// The deck list `Coupling`: connections of parts beside equal labels. It is read before the parts
+/// exist and resolved into connections afterwards.
 #pragma once
 
 #include <functional>
@@ -59,7 +59,7 @@ struct PointInput : InputEntry {
 
 struct CouplingInput {
   Assembly assembly = Assembly::Primal;
-  bool ownNumbers = false;  ///< every part numbers its nodes for itself, and joints join them
+  bool ownNumbers = false;  ///< every part has its own node numbers, and joints join them
   bool keepStaticForces = true;
   std::vector<JointInput> joints;
   std::vector<FrameInput> frames;
@@ -78,17 +78,17 @@ deck::ListSpec parameters();
 /// parts whose numbers are shared.
 CouplingInput readCoupling(const Teuchos::ParameterList& list);
 
-/// What is known of a part before it is made.
+/// Data of a part before it is built.
 struct PartOutline {
   std::string name;
   std::vector<std::int64_t> nodes;  ///< empty: not known yet
 };
-/// Throws DeckError, one line each, for parts, nodes and components that the plan names and that do
-/// not exist, with path and suggestion.
+/// Throws DeckError, one line each, for parts, nodes and components of the list that do not exist,
+/// with path and suggestion.
 void checkNames(const CouplingInput& input, const std::vector<PartOutline>& parts,
                 const model::ComponentNames& names);
 
-/// "4 springs, 1 hinge": for people.
+/// "4 springs, 1 hinge": for the log.
 std::string describe(const CouplingInput& input);
 
 }  // namespace tooljoint::coupling

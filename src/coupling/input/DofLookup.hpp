@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Looks up the dofs that connections name.
+/// Positions of the dofs named by connections.
 #pragma once
 
 #include <string>
@@ -21,9 +21,9 @@ class DofLookup {
  public:
   explicit DofLookup(const std::vector<AlignedPart>& alignedParts);
 
-  /// Where the dof stands: one place, or all of them when no part is named. `who` opens messages:
+  /// Positions of the dof: one, or all of them when no part is named. `who` opens messages:
   /// `The constraint "a"`. ModelError: unknown part (with a suggestion), component or node, an
-  /// inner dof of a reduced part, or one that a frame could not turn.
+  /// interior dof of a reduced part, or one that a frame cannot rotate.
   std::vector<DofPosition> find(const PartDof& dof, const std::string& who) const;
   const model::ComponentNames& names() const { return alignedParts_.front().model->componentNames; }
 
@@ -42,7 +42,7 @@ std::vector<std::string> namesOf(const Parts& parts) {
   return names;
 }
 
-/// ` names part "pip", but there is no such part. Did you mean "pipe"?`
+/// ` names part "pip", but no part has this name. Did you mean "pipe"?`
 std::string noSuchPart(const std::string& name, const std::vector<std::string>& names);
 
 /// Index of `name` among `names`. ModelError where it is none of them; `who` opens the message.

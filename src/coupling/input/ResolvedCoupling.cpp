@@ -88,7 +88,7 @@ class Planner {
           path + " names node " + std::to_string(node.node) +
           " without its part, but every part has its own node numbers. Write PART:NODE.");
     const auto part = numbers_.find(node.part);
-    if (part == numbers_.end()) return node;  // couple() says so
+    if (part == numbers_.end()) return node;  // couple() throws
     const auto number = part->second.find(node.node);
     if (number == part->second.end())
       throw ModelError(path + " names node " + std::to_string(node.node) + " of part \"" +
@@ -273,7 +273,7 @@ class Planner {
             const double value = force(part)[i];
             put(part, i, value);
             if (one.node.part.empty()) return;  // free in every part: each keeps its own
-            // The rest loses what it has held up.
+            // The reaction on the rest of the model.
             everywhere({"", one.node.node, one.component},
                        [&, given = false](model::Substructure& other, int j) mutable {
                          if (given || other.name == part.name || isReleased(other.name, one))

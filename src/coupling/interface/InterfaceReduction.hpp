@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// The joined dofs of a coupled model in fewer coordinates.
+/// Reduction of the joined dofs of a coupled model.
 #pragma once
 
 #include "coupling/assembly/Assembler.hpp"
@@ -11,7 +11,7 @@ namespace tooljoint::coupling {
 /// Replaces the joined dofs (but those with point laws, where the basis keeps them) by modes of the
 /// interfaces, u = Psi xi + Psi_C u_C, in all matrices, loads, point rows, recovery and maps; a
 /// start that is not in their span is fitted in least squares of mass. A coupled model without
-/// joined dofs is left alone. ModelError for a model with multipliers.
+/// joined dofs is not changed. ModelError for a model with multipliers.
 void reduceInterfaces(Coupling& coupling, const reduction::InterfaceBasis& basis);
 
 }  // namespace tooljoint::coupling

@@ -119,7 +119,7 @@ class Hdf5Source : public PartSource {
     throw DeckError(file_ + ": " + inQuotes(path) + " " + what + ".");
   }
 
-  /// What the reader says of a results file is said of a file of the deck here.
+  /// Turns messages about a results file into messages about a file of the deck.
   template <class Work>
   void read(const Work& work) const {
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Parts from elsewhere: matrices, loads, labels and interfaces of a part in files that any program
+/// Part files: matrices, loads, labels and interfaces of a part in files that any program
 /// can write, and reduced parts written the same way. docs/file-formats.md describes the format:
 /// either a JSON file that names Matrix Market files, or one HDF5 file.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace tooljoint::parts {
 
-/// What "format" says in a part file.
+/// Value of "format" in a part file.
 constexpr const char* partFormat = "tooljoint part 1";
 
 /// Dofs that may be joined with those of another part, in the order of the file.
@@ -43,7 +43,7 @@ struct PartContent {
       positions;      ///< of nodes, in the frame of the part [m]; empty when the file gives none
   StoredBasis basis;  ///< empty unless the file holds one
   std::vector<std::string>
-      omitted;  ///< point laws the part had where it came from, and that a file cannot hold
+      omitted;  ///< point laws of the original part, which a part file cannot hold
 };
 
 /// Nodes that a part knows: those of its dofs, and of the rows of its basis.

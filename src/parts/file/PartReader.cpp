@@ -25,7 +25,7 @@ std::string shapeText(Eigen::Index rows, Eigen::Index columns) {
   return std::to_string(rows) + " x " + std::to_string(columns);
 }
 
-/// Turns what a source holds into a part, and says what does not fit.
+/// Builds a part from a source and reports inconsistencies.
 class Reader {
  public:
   Reader(const std::string& path, const std::string& name) : name_(name), source_(open(path)) {
@@ -167,7 +167,7 @@ class Reader {
         {name, [](double) { return std::numeric_limits<double>::quiet_NaN(); }});
   }
 
-  /// Terms of a matrix; an entry that is not finite is told by its dofs.
+  /// Terms of a matrix; a message on an entry that is not finite names its dofs.
   std::vector<NamedTerm> termsOf(const std::string& path) const {
     try {
       auto terms = source_->terms(path);

@@ -24,7 +24,7 @@ Basis subspaceBasis(const PartView& part, const Matrix& X, int count, const std:
 void setVectors(const Partition& partition, const Sparse& psi, const InteriorVectors& vectors,
                 Basis& basis);
 
-/// A row for every constraint mode. `why` is said of those whose dof is neither on the interface
+/// A row for every constraint mode. `why` is for those whose dof is neither on the interface
 /// nor retained by the part.
 void addConstraintRows(const PartView& part, const Partition& partition, const Vector& residuals,
                        Basis& basis, const std::string& why = "retained dof");

@@ -54,7 +54,7 @@ class DualCraigBampton : public ReductionMethod {
   }
 
  private:
-  /// Answers to unit forces on the interface with the retained dofs held, less what the modal
+  /// Responses to unit forces on the interface with fixed retained dofs, less what the modal
   /// columns W hold of them: (1 - W (W' K W)^-1 W' K) K_II^-1 B.
   static Matrix residualAttachments(const PartView& part, const FreeInterfaceBasis& free) {
     const auto& interior = free.basis.partition.interior;

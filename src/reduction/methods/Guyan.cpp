@@ -12,7 +12,7 @@ namespace tooljoint::reduction {
 
 namespace {
 
-/// D_I = -K_II^-1 K_IC D_C; where modes are asked for, as many interior dofs become masters: kept
+/// D_I = -K_II^-1 K_IC D_C; with requested modes, as many interior dofs become masters: kept
 /// like retained ones.
 class Guyan : public ReductionMethod {
  public:

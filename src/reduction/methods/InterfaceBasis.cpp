@@ -33,7 +33,7 @@ linalg::EigenPairs modesOf(const Sparse& K, const Sparse& M, const InterfaceOpti
   return linalg::lowestModes(K, M, std::min(chosen.modes, static_cast<int>(K.rows())), options);
 }
 
-/// K^-1 b. A model that can move as a whole answers a load by running away; it is then held softly
+/// K^-1 b. A model with rigid-body modes has no static response; it is then supported weakly
 /// by its own mass.
 Matrix staticAnswer(const InterfaceProblem& problem, const Matrix& b) {
   double scale = 0;
@@ -47,7 +47,7 @@ Matrix staticAnswer(const InterfaceProblem& problem, const Matrix& b) {
   return solver.solve(b);
 }
 
-/// Modes of groups of joined dofs, the other groups held: all dofs together, or interface by
+/// Modes of groups of joined dofs, the other groups fixed: all dofs together, or interface by
 /// interface.
 class Characteristic final : public InterfaceBasis {
  public:

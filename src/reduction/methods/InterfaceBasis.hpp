@@ -18,7 +18,7 @@ class ParameterList;
 
 namespace tooljoint::reduction {
 
-/// The coupled model in the joined dofs that may be reduced, everything else held.
+/// The coupled model in the joined dofs that may be reduced, all others fixed.
 struct InterfaceProblem {
   Sparse stiffness;            ///< constant, full and unsymmetric
   Sparse mass;                 ///< symmetric
@@ -35,14 +35,14 @@ struct InterfaceVectors {
   Matrix vectors;              ///< dofs x modes
   std::vector<int> interface;  ///< per mode: its interface, or 0 when it spans all of them
   Vector eigenvalues;  ///< omega^2 per mode [rad^2/s^2]; of load vectors their Rayleigh quotient
-  Sparse attached;     ///< dofs x others: how the dofs follow the coordinates that stay
+  Sparse attached;     ///< dofs x others: dofs as functions of the other coordinates
 };
 
-/// What all variants may be told.
+/// Options of all variants.
 struct InterfaceOptions {
   int modes = -1;  ///< in all, or of each interface; -1: by cut-off frequency
   double cutOffHz = 0;
-  bool loadVectors = true;  ///< the static answer to every load is among the vectors
+  bool loadVectors = true;  ///< the static response to every load is among the vectors
 };
 
 class InterfaceBasis {

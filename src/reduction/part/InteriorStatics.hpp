@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Static answers of the interior of a part while its boundary dofs are held, also of interiors
-/// that are still free to move then.
+/// Static responses of the interior of a part with fixed boundary dofs, also of interiors that are
+/// mechanisms.
 #pragma once
 
 #include <memory>

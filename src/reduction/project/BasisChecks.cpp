@@ -20,7 +20,7 @@ namespace {
 /// Energy below this fraction of |phi|' |K| |phi| is no energy: the rounding of a sum of that size,
 /// with room.
 constexpr double zeroEnergy = 1e-12;
-/// So many modes of the unreduced part are looked at for zero energy: the six of a rigid body, and
+/// Number of modes of the unreduced part checked for zero energy: the six of a rigid body, and
 /// two more.
 constexpr int zeroEnergyCandidates = 8;
 
@@ -84,7 +84,7 @@ double meanStiffness(const Sparse& K, const std::vector<int>& dofs) {
 }
 
 /// Unit loads on some boundary dofs, full against reduced, both with the same springs to ground on
-/// all boundary dofs (they change no constraint mode, and let a free part stand). Blocks that touch
+/// all boundary dofs (they change no constraint mode and support a free part). Blocks that touch
 /// no boundary dof do not move and are left out.
 void checkStatics(const PartView& part, const Basis& basis, const ProjectedMatrices& reduced,
                   BasisReport& report) {
@@ -143,7 +143,7 @@ void checkDualStatics(const PartView& part, const Basis& basis, const ProjectedM
   Sparse K = part.stiffness();
   const double spring = meanStiffness(K, basis.forceDofs);
   addSprings(K, basis.forceDofs, spring);
-  // What the interface does not reach floats: it is held by a stiffness that the loads do not feel.
+  // Dofs uncoupled from the interface are free: a stiffness without effect on the loads fixes them.
   for (const auto& dofs : floatingBlocks(part, basis)) addSprings(K, dofs, spring);
 
   const Matrix Phi = basis.vectors, k = reduced.constantStiffness;

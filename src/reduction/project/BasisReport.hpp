@@ -57,7 +57,7 @@ struct BasisReport {
   int rank = -1;                   ///< numerical rank of the basis
   double conditioning = -1;        ///< condition number of the column-scaled basis
   double staticDefect =
-      -1;  ///< largest relative difference reduced - full for unit loads on kept dofs
+      -1;  ///< largest relative difference reduced - full for unit loads on boundary dofs
   int zeroEnergyFull = -1;     ///< zero-energy modes of the part
   int zeroEnergyReduced = -1;  ///< zero-energy modes of the reduced part
   double largestOmega =

@@ -201,7 +201,7 @@ class Pattern {
 };
 
 /// Sum of the sizes of the entries of all stiffness terms (of the mass, without any): what differs
-/// here by more than rounding is not looked at any closer.
+/// here by more than rounding is not compared further.
 double signature(const model::SecondOrderModel& model) {
   const auto sum = [](const Sparse& a) {
     return a.nonZeros() > 0 ? Eigen::Map<const Vector>(a.valuePtr(), a.nonZeros()).cwiseAbs().sum()

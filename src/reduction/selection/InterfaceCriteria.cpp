@@ -39,7 +39,7 @@ Vector interfaceShares(const PartView& part, const Basis& basis, ModeRule::Kind 
   // A buckled mode lowers L' K^-1 L by what it has: measured by the sum of the sizes.
   for (int k = 0; k < modes && !mass; ++k)
     if (basis.eigenvalues[k] < 0) total += 2.0 * parts.row(k).transpose();
-  // A dof without coupling is told by the size of its own rows.
+  // A dof without coupling is detected by the size of its own rows.
   int counted = 0;
   for (int j = 0; j < boundary; ++j) {
     const double size = inertia.col(j).cwiseAbs().dot(response.col(j).cwiseAbs());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How much a mode with fixed interface matters to the neighbours of its part.
+/// Coupling of a fixed-interface mode to the boundary of its part.
 #pragma once
 
 #include "reduction/ReductionMethod.hpp"
@@ -20,8 +20,8 @@ namespace tooljoint::reduction {
 ///                                                                1581-1597: the first moment of
 ///                                                                the sum at omega = 0
 ///
-/// Each dof is measured by its own total, so units do not mix; dofs that no mode moves are left
-/// out. Modes with omega_k^2 <= 0 count fully. Needs mass-orthonormal fixed-interface modes
+/// Each dof is normalised by its own total, so units do not mix; dofs without coupling to modes are
+/// ignored. Modes with omega_k^2 <= 0 count fully. Needs mass-orthonormal fixed-interface modes
 /// (basis.orthonormal); ModelError when M_II or K_II is singular.
 Vector interfaceShares(const PartView& part, const Basis& basis, ModeRule::Kind kind);
 

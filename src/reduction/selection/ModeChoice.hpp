@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// How many modes are kept: a number per part, a number over all parts, a cut-off frequency, all,
-/// what the neighbours of the part feel (InterfaceCriteria), or what a tolerance needs
-/// (src/estimate). No choice cuts a close pair (the u and v mode of a shaft): it rounds up.
+/// Number of modes: per part, over all parts, by a cut-off frequency, all, by the coupling to the
+/// boundary of the part (InterfaceCriteria), or by a tolerance
+/// (src/estimate). No rule cuts a close pair (the u and v mode of a shaft): it rounds up.
 #pragma once
 
 #include <memory>
@@ -32,13 +32,13 @@ struct ModeRule {
   double cutOffHz = 0;              ///< CutOff: all modes at or below
   double fraction = 0;  ///< InterfaceMass, InterfaceMoment: the share of the whole, in (0, 1]
   double frequencyTolerance =
-      0;  ///< Tolerance: relative error of the coupled frequencies; 0: they are not looked at
+      0;  ///< Tolerance: largest relative error of the coupled frequencies; 0: no condition
   double motionTolerance =
-      0;  ///< Tolerance: vibration error of the transient; 0: it is not looked at
+      0;  ///< Tolerance: largest vibration error of the transient; 0: no condition
   double pairTolerance = defaultPairTolerance;
 };
 
-/// What is asked of the basis of one part.
+/// Requested modes of one part.
 struct ModeRequest {
   enum class Kind { Count, Below, All, Whole };
   Kind kind = Kind::All;

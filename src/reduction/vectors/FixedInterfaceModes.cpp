@@ -20,8 +20,8 @@ struct Progress {
   int computed = 0;
 };
 
-/// Modes asked of one block. Two more than wanted show whether the cut would part a pair. Dofs
-/// without mass follow statically: the finite modes and the constraint modes hold every motion of
+/// Modes to compute for one block. Two more than requested detect a cut through a pair. Dofs
+/// without mass are static: the finite modes and the constraint modes hold every motion of
 /// the others.
 linalg::EigenPairs solve(const InteriorBlock& block, const ModeRequest& request, int count,
                          Progress& progress) {
@@ -62,7 +62,7 @@ void append(InteriorVectors& result, const InteriorBlock& block, int number,
   count("modes computed", pairs.count());
 }
 
-/// Number of modes that answer the request; -1 when more must be computed to decide.
+/// Number of modes for the request; -1 when more must be computed to decide.
 int decide(const InteriorVectors& result, const ModeRequest& request) {
   const Vector eigenvalues = result.eigenvalues();
   const int available = sizeOf(eigenvalues);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Vibration modes of the interior with all boundary dofs held.
+/// Vibration modes of the interior with all boundary dofs fixed.
 #pragma once
 
 #include <string>

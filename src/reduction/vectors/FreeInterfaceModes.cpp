@@ -15,7 +15,7 @@ namespace {
 /// that fraction of |K| |phi| are none.
 constexpr double noEnergy = 1e-12;
 constexpr double noForce = 1e-7;
-/// Modes looked at for rigid-body modes at least.
+/// Least number of modes to search for rigid-body modes.
 constexpr int lookedAt = 8;
 const std::string what = "free-interface modes";
 
@@ -57,7 +57,7 @@ InteriorVectors freeInterfaceModes(const PartView& part, const ModeRequest& requ
   ModeRequest enough = request;
   if (request.kind == ModeRequest::Kind::Count) enough.count = std::max(request.count, lookedAt);
   InteriorVectors found = solve(part.unsupported(), enough);
-  found.remarks.clear();  // they were about the number looked at
+  found.remarks.clear();  // they refer to the computed number
   classify(part.stiffness(), found);
   const int available = sizeOf(found.vectors);
   if (request.kind == ModeRequest::Kind::Count && enough.count != request.count)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Vibration modes of a part with nothing held, its rigid-body modes found and counted.
+/// Vibration modes of a free part, with its rigid-body modes detected.
 #pragma once
 
 #include "reduction/part/PartView.hpp"
@@ -8,9 +8,9 @@
 
 namespace tooljoint::reduction {
 
-/// omega^2 M phi = sym(K) phi with no dof held, M-normalised: the modes are real; skew parts of K
+/// omega^2 M phi = sym(K) phi without fixed dofs, M-normalised: the modes are real; skew parts of K
 /// and the damping act on them through the projection. Groups are the sets of dofs that mass and
-/// stiffness couple when nothing is held. A mode is rigid when |phi' K phi| <= 1e-12 |phi|' |K|
+/// stiffness couple. A mode is rigid when |phi' K phi| <= 1e-12 |phi|' |K|
 /// |phi| and K phi and K' phi are rounding (1e-7 of |K| |phi|); all rigid-body modes are kept
 /// whatever the request says. Throws ModelError (mass not positive definite) or ConvergenceError of
 /// the eigensolver, naming the part.

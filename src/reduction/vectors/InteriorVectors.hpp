@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Vectors of the interior of a part, whatever they come from: modes, Krylov vectors, files.
+/// Vectors of the interior of a part from any source: modes, Krylov vectors, files.
 #pragma once
 
 #include <string>
@@ -27,7 +27,7 @@ struct ModalVector {
   double shown() const { return floating || rigid ? 0.0 : eigenvalue; }
 };
 
-/// What one source of vectors found for a part.
+/// Vectors of one source for a part.
 struct InteriorVectors {
   std::vector<std::vector<int>> groups;  ///< dofs of the part, each increasing
   std::vector<ModalVector> vectors;      ///< all that were computed, those to keep first
@@ -45,7 +45,7 @@ struct InteriorVectors {
   Matrix columns(const std::vector<int>& which, int size) const;
   /// Keeps all vectors, by increasing eigenvalue.
   void keepAll();
-  /// Says where fewer or more are kept than the request asks for. \param available all there are
+  /// Remarks on fewer or more kept vectors than requested. \param available all there are
   void remarkOnCount(const ModeRequest& request, int available, const std::string& what = "modes");
 };
 

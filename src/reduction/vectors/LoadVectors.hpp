@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Load-dependent residual vectors: what the modes of a fixed-interface basis leave of the static
-/// answer to loads (J. M. Dickens, J. M. Nakagawa, M. J. Wittbrodt, A critique of mode acceleration
-/// and modal truncation augmentation methods for modal response analysis, Computers & Structures 62
-/// (1997) 985-998).
+/// Load-dependent residual vectors: the static response to loads outside the modes of a
+/// fixed-interface basis (J. M. Dickens, J. M. Nakagawa, M. J. Wittbrodt, A critique of mode
+/// acceleration and modal truncation augmentation methods for modal response analysis, Computers &
+/// Structures 62 (1997) 985-998).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LoadVectorOptions {
   bool loads = false;               ///< of every load term of a part
   bool points = false;              ///< of a unit force on every row of its point laws
   std::vector<std::int64_t> nodes;  ///< only points of these nodes; empty: all
-  double independence = 1e-6;       ///< an answer of which less than this is new is left out
+  double independence = 1e-6;       ///< smallest independent fraction of a response (mass norm)
   bool any() const { return loads || points; }
 };
 

@@ -13,9 +13,9 @@
 
 namespace tooljoint::reduction {
 
-/// Basis::modeKind of columns whose coordinates follow the others
-/// (ReductionMethod::dependentCoordinates): estimates count them as left out, since they are not
-/// free to answer a residual.
+/// Basis::modeKind of columns with dependent coordinates
+/// (ReductionMethod::dependentCoordinates): estimates treat them as truncated, since they cannot
+/// respond to a residual.
 inline const std::string followingKind = "tied residual";
 
 /// Vectors that are orthonormal in the inner product of a mass matrix, in the order they came.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Modal columns from any vectors of the interior: the Rayleigh-Ritz modes of the space they span,
-/// boundary dofs held.
+/// boundary dofs fixed.
 #pragma once
 
 #include <string>
