@@ -95,7 +95,7 @@ class Builder {
     throw DeckError("names part " + inQuotes(name) + ", but " +
                     (meant.empty()
                          ? "the parts are " + quotedList(names)
-                         : "there is no such part. Did you mean " + inQuotes(meant) + "?"));
+                         : "no part has this name. Did you mean " + inQuotes(meant) + "?"));
   }
 
   void giveLoads() {

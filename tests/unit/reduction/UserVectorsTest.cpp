@@ -109,7 +109,7 @@ TEST(UserVectors, AnUnknownPartIsRefused) {
   });
   EXPECT_NE(errorText([&] {
               coupling::synthesise({part}, *basis, options);
-            }).find("no substructure has that name; did you mean \"column\"?"),
+            }).find("no substructure has this name; did you mean \"column\"?"),
             std::string::npos);
 }
 
@@ -144,7 +144,7 @@ TEST(UserVectors, AConstraintModeAddsNothing) {
   write("straight.mtx", straight);
   EXPECT_NE(errorText([] {
               basisOf("straight.mtx")->build(bar(), samples::modes(1));
-            }).find("column 1 is a combination"),
+            }).find("column 1 is a linear combination"),
             std::string::npos);
 }
 
