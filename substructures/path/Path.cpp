@@ -27,7 +27,8 @@ void check(const PathInput& input, Mode mode) {
   if (input.elements.empty()) throw ModelError("The path needs a string of at least one element.");
   for (std::size_t e = 0; e < input.elements.size(); ++e) {
     const std::string who = "Element " + std::to_string(e + 1) + " of the string ";
-    if (!(input.elements[e]->length() > 0.0)) throw ModelError(who + "does not have a positive length.");
+    if (!(input.elements[e]->length() > 0.0))
+      throw ModelError(who + "does not have a positive length.");
     const beam::DofMap dofs = input.elements[e]->dofs();
     if (mode == Mode::ImposedNodes &&
         !std::all_of(dofs.begin(), dofs.end(), [](bool has) { return has; }))

@@ -19,7 +19,8 @@ StaticFriction staticFriction(const Scene& scene) {
   constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
   using equilibrium::FrictionRule;
   if (scene.contact && !scene.contact->law->hasFrictionAtRest())
-    return {0.0, 0.0, "none: the friction of " + scene.contact->lawName + " begins with the motion"};
+    return {0.0, 0.0,
+            "none: the friction of " + scene.contact->lawName + " begins with the motion"};
   if (!scene.contact || !scene.contact->friction)
     return {0.0, 0.0, "no friction in the Contact list"};
   if (scene.statics.friction == FrictionRule::None)

@@ -125,7 +125,8 @@ TEST(UserVectors, DependentVectorsAreRefusedOrDropped) {
   Matrix vectors = linalg::scatteredNumbers(9, 4, 7);
   vectors.col(2) = vectors.col(0) - 3 * vectors.col(1);
   write("dependent.mtx", vectors);
-  const auto sentence = errorText([] { basisOf("dependent.mtx")->build(bar(), samples::modes(4)); });
+  const auto sentence =
+      errorText([] { basisOf("dependent.mtx")->build(bar(), samples::modes(4)); });
   EXPECT_NE(
       sentence.find("dependent.mtx: column 3 is a linear combination of the preceding columns"),
       std::string::npos)
