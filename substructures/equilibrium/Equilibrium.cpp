@@ -74,6 +74,13 @@ class Stages {
     march(between, to, tolerance, stage, switches, searches, x, cuts - 1);
   }
 
+  /// A solve outside of the stages.
+  void add(const StageReport& stage) {
+    report_.stages.push_back(stage);
+    report_.iterations += stage.iterations;
+    report_.residual = stage.residual;
+  }
+
   StaticReport report() const {
     StaticReport done = report_;
     done.converged = true;
@@ -88,9 +95,7 @@ class Stages {
     request.maxIterations = options_.maxIterations;
     request.search = search;
     const model::SolveOutcome outcome = solve_(problem_, x, request);
-    report_.stages.push_back({name, outcome.iterations, outcome.residual});
-    report_.iterations += outcome.iterations;
-    report_.residual = outcome.residual;
+    add({name, outcome.iterations, outcome.residual});
     message_ = outcome.message;
     return outcome.converged && x.allFinite();
   }
@@ -159,6 +164,10 @@ void sharpen(const StaticInput& input, StaticProblem& problem, Stages& stages,
   }
 }
 
+bool hasFriction(const StaticInput& input) {
+  return !input.contact->points().frictionless() && input.direction != 0.0;
+}
+
 /// Friction in equal steps.
 void slide(const StaticOptions& options, Stages& stages, const StaticSwitches& switches,
            Vector& x) {
@@ -195,6 +204,14 @@ void letPull(const StaticInput& input, Stages& stages, const StaticSwitches& swi
   }
 }
 
+/// Friction in steps, then the attraction of the contact laws.
+void addFriction(const StaticInput& input, const StaticOptions& options, Stages& stages,
+                 StaticSwitches switches, Vector& x) {
+  if (hasFriction(input)) slide(options, stages, switches, x);
+  switches.frictionScale = 1.0;
+  if (input.contact->largestPull() > 0.0) letPull(input, stages, switches, x);
+}
+
 /// Fixed on the axis; then contact without attraction, from soft to stiff, without friction; then
 /// friction in steps; then the attraction of the contact laws. The cap on lateral motion keeps the
 /// first steps inside the hole.
@@ -208,11 +225,8 @@ void continuation(const StaticInput& input, const StaticOptions& options, Static
   switches.lateralStepLimit = options.lateralStepLimit;
   switches.slideAlongWall = true;
   switches.frictionScale = switches.pull = 0.0;
-  const bool friction = !input.contact->points().frictionless() && input.direction != 0.0;
-  sharpen(input, problem, stages, switches, friction ? kStageTolerance : 0.0, x);
-  if (friction) slide(options, stages, switches, x);
-  switches.frictionScale = 1.0;
-  if (input.contact->largestPull() > 0.0) letPull(input, stages, switches, x);
+  sharpen(input, problem, stages, switches, hasFriction(input) ? kStageTolerance : 0.0, x);
+  addFriction(input, options, stages, switches, x);
 }
 
 /// D = K_pa^-1 F_s, full steps: without K_gpo (appendix A), then with it.
@@ -285,6 +299,13 @@ void describeTorque(const StaticInput& input, const StaticProblem& problem, Stat
       state.torqueScale, std::abs(state.appliedTorque) + state.frictionTorque.cwiseAbs().sum());
 }
 
+StaticSwitches switchesOf(const StaticInput& input, const StaticOptions& options) {
+  StaticSwitches switches;
+  switches.geometricStiffness = input.geometricStiffness && options.geometricStiffness;
+  switches.exactJacobian = options.exactJacobian;
+  return switches;
+}
+
 }  // namespace
 
 StaticState describe(const StaticInput& input, const StaticProblem& problem,
@@ -308,12 +329,29 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem,
   return state;
 }
 
+StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options,
+                          const model::NonlinearSolver& solve, const StaticState& from,
+                          const UnstableMode& mode) {
+  StaticProblem problem(input);
+  auto switches = switchesOf(input, options);
+  switches.slideAlongWall = true;
+  switches.lateralStepLimit = options.lateralStepLimit;
+  problem.set(switches);
+  Stages stages(problem, options, solve);
+  Vector x = problem.restrict(from.displacement);
+  const auto settled = settle(input, problem, mode, options.tolerance, solve, x);
+  stages.add({"along the unstable mode", settled.iterations, settled.residual});
+  addFriction(input, options, stages, switches, x);
+  StaticState state = describe(input, problem, problem.expand(x));
+  state.report = stages.report();
+  state.report.iterations += from.report.iterations;
+  return state;
+}
+
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve) {
   StaticProblem problem(input);
-  StaticSwitches switches;
-  switches.geometricStiffness = input.geometricStiffness && options.geometricStiffness;
-  switches.exactJacobian = options.exactJacobian;
+  const auto switches = switchesOf(input, options);
   Stages stages(problem, options, solve);
   Vector x = Vector::Zero(problem.size());
   if (options.recipe == Recipe::Source)

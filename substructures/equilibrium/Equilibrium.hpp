@@ -8,6 +8,7 @@
 
 #include "deck/ListSpec.hpp"
 #include "model/NonlinearSolve.hpp"
+#include "substructures/equilibrium/Settling.hpp"
 #include "substructures/equilibrium/StaticProblem.hpp"
 #include "substructures/equilibrium/StaticState.hpp"
 
@@ -30,6 +31,13 @@ enum class FrictionRule {
   None,
 };
 
+/// What is done with a static state that is unstable.
+enum class UnstableRule {
+  Warn,
+  Perturb,  ///< leave it along the unstable mode until a stable state is found
+  Refuse,
+};
+
 /// The deck's `Static` list as a plain value.
 struct StaticOptions {
   Recipe recipe = Recipe::Continuation;
@@ -40,6 +48,7 @@ struct StaticOptions {
   int maxIterations = 200;         ///< per stage
   double lateralStepLimit = 0.05;  ///< [m], `Continuation`
   int frictionSteps = 4;           ///< `Continuation`
+  UnstableRule unstable = UnstableRule::Warn;
 };
 
 /// Description of the deck list `Static`.
@@ -52,6 +61,13 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 /// ModelError for input that does not fit together.
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve);
+
+/// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
+/// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within
+/// reach.
+StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options,
+                          const model::NonlinearSolver& solve, const StaticState& from,
+                          const UnstableMode& mode);
 
 /// The complete state from its displacement (6 per node).
 StaticState describe(const StaticInput& input, const StaticProblem& problem,

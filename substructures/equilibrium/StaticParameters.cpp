@@ -39,6 +39,12 @@ deck::ListSpec parameters() {
   spec.integer("Friction Steps", 4, Range::atLeast(1),
                "Number of equal steps in which \"Continuation\" adds friction.")
       .expert();
+  spec.choice("Unstable State", std::string("Warn"), {"Warn", "Perturb", "Refuse"},
+              "What is done with a static state that is unstable: buckled on the axis of the bore, "
+              "or with a growing vibration about it. \"Warn\": the state is used and a warning "
+              "names mode and growth rate. \"Perturb\": the string is moved along the unstable "
+              "mode and settles on the wall, again until the state is stable; a growing vibration "
+              "is warned of. \"Refuse\": the run ends with exit code 4.");
   spec.passThrough("NOX", "Parameters passed to NOX unchanged.");
   spec.passThrough("Belos", "Parameters passed to Belos unchanged.");
   return spec;
@@ -57,6 +63,10 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list) {
   options.tolerance = list.get<double>("Tolerance");
   options.maxIterations = list.get<int>("Max Iterations");
   options.lateralStepLimit = list.get<double>("Lateral Step Limit");
+  const auto& unstable = list.get<std::string>("Unstable State");
+  options.unstable = unstable == "Perturb"  ? UnstableRule::Perturb
+                     : unstable == "Refuse" ? UnstableRule::Refuse
+                                            : UnstableRule::Warn;
   options.frictionSteps = list.get<int>("Friction Steps");
   return options;
 }

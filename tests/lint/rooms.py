@@ -3,7 +3,7 @@
 
 GROUND = "common deck linalg model statics"
 MODELS = f"{GROUND} coupling io reduction"
-CASES = f"{MODELS} estimate parts transient"
+CASES = f"{MODELS} estimate parts stability transient"
 
 # Room: (rooms of its own side it may include, in words what it holds). src/ never includes substructures/, but for app.
 TOOLKIT = {
@@ -18,6 +18,7 @@ TOOLKIT = {
     "transient": ("common coupling deck io linalg model", "time integration"),
     "parts": (MODELS, "parts from files and into files"),
     "estimate": (f"{MODELS} transient", "errors of a reduced model, without the full one"),
+    "stability": (f"{MODELS} estimate", "whether a state at rest is stable"),
     "cases": (CASES, "a case; run, record, restart, check"),
     "study": (f"{CASES} cases", "speed against error over many runs"),
     "app": (f"{CASES} cases study", "the program, a file for each command"),

@@ -10,6 +10,7 @@
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
+#include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -24,7 +25,10 @@ class RestingString : public cases::RestingCase {
         scene_(*sharedScene_),
         stage_(*sharedStage_) {}
 
-  void judge() const override { judgeTorqueBalance(scene_, stage_); }
+  void judge() const override {
+    judgeTorqueBalance(scene_, stage_);
+    judgeStability(scene_, stage_);
+  }
 
   coupling::Coupling full() const override {
     if (scene_.coupling) return joinUnreduced(resolvedParts(scene_, stage_));

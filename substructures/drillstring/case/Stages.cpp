@@ -12,8 +12,17 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "statics/NoxSolver.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
+
+namespace {
+
+double startTime(const Scene& scene) {
+  return scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
+}
+
+}  // namespace
 
 StaticFriction staticFriction(const Scene& scene) {
   constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
@@ -25,8 +34,7 @@ StaticFriction staticFriction(const Scene& scene) {
     return {0.0, 0.0, "no friction in the Contact list"};
   if (scene.statics.friction == FrictionRule::None)
     return {0.0, 0.0, "switched off in Static/Friction"};
-  const double start =
-      scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
+  const double start = startTime(scene);
   const double speed = scene.rotary.speed(start);
   const bool turns = std::abs(speed) > atRest;
   const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
@@ -137,6 +145,25 @@ void explainFailure(const Scene& scene, const ConvergenceError& error) {
                    " of node 1 or of the bit in the Supports list. (" + error.what() + ")");
 }
 
+/// Unstable states that "Perturb" leaves before it gives up.
+constexpr int mostPerturbations = 20;
+
+/// The growing mode of the state at all dofs of the string.
+equilibrium::UnstableMode unstableMode(const Scene& scene, const StaticStage& stage) {
+  const auto model = assemble(stage.equations);
+  const Vector diagonal = model.mass.diagonal();
+  equilibrium::UnstableMode mode;
+  mode.growthRate = std::max(stage.stability.staticGrowthRate, stage.stability.growthRate);
+  mode.shape = mode.mass = Vector::Zero(static_cast<int>(scene.held.size()));
+  for (int i = 0; i < model.size(); ++i) {
+    const auto& dof = model.dofs[static_cast<std::size_t>(i)];
+    const auto place = static_cast<int>(kNodeDofs * (dof.entity - 1) + dof.component);
+    mode.shape(place) = stage.stability.shape(i);
+    mode.mass(place) = diagonal(i);
+  }
+  return mode;
+}
+
 }  // namespace
 
 std::vector<int> freeDirections(const Scene& scene) {
@@ -159,15 +186,30 @@ StaticStage findEquilibrium(const Scene& scene) {
                       scene.rotary, scene.loads, scene.damping});
   requireHeld(scene, equations.model);
   const auto input = staticInput(scene, stage.path, equations, stage.friction);
+  const auto solver = statics::noxSolver(listOrEmpty(scene, "Static"));
+  const auto finish = [&] {
+    stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
+                                scene.damping, contactInMotion(scene));
+    stage.stability = stability::assess(assemble(stage.equations), startTime(scene));
+  };
   try {
-    stage.state = equilibrium::solveStatic(input, scene.statics,
-                                           statics::noxSolver(listOrEmpty(scene, "Static")));
+    stage.state = equilibrium::solveStatic(input, scene.statics, solver);
   } catch (const ConvergenceError& error) {
     explainFailure(scene, error);
     throw;
   }
-  stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
-                              scene.damping, contactInMotion(scene));
+  finish();
+  if (scene.statics.unstable != equilibrium::UnstableRule::Perturb) return stage;
+  while (stage.stability.diverges()) {
+    if (++stage.perturbations > mostPerturbations)
+      throw ConvergenceError(
+          "After " + std::to_string(mostPerturbations) +
+          " perturbations the static state is still unstable: " + describeStability(stage) +
+          " Reduce the loads, or take Static/Unstable State \"Warn\".");
+    stage.state = equilibrium::leaveUnstable(input, scene.statics, solver, stage.state,
+                                             unstableMode(scene, stage));
+    finish();
+  }
   return stage;
 }
 
@@ -205,6 +247,7 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
 StaticStage solveStatic(const Scene& scene) {
   auto stage = findEquilibrium(scene);
   judgeTorqueBalance(scene, stage);
+  judgeStability(scene, stage);
   return stage;
 }
 

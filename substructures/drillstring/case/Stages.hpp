@@ -11,6 +11,7 @@
 #include "coupling/input/ResolvedCoupling.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
+#include "stability/StateStability.hpp"
 #include "substructures/drillstring/StringModel.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/equilibrium/StaticState.hpp"
@@ -32,20 +33,24 @@ struct StaticStage {
   StringModel equations;
   equilibrium::StaticState state;
   StaticFriction friction;
+  stability::StateStability stability;
+  int perturbations = 0;  ///< unstable states left on the way (Static/Unstable State "Perturb")
 };
 
 /// Components (2: w, 5: theta_z) that are free at every node, so that nothing but walls and bending
 /// holds the string.
 std::vector<int> freeDirections(const Scene& scene);
 
-/// Bends the string into the well and finds its static equilibrium. ConvergenceError, ModelError.
+/// Bends the string into the well, finds its static equilibrium and assesses its stability; with
+/// Static/Unstable State "Perturb" it goes on from unstable states until one is stable.
+/// ConvergenceError, ModelError.
 StaticStage findEquilibrium(const Scene& scene);
 /// Torque at the top against what loads, friction and supports below ask for: above 2 % of the
 /// scale of StaticState a warning, above 10 % a ConvergenceError. With the pre-stress "Axial and
 /// torque", or sections that are not round, always a warning: there the model itself resists a spin
 /// about the curved axis.
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
-/// Both in turn.
+/// In turn, with judgeStability().
 StaticStage solveStatic(const Scene& scene);
 
 /// A sentence when the deck takes the pre-stress "Axial and torque" in a well that bends; else "".

@@ -6,6 +6,7 @@
 
 #include "common/Constants.hpp"
 #include "io/Csv.hpp"
+#include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -166,6 +167,7 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.friction", stage.friction.why);
   summary.set("static.friction_direction", stage.friction.direction);
   summary.set("static.friction_speed_rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
+  summariseStability(stage, summary);
 }
 
 std::string describeScene(const Scene& scene) {
@@ -203,7 +205,9 @@ std::string describeStatic(const StaticStage& stage) {
       "%.4g kN m)",
       s.topTorqueEquilibrium() / 1e3, s.torqueBalanceDefect(), 100.0 * s.relativeTorqueDefect(),
       s.torqueScale / 1e3);
-  return text;
+  if (stage.perturbations > 0)
+    text += format("\n            perturbed %d times along unstable modes", stage.perturbations);
+  return text + "\nstability   " + describeStability(stage);
 }
 
 }  // namespace tooljoint::drillstring

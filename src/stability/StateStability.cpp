@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stability/StateStability.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <vector>
+
+#include "common/Constants.hpp"
+#include "common/report/StageTimes.hpp"
+#include "coupling/CoupledModes.hpp"
+#include "coupling/input/ComponentAxes.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
+#include "reduction/part/Partition.hpp"
+
+namespace tooljoint::stability {
+
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexVector = Eigen::VectorXcd;
+
+/// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
+/// of negative pivots, and at most.
+constexpr int modesBeyond = 12, mostModes = 60;
+/// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
+constexpr double refined = 1e-9;
+constexpr int mostRefinements = 20;
+/// Growth, and frequencies, below this part of |s| are within the accuracy of s.
+constexpr double noGrowth = 1e-7;
+/// Skew stiffness below this part of the rows is rounding.
+constexpr double skewRounding = 1e-12;
+/// Smallest part of the largest displacement that counts as a deflection of its own.
+constexpr double deflection = 0.05;
+
+bool isGrowth(Complex s) { return s.real() > std::max(slowestGrowth, noGrowth * std::abs(s)); }
+
+/// K has a skew part, or friction acts at the points: a motion can grow without negative pivots.
+bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised& tangent,
+                double t) {
+  if (Sparse(tangent.damping - model.dampingAt(t)).squaredNorm() > 0.0) return true;
+  const Sparse transposed = tangent.stiffness.transpose(), skew = tangent.stiffness - transposed;
+  Vector rows = Vector::Zero(skew.rows());
+  for (int i = 0; i < tangent.stiffness.outerSize(); ++i)
+    for (Sparse::InnerIterator it(tangent.stiffness, i); it; ++it)
+      rows[i] = std::max(rows[i], std::abs(it.value()));
+  for (int i = 0; i < skew.outerSize(); ++i)
+    for (Sparse::InnerIterator it(skew, i); it; ++it)
+      if (std::abs(it.value()) > skewRounding * std::sqrt(rows[i] * rows[it.col()])) return true;
+  return false;
+}
+
+struct Growth {
+  Complex s;
+  ComplexVector shape;
+};
+
+/// Growing modes of the equations projected on the columns of `basis`, the fastest first.
+std::vector<Growth> growingModes(const estimate::Linearised& tangent, const Matrix& basis) {
+  const auto projected = [&](const Sparse& A) {
+    return Matrix(basis.transpose() * Matrix(A * basis));
+  };
+  const auto modes = linalg::dampedModes(projected(tangent.mass), projected(tangent.damping),
+                                         projected(tangent.stiffness));
+  std::vector<Growth> growing;
+  for (Eigen::Index j = 0; j < modes.values.size(); ++j)
+    if (isGrowth(modes.values[j]) && modes.values[j].imag() >= 0.0)
+      growing.push_back({modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)});
+  std::sort(growing.begin(), growing.end(),
+            [](const Growth& a, const Growth& b) { return a.s.real() > b.s.real(); });
+  return growing;
+}
+
+/// Newton's method for Q(s) phi = 0, e_k'phi = 1 (nonlinear inverse iteration; A. Ruhe, SIAM J.
+/// Numer. Anal. 10 (1973) 674-689):
+///
+///     y = Q(s)^-1 Q'(s) phi,   s <- s - phi_k / y_k,   Q(s) = s^2 M + s C + K
+///
+/// False when it does not converge.
+bool refine(const estimate::Linearised& tangent, Growth& mode) {
+  using ComplexSparse = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
+  const ComplexSparse M = tangent.mass.cast<Complex>(), C = tangent.damping.cast<Complex>(),
+                      K = tangent.stiffness.cast<Complex>();
+  for (int i = 0; i < mostRefinements; ++i) {
+    const ComplexSparse Q = mode.s * mode.s * M + mode.s * C + K;
+    const Eigen::SparseLU<ComplexSparse> factors(Q);
+    if (factors.info() != Eigen::Success) return i > 0;  // Q(s) is singular: s is the eigenvalue
+    const ComplexVector y =
+        factors.solve(ComplexVector(C * mode.shape + 2.0 * mode.s * (M * mode.shape)));
+    Eigen::Index k = 0;
+    y.cwiseAbs().maxCoeff(&k);
+    if (!y.allFinite() || y[k] == 0.0) return false;
+    const Complex change = mode.shape[k] / y[k];
+    mode.s -= change;
+    mode.shape = y / y[k];
+    if (std::abs(change) <= refined * std::abs(mode.s)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+StateStability assess(const model::SecondOrderModel& model, double t) {
+  const Stage stage("stability of the static state");
+  StateStability found;
+  const auto tangent = estimate::linearise(model, t);
+  const Sparse symmetric =
+      reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
+  found.negativePivots =
+      linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
+  if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
+  const auto modes = linalg::lowestFiniteModes(
+      symmetric, tangent.mass,
+      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}));
+  found.examined = modes.count();
+  if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
+  for (Growth& mode : growingModes(tangent, modes.vectors)) {
+    if (refine(tangent, mode) && !isGrowth(mode.s)) continue;
+    found.growthRate = mode.s.real();
+    if (std::abs(mode.s.imag()) > noGrowth * std::abs(mode.s))
+      found.frequency = std::abs(mode.s.imag()) / (2.0 * constants::pi);
+    found.shape = mode.shape.real();
+    found.shape /= found.shape.cwiseAbs().maxCoeff();
+    break;
+  }
+  return found;
+}
+
+ShapeOutline outline(const model::SecondOrderModel& model, const Vector& shape) {
+  using Translation = Eigen::Matrix<double, 1, 3>;
+  const auto& names = model.componentNames;
+  std::map<std::int64_t, Translation> nodes;
+  for (std::size_t i = 0; i < model.dofs.size(); ++i) {
+    const auto& dof = model.dofs[i];
+    if (dof.kind != model::DofLabel::Kind::Physical || dof.component >= 3) continue;
+    if (coupling::kindOf(names[static_cast<std::size_t>(dof.component)]) !=
+        coupling::ComponentKind::Translation)
+      continue;
+    auto& d = nodes.try_emplace(dof.entity, Translation::Zero()).first->second;
+    d[dof.component] = shape[static_cast<Eigen::Index>(i)];
+  }
+  ShapeOutline found;
+  if (nodes.empty()) return found;
+  const auto widest = std::max_element(
+      nodes.begin(), nodes.end(),
+      [](const auto& a, const auto& b) { return a.second.squaredNorm() < b.second.squaredNorm(); });
+  const double largest = widest->second.norm();
+  if (!(largest > 0.0)) return found;
+  double last = 0.0;
+  for (const auto& [node, d] : nodes) {
+    const double along = d.dot(widest->second) / largest;
+    if (std::abs(along) < deflection * largest) continue;
+    if (along * last <= 0.0) ++found.halfWaves;
+    last = along;
+  }
+  Eigen::Index component = 0;
+  widest->second.cwiseAbs().maxCoeff(&component);
+  found.node = widest->first;
+  found.component = names[static_cast<std::size_t>(component)];
+  return found;
+}
+
+}  // namespace tooljoint::stability

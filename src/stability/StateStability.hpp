@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Whether a state at rest is stable: negative pivots of its symmetric tangent and, where the
+/// equations are not symmetric, the rightmost damped eigenvalue.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "model/SecondOrderModel.hpp"
+
+namespace tooljoint::stability {
+
+/// What is known of the stability of q(0) of a model.
+struct StateStability {
+  /// Eigenvalues of the symmetric tangent (symmetric part of K, closed contacts linear, no
+  /// friction) below -slowestGrowth^2. A negative pivot alone decides for symmetric equations only:
+  /// gyroscopic and skew terms can stabilise such a state.
+  int negativePivots = 0;
+  double staticGrowthRate = 0.0;  ///< sqrt(-lambda_min) of the symmetric tangent [1/s]; 0 without
+                                  ///< negative pivots
+  /// Real part of the rightmost damped eigenvalue found [1/s]; 0 where none was needed: without
+  /// negative pivots only friction and skew stiffness can make a motion grow.
+  double growthRate = 0.0;
+  double frequency = 0.0;  ///< its imaginary part, Hz; 0 for a state that is left without vibration
+  int examined = 0;  ///< modes the damped equations were projected on; 0 where none was needed
+  Vector shape;      ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
+
+  bool stable() const { return shape.size() == 0; }
+  /// The state is left without vibration: another state of rest exists.
+  bool diverges() const { return !stable() && frequency == 0.0; }
+};
+
+/// Growth rates below this are not reported [1/s]: a disturbance takes more than a quarter of an
+/// hour to grow by e.
+constexpr double slowestGrowth = 1e-3;
+
+/// Assesses q(0) with the matrices, laws and point laws of time t. The negative pivots are counted
+/// by Sylvester's law of inertia. Where there are some, or where friction or skew stiffness can
+/// make a motion grow without them, the damped equations are projected on the lowest modes of the
+/// symmetric tangent, and a growing mode found there is refined with the whole equations. Growth
+/// that needs motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is
+/// linear in the number of dofs. ModelError, ConvergenceError: the pivots could not be counted or
+/// the modes not be found.
+StateStability assess(const model::SecondOrderModel& model, double t);
+
+/// Where a shape is largest, and how often it changes sign in the direction it has there.
+struct ShapeOutline {
+  std::int64_t node = 0;  ///< label of the node that moves most; 0 where nothing translates
+  std::string component;  ///< component that moves most there
+  int halfWaves = 0;
+};
+
+/// Of a shape in the dofs of a model; nodes in the order of their labels.
+ShapeOutline outline(const model::SecondOrderModel& model, const Vector& shape);
+
+}  // namespace tooljoint::stability

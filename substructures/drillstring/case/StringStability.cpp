@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/StringStability.hpp"
+
+#include <cstdio>
+
+#include "common/Error.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::drillstring {
+
+namespace {
+
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string counted(int count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+stability::ShapeOutline outlineOf(const StaticStage& stage) {
+  return stability::outline(assemble(stage.equations), stage.stability.shape);
+}
+
+/// "3 half waves, largest in u of node 13 (s = 6 m)".
+std::string modeText(const StaticStage& stage) {
+  const auto shape = outlineOf(stage);
+  if (shape.node == 0) return "no node moves along";
+  return counted(shape.halfWaves, "half wave") + ", largest in " + shape.component + " of node " +
+         std::to_string(shape.node) +
+         " (s = " + shortNumber(stage.path.arcLength[static_cast<std::size_t>(shape.node - 1)]) +
+         " m)";
+}
+
+}  // namespace
+
+std::string describeStability(const StaticStage& stage) {
+  const auto& s = stage.stability;
+  std::string text = counted(s.negativePivots, "negative pivot") + " of the symmetric tangent";
+  if (s.stable()) {
+    if (s.examined > 0)
+      text +=
+          ", no damped motion in the space of its " + counted(s.examined, "lowest mode") + " grows";
+    return "stable: " + text + ".";
+  }
+  const std::string growth = "exp(" + shortNumber(s.growthRate) + " t)";
+  return "unstable: " +
+         (s.diverges() ? "the string leaves it as " + growth
+                       : "a vibration of " + shortNumber(s.frequency) + " Hz grows as " + growth) +
+         " (" + modeText(stage) + "); " + text + ".";
+}
+
+void summariseStability(const StaticStage& stage, io::Summary& summary) {
+  const auto& s = stage.stability;
+  summary.set("static.negative_pivots", s.negativePivots);
+  summary.set("static.perturbations", stage.perturbations);
+  summary.set("static.stable", s.stable());
+  if (s.stable()) return;
+  const auto shape = outlineOf(stage);
+  summary.set("static.growth_rate", s.growthRate);
+  summary.set("static.growth_hz", s.frequency);
+  summary.set("static.unstable_node", static_cast<int>(shape.node));
+  summary.set("static.unstable_half_waves", shape.halfWaves);
+}
+
+void judgeStability(const Scene& scene, const StaticStage& stage) {
+  const auto& s = stage.stability;
+  if (s.stable()) return;
+  const std::string found = "The static state is " + describeStability(stage);
+  if (scene.statics.unstable == equilibrium::UnstableRule::Refuse)
+    throw ConvergenceError(found + " Reduce the loads, or set Static/Unstable State to \"Warn\"" +
+                           (s.diverges() ? " or \"Perturb\"." : "."));
+  log::warn(found + (s.diverges()
+                         ? " Set Static/Unstable State to \"Perturb\" to find the state on the "
+                           "wall, or to \"Refuse\"."
+                         : " A small disturbance becomes a vibration without a load."));
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a run says and does about the stability of the static state of a string.
+#pragma once
+
+#include <string>
+
+#include "io/Summary.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+
+namespace tooljoint::drillstring {
+
+/// What is known of the stability of the state, in words: verdict, mode and growth rate.
+std::string describeStability(const StaticStage& stage);
+
+/// The keys static.stable, .negative_pivots, .growth_rate, .growth_hz, .unstable_node,
+/// .unstable_half_waves and .perturbations.
+void summariseStability(const StaticStage& stage, io::Summary& summary);
+
+/// A static state that is unstable: a warning, or a ConvergenceError where Static/Unstable State is
+/// "Refuse".
+void judgeStability(const Scene& scene, const StaticStage& stage);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/equilibrium/Settling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint::equilibrium {
+namespace {
+
+/// Displacement along the mode, as a part of the clearance it reaches first.
+constexpr double firstDisplacement = 0.1;
+/// alpha over growthRate^2 while the string moves: the tangent is at least three times as positive
+/// as it was negative.
+constexpr double convexity = 4.0;
+/// alpha over its first value at the end. It decides how fast the last steps converge, and keeps
+/// motions that nothing resists (a turn about the axis of a vertical bore) where they are.
+constexpr double finalShare = 1e-6;
+/// Largest lateral step of a string that rests, as a part of the smallest clearance.
+constexpr double atRest = 1e-4;
+constexpr int mostSteps = 2000, mostFinalSteps = 50, mostIterations = 60;
+/// Accuracy of the steps that only lead to the next one.
+constexpr double stepTolerance = 1e-6;
+
+/// r(x) + alpha W (x - x_n).
+class ProximalProblem : public model::NonlinearProblem {
+ public:
+  ProximalProblem(const StaticProblem& problem, Vector weights)
+      : problem_(problem), weights_(std::move(weights)) {}
+  void set(double alpha, const Vector& from) { alpha_ = alpha, from_ = from; }
+
+  int size() const override { return problem_.size(); }
+  void residual(const Vector& x, Vector& r) const override {
+    problem_.residual(x, r);
+    r += alpha_ * weights_.cwiseProduct(x - from_);
+  }
+  void jacobian(const Vector& x, Sparse& J) const override {
+    problem_.jacobian(x, J);
+    for (int i = 0; i < size(); ++i) J.coeffRef(i, i) += alpha_ * weights_[i];
+  }
+  Vector residualScale() const override { return problem_.residualScale(); }
+  double stepLimit(const Vector& x, const Vector& dx) const override {
+    return problem_.stepLimit(x, dx);
+  }
+  Vector moved(const Vector& x, const Vector& dx, double s) const override {
+    return problem_.moved(x, dx, s);
+  }
+  std::string unknownName(int i) const override { return problem_.unknownName(i); }
+
+ private:
+  const StaticProblem& problem_;
+  Vector weights_, from_;
+  double alpha_ = 0.0;
+};
+
+/// Largest lateral displacement of a contact point over its clearance; the clearance of points that
+/// are held on the axis does not count.
+double reach(const StaticInput& input, const Vector& full) {
+  double largest = 0.0;
+  if (input.contact == nullptr) return largest;
+  const auto& points = input.contact->points();
+  for (std::size_t p = 0; p < points.node.size(); ++p) {
+    const int dof = 6 * (points.node[p] - 1);
+    const double moved = std::hypot(full(dof), full(dof + 1));
+    if (points.clearance[p] > 0.0) largest = std::max(largest, moved / points.clearance[p]);
+  }
+  return largest;
+}
+
+double scaledResidual(const StaticProblem& problem, const Vector& x) {
+  Vector r;
+  problem.residual(x, r);
+  return problem.residualScale().cwiseProduct(r).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+SettlingReport settle(const StaticInput& input, StaticProblem& problem, const UnstableMode& mode,
+                      double tolerance, const model::NonlinearSolver& solve, Vector& x) {
+  auto switches = problem.switches();
+  switches.frictionScale = switches.pull = 0.0;
+  problem.set(switches);
+  const double size = mode.shape.cwiseAbs().maxCoeff();
+  const double width = reach(input, mode.shape / size);
+  if (!(width > 0.0))
+    throw ConvergenceError(
+        "The unstable mode of the static state does not reach a wall, so no stable state can be "
+        "found by Static/Unstable State \"Perturb\". Reduce the loads, or give the string a "
+        "Contact list.");
+  x += problem.restrict(mode.shape) * (firstDisplacement / (width * size));
+
+  ProximalProblem proximal(problem, problem.restrict(mode.mass));
+  const double first = convexity * mode.growthRate * mode.growthRate;
+  double alpha = first;
+  SettlingReport report;
+  model::SolveRequest request;
+  request.what = "the static equilibrium after the unstable mode";
+  request.maxIterations = mostIterations;
+  request.search = model::LineSearch::Work;
+  bool resting = false;
+  for (int step = 0, final = 0; step < mostSteps && final < mostFinalSteps; ++step) {
+    proximal.set(alpha, x);
+    request.tolerance = resting ? tolerance : stepTolerance;
+    Vector next = x;
+    const auto outcome = solve(proximal, next, request);
+    report.iterations += outcome.iterations;
+    if (!outcome.converged || !next.allFinite()) {
+      if (alpha > first / finalShare) break;
+      alpha *= convexity;
+      resting = false;
+      continue;
+    }
+    const double moved = reach(input, problem.expand(next - x));
+    x = next;
+    report.residual = scaledResidual(problem, x);
+    if (resting && report.residual <= tolerance) return report;
+    if (resting) ++final;
+    resting = resting || moved < atRest;
+    alpha =
+        resting ? std::max(finalShare * first, 0.1 * alpha) : std::max(first, alpha / convexity);
+  }
+  throw ConvergenceError(
+      "From an unstable static state the string did not come to rest on the wall: the residual "
+      "is " +
+      formatNumber(report.residual) + " of the largest load where " + formatNumber(tolerance) +
+      " is asked for. Reduce the loads, or take Static/Unstable State \"Warn\".");
+}
+
+}  // namespace tooljoint::equilibrium

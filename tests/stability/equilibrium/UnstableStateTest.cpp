@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Static states on the axis of the bore beyond their buckling load: what is said of them, against
+/// the Euler column, and the state on the wall that is found instead.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+#include "substructures/beam/Section.hpp"
+#include "substructures/drillstring/case/StringStability.hpp"
+#include "tests/support/Scenes.hpp"
+
+namespace {
+
+using namespace tooljoint;
+using constants::pi;
+
+constexpr double length = 12.0;  // [m]
+
+beam::Section pipe() {
+  return beam::Section::hollow(0.0635, 0.054, beam::Material{7850.0, 2.06e11, 0.3});
+}
+
+/// Of the pinned column with shear (Engesser): P = P_E / (1 + P_E / (beta G S)) [N].
+double bucklingLoad() {
+  const auto s = pipe();
+  const double euler = pi * pi * s.youngModulus() * s.inertiaX() / (length * length);
+  return euler / (1.0 + euler / (0.9 * s.shearModulus() * s.area()));
+}
+
+/// Growth of the half wave: s^2 (rho S + rho I q^2) = (P - P_c) q^2, q = pi / L [1/s].
+double growthRate(double load) {
+  const auto s = pipe();
+  const double q = pi / length, mass = 7850.0 * (s.area() + s.inertiaX() * q * q);
+  return std::sqrt((load - bucklingLoad()) * q * q / mass);
+}
+
+drillstring::Scene column(double loads, std::vector<std::string> overrides = {}) {
+  overrides.push_back("Loads/Weight On Bit=" + std::to_string(loads * bucklingLoad()));
+  return drillstring::readScene(
+      std::string(TOOLJOINT_SOURCE_DIR) + "/tests/stability/equilibrium/column.xml", overrides);
+}
+
+TEST(UnstableState, IsNotReportedBelowTheBucklingLoad) {
+  const auto stage = drillstring::findEquilibrium(column(0.99));
+  EXPECT_TRUE(stage.stability.stable()) << drillstring::describeStability(stage);
+  EXPECT_EQ(stage.stability.negativePivots, 0);
+}
+
+TEST(UnstableState, GrowsAsTheEulerColumnBeyondIt) {
+  for (const double loads : {1.01, 1.5, 3.0}) {
+    const auto scene = column(loads);
+    const auto stage = drillstring::findEquilibrium(scene);
+    const auto& stability = stage.stability;
+    EXPECT_EQ(stability.negativePivots, 2) << loads;  // one in each plane
+    EXPECT_TRUE(stability.diverges()) << loads;
+    const double expected = growthRate(loads * bucklingLoad());
+    EXPECT_NEAR(stability.growthRate, expected, 0.01 * expected) << loads;
+    const auto shape = stability::outline(drillstring::fullModel(scene, stage), stability.shape);
+    EXPECT_EQ(shape.halfWaves, 1) << loads;
+    EXPECT_EQ(shape.node, 13) << loads;  // mid length
+  }
+}
+
+/// sqrt(c^2/4 - lambda) - c/2 with damping c M.
+TEST(UnstableState, GrowsMoreSlowlyWithDamping) {
+  constexpr double damping = 2.0;  // [1/s]
+  const auto stage = drillstring::findEquilibrium(column(1.5, {"Damping/Mass Coefficient=2"}));
+  const double undamped = growthRate(1.5 * bucklingLoad());
+  const double expected = std::sqrt(0.25 * damping * damping + undamped * undamped) - 0.5 * damping;
+  EXPECT_NEAR(stage.stability.growthRate, expected, 0.01 * expected);
+}
+
+/// Torque makes the tangent unsymmetric. Beyond Greenhill's torque 2 pi EI / L, alone and with half
+/// of the Euler load, the growth rate is that of the rightmost of all eigenvalues.
+TEST(UnstableState, GrowsAsTheRightmostEigenvalueUnderTorque) {
+  const auto s = pipe();
+  const double greenhill = 2.0 * pi * s.youngModulus() * s.inertiaX() / length;
+  for (const double loads : {0.0, 0.5})
+    for (const double torque : {1.02, 1.5}) {
+      const auto scene =
+          column(loads, {"Loads/Torque On Bit=" + std::to_string(torque * greenhill)});
+      const auto stage = drillstring::findEquilibrium(scene);
+      const auto whole = estimate::linearise(drillstring::fullModel(scene, stage), 0.0);
+      const auto all =
+          linalg::dampedModes(Matrix(whole.mass), Matrix(whole.damping), Matrix(whole.stiffness));
+      const double rightmost = all.values.real().maxCoeff();
+      EXPECT_FALSE(stage.stability.stable()) << loads << ' ' << torque;
+      EXPECT_NEAR(stage.stability.growthRate, rightmost, 0.01 * rightmost)
+          << loads << ' ' << torque;
+    }
+}
+
+TEST(UnstableState, IsNotReportedBelowGreenhillsTorque) {
+  const auto s = pipe();
+  const double greenhill = 2.0 * pi * s.youngModulus() * s.inertiaX() / length;
+  const auto stage = drillstring::findEquilibrium(
+      column(0.0, {"Loads/Torque On Bit=" + std::to_string(0.98 * greenhill)}));
+  const auto all = [&] {
+    const auto whole = estimate::linearise(assemble(stage.equations), 0.0);
+    return linalg::dampedModes(Matrix(whole.mass), Matrix(whole.damping), Matrix(whole.stiffness));
+  }();
+  EXPECT_LT(all.values.real().maxCoeff(), stability::slowestGrowth);
+  EXPECT_TRUE(stage.stability.stable()) << drillstring::describeStability(stage);
+}
+
+TEST(UnstableState, IsRefusedWhenTheDeckSaysSo) {
+  const auto scene = column(1.01, {"Static/Unstable State=Refuse"});
+  try {
+    drillstring::solveStatic(scene);
+    FAIL() << "it passes";
+  } catch (const ConvergenceError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 half wave, largest in"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_NO_THROW(drillstring::solveStatic(column(0.99, {"Static/Unstable State=Refuse"})));
+}
+
+TEST(UnstableState, IsLeftForAStableOneOnTheWall) {
+  for (const double loads : {1.01, 1.5, 4.0, 9.0}) {
+    const auto scene = column(loads, {"Static/Unstable State=Perturb"});
+    const auto stage = drillstring::solveStatic(scene);
+    EXPECT_TRUE(stage.stability.stable()) << drillstring::describeStability(stage);
+    EXPECT_EQ(stage.stability.negativePivots, 0) << loads;
+    EXPECT_GE(stage.perturbations, 1) << loads;
+    EXPECT_GE(stage.state.contactNodes, 1) << loads;
+    EXPECT_LE(stage.state.report.residual, scene.statics.tolerance) << loads;
+    EXPECT_GT(stage.state.totalNormalForce, 0.0) << loads;
+  }
+}
+
+TEST(UnstableState, WithoutAWallCannotBeLeft) {
+  auto scene = column(1.5, {"Static/Unstable State=Perturb"});
+  scene.contact.reset();
+  scene.contactPoints = {};
+  EXPECT_THROW(drillstring::findEquilibrium(scene), ConvergenceError);
+}
+
+}  // namespace
