@@ -27,7 +27,7 @@ struct Checkpoint {
   Counters counters;
   long contactEvaluations = 0;
   long samples = 0;            ///< samples handed out so far
-  int runawaySamples = 0;      ///< samples in a row with more energy made than given
+  int runawaySamples = 0;      ///< samples in a row with an energy balance that is wrong
   std::vector<double> memory;  ///< of the model, the integrator, the point batches and the ledger
   std::vector<double>
       recorder;  ///< of the sink of the samples, set by whoever keeps the checkpoint

@@ -78,6 +78,9 @@ class Integrator {
   /// What to change when a motion is wrong: "Reduce ...", without a full stop.
   virtual std::string advice() const = 0;
 
+  /// True when the deck accepts a motion that the steps follow badly.
+  virtual bool acceptsInaccuracy() const { return false; }
+
   /// What can be said without a model about the parameters together and with Transient/Step (0 when
   /// the deck gives none). Throws DeckError.
   virtual void checkParameters(double /*step*/) const {}

@@ -23,7 +23,7 @@ namespace {
 
 /// A displacement, rotation or modal coordinate beyond this is a run that has blown up.
 constexpr double blowUp = 1e6;
-/// Samples in a row with more energy made than given after which a run is refused.
+/// Samples in a row with an energy balance that is wrong after which a run is refused.
 constexpr int sustained = 10;
 
 double cpuSeconds() {
@@ -114,6 +114,27 @@ long contactEvaluations(const CompiledModel& model) {
   long sum = 0;
   for (const auto& batch : model.points()) sum += batch.evaluations();
   return sum;
+}
+
+/// Part of the integral of a law of time that fixed steps may miss without a warning.
+constexpr double unresolved = 0.01;
+/// Steps of a run at which laws are looked at: the first ones, and as many spread over the rest.
+constexpr long lawSteps = 10000;
+
+/// How much of a law the steps miss: the sum of |T_h - T_{h/2}| over that of |T_{h/2}|, with T the
+/// trapezoidal sums of the law over a step and over its two halves.
+double missedPart(const model::ScalarLaw& law, double start, double end, double h) {
+  const auto steps = static_cast<long>(std::floor((end - start) / h * (1 + 1e-12)));
+  const long stride = std::max(1L, steps / lawSteps);
+  double missed = 0.0, sum = 0.0;
+  for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) {
+    const double t = start + static_cast<double>(i) * h;
+    const double whole = 0.5 * (law.value(t) + law.value(t + h));
+    const double halves = 0.5 * (whole + law.value(t + 0.5 * h));
+    missed += std::abs(whole - halves);
+    sum += std::abs(halves);
+  }
+  return sum > 0.0 ? missed / sum : 0.0;
 }
 
 /// One run: the loop and what surrounds it.
@@ -281,9 +302,10 @@ class Run {
       if (bar && bar->due()) bar->update(state_.t, suffix());
     }
     if (bar) bar->finish();
-    if (options_.ledger && ledger_.runaway(model_, state_)) runaway();
+    if (options_.ledger) judgeEnergy();
     integrator_->finish();
     judgeSteps();
+    warnOfLaws();
     return false;
   }
 
@@ -310,20 +332,51 @@ class Run {
         std::floor((t - options_.start) / options_.checkpointInterval * (1 + 1e-12) + 1e-9));
   }
 
-  /// A start far from equilibrium may overshoot and is damped again, so that growth of energy
-  /// counts only when it persists.
-  void watchEnergy() {
-    runawaySamples_ = ledger_.runaway(model_, next_) ? runawaySamples_ + 1 : 0;
-    if (runawaySamples_ == sustained) std::swap(state_, next_), runaway();
+  /// More energy made than given, or a balance that is open by more than the deck may accept.
+  bool isWrong(const EnergyAccount& account) const {
+    return account.runaway() || (std::abs(account.residual()) > EnergyAccount::wrong &&
+                                 !integrator_->acceptsInaccuracy());
   }
 
-  [[noreturn]] void runaway() {
+  /// A start far from equilibrium may overshoot and is damped again, so that an open balance counts
+  /// only when it persists.
+  void watchEnergy() {
+    runawaySamples_ = isWrong(ledger_.look(model_, next_)) ? runawaySamples_ + 1 : 0;
+    if (runawaySamples_ < sustained) return;
+    std::swap(state_, next_);
+    throw ConvergenceError(describeBalance(ledger_.account(model_, state_)));
+  }
+
+  /// At the end of the motion.
+  void judgeEnergy() {
     const auto account = ledger_.account(model_, state_);
+    if (isWrong(account)) throw ConvergenceError(describeBalance(account));
+    if (std::abs(account.residual()) > EnergyAccount::doubtful) log::warn(describeBalance(account));
+  }
+
+  /// Laws of time that change faster than steps of one length follow.
+  void warnOfLaws() const {
+    const Counters& c = integrator_->counters();
+    if (c.minStep < 0.5 * c.maxStep) return;  // steps that follow their error
+    for (const auto& law : model_.source().laws) {
+      const double missed = missedPart(law, options_.start, state_.t, c.maxStep);
+      if (missed > unresolved)
+        log::warn("The time step (" + formatNumber(c.maxStep) + " s) is too large for the law \"" +
+                  law.name + "\": the steps miss " + formatNumber(std::round(1e3 * missed) / 10.0) +
+                  " % of its integral over time. " + integrator_->advice() + ".");
+    }
+  }
+
+  std::string describeBalance(const EnergyAccount& account) const {
+    const double made = -account.numerical();
     std::ostringstream text;
-    text << "Energy grew by " << -account.numerical()
-         << " J without work being done until t = " << state_.t << " s (" << account.supplied
-         << " J supplied): the integration is unstable. " << integrator_->advice() << ".";
-    throw ConvergenceError(text.str());
+    text << "Energy " << (made > 0 ? "grew by " : "of ") << std::abs(made) << " J "
+         << (made > 0 ? "without work being done" : "was lost by the integration")
+         << " until t = " << state_.t << " s (" << 100.0 * std::abs(account.residual())
+         << " % of the energy exchanged, " << account.supplied << " J supplied): "
+         << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
+         << ". " << integrator_->advice() << ".";
+    return text.str();
   }
 
   std::string suffix() const {

@@ -175,13 +175,13 @@ double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
       .stored;
 }
 
-bool EnergyLedger::runaway(CompiledModel& model, const State& state) {
+const EnergyAccount& EnergyLedger::look(CompiledModel& model, const State& state) {
   unwatched_ = 0;
   if (skipped_ > 0) enter(model, state);
   account_.kinetic = 0.5 * model.massForm(state.v.data());
   account_.strain = strain_;
   account_.contact = storedNow(model, state);
-  return account_.runaway();
+  return account_;
 }
 
 EnergyAccount EnergyLedger::account(CompiledModel& model, const State& state) {

@@ -40,6 +40,8 @@ struct EnergyAccount {
   double numerical() const;
   /// numerical() relative to the energy exchanged or stored, whichever is larger.
   double residual() const;
+  /// Sizes of residual() beyond which a motion is doubtful, and no result.
+  static constexpr double doubtful = 0.05, wrong = 0.2;
   /// The integrator has made more energy than the model was ever given.
   bool runaway() const { return -numerical() > supplied; }
 };
@@ -53,11 +55,11 @@ class EnergyLedger {
   void book(CompiledModel& model, const State& to);
   /// The account at `state`, the last one booked or later: what is left is booked first.
   EnergyAccount account(CompiledModel& model, const State& state);
-  /// Whether enough steps have been booked since the last runaway() for another look, which costs
-  /// as much as a booking.
+  /// Whether enough steps have been booked since the last look() for another one, which costs as
+  /// much as a booking.
   bool isDue() const { return unwatched_ >= watchStride; }
-  /// EnergyAccount::runaway() at `state`. Allocates nothing.
-  bool runaway(CompiledModel& model, const State& state);
+  /// account() while a run goes on; valid until the next call. Allocates nothing.
+  const EnergyAccount& look(CompiledModel& model, const State& state);
 
   void save(std::vector<double>& memory) const;
   void restore(CompiledModel& model, int stride, const double*& memory);
@@ -84,7 +86,7 @@ class EnergyLedger {
 
   int stride_ = 1;
   static constexpr int watchStride = 8;
-  int unwatched_ = 0;                 ///< steps since the last runaway()
+  int unwatched_ = 0;                 ///< steps since the last look()
   int skipped_ = 0;                   ///< steps since the last one booked
   double time_ = 0;                   ///< the last one booked
   double reached_ = 0, longest_ = 0;  ///< end of the last step, and the longest step

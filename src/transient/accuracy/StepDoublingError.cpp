@@ -10,7 +10,7 @@ namespace {
 
 /// Steps between those looked at, each at the price of about three, since its factor is not in the
 /// cache; runs that are short beside it still have `fewest` of them, long ones no more than `most`.
-constexpr long usualStride = 100, shortestStride = 25, fewest = 8, most = 128;
+constexpr long usualStride = 100, shortestStride = 2, fewest = 8, most = 128;
 /// Sums over less say nothing.
 constexpr std::size_t least = 4;
 /// One in so many steps differs by what happens once, a bounce or a grip, and not by how steps go.

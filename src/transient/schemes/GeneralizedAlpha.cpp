@@ -134,6 +134,7 @@ class GeneralizedAlpha final : public Integrator {
            (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
            " or Transient/Generalized-alpha/Spectral Radius";
   }
+  bool acceptsInaccuracy() const override { return acceptCoarse_; }
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;

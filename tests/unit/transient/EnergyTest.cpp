@@ -3,10 +3,13 @@
 /// The energy ledger: what is lost is booked where it was lost, and energy made of nothing is no
 /// result.
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "Models.hpp"
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "tests/support/ErrorText.hpp"
 
@@ -154,6 +157,34 @@ TEST(Energy, aRunThatLivesOnEnergyMadeOfNothingIsRefused) {
     EXPECT_EQ(text.find("Spectral Radius") != std::string::npos,
               std::string(integrator) == "Generalized-alpha")
         << text;
+  }
+}
+
+/// RK4 multiplies the energy of a vibration by 1 - (omega h)^6 / 72 in a step: steps near its
+/// stability limit lose it.
+TEST(Energy, aRunThatLosesItsEnergyIsRefusedWhileItGoes) {
+  const auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
+  Keep samples;
+  const auto text = failure([&] { integrate(model, options("RK4", 1e4, 0.2, 2.0), samples); });
+  EXPECT_NE(text.find("J was lost by the integration until t = "), std::string::npos) << text;
+  EXPECT_NE(text.find("Reduce Transient/Step"), std::string::npos) << text;
+  EXPECT_LT(samples.time.back(), 1000.0) << "the run went on";
+}
+
+TEST(Energy, aBalanceThatIsOpenIsWarnedOf) {
+  const auto model = oscillator(1.0, 0.0, 100.0, 0.1, 0.0);
+  for (const double step : {0.05, 0.1}) {
+    log::clearWarnings();
+    Keep samples;
+    const auto report = integrate(model, options("RK4", 2.0, step, 1.0), samples);
+    const double open = std::abs(report.energy.residual());
+    const auto& warnings = log::warnings();
+    const bool warned = std::any_of(warnings.begin(), warnings.end(), [](const auto& one) {
+      return one.find("% of the energy exchanged") != std::string::npos;
+    });
+    EXPECT_LT(open, EnergyAccount::wrong) << step;
+    EXPECT_EQ(open > EnergyAccount::doubtful, step > 0.06) << step << ' ' << open;
+    EXPECT_EQ(warned, step > 0.06) << step << ' ' << open;
   }
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// The run around an integrator: samples, reports, errors, interrupts, energy, allocation.
+#include <algorithm>
 #include <cstdlib>
 #include <gtest/gtest.h>
 
 #include "StatefulModels.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
+#include "common/report/Log.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "tests/support/ErrorText.hpp"
 
@@ -33,7 +35,7 @@ TEST(Transient, samplesStandAtMultiplesOfTheInterval) {
   const auto model = oscillator(1, 0.1, 400, 0.1, 0);
   for (const auto& integrator : allIntegrators) {
     Keep samples;
-    auto o = options(integrator, 1.7, 0, 0.05);
+    auto o = options(integrator, 1.7, 5e-3, 0.05);
     o.start = 0.5;
     const auto report = integrate(model, o, samples);
     ASSERT_EQ(samples.time.size(), 25u) << integrator;
@@ -236,6 +238,24 @@ TEST(Transient, notANumberInALoadEndsTheRunAtItsTime) {
         << integrator << ": " << text;
     EXPECT_NE(text.find("of node"), std::string::npos) << text;
     for (const auto& q : samples.q) EXPECT_TRUE(q.allFinite());
+  }
+}
+
+/// A push that is over within two steps, and one that takes a hundred.
+TEST(Transient, aLawFasterThanTheStepsIsWarnedOf) {
+  for (const double duration : {2e-3, 0.1}) {
+    auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
+    const int law = model.lawIndex({"push", [=](double t) { return std::exp(-t / duration); }});
+    model.loads.push_back({"push", Vector::Ones(1), law});
+    log::clearWarnings();
+    Keep samples;
+    integrate(model, options("Generalized-alpha", 1.0, 1e-3, 0.1), samples);
+    const auto& warnings = log::warnings();
+    EXPECT_EQ(std::any_of(warnings.begin(), warnings.end(),
+                          [](const auto& one) {
+                            return one.find("too large for the law \"push\"") != std::string::npos;
+                          }),
+              duration < 0.01);
   }
 }
 
