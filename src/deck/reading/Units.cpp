@@ -66,6 +66,7 @@ std::vector<UnitSymbol> makeSymbols() {
   add(length, "ft", foot, {"foot", "feet"});
   add(length, "in", inch, {"inch", "inches"});
   add(length, "kft", 1e3 * foot);
+  add(length, "um", 1e-6);
   add(mass, "kg", 1.0);
   add(mass, "g", 1e-3);
   add(mass, "t", 1e3, {"tonne", "tonnes"});

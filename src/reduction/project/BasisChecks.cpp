@@ -182,7 +182,8 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     report.largestOmega = 0;
     report.explicitStep = 0;
     report.zeroEnergyReduced = 0;
-  } else if (basis.inertial.size() > 0 && basis.forces() == 0) {
+  } else if (basis.forces() == 0 &&
+             (basis.inertial.size() > 0 || linalg::hasSingularMass(reduced.mass))) {
     const linalg::EigenPairs pairs =
         linalg::semidefiniteModes(symmetricPart(reduced.constantStiffness), reduced.mass, -1);
     report.largestOmega = pairs.count() > 0 ? std::sqrt(std::max(0.0, pairs.values.maxCoeff())) : 0;

@@ -28,6 +28,7 @@ TransientOptions steps(double h, double end) {
   o.end = end;
   o.step = h;
   o.progress = false;
+  o.ledger = false;  // the energy balance would refuse the worst of them first
   return o;
 }
 
@@ -49,8 +50,8 @@ TEST(StepAccuracy, refusesStepsThatLoseTheVibration) {
   EXPECT_NO_THROW(integrate(model, anyway, sink));
 }
 
-/// Too short for steps to be taken twice: nothing is said of what was not measured.
-TEST(StepAccuracy, refusesShortRunsByTheLocalErrorAlone) {
+/// Sixty steps are enough for both measures.
+TEST(StepAccuracy, refusesShortRuns) {
   const double w = 2 * constants::pi * 10;
   NoSamples sink;
   try {
@@ -59,7 +60,7 @@ TEST(StepAccuracy, refusesShortRunsByTheLocalErrorAlone) {
   } catch (const ConvergenceError& error) {
     const std::string said = error.what();
     EXPECT_NE(said.find("is too large"), std::string::npos) << said;
-    EXPECT_EQ(said.find("step-doubling"), std::string::npos) << said;
+    EXPECT_NE(said.find("step-doubling"), std::string::npos) << said;
   }
 }
 
