@@ -113,6 +113,10 @@ class Rules {
       add("Reduction/Load Vectors",
           "need modes with fixed boundary dofs and cannot be added to the basis " + name +
               ". Choose a fixed-interface basis such as \"Craig-Bampton\", or \"None\".");
+    if (deck_.sublist("Reduction").get<bool>("Start State Vectors") && !traits.ownMass)
+      add("Reduction/Start State Vectors",
+          "need modes with fixed boundary dofs and cannot be added to the basis " + name +
+              ". Choose a fixed-interface basis such as \"Craig-Bampton\", or remove them.");
     for (const char* criterion : {"Effective Interface Mass", "Interface Moment"})
       if (selects(criterion) && !traits.selectable)
         add(std::string("Reduction/Mode Selection/") + criterion,

@@ -10,6 +10,7 @@
 #include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "estimate/PartResidual.hpp"
+#include "estimate/TruncatedStart.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 
@@ -77,6 +78,7 @@ struct MotionEstimator::Impl {
     }
     energies.assign(parts.size(), 0.0);
     w.assign(parts.size(), Vector());
+    starts.resize(parts.size());
     values.resize(compiled.pattern().storage());
     compiled.combine(1, 0, 0, mass.clear());
     const int bad = mass.factor();
@@ -122,6 +124,8 @@ struct MotionEstimator::Impl {
   Factor mass, step;
   linalg::BlockValues values;
 
+  std::vector<TruncatedStart> starts;
+  double startTime = 0;
   double time = 0;
   Vector q, qDot;         ///< at the last sample, dofs
   Vector u, uDot;         ///< error equation, positions
@@ -162,7 +166,8 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
   m.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The error of the initial state: u = P e, u' = P e'.
+/// The error of the initial state: u = P e, u' = P e'; what of it no mode has vibrates in the
+/// interiors.
 void MotionEstimator::Impl::begin(double t) {
   compiled.setTime(t);
   Vector g = Vector::Zero(model.size()), gDot = g;
@@ -174,6 +179,14 @@ void MotionEstimator::Impl::begin(double t) {
   }
   u = mass.solve(positions(g));
   uDot = mass.solve(positions(gDot));
+  startTime = t;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (residuals[p].complete()) continue;
+    const auto& part = parts[p].model;
+    const PartMotion state = residuals[p].motion(q, qDot, qDot);
+    starts[p].begin(residuals[p], part.initialDisplacement - state.displacement,
+                    part.initialVelocity - state.velocity);
+  }
 }
 
 /// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
@@ -231,6 +244,7 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
     if (residuals[p].complete()) continue;
     wNew[p] =
         residuals[p].truncated(middle, residuals[p].motion(displacement, velocity, acceleration));
+    starts[p].add(middle - startTime, wNew[p]);
     if (w[p].size() == 0) w[p] = wNew[p];
     energies[p] += h * residuals[p].energy(wNew[p]);
     residuals[p].scatter(parts[p].model.mass * wNew[p], g);

@@ -54,6 +54,8 @@ struct MotionLimit {
 ///
 ///     m u'' + c u' + k u = Phi' (K s + C s'),   e = Phi u - s,   s = Phi P w - w,
 ///
+/// what the modes do not represent of the state at the start, the part of e(0) outside of its
+/// modes, is no answer to r: it vibrates in the interiors (TruncatedStart) and joins w.
 /// k and c with the tangents of the point laws along the motion. One step per sample, residuals as
 /// means over the interval (M D'' is M times the change of velocity), all matrices those of the
 /// model at that time. Not included: motion faster than the samples, and the error of the

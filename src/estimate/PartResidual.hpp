@@ -32,6 +32,8 @@ class PartResidual {
   const model::Substructure& part() const { return part_; }
   const reduction::ReducedSubstructure& reduced() const { return reduced_; }
 
+  const ResidualFlexibility& flexibility() const { return flexibility_; }
+
   /// D = offset + Phi q and its derivatives from coupled coordinates.
   PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
   /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where

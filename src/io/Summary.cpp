@@ -71,6 +71,7 @@ const std::vector<std::string>& documentedKeys() {
       "reduction.substructures[].modes",
       "reduction.substructures[].cutoff_hz",
       "reduction.reduced_dofs",
+      "reduction.start_misfit",
       "reduction.wall_s",
       "reduction.cost_ratio",
       "reduction.coupling.assembly",

@@ -65,6 +65,7 @@ ReductionOptions readOptions(const Teuchos::ParameterList& list, int parts) {
                              : InitialState::LeastSquares;
   options.checks = list.get<bool>("Basis Checks");
   options.loadVectors = readLoadVectors(list);
+  options.loadVectors.keepStatic = options.initialState == InitialState::KeepStatic;
   options.modes = readModeSelection(list, parts);
   if (list.isParameter("Interface Reduction")) {
     const auto& name = list.get<std::string>("Interface Reduction");

@@ -17,6 +17,9 @@ namespace tooljoint::cases {
 
 std::string describeReduction(const std::vector<reduction::ReducedSubstructure>& parts,
                               int fullDofs, int reducedDofs, double wall);
+/// Energy of what the bases do not represent of the start of the motion over the energy of the
+/// start; 0 for a start at rest.
+double startMisfit(const std::vector<reduction::ReducedSubstructure>& parts);
 /// Cost of a step of both models, and which is the cheaper one.
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
 /// Assembly, joined dofs, and what the interface reduction kept of them.

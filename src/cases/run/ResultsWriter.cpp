@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cases/run/Report.hpp"
 #include "common/Text.hpp"
 #include "io/Csv.hpp"
 
@@ -49,6 +50,7 @@ void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
 
 void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis,
                int reducedDofs, double wall, io::Summary& summary) {
+  summary.set("reduction.start_misfit", startMisfit(parts));
   summary.set("reduction.basis", basis);
   for (const auto& part : parts)
     summary.append("reduction.substructures", io::SummaryRow()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/run/Run.hpp"
 
+#include <cmath>
 #include <filesystem>
 
 #include "cases/PartsExport.hpp"
@@ -8,6 +9,7 @@
 #include "cases/run/Report.hpp"
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Parallel.hpp"
+#include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
@@ -34,6 +36,19 @@ class TeeSink : public transient::SampleSink {
   transient::SampleSink& first_;
   transient::SampleSink& second_;
 };
+
+/// Energy of the start that the bases may lose without a warning.
+constexpr double startLoss = 0.01;
+
+void warnOfStart(const std::vector<reduction::ReducedSubstructure>& parts) {
+  const double loss = startMisfit(parts);
+  if (loss > startLoss)
+    log::warn("The start of the motion is not in the basis: the misfit has " +
+              formatNumber(std::round(1e3 * loss) / 10.0) +
+              " % of its kinetic and strain energy, so the reduced motion starts in another state "
+              "than the full one. Set Reduction/Start State Vectors, keep more modes, or retain "
+              "the dofs that move.");
+}
 
 /// One run of one case into one folder.
 class Run {
@@ -90,6 +105,7 @@ class Run {
     for (const auto& remark : reduced_.coupled().remarks) log::warn(remark);
     if (!outcome.frequencies.empty())
       log::info(estimate::frequencyTable(outcome.frequencies, parts));
+    if (case_.moves()) warnOfStart(reduced_.parts());
     auto& summary = files_.summary();
     summarise(reduced_.parts(), case_.reduction().get<std::string>("Basis"), dofs, wall, summary);
     if (case_.moves()) {

@@ -64,7 +64,10 @@ struct BasisReport {
       -1;  ///< largest eigenfrequency of the reduced part alone [rad/s]; 0 for no dofs
   double explicitStep = -1;  ///< 2.78 / largestOmega [s]: what RK4 allows; a model coupled of parts
                              ///< allows at least the least of theirs
-  double initialStateDefect = 0;     ///< |D(0) - (offset + Phi q(0))| / |D(0)|, 0 when D(0) = 0
+  /// Kinetic and strain energy of the start, e(x, v) = (v'M v + |x'K x|) / 2 with x = D(0) -
+  /// offset, and that of what the basis does not represent of it, e(x - Phi q(0), v - Phi q'(0))
+  /// [J].
+  double startEnergy = 0, startMisfit = 0;
   std::vector<std::string> remarks;  ///< sentences a user should read
 
   /// Frequency of the highest kept mode [Hz], 0 without modes.

@@ -67,7 +67,7 @@ void serialize(Archive& archive, BasisReport& r) {
   archive(r.part, r.basis, r.method, r.sharedWith, r.interface, r.retained, r.interior, r.modes,
           r.negativeModes, r.rank, r.zeroEnergyFull, r.zeroEnergyReduced, r.orthogonality,
           r.massDefect, r.stiffnessDefect, r.conditioning, r.staticDefect, r.largestOmega,
-          r.explicitStep, r.initialStateDefect, r.structureEnforced, r.checked, r.remarks);
+          r.explicitStep, r.startEnergy, r.startMisfit, r.structureEnforced, r.checked, r.remarks);
   std::vector<BasisRow> rows = *r.rows;
   archive(rows);
   if constexpr (Archive::is_loading::value)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/project/ReducedModels.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "linalg/blocks/BlockKernels.hpp"
@@ -20,6 +21,14 @@ bool same(const model::SharedSparse& a, const model::SharedSparse& b) {
          (a.nonZeros() == 0 ||
           std::memcmp(a.valuePtr(), b.valuePtr(),
                       sizeof(double) * static_cast<std::size_t>(a.nonZeros())) == 0);
+}
+
+/// (v'M v + |x'K x|) / 2 with K at t = 0 [J].
+double energyOf(const model::SecondOrderModel& model, const Vector& x, const Vector& v) {
+  double strain = 0.0, kinetic = 0.0;
+  if (!x.isZero(0.0)) strain = x.dot(Vector(model.stiffnessAt(0.0) * x));
+  if (!v.isZero(0.0)) kinetic = v.dot(Vector(model.mass * v));
+  return 0.5 * (kinetic + std::abs(strain));
 }
 
 }  // namespace
@@ -150,13 +159,11 @@ void ReducedModels::make(const model::Substructure& part, int index, ReducedSubs
 
   out.report.part = part.name;
   if (core.report.part != part.name) out.report.sharedWith = core.report.part;
-  const double size = part.model.initialDisplacement.norm();
-  if (size > 0) {
-    const auto moved = part.model.initialDisplacement - out.offset;
-    const bool atRest = m.initialDisplacement.isZero(0.0);
-    out.report.initialStateDefect =
-        (atRest ? moved.norm() : (moved - Phi * m.initialDisplacement).norm()) / size;
-  }
+  const Vector moved = part.model.initialDisplacement - out.offset;
+  out.report.startEnergy = energyOf(part.model, moved, part.model.initialVelocity);
+  if (out.report.startEnergy > 0.0)
+    out.report.startMisfit = energyOf(part.model, moved - Phi * m.initialDisplacement,
+                                      part.model.initialVelocity - Phi * m.initialVelocity);
   if (&part == &like_) m.validate();
 }
 

@@ -30,13 +30,42 @@ Matrix forces(const model::Substructure& part, const LoadVectorOptions& options)
   return F;
 }
 
+/// Displacement and velocity at t = 0, dofs of the part x 2.
+Matrix startStates(const model::Substructure& part, const LoadVectorOptions& options) {
+  const auto& m = part.model;
+  Matrix X(m.size(), 2);
+  X.col(0) = m.initialDisplacement;
+  if (options.keepStatic && part.reference.size() > 0) X.col(0) -= part.reference;
+  X.col(1) = m.initialVelocity;
+  return X;
+}
+
+/// What boundary dofs leave of them on the interior, without columns of rounding.
+Matrix interiorStarts(const model::Substructure& part, const LoadVectorOptions& options,
+                      const Basis& basis) {
+  constexpr double rounding = 1e-12;
+  const auto& p = basis.partition;
+  const Matrix X = startStates(part, options);
+  std::vector<Vector> columns;
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    Vector q = Vector::Zero(basis.vectors.cols());
+    q.head(sizeOf(p.boundary)) = Vector(X.col(j))(p.boundary);
+    const Vector rest = X.col(j) - basis.vectors * q;
+    const Vector interior = rest(p.interior);
+    if (interior.norm() > rounding * X.col(j).norm()) columns.push_back(interior);
+  }
+  Matrix starts(sizeOf(p.interior), sizeOf(columns));
+  for (int j = 0; j < sizeOf(columns); ++j) starts.col(j) = columns[at(j)];
+  return starts;
+}
+
 void requireFixedInterface(const model::Substructure& part, const Basis& basis) {
   const auto refuse = [&] {
     throw DeckError(
-        "\"Load Vectors\" need modes with fixed boundary dofs, but the basis of part \"" +
+        "\"Load Vectors\" and \"Start State Vectors\" need modes with fixed boundary dofs, but the "
+        "basis of part \"" +
         part.name +
-        "\" has others. Choose a fixed-interface basis such as \"Craig-Bampton\", or remove \"Load "
-        "Vectors\".");
+        "\" has others. Choose a fixed-interface basis such as \"Craig-Bampton\", or remove them.");
   };
   if (basis.forces() > 0 || basis.inertial.size() > 0) refuse();
   for (int j = 0; j < sizeOf(basis.partition.boundary); ++j)
@@ -48,6 +77,7 @@ void requireFixedInterface(const model::Substructure& part, const Basis& basis) 
 bool sameForces(const model::Substructure& a, const model::Substructure& b,
                 const LoadVectorOptions& options) {
   const Matrix f = forces(a, options), g = forces(b, options);
+  if (options.startState && startStates(a, options) != startStates(b, options)) return false;
   return f.rows() == g.rows() && f.cols() == g.cols() &&
          (f.size() == 0 || (f - g).cwiseAbs().maxCoeff() <= 1e-13 * f.cwiseAbs().maxCoeff());
 }
@@ -58,6 +88,15 @@ void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basi
   if (!options.any()) return;
   requireFixedInterface(part.part(), basis);
   if (basis.partition.interior.empty()) return;
+  if (options.startState) {
+    const bool orthonormal = basis.orthonormal;
+    const int added = appendVectors(part, interiorStarts(part.part(), options, basis),
+                                    "start state", options.independence, orthonormal, basis);
+    if (added > 0)
+      basis.remarks.push_back(std::to_string(added) +
+                              " vectors of the start state stand beside its modes");
+  }
+  if (!options.loads && !options.points) return;
   const Matrix F = forces(part.part(), options);
   const Matrix X = viewOf(part, basis).solveInterior(F(basis.partition.interior, Eigen::all));
   const bool orthonormal = basis.orthonormal;
@@ -103,6 +142,10 @@ void declareLoadVectors(deck::ListSpec& list) {
               "Static responses of the interior of each substructure, added to the modes of a "
               "fixed-interface basis: to its loads, to unit forces at its points of contact and "
               "other point laws, or to both (Dickens, Nakagawa and Wittbrodt 1997).");
+  list.boolean("Start State Vectors", false,
+               "Add displacement and velocity of the interior at the start to the modes of a basis "
+               "with fixed interface, so that the reduced motion starts as the full one. Needed "
+               "where a run warns that the start is not in the basis.");
   list.integerArray("Load Vector Nodes", deck::Optional{}, deck::Range::atLeast(1),
                     "Nodes whose points get load vectors; all nodes without it.")
       .expert();
@@ -113,6 +156,7 @@ LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list) {
   const auto& choice = list.get<std::string>("Load Vectors");
   options.loads = choice == "Loads" || choice == "Loads and points";
   options.points = choice == "Points" || choice == "Loads and points";
+  options.startState = list.get<bool>("Start State Vectors");
   if (!list.isParameter("Load Vector Nodes")) return options;
   if (!options.points)
     throw DeckError(

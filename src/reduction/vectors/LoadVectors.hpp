@@ -15,16 +15,20 @@
 namespace tooljoint::reduction {
 
 struct LoadVectorOptions {
-  bool loads = false;               ///< of every load term of a part
-  bool points = false;              ///< of a unit force on every row of its point laws
+  bool startState = false;  ///< displacement and velocity at t = 0
+  bool keepStatic = true;   ///< the displacement is measured from the reference state of the part
+  bool loads = false;       ///< of every load term of a part
+  bool points = false;      ///< of a unit force on every row of its point laws
   std::vector<std::int64_t> nodes;  ///< only points of these nodes; empty: all
   double independence = 1e-6;       ///< smallest independent fraction of a response (mass norm)
-  bool any() const { return loads || points; }
+  bool any() const { return loads || points || startState; }
 };
 
 /// Adds to `basis` what is new in K_II^-1 f_I for every load f (with the full, unsymmetric K;
 /// blocks that no boundary dof touches are balanced by their inertia): the reduced part then
-/// answers these loads statically as the full one does. DeckError when modes of the basis move
+/// answers these loads statically as the full one does. With `startState` also what is new in the
+/// interior displacement and velocity at t = 0, x_I - phi_C x_C: the motion then starts as that of
+/// the full part. DeckError when modes of the basis move
 /// boundary dofs, ModelError when the interior is a mechanism.
 void addLoadVectors(const PartView& part, const LoadVectorOptions& options, Basis& basis);
 
@@ -33,11 +37,12 @@ void requirePointNodes(const std::vector<model::Substructure>& parts,
                        const LoadVectorOptions& options);
 
 /// Classes of identical parts (the first of each, as findIdenticalParts) that also have the same
-/// loads and points. DeckError when a node of the options has no point.
+/// loads, points and start states. DeckError when a node of the options has no point.
 std::vector<int> sameLoads(const std::vector<model::Substructure>& parts,
                            const std::vector<int>& classes, const LoadVectorOptions& options);
 
-/// Adds "Load Vectors" and its companions to the description of a list, and reads them.
+/// Adds "Load Vectors", "Start State Vectors" and their companions to the description of a list,
+/// and reads them.
 void declareLoadVectors(deck::ListSpec& list);
 LoadVectorOptions readLoadVectors(const Teuchos::ParameterList& list);
 
