@@ -206,7 +206,8 @@ std::string describeStatic(const StaticStage& stage) {
       s.topTorqueEquilibrium() / 1e3, s.torqueBalanceDefect(), 100.0 * s.relativeTorqueDefect(),
       s.torqueScale / 1e3);
   if (stage.perturbations > 0)
-    text += format("\n            perturbed %d times along unstable modes", stage.perturbations);
+    text +=
+        fmt::sprintf("\n            perturbed %d times along unstable modes", stage.perturbations);
   return text + "\nstability   " + describeStability(stage);
 }
 
