@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/Constants.hpp"
+#include "common/report/EvaluationCounters.hpp"
 #include "common/report/StageTimes.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "coupling/input/ComponentAxes.hpp"
@@ -117,6 +118,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
       symmetric, tangent.mass,
       std::min({model.size(), mostModes, found.negativePivots + modesBeyond}));
   found.examined = modes.count();
+  count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
   for (Growth& mode : growingModes(tangent, modes.vectors)) {
     if (refine(tangent, mode) && !isGrowth(mode.s)) continue;

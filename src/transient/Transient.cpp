@@ -375,7 +375,10 @@ class Run {
          << " until t = " << state_.t << " s (" << 100.0 * std::abs(account.residual())
          << " % of the energy exchanged, " << account.supplied << " J supplied): "
          << (made > 0 ? "the integration is unstable" : "the steps are too large for the motion")
-         << ". " << integrator_->advice() << ".";
+         << ". "
+         << (made > 0 ? integrator_->advice()
+                      : "Take shorter steps: Transient/Step, or the tolerance of the integrator")
+         << ".";
     return text.str();
   }
 

@@ -84,7 +84,7 @@ PARTS = """<ParameterList name="Substructures">
     <Parameter name="Rule" type="string" value="By component"/>
   </ParameterList>
   <ParameterList name="Reduction">
-    <Parameter name="Modes" type="int" value="40"/>
+    <ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="40"/></ParameterList>
   </ParameterList>
   """
 MUD = """<ParameterList name="Mud">

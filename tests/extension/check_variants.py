@@ -99,7 +99,7 @@ def frequencies(checks, source, name, basis, own=""):
     deck = pathlib.Path(f"{name}.xml")
     deck.write_text(f"""{head}<ParameterList name="Reduction">
     <Parameter name="Basis" type="string" value="{basis}"/>
-    <Parameter name="Modes" type="int" value="4"/>{own}
+    <ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="4"/></ParameterList>{own}
   </ParameterList>
 </ParameterList>""", encoding="utf-8")
     checks.output(deck, name, command="modes")

@@ -3,7 +3,7 @@
 /// Counts what a run has built and evaluated on this rank, so that tests can assert that what a
 /// deck does not ask for is neither built nor evaluated. Names in use: "mud matrices", "contact
 /// evaluations", "friction evaluations", "gyroscopic matrices", "geometric stiffness", "unbalance
-/// loads", "modes computed", "factorisations", "parts reduced".
+/// loads", "modes computed", "modes of the static state", "factorisations", "parts reduced".
 #pragma once
 
 #include <map>

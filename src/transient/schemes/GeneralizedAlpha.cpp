@@ -297,9 +297,9 @@ void GeneralizedAlpha::grow(const State& to, double h) {
   if (level_ == 0) afterImpact_ = false;
 }
 
-/// Collects the measures of the step's accuracy, but for steps that impacts have cut.
+/// Collects the measures of the step's accuracy.
 void GeneralizedAlpha::look(const State& from, const State& to, double h) {
-  if (counters_.steps % StepAccuracy::stride == 0 && !afterImpact_) {
+  if (counters_.steps % StepAccuracy::stride == 0) {
     change_ = to.q - from.q;
     accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }

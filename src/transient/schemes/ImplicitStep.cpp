@@ -21,8 +21,9 @@ constexpr int mostIdle = 1;
 /// A factorisation with its compliance costs about as much as this many relaxations.
 constexpr double factorPrice = 45;
 
-/// Forces of a step beside those of loads, inertia and stiffness where it begins. An iterate flung
-/// far away has larger ones, and must not be measured against itself.
+/// Forces of a step beside those of loads, inertia and stiffness where it begins, and those that
+/// stop all motion within it. An iterate flung far away has larger ones, and must not be measured
+/// against itself.
 constexpr double mostGrowth = 10;
 
 /// ContactForceIteration::wrongShare() of an iterate that the phase correction may be taken from.
@@ -137,7 +138,9 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to, From::Rest);
-  mostForce_ = mostGrowth * reference_;
+  const double stop = scheme_.acceleration / scheme_.velocity *
+                      (inertia_.array().abs() * to.v.array().abs()).maxCoeff();
+  mostForce_ = mostGrowth * std::max(reference_, stop);
   error_ = INFINITY;
   return (relaxes_ && relax(to)) || finish(to);
 }

@@ -58,7 +58,7 @@ double largest(const std::vector<double>& values) {
 
 TEST_F(RunDeck, importedPartsMoveFullAndReduced) {
   auto every = brief;
-  every.emplace_back("Reduction/Cut-off Frequency=1e7");
+  every.emplace_back("Reduction/Mode Selection/Cut-off Frequency=1e7");
   const auto small = runDeck(frame, every, MPI_COMM_WORLD, {folder("reduced"), ""});
   const auto whole = runDeck(frame, full, MPI_COMM_WORLD, {folder("full"), ""});
   EXPECT_EQ(small.text("transient.model"), "reduced");

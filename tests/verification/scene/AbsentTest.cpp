@@ -78,7 +78,7 @@ TEST(Absent, DampingAndLoadsCostNothing) {
 
 TEST(Absent, AReductionThatIsNotThereComputesNoModes) {
   without({});
-  EXPECT_EQ(counted("modes computed"), 0);
+  EXPECT_EQ(counted("modes computed"), counted("modes of the static state"));
   EXPECT_EQ(counted("parts reduced"), 0);
 }
 
