@@ -128,14 +128,14 @@ TEST(ContactStability, spinReversal) {
 /// of them is no accident of one.
 constexpr double lifts[] = {1.0, 0.97, 1.03, 0.9};
 
-/// Contact frequencies of 2 to 22 rad per step, met as impacts: no energy is made, with strong
-/// numerical damping or with the default.
+/// Contact frequencies of 1 to 11 rad per step, resolved by shorter steps: no energy is made with
+/// strong numerical damping. Between impacts steps of 1 ms are too long for what rebounds leave.
 TEST(ContactStability, stiffWalls) {
   for (double stiffness : {1e8, 1e9, 1e10}) {
     Bores data;
     data.stiffness = stiffness;
     Keep samples;
-    auto o = options("Generalized-alpha", 0.5, 1e-3, 0.005);
+    auto o = options("Generalized-alpha", 0.5, 5e-4, 0.005);
     o.own.set("Spectral Radius", 0.2);
     const auto report = integrate(rotors(data), o, samples);
     EXPECT_EQ(report.counters.unconvergedSteps, 0) << stiffness;
