@@ -114,9 +114,11 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.negativePivots =
       linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
   if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
+  linalg::EigenOptions options;
+  if (found.negativePivots == 0) options.shift = -4 * slowestGrowth * slowestGrowth;  // below all
   const auto modes = linalg::lowestFiniteModes(
       symmetric, tangent.mass,
-      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}));
+      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}), options);
   found.examined = modes.count();
   count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
