@@ -14,7 +14,6 @@
 #include "linalg/Deterministic.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
-#include "linalg/trilinos/Krylov.hpp"
 #include "statics/NewtonSolver.hpp"
 
 namespace tooljoint::linalg {
@@ -66,7 +65,6 @@ TEST(Canary, RanksSolveDifferentSystemsWithoutWaitingForEachOther) {
     const Sparse A = transport(50 + 37 * rank() + k);
     const Vector b = Vector::Ones(A.rows());
     EXPECT_LT((b - A * Vector(DirectSolver(A).solve(b))).norm() / b.norm(), 1e-10);
-    EXPECT_LT((b - A * Vector(KrylovSolver(A).solve(b))).norm() / b.norm(), 1e-10);
     const auto pencil = beam(110 + 10 * rank() + k, 170.3, 3e6, 2);
     EXPECT_EQ(lowestModes(pencil.K, pencil.M, 4 + 2 * k).count(), 4 + 2 * k);
   }
@@ -95,7 +93,6 @@ TEST(Canary, NewtonIsTheSameOnEveryRank) {
   testing::ContactChain chain(60, 100.0, 2e3);
   Vector x = Vector::Zero(60);
   statics::NewtonOptions options;
-  options.refactorEvery = 3;
   const auto report = statics::solve(chain, x, options);
   EXPECT_TRUE(report.converged) << report.message;
   expectSameOnAllRanks(x);
