@@ -3,7 +3,19 @@
 
 #include <algorithm>
 
+#include "common/Error.hpp"
+
 namespace tooljoint::cases {
+
+namespace {
+
+/// Lists of the cases that come with another library of the package, as CMakeLists.txt knows them.
+constexpr struct {
+  const char* list;
+  const char* library;
+} elsewhere[] = {TOOLJOINT_LISTS_ELSEWHERE};
+
+}  // namespace
 
 CaseKinds& CaseKinds::instance() {
   static CaseKinds kinds;
@@ -17,11 +29,20 @@ bool CaseKinds::add(CaseKind kind) {
 }
 
 const CaseKind& CaseKinds::of(const std::vector<std::string>& lists) const {
-  const auto claims = [&](const CaseKind& kind) {
-    return std::find_first_of(lists.begin(), lists.end(), kind.lists.begin(), kind.lists.end()) !=
-           lists.end();
+  const auto reader = [&](const std::vector<std::string>& of) {
+    return std::find_if(kinds_.begin(), kinds_.end(), [&](const CaseKind& kind) {
+      return std::find_first_of(of.begin(), of.end(), kind.lists.begin(), kind.lists.end()) !=
+             of.end();
+    });
   };
-  const auto it = std::find_if(kinds_.begin(), kinds_.end(), claims);
+  for (const auto& [list, library] : elsewhere)
+    if (std::find(lists.begin(), lists.end(), list) != lists.end() &&
+        reader({list}) == kinds_.end())
+      throw DeckError("The list \"" + std::string(list) + "\" is read by " + library +
+                      ", which this program is not linked to: "
+                      "target_link_libraries(<program> PRIVATE " +
+                      library + " Tooljoint::toolkit).");
+  const auto it = reader(lists);
   return it == kinds_.end() ? kinds_.front() : *it;
 }
 
@@ -30,7 +51,11 @@ std::unique_ptr<Case> readCase(const std::string& file, const std::vector<std::s
   auto deck = deck::Deck::read(
       file,
       [&](const std::vector<std::string>& lists) {
-        kind = &CaseKinds::instance().of(lists);
+        try {
+          kind = &CaseKinds::instance().of(lists);
+        } catch (const DeckError& error) {
+          throw DeckError(file + ": " + error.what());
+        }
         return kind->parameters();
       },
       overrides);

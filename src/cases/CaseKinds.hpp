@@ -29,7 +29,8 @@ class CaseKinds {
   static CaseKinds& instance();
   /// Call from a namespace-scope constant in the file of the kind.
   bool add(CaseKind kind);
-  /// The kind that reads a deck whose root list holds these lists.
+  /// The kind that reads a deck whose root list holds these lists. DeckError for a deck of a kind
+  /// whose library is not linked, with what to link.
   const CaseKind& of(const std::vector<std::string>& lists) const;
 
  private:

@@ -13,6 +13,7 @@
 #include "common/Error.hpp"
 #include "io/TextFile.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
+#include "tests/support/ErrorText.hpp"
 
 namespace {
 
@@ -34,16 +35,22 @@ TEST(CaseKinds, ListsOfTheDeckDecide) {
 
 /// What a deck is refused with.
 std::string refusal(const std::string& file, const std::vector<std::string>& overrides) {
-  try {
-    cases::readCase(file, overrides);
-  } catch (const DeckError& error) {
-    return error.what();
-  }
-  return "";
+  return errorText([&] { cases::readCase(file, overrides); });
 }
 
 TEST(CaseKinds, DeckWithoutAnyOfTheirListsIsReadAsAString) {
   EXPECT_NE(refusal(ofParts, {"!Parts"}).find("Well"), std::string::npos);
+}
+
+TEST(CaseKinds, DeckOfALibraryThatIsNotLinkedNamesTheLibrary) {
+  cases::CaseKinds toolkit;
+  toolkit.add({{"Parts"}, 0, {}, {}});
+  EXPECT_EQ(toolkit.of({"Parts", "Transient"}).lists, std::vector<std::string>{"Parts"});
+  for (const auto& lists : {std::vector<std::string>{"Well", "Transient"}, {"Parts", "Well"}})
+    EXPECT_EQ(errorText([&] { toolkit.of(lists); }),
+              "The list \"Well\" is read by Tooljoint::drillstring, which this program is not "
+              "linked to: target_link_libraries(<program> PRIVATE Tooljoint::drillstring "
+              "Tooljoint::toolkit).");
 }
 
 TEST(CaseKinds, OverridesThatTakeListsOutCount) {
