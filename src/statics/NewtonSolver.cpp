@@ -24,23 +24,20 @@ namespace {
 
 using linalg::scientific;
 
-/// GMRES steps behind a factor of the very Jacobian.
-constexpr int exactFactorIterations = 8;
+constexpr double linearTolerance = 1e-10;  ///< of the preconditioned linear residual
+/// GMRES steps behind a factor of the very Jacobian: rounding is left to iterate on, and what a few
+/// steps do not gain, many do not either.
+constexpr int linearIterations = 8;
 
 /// Belos behind Thyra with our parameters and the deck's over them.
 Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
-    int n, const NewtonOptions& options, const Teuchos::ParameterList* belos) {
+    int n, const Teuchos::ParameterList* belos) {
   const auto list = Teuchos::parameterList("Belos");
   list->set("Solver Type", "Block GMRES");
   Teuchos::ParameterList& gmres = list->sublist("Solver Types").sublist("Block GMRES");
-  gmres.set("Convergence Tolerance", options.linearTolerance);
-  // An exact factor leaves rounding to iterate on: what a few steps do not gain, many do not
-  // either.
-  const int iterations = options.refactorEvery > 1
-                             ? options.linearIterations
-                             : std::min(options.linearIterations, exactFactorIterations);
-  gmres.set("Maximum Iterations", iterations);
-  gmres.set("Num Blocks", std::max(1, std::min(n, iterations)));
+  gmres.set("Convergence Tolerance", linearTolerance);
+  gmres.set("Maximum Iterations", linearIterations);
+  gmres.set("Num Blocks", std::max(1, std::min(n, linearIterations)));
   gmres.set("Verbosity", 0);
   list->sublist("VerboseObject").set("Verbosity Level", "none");
   if (belos != nullptr) list->setParameters(*belos);
@@ -63,8 +60,7 @@ Teuchos::RCP<Thyra::BelosLinearOpWithSolveFactory<double>> belosFactory(
 }
 
 Teuchos::RCP<Teuchos::ParameterList> noxParameters(
-    const NewtonOptions& options, const Teuchos::RCP<NOX::LineSearch::Generic>& search,
-    const Teuchos::ParameterList* nox) {
+    const Teuchos::RCP<NOX::LineSearch::Generic>& search, const Teuchos::ParameterList* nox) {
   const auto list = Teuchos::parameterList("NOX");
   list->set("Nonlinear Solver", "Line Search Based");
   Teuchos::ParameterList& newton = list->sublist("Direction").sublist("Newton");
@@ -72,23 +68,17 @@ Teuchos::RCP<Teuchos::ParameterList> noxParameters(
   newton.set("Forcing Term Method", "Constant");
   newton.set("Rescue Bad Newton Solve",
              true);  // GMRES that falls short still gives a descent direction; the search judges it
-  newton.sublist("Linear Solver").set("Tolerance", options.linearTolerance);
+  newton.sublist("Linear Solver").set("Tolerance", linearTolerance);
   Teuchos::ParameterList& lineSearch = list->sublist("Line Search");
   lineSearch.set("Method", "User Defined");
   const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory =
       Teuchos::rcp(new StepSearchFactory(search));
   lineSearch.set("User Defined Line Search Factory", factory);
   Teuchos::ParameterList& printing = list->sublist("Printing");
-  if (options.verbose) {
-    printing.set("Output Information", NOX::Utils::Error + NOX::Utils::Warning +
-                                           NOX::Utils::OuterIteration +
-                                           NOX::Utils::OuterIterationStatusTest);
-  } else {
-    const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream());
-    printing.set("Output Information", static_cast<int>(NOX::Utils::Error));
-    printing.set("Output Stream", nowhere);
-    printing.set("Error Stream", nowhere);
-  }
+  const Teuchos::RCP<std::ostream> nowhere = Teuchos::rcp(new Teuchos::oblackholestream());
+  printing.set("Output Information", static_cast<int>(NOX::Utils::Error));
+  printing.set("Output Stream", nowhere);
+  printing.set("Error Stream", nowhere);
   if (nox != nullptr) {
     if (nox->isSublist("Printing")) {  // whoever sets the printing wants to see it
       printing.remove("Output Stream", false);
@@ -121,12 +111,12 @@ class Newton {
   Newton(const model::NonlinearProblem& problem, const Vector& start, const NewtonOptions& options,
          const Teuchos::ParameterList* nox, const Teuchos::ParameterList* belos)
       : options_(options),
-        model_(Teuchos::rcp(new ThyraProblem(problem, start, options))),
+        model_(Teuchos::rcp(new ThyraProblem(problem, start))),
         smallStep_(Teuchos::rcp(new SmallStep(options, record_))) {
     using namespace NOX::StatusTest;
     const Teuchos::RCP<const Thyra::ModelEvaluator<double>> model = model_;
     const Teuchos::RCP<const Thyra::LinearOpWithSolveFactoryBase<double>> solves =
-        belosFactory(problem.size(), options, belos);
+        belosFactory(problem.size(), belos);
     const Teuchos::RCP<Thyra::PreconditionerFactoryBase<double>>
         noFactory;  // the model itself updates W_prec
     const auto group = Teuchos::rcp(
@@ -141,7 +131,7 @@ class Newton {
     tests->addStatusTest(Teuchos::rcp(new MaxIters(options.maxIterations)));
     const auto search = Teuchos::rcp(new StepSearch(problem, options, record_));
     try {
-      solver_ = NOX::Solver::buildSolver(group, tests, noxParameters(options, search, nox));
+      solver_ = NOX::Solver::buildSolver(group, tests, noxParameters(search, nox));
     } catch (const std::exception& refused) {
       throw ModelError(std::string("NOX refuses its parameters: ") + refused.what());
     } catch (const char* refused) {  // NOX throws character strings
@@ -207,7 +197,7 @@ std::string explain(const NewtonReport& report, const NewtonOptions& options,
   if (!std::isfinite(report.residual))
     return "the residual is not finite at " + worst + " after " +
            std::to_string(report.iterations) + " iterations.";
-  if (record.failuresInARow >= options.maxFailedSearches)
+  if (record.failuresInARow >= maxFailedSearches)
     return "no step along the Newton direction reduces the residual any more after " +
            std::to_string(report.iterations) + " iterations: " + state + ".";
   std::string text =
@@ -287,13 +277,6 @@ NewtonReport solve(const model::NonlinearProblem& problem, Vector& x, const Newt
     report.message = explain(report, options, newton.record(), problem.unknownName(worst)) +
                      explainRounding(problem, scale, x, options);
   return report;
-}
-
-void requireConverged(const NewtonReport& report, const std::string& what,
-                      const std::string& advice) {
-  if (!report.converged)
-    throw ConvergenceError(what + " did not converge: " + report.message +
-                           (advice.empty() ? "" : " " + advice));
 }
 
 }  // namespace tooljoint::statics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Newton's method for square nonlinear problems: NOX on a Thyra model evaluator, Belos GMRES for
-/// the steps, preconditioned with a rank-local direct factor that may be lagged.
+/// the steps, preconditioned with a rank-local direct factor.
 #pragma once
 
 #include <string>
@@ -18,7 +18,6 @@ namespace tooljoint::statics {
 
 struct NewtonOptions {
   enum LineSearch {
-    FullStep,      ///< x + dx always; the step limit of the problem is ignored
     LimitedStep,   ///< x + s dx with s the step limit of the problem, whatever the residual does
     Backtracking,  ///< x + s dx with s = step limit, s/2, s/4 ... until the scaled residual
                    ///< decreases (Armijo)
@@ -26,25 +25,9 @@ struct NewtonOptions {
                    ///< where r has one
   };
   double tolerance = 1e-8;        ///< largest scaled residual max_i |scale_i r_i| accepted ...
-  double updateTolerance = 1e-8;  ///< ... together with the largest full Newton step, |dx| <=
-                                  ///< updateTolerance |x| + updateFloor
-  double updateFloor = 1e-14;     ///< absolute part of the step test, for solutions near zero
+  double updateTolerance = 1e-8;  ///< ... together with the largest full Newton step |dx| / |x|
   int maxIterations = 50;
   LineSearch lineSearch = Backtracking;
-  double armijo =
-      1e-4;  ///< s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual
-  double workLeft =
-      0.5;  ///< s is accepted when r(x + s dx)' dx <= workLeft |r(x)' dx| (CriticalPoint)
-  int maxHalvings = 16;  ///< of one step (or cuts of its bracket); then the best one tried is taken
-  int maxFailedSearches =
-      4;  ///< searches in a row that may end without a decrease before the solver gives up
-  int refactorEvery =
-      1;  ///< Newton steps that share one factored Jacobian as preconditioner (1: each its own)
-  int refactorBeyond =
-      12;  ///< a lagged factor is renewed when the last linear solve needed more Belos iterations
-  double linearTolerance = 1e-10;  ///< of the preconditioned linear residual
-  int linearIterations = 200;      ///< of Belos per Newton step
-  bool verbose = false;            ///< print what NOX has to say
 };
 
 /// The line search that a room asks for by model::SolveRequest.
@@ -73,10 +56,4 @@ struct NewtonReport {
 NewtonReport solve(const model::NonlinearProblem& problem, Vector& x,
                    const NewtonOptions& options = {}, const Teuchos::ParameterList* nox = nullptr,
                    const Teuchos::ParameterList* belos = nullptr);
-
-/// Throws ConvergenceError "<what> did not converge: <message> <advice>" unless the report says
-/// converged.
-void requireConverged(const NewtonReport& report, const std::string& what,
-                      const std::string& advice);
-
 }  // namespace tooljoint::statics

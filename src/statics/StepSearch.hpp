@@ -20,6 +20,16 @@
 
 namespace tooljoint::statics {
 
+/// s is accepted when |F(x + s dx)| <= (1 - armijo s) |F(x)|, F the scaled residual, or, towards
+/// the critical point, when r(x + s dx)' dx <= workLeft |r(x)' dx|.
+constexpr double armijo = 1e-4, workLeft = 0.5;
+/// Halvings of one step, or cuts of its bracket; then the best one tried is taken.
+constexpr int maxHalvings = 16;
+/// Searches in a row that may end without a decrease before the solver gives up.
+constexpr int maxFailedSearches = 4;
+/// Absolute part of the step test, for solutions near zero.
+constexpr double updateFloor = 1e-14;
+
 /// What the line search has done, shared with the step test and the report.
 struct SearchRecord {
   double step = 1.0;  ///< s of the last step x + s dx
@@ -32,7 +42,7 @@ inline Vector vectorOf(const NOX::Abstract::Vector& x) {
   return toEigenVector(dynamic_cast<const NOX::Thyra::Vector&>(x).getThyraRCPVector());
 }
 
-/// Full step, the step limit of the problem, backtracking on the scaled residual from that limit,
+/// The step limit of the problem, backtracking on the scaled residual from that limit,
 /// or the critical point below it.
 class StepSearch : public NOX::LineSearch::Generic {
  public:
@@ -46,7 +56,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     recordLinearResidual(group, direction);
     const Vector x = vectorOf(old.getX()), dx = vectorOf(direction);
     const Line line{group, x, dx};
-    step = options_.lineSearch == NewtonOptions::FullStep ? 1.0 : limit(x, dx);
+    step = limit(x, dx);
     bool found = true;
     if (options_.lineSearch == NewtonOptions::Backtracking)
       found = backtrack(line, old.getNormF(), step);
@@ -81,12 +91,11 @@ class StepSearch : public NOX::LineSearch::Generic {
 
   bool backtrack(const Line& line, double before, double& step) {
     double bestStep = 0.0, best = std::numeric_limits<double>::infinity();
-    for (int k = 0; k <= options_.maxHalvings; ++k) {
+    for (int k = 0; k <= maxHalvings; ++k) {
       if (!evaluate(line, step)) return false;
       const double after = line.group.getNormF();
       // Armijo, or already as good as asked for (there rounding decides about a decrease)
-      if (std::isfinite(after) &&
-          (after <= (1.0 - options_.armijo * step) * before || solved(line.group))) {
+      if (std::isfinite(after) && (after <= (1.0 - armijo * step) * before || solved(line.group))) {
         record_.failuresInARow = 0;
         return true;
       }
@@ -100,7 +109,7 @@ class StepSearch : public NOX::LineSearch::Generic {
     // No decrease: take the best of what was tried and hope for a better direction from there, a
     // few times.
     ++record_.failuresInARow;
-    const bool hopeless = bestStep == 0.0 || record_.failuresInARow >= options_.maxFailedSearches;
+    const bool hopeless = bestStep == 0.0 || record_.failuresInARow >= maxFailedSearches;
     step = hopeless ? 0.0 : bestStep;
     return evaluate(line, step) && !hopeless;
   }
@@ -110,7 +119,7 @@ class StepSearch : public NOX::LineSearch::Generic {
   /// direction that is none of descent is taken as it is.
   bool criticalPoint(const Line& line, const Vector& start, double& step) {
     const Vector unscaled = line.dx.cwiseQuotient(scale_);  // F = S r
-    const double before = start.dot(unscaled), enough = options_.workLeft * std::abs(before);
+    const double before = start.dot(unscaled), enough = workLeft * std::abs(before);
     double low = 0.0, lowWork = before, high = step, highWork = 0.0;
     for (int k = 0;; ++k) {
       if (!evaluate(line, step)) return false;
@@ -120,7 +129,7 @@ class StepSearch : public NOX::LineSearch::Generic {
       if (finite &&
           (before >= 0.0 || (k == 0 ? work : std::abs(work)) <= enough || solved(line.group)))
         return true;
-      if (k == options_.maxHalvings) break;
+      if (k == maxHalvings) break;
       (work > 0.0 ? high : low) = step;
       (work > 0.0 ? highWork : lowWork) = work;
       const double cut = low - lowWork * (high - low) / (highWork - lowWork),
@@ -187,7 +196,7 @@ class SmallStep : public NOX::StatusTest::Generic {
     change->update(-1.0, solver.getPreviousSolutionGroup().getX(), 1.0);
     const double dx = change->norm() / record_.step, size = now.getX().norm();
     update_ = size > 0.0 ? dx / size : (dx > 0.0 ? std::numeric_limits<double>::infinity() : 0.0);
-    const bool small = dx <= options_.updateTolerance * size + options_.updateFloor;
+    const bool small = dx <= options_.updateTolerance * size + updateFloor;
     status_ = small ? NOX::StatusTest::Converged : NOX::StatusTest::Unconverged;
     return status_;
   }

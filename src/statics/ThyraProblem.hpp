@@ -16,7 +16,6 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/FunctionOperator.hpp"
 #include "model/NonlinearProblem.hpp"
-#include "statics/NewtonSolver.hpp"
 
 namespace tooljoint::statics {
 
@@ -34,14 +33,11 @@ inline void fromEigenVector(const Vector& from, const Teuchos::RCP<Thyra::Vector
   for (Eigen::Index i = 0; i < from.size(); ++i) host(static_cast<std::size_t>(i), 0) = from[i];
 }
 
-/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W that may
-/// be some steps old.
+/// F(x) = S r(x) with S the residual scale of the problem, W = S dr/dx, and a factor of W.
 class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
  public:
-  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start,
-               const NewtonOptions& options)
+  ThyraProblem(const model::NonlinearProblem& problem, const Vector& start)
       : problem_(problem),
-        options_(options),
         scale_(problem.residualScale()),
         map_(linalg::serialMap(problem.size())) {
     using MEB = Thyra::ModelEvaluatorBase;
@@ -75,13 +71,10 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     return Thyra::tpetraLinearOp<double>(space_, space_, matrix);
   }
 
-  /// W^-1 (the latest factor). Applications are counted: about one more than Belos iterations.
+  /// W^-1.
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
-    const Teuchos::RCP<tpetra::Operator> inverse =
-        Teuchos::rcp(new linalg::FunctionOperator(map_, [this](const Matrix& b) {
-          ++applications_;
-          return factors_->solve(b);
-        }));
+    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(new linalg::FunctionOperator(
+        map_, [this](const Matrix& b) { return Matrix(factors_->solve(b)); }));
     const Teuchos::RCP<const Thyra::LinearOpBase<double>> op =
         Thyra::tpetraLinearOp<double>(space_, space_, inverse);
     const auto preconditioner = Teuchos::rcp(new Thyra::DefaultPreconditioner<double>());
@@ -129,16 +122,12 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   }
 
   void updateFactors(const Vector& x) const {
-    const bool slow = applications_ > options_.refactorBeyond;
-    applications_ = 0;
-    if (factors_ && ++stepsSinceFactor_ < options_.refactorEvery && !slow) return;
     updateJacobian(x);
     if (factors_)
       factors_->refactor(jacobian_);
     else
       factors_ = std::make_unique<linalg::DirectSolver>(
           jacobian_, [this](int i) { return problem_.unknownName(i); });
-    stepsSinceFactor_ = 0;
     ++factorisations_;
   }
 
@@ -160,7 +149,6 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   }
 
   const model::NonlinearProblem& problem_;
-  const NewtonOptions& options_;
   Vector scale_;
   Teuchos::RCP<const tpetra::Map> map_;
   Teuchos::RCP<const Thyra::VectorSpaceBase<double>> space_;
@@ -169,8 +157,6 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   mutable Sparse jacobian_;
   mutable std::optional<Vector> jacobianAt_;
   mutable std::unique_ptr<linalg::DirectSolver> factors_;
-  mutable int stepsSinceFactor_ = 0;
-  mutable int applications_ = 0;
   mutable int factorisations_ = 0;
   mutable std::exception_ptr problemError_;
 };

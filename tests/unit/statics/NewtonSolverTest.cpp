@@ -32,7 +32,7 @@ Vector vector2(double a, double b) {
 }
 
 TEST(NewtonSolver, RosenbrockWithFullStepsAndWithBacktracking) {
-  for (const auto search : {NewtonOptions::FullStep, NewtonOptions::Backtracking}) {
+  for (const auto search : {NewtonOptions::LimitedStep, NewtonOptions::Backtracking}) {
     const DenseProblem problem = rosenbrock();
     Vector x = vector2(-1.2, 1.0);
     const NewtonReport report = solve(problem, x, with(search));
@@ -43,7 +43,7 @@ TEST(NewtonSolver, RosenbrockWithFullStepsAndWithBacktracking) {
     EXPECT_DOUBLE_EQ(report.history.front(), 4.4);
     EXPECT_DOUBLE_EQ(report.history.back(), report.residual);
     EXPECT_EQ(report.factorisations, report.iterations);
-    if (search == NewtonOptions::FullStep) {
+    if (search == NewtonOptions::LimitedStep) {
       EXPECT_LE(report.iterations, 3);
       EXPECT_GT(report.history[1], report.history[0]);  // full steps may climb,
       EXPECT_EQ(report.halvings, 0);
@@ -56,7 +56,7 @@ TEST(NewtonSolver, RosenbrockWithFullStepsAndWithBacktracking) {
 TEST(NewtonSolver, ConvergesQuadratically) {
   ContactChain chain(40, 100.0, 2e3);
   Vector x = Vector::Zero(40);
-  const NewtonReport report = solve(chain, x, with(NewtonOptions::FullStep));
+  const NewtonReport report = solve(chain, x, with(NewtonOptions::LimitedStep));
   ASSERT_TRUE(report.converged) << report.message;
   const std::size_t n = report.history.size();
   ASSERT_GT(n, 4U);
@@ -67,7 +67,7 @@ TEST(NewtonSolver, ConvergesQuadratically) {
 TEST(NewtonSolver, FrictionThatDefeatsFullStepsIsSolvedByBacktracking) {
   FrictionChain chain(30);
   Vector x = Vector::Ones(30);
-  const NewtonReport full = solve(chain, x, with(NewtonOptions::FullStep));
+  const NewtonReport full = solve(chain, x, with(NewtonOptions::LimitedStep));
   EXPECT_FALSE(full.converged);
   EXPECT_EQ(full.iterations, 50);
   EXPECT_NE(full.message.find("50 Newton iterations were not enough"), std::string::npos)
@@ -175,17 +175,11 @@ TEST(NewtonSolver, BothTestsMustHold) {
   NewtonOptions loose;
   loose.tolerance = 1e-3;
   loose.updateTolerance = 1.0;
-  const NewtonReport early = solve(cube, x, loose);
-  EXPECT_TRUE(early.converged);
+  EXPECT_TRUE(solve(cube, x, loose).converged);
   x.setOnes();
   loose.updateTolerance = 1e-8;  // the relative step stays at one half
   loose.maxIterations = 12;
   EXPECT_FALSE(solve(cube, x, loose).converged);
-  x.setOnes();
-  loose.updateFloor = 1e-2;
-  const NewtonReport byFloor = solve(cube, x, loose);
-  EXPECT_TRUE(byFloor.converged);
-  EXPECT_GT(byFloor.iterations, early.iterations);
 }
 
 TEST(NewtonSolver, AStartThatSolvesTheProblemIsLeftAlone) {
@@ -197,9 +191,8 @@ TEST(NewtonSolver, AStartThatSolvesTheProblemIsLeftAlone) {
   EXPECT_TRUE(x == vector2(1.0, 1.0));
 }
 
-TEST(NewtonSolver, TheStepLimitCapsBacktrackingAndLimitedStepsButNotFullSteps) {
-  for (const auto search :
-       {NewtonOptions::FullStep, NewtonOptions::LimitedStep, NewtonOptions::Backtracking}) {
+TEST(NewtonSolver, TheStepLimitCapsTheStep) {
+  for (const auto search : {NewtonOptions::LimitedStep, NewtonOptions::Backtracking}) {
     double farthest = 0.0;
     DenseProblem line(
         1,
@@ -213,35 +206,10 @@ TEST(NewtonSolver, TheStepLimitCapsBacktrackingAndLimitedStepsButNotFullSteps) {
     const NewtonReport report = solve(line, x, with(search));
     EXPECT_TRUE(report.converged);
     EXPECT_NEAR(x[0], 10.0, 1e-12);
-    if (search != NewtonOptions::FullStep) {
-      EXPECT_GE(report.iterations, 4);
-      EXPECT_NEAR(report.history[1], 7.5, 1e-12);
-    } else {
-      EXPECT_NEAR(report.history[1], 0.0, 1e-12);
-    }
+    EXPECT_GE(report.iterations, 4);
+    EXPECT_NEAR(report.history[1], 7.5, 1e-12);
     EXPECT_EQ(report.halvings, 0);
   }
-}
-
-TEST(NewtonSolver, LaggedFactorsSaveFactorisationsAndGiveTheSameSolution) {
-  ContactChain chain(50, 100.0, 2e3);
-  Vector each = Vector::Zero(50), lagged = each, renewed = each;
-  NewtonOptions options = with(NewtonOptions::FullStep);
-  const NewtonReport exact = solve(chain, each, options);
-  options.refactorEvery = 1000;
-  options.refactorBeyond = 1000;
-  const NewtonReport one = solve(chain, lagged, options);
-  options.refactorBeyond = 3;
-  const NewtonReport some = solve(chain, renewed, options);
-  EXPECT_TRUE(exact.converged && one.converged && some.converged);
-  EXPECT_EQ(exact.factorisations, exact.iterations);
-  EXPECT_EQ(one.factorisations, 1);
-  EXPECT_GT(some.factorisations, 1);
-  EXPECT_LT(some.factorisations, some.iterations);
-  EXPECT_GT(one.linearIterations, some.linearIterations);
-  EXPECT_GT(some.linearIterations, exact.linearIterations);
-  EXPECT_LT((each - lagged).norm(), 1e-9 * each.norm());
-  EXPECT_LT((each - renewed).norm(), 1e-9 * each.norm());
 }
 
 TEST(NewtonSolver, ASingularJacobianIsReportedByName) {
@@ -276,7 +244,7 @@ TEST(NewtonSolver, ResidualsThatAreNotFiniteAreReportedByName) {
       1, [](const Vector& y) -> Vector { return Vector::Constant(1, std::log(y[0])); },
       [](const Vector& y) -> Matrix { return Matrix::Constant(1, 1, 1.0 / y[0]); });
   Vector y = Vector::Constant(1, 5.0);  // a full step leads to a negative number
-  const NewtonReport later = solve(logarithm, y, with(NewtonOptions::FullStep));
+  const NewtonReport later = solve(logarithm, y, with(NewtonOptions::LimitedStep));
   EXPECT_FALSE(later.converged);
   EXPECT_NE(later.message.find("not finite"), std::string::npos) << later.message;
   y.setConstant(5.0);
@@ -315,22 +283,6 @@ TEST(NewtonSolver, AProblemWithoutSolutionIsReported) {
       << stuck.message;
 }
 
-TEST(NewtonSolver, RequireConvergedSaysWhatAndWhatToDo) {
-  NewtonReport report;
-  report.message = "it did not.";
-  try {
-    requireConverged(report, "The static equilibrium", "Raise \"Maximum Iterations\".");
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const ConvergenceError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "The static equilibrium did not converge: it did not. Raise \"Maximum Iterations\".");
-    EXPECT_EQ(error.code(), ExitCode::NotConverged);
-  }
-  report.converged = true;
-  EXPECT_NO_THROW(requireConverged(report, "It", ""));
-}
-
 TEST(NewtonSolver, ErrorsOfTheProblemPassThrough) {
   int calls = 0;
   DenseProblem interrupted(
@@ -360,7 +312,7 @@ TEST(NewtonSolver, NoxAndBelosListsAreLaidOverOurs) {
   belos.set("Solver Type", "BiCGStab");
   ContactChain chain(30, 100.0, 2e3);
   Vector y = Vector::Zero(30);
-  const NewtonReport other = solve(chain, y, with(NewtonOptions::FullStep), nullptr, &belos);
+  const NewtonReport other = solve(chain, y, with(NewtonOptions::LimitedStep), nullptr, &belos);
   EXPECT_TRUE(other.converged) << other.message;
   // what they do not know is refused
   belos.set("Solver Type", "Gauss");
@@ -371,19 +323,6 @@ TEST(NewtonSolver, NoxAndBelosListsAreLaidOverOurs) {
   Teuchos::ParameterList badNox;
   badNox.sublist("Line Search").set("Method", "Guess");
   EXPECT_THROW(solve(chain, y, {}, &badNox), ModelError);
-}
-
-TEST(NewtonSolver, LinearSolvesThatFallShortAreSeen) {
-  ContactChain chain(50, 100.0, 2e3);
-  Vector x = Vector::Zero(50);
-  NewtonOptions options = with(NewtonOptions::FullStep);
-  options.refactorEvery = 1000;
-  options.refactorBeyond = 1000;
-  options.linearIterations = 2;
-  options.maxIterations = 30;
-  const NewtonReport report = solve(chain, x, options);
-  EXPECT_GT(report.linearResidual, 1e-3);
-  EXPECT_GT(report.iterations, 6);
 }
 
 }  // namespace
