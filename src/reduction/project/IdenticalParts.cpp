@@ -6,8 +6,6 @@
 #include <cstring>
 #include <map>
 
-#include "linalg/blocks/BlockKernels.hpp"
-
 namespace tooljoint::reduction {
 
 namespace {
@@ -35,46 +33,9 @@ bool sameIntegers(const int* a, const int* b, Eigen::Index n) {
   return n == 0 || std::memcmp(a, b, sizeof(int) * static_cast<std::size_t>(n)) == 0;
 }
 
-/// The matrix that is looked at next. Matrices of many parts are read once, one after the other,
-/// and come from far away: their memory is asked for while the one before is compared.
-struct Ahead {
-  explicit Ahead(const model::SharedSparse* a)
-      : columns(a ? a->innerIndexPtr() : nullptr),
-        values(a ? a->valuePtr() : nullptr),
-        size(a ? a->nonZeros() : 0) {}
-  /// Eight entries from the k-th on.
-  void fetch(Eigen::Index k) const {
-    if (k >= size) return;
-    __builtin_prefetch(values + k, 0, 2);
-    __builtin_prefetch(columns + k, 0, 2);
-  }
-  const int* columns;
-  const double* values;
-  Eigen::Index size;
-};
-
-/// |x_k - y_k| <= room_k for all k < n; false where one of them is not a number. Eight entries
-/// between two looks, which compilers do not do by themselves. x_k is entry `first` + k of its
-/// matrix.
-TOOLJOINT_CLONES bool near(const double* x, const double* y, const double* room, Eigen::Index n,
-                           const Ahead& ahead, Eigen::Index first) {
-  using linalg::kernel::Quad;
-  using Bits = long long __attribute__((vector_size(32)));
-  constexpr Bits notSign = {0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff,
-                            0x7fffffffffffffff};
-  Eigen::Index k = 0;
-  for (; k + 8 <= n; k += 8) {
-    ahead.fetch(first + k);
-    Bits good = ~Bits{};
-    for (Eigen::Index j = k; j < k + 8; j += 4) {
-      const Quad difference =
-          *reinterpret_cast<const Quad*>(x + j) - *reinterpret_cast<const Quad*>(y + j);
-      good &= reinterpret_cast<Quad>(reinterpret_cast<Bits>(difference) & notSign) <=
-              *reinterpret_cast<const Quad*>(room + j);
-    }
-    if ((good[0] & good[1] & good[2] & good[3]) == 0) return false;
-  }
-  for (; k < n; ++k)
+/// |x_k - y_k| <= room_k for all k < n; false where one of them is not a number.
+bool near(const double* x, const double* y, const double* room, Eigen::Index n) {
+  for (Eigen::Index k = 0; k < n; ++k)
     if (!(std::abs(x[k] - y[k]) <= room[k])) return false;
   return true;
 }
@@ -91,7 +52,7 @@ class MatrixPattern {
         room_[k] = s_[i] * s_[a.innerIndexPtr()[k]];
   }
 
-  bool matches(const model::SharedSparse& b, const Ahead& ahead) const {
+  bool matches(const model::SharedSparse& b) const {
     if (!square(a_) || !square(b)) return false;
     const auto n = static_cast<int>(a_.rows());
     const int *ai = a_.outerIndexPtr(), *aj = a_.innerIndexPtr();
@@ -102,8 +63,8 @@ class MatrixPattern {
       int end = sameIntegers(ai + i, bi + i, n - i + 1) ? n : i;
       while (end < n && ai[end + 1] - ai[i] == bi[end + 1] - bi[i]) ++end;
       const bool same = end > i && sameIntegers(aj + ai[i], bj + bi[i], ai[end] - ai[i]);
-      if (same && !near(a_.valuePtr() + ai[i], b.valuePtr() + bi[i], room_.data() + ai[i],
-                        ai[end] - ai[i], ahead, ai[i]))
+      if (same &&
+          !near(a_.valuePtr() + ai[i], b.valuePtr() + bi[i], room_.data() + ai[i], ai[end] - ai[i]))
         return false;
       if (!same) end = std::max(end, i + 1);
       for (; !same && i < end; ++i)
@@ -158,8 +119,7 @@ class Pattern {
       }
   }
 
-  /// `next`: the part that is compared after this one, or null.
-  bool matches(const model::Substructure& other, const model::Substructure* next) const {
+  bool matches(const model::Substructure& other) const {
     const auto& a = part_.model;
     const auto& b = other.model;
     if (a.size() != b.size() || part_.interface != other.interface ||
@@ -168,15 +128,10 @@ class Pattern {
     if (!sameTerms(a.stiffness, b.stiffness, b) || !sameTerms(a.damping, b.damping, b))
       return false;
     auto mine = matrices_.begin();
-    if (!mine->matches(b.mass, Ahead(next ? &next->model.mass : nullptr))) return false;
-    for (const auto terms :
-         {&model::SecondOrderModel::stiffness, &model::SecondOrderModel::damping})
-      for (std::size_t i = 0; i < (b.*terms).size(); ++i) {
-        const bool follows = next != nullptr && i < (next->model.*terms).size();
-        if (!(++mine)->matches((b.*terms)[i].matrix,
-                               Ahead(follows ? &(next->model.*terms)[i].matrix : nullptr)))
-          return false;
-      }
+    if (!mine->matches(b.mass)) return false;
+    for (const auto* terms : {&b.stiffness, &b.damping})
+      for (const auto& term : *terms)
+        if (!(++mine)->matches(term.matrix)) return false;
     return true;
   }
 
@@ -225,9 +180,8 @@ std::vector<int> findIdenticalParts(const std::vector<model::Substructure>& part
   std::multimap<double, First> firsts;  // by signature
   const First* latest = nullptr;        // the first part of the one before
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto* next = i + 1 < parts.size() ? &parts[i + 1] : nullptr;
     const auto matches = [&](const First& first) {
-      return requests[i] == requests[first.index] && first.pattern.matches(parts[i], next);
+      return requests[i] == requests[first.index] && first.pattern.matches(parts[i]);
     };
     if (latest == nullptr || !matches(*latest)) {
       representative[i] = static_cast<int>(i);
