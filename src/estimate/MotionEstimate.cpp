@@ -132,8 +132,12 @@ struct MotionEstimator::Impl {
   std::vector<Vector> w;  ///< truncated motion of each part, mean of the last interval
   Vector s;               ///< P w of the last interval, positions
   std::vector<double> energies;
-  double errors = 0, motions = 0, worst = 0;
-  long samples = 0;
+  /// Squares summed over the measured components, of all samples.
+  struct Sums {
+    double errors = 0, motions = 0;
+    double worst = 0;  ///< errors of one sample
+    long samples = 0;
+  } sums;
   double wall = 0;
 
   void begin(double t);
@@ -157,11 +161,11 @@ void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
                              const Vector& /*qDDot*/) {
   const auto start = std::chrono::steady_clock::now();
   Impl& m = *impl_;
-  if (m.samples > 0 && t > m.time) m.advance(t, q, qDot);
+  if (m.sums.samples > 0 && t > m.time) m.advance(t, q, qDot);
   m.time = t;
   m.q = q;
   m.qDot = qDot;
-  if (m.samples == 0) m.begin(t);
+  if (m.sums.samples == 0) m.begin(t);
   m.measure(q);
   m.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -192,7 +196,7 @@ void MotionEstimator::Impl::begin(double t) {
 /// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
 Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>& wNew,
                                    const Vector& sNew) {
-  const bool rated = samples > 1;  // there is an interval before
+  const bool rated = sums.samples > 1;  // there is an interval before
   const Vector sDot = rated ? Vector((sNew - s) / h) : Vector(Vector::Zero(s.size()));
   Vector own = Vector::Zero(model.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -287,7 +291,7 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
 }
 
 void MotionEstimator::Impl::measure(const Vector& qNew) {
-  ++samples;
+  ++sums.samples;
   // e = Phi (u - P w) + w
   Vector correction(u.size());
   compiled.toDofs(u - s, correction);
@@ -307,20 +311,21 @@ void MotionEstimator::Impl::measure(const Vector& qNew) {
       e += error[row] * error[row];
       x += motion[row] * motion[row];
     }
-  errors += e;
-  motions += x;
-  worst = std::max(worst, e);
+  sums.errors += e;
+  sums.motions += x;
+  sums.worst = std::max(sums.worst, e);
 }
 
 MotionEstimate MotionEstimator::result() const {
   const Impl& m = *impl_;
   MotionEstimate estimate;
-  estimate.samples = m.samples;
-  estimate.motion = m.motions;
+  estimate.samples = m.sums.samples;
+  estimate.motion = m.sums.motions;
   estimate.wall = m.wall;
-  if (m.motions > 0) {
-    estimate.error = std::sqrt(m.errors / m.motions);
-    estimate.largest = std::sqrt(m.worst * static_cast<double>(m.samples) / m.motions);
+  if (m.sums.motions > 0) {
+    estimate.error = std::sqrt(m.sums.errors / m.sums.motions);
+    estimate.largest =
+        std::sqrt(m.sums.worst * static_cast<double>(m.sums.samples) / m.sums.motions);
   }
   estimate.byPart =
       Eigen::Map<const Vector>(m.energies.data(), static_cast<Eigen::Index>(m.energies.size()));
@@ -330,8 +335,9 @@ MotionEstimate MotionEstimator::result() const {
 }
 
 bool MotionEstimator::exceeds(const MotionLimit& limit) const {
-  return std::isfinite(limit.error) && impl_->samples >= fewSamples &&
-         impl_->errors > limit.error * limit.error * std::max(limit.motion, impl_->motions);
+  return std::isfinite(limit.error) && impl_->sums.samples >= fewSamples &&
+         impl_->sums.errors >
+             limit.error * limit.error * std::max(limit.motion, impl_->sums.motions);
 }
 
 MotionEstimate watchMotion(MotionEstimator& estimator, const model::SecondOrderModel& model,

@@ -9,6 +9,7 @@
 
 #include "study/Expansion.hpp"
 #include "study/Statistics.hpp"
+#include "transient/Integrator.hpp"
 
 namespace tooljoint::study {
 
@@ -59,9 +60,7 @@ struct StudyRow {
   std::vector<double> cpu, wall;  ///< of each repeat, transient only [s]; CPU summed over the ranks
   double setupCpu = 0.0;          ///< reduction, coupling and the model in kernel form [s]
   double setupWall = 0.0;
-  long steps = 0, rejected = 0, halved = 0, unconverged = 0, newtonIterations = 0,
-       factorisations = 0, rightHandSides = 0;
-  double minStep = 0.0, maxStep = 0.0;
+  transient::Counters counters;
   std::optional<double> energyResidual;
   std::optional<PointwiseErrors> errors;     ///< none for the reference itself
   std::optional<double> estimatedVibration;  ///< of vibration error, without the reference; where

@@ -100,9 +100,10 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
   number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
   out.push_back(text(ratios.baseline));
   out.push_back(text(ratios.bestFull));
-  number(row.steps), number(row.rejected), number(row.halved), number(row.unconverged),
-      number(row.newtonIterations), number(row.factorisations);
-  number(row.rightHandSides), number(row.minStep), number(row.maxStep);
+  number(row.counters.steps), number(row.counters.rejected), number(row.counters.halved),
+      number(row.counters.unconvergedSteps), number(row.counters.newtonIterations),
+      number(row.counters.factorisations);
+  number(row.counters.rightHandSides), number(row.counters.minStep), number(row.counters.maxStep);
   out.push_back(known ? text(row.energyResidual) : "");
   number(row.maxPenetration), number(row.missedNodes);
   const auto& speeds = row.curves.statistics.bitSpeed;
@@ -178,11 +179,11 @@ std::string printedTable(const std::vector<StudyRow>& rows, const std::vector<Ra
                   static_cast<int>(width), row.plan.label.c_str(), row.dofs, worst, error[0],
                   error[1], error[2], row.cpuPerSimulatedSecond(), 100.0 * row.spread(),
                   ratioText(ratios[i].baseline).c_str(), ratioText(ratios[i].bestFull).c_str(),
-                  row.steps);
+                  row.counters.steps);
     out += std::string("\n") + line;
-    for (const auto& [count, name] : {std::pair{row.rejected, "rejected"},
-                                      {row.halved, "halved"},
-                                      {row.unconverged, "unconverged"},
+    for (const auto& [count, name] : {std::pair{row.counters.rejected, "rejected"},
+                                      {row.counters.halved, "halved"},
+                                      {row.counters.unconvergedSteps, "unconverged"},
                                       {row.missedNodes, "missed nodes"}})
       if (count > 0) out += ", " + std::to_string(count) + " " + name;
     if (!row.reason.empty()) out += ". " + row.reason;

@@ -10,17 +10,12 @@
 #include "common/report/StageTimes.hpp"
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
-#include "linalg/trilinos/EigenChecks.hpp"
-#include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/ProportionalModes.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 
 namespace tooljoint::linalg {
 
 namespace {
-
-using Complex = std::complex<double>;
-using ComplexVector = Eigen::VectorXcd;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Relative error of s - sigma that is accepted beside the rounding of K: the last of the eight
 /// digits that are printed. Values of a Krylov space that has converged are better by some orders;
@@ -39,33 +34,6 @@ constexpr int block = 8;
 constexpr int controlSteps = 5;
 /// Up to this size the inverse is formed whole.
 constexpr int denseBelow = 80;
-
-/// M, C and K with rows and columns scaled by powers of two near 1 / sqrt(M_ii): translations,
-/// rotations and modal amplitudes become comparable, and no entry is rounded.
-struct ScaledPencil {
-  Sparse M, C, K;
-  Vector scale;
-  EnergyRounding rounding;  ///< of shapes in scaled coordinates
-
-  ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given) {
-    scale = binaryMassScale(k, m);
-    const auto scaled = [&](const Sparse& A) {
-      return Sparse(scale.asDiagonal() * A * scale.asDiagonal());
-    };
-    M = scaled(m);
-    C = scaled(c);
-    K = scaled(k);
-    rounding = [this, given, absolute = Sparse(K.cwiseAbs()),
-                fraction = roundingOf(K)](const ComplexVector& phi) {
-      if (given) return given(scale.cast<Complex>().cwiseProduct(phi));
-      const Vector size = phi.cwiseAbs();
-      return fraction * size.dot(absolute * size);
-    };
-  }
-  ScaledPencil(const ScaledPencil&) = delete;
-  ScaledPencil& operator=(const ScaledPencil&) = delete;
-  Eigen::Index size() const { return M.rows(); }
-};
 
 ComplexVector times(const Sparse& A, const ComplexVector& x) {
   ComplexVector y(x.size());
@@ -219,15 +187,9 @@ void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>&
   vectors = std::move(keptVectors);
 }
 
-/// Values and scaled vectors, checked, by |s|.
-struct Checked {
-  std::vector<Complex> values;
-  std::vector<ComplexVector> vectors;
-};
-
-Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, const Upper& found,
-                     const RitzPairs& ritz, std::size_t wanted) {
-  Checked out;
+DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
+                         const Upper& found, const RitzPairs& ritz, std::size_t wanted) {
+  DampedModes out;
   std::size_t zeros = 0;
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
     const ComplexVector phi = ritz.vectors.col(found.column[j]).head(pencil.size());
@@ -256,7 +218,7 @@ Checked checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse, 
 }
 
 /// The lowest `count` modes, fewer where there are fewer finite ones.
-Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
+DampedModes generalModes(const ScaledPencil& pencil, int count, const DofNamer& name) {
   const int all = 2 * static_cast<int>(pencil.size());
   auto wanted = static_cast<std::size_t>(count);
   const auto inverse = inverseNear(pencil, goodShift(pencil, wanted, name), name);
@@ -298,92 +260,11 @@ Checked generalModes(const ScaledPencil& pencil, int count, const DofNamer& name
       before = worst;
       continue;
     }
-    Checked modes = checkedModes(pencil, *inverse, found, ritz, wanted);
+    DampedModes modes = checkedModes(pencil, *inverse, found, ritz, wanted);
     if (static_cast<int>(modes.values.size()) >= count || found.s.size() <= wanted) return modes;
     wanted +=
         static_cast<std::size_t>(count) - modes.values.size();  // chains at zero have been left out
     bound = -1;
-  }
-}
-
-/// a_ij - a_ji is rounding of the entries.
-bool isSymmetric(const Sparse& A) {
-  const Sparse transposed = A.transpose(), difference = A - transposed;
-  const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.0;
-  const Vector diagonal = A.diagonal().cwiseAbs();
-  for (int i = 0; i < difference.outerSize(); ++i)
-    for (Sparse::InnerIterator it(difference, i); it; ++it) {
-      const double scale = std::sqrt(diagonal[i] * diagonal[it.col()]);
-      if (std::abs(it.value()) > 64.0 * epsilon * (scale > 0.0 ? scale : largest)) return false;
-    }
-  return true;
-}
-
-/// C = alpha M + beta K to 1e-12 of the size of the rows, what rounding of the entries and of the
-/// fit leaves: proportional damping, none at all included.
-struct Proportional {
-  double alpha = 0, beta = 0;
-};
-std::optional<Proportional> proportionalDamping(const ScaledPencil& pencil) {
-  const double mm = pencil.M.squaredNorm(), kk = pencil.K.squaredNorm(),
-               mk = pencil.M.cwiseProduct(pencil.K).sum();
-  const double cm = pencil.C.cwiseProduct(pencil.M).sum(),
-               ck = pencil.C.cwiseProduct(pencil.K).sum(), determinant = mm * kk - mk * mk;
-  Proportional fit;
-  if (determinant > 1e-12 * mm * kk) {
-    fit = {(cm * kk - ck * mk) / determinant, (ck * mm - cm * mk) / determinant};
-  } else if (mm > 0) {
-    fit = {cm / mm, 0.0};
-  }
-  const Sparse difference = pencil.C - fit.alpha * pencil.M - fit.beta * pencil.K;
-  const Vector size = std::abs(fit.alpha) * pencil.M.diagonal().cwiseAbs() +
-                      std::abs(fit.beta) * pencil.K.diagonal().cwiseAbs();
-  for (int i = 0; i < difference.outerSize(); ++i)
-    for (Sparse::InnerIterator it(difference, i); it; ++it)
-      if (std::abs(it.value()) > 1e-12 * std::sqrt(size[i] * size[it.col()])) return std::nullopt;
-  return fit;
-}
-
-/// Roots with Im s >= 0 of s^2 + c s + lambda = 0; a double zero once.
-std::vector<Complex> roots(double c, double lambda) {
-  const double square = 0.25 * c * c - lambda;
-  if (square < 0) return {Complex(-0.5 * c, std::sqrt(-square))};
-  const double far = -(0.5 * c + std::copysign(std::sqrt(square), c));
-  if (far == 0.0) return {Complex(0)};
-  return {Complex(far), Complex(lambda / far)};
-}
-
-/// Those of the symmetric modes, which proportional damping does not couple. Of a mode with omega^2
-/// >= lambda no |s| is below sqrt(lambda) or, overdamped, lambda / (|alpha| + |beta| lambda):
-/// enough modes are computed to know that the lowest |s| are among them. Nothing when these are too
-/// many, where stiffness-proportional damping gathers the values of all high modes at 1 / beta.
-std::optional<Checked> proportionalModes(const ScaledPencil& pencil, const Proportional& damping,
-                                         int count, const DofNamer& name) {
-  EigenOptions options;
-  options.name = name;
-  const auto n = static_cast<int>(pencil.size());
-  const int most = std::min(n, std::max(16 * count, 200));
-  for (int asked = count;; asked = std::min(most, 2 * asked)) {
-    const EigenPairs pairs = lowestModes(pencil.K, pencil.M, asked, options);
-    Checked modes;
-    std::vector<double> sizes;
-    for (int j = 0; j < pairs.count(); ++j) {
-      const ComplexVector phi = pairs.vectors.col(j).cast<Complex>();
-      const double lambda =
-          std::abs(pairs.values[j]) <= pencil.rounding(phi) ? 0.0 : pairs.values[j];
-      for (const Complex& s : roots(damping.alpha + damping.beta * lambda, lambda)) {
-        modes.values.push_back(s);
-        modes.vectors.push_back(phi);
-        sizes.push_back(std::abs(s));
-      }
-    }
-    if (asked == n) return modes;
-    std::sort(sizes.begin(), sizes.end());
-    const double last = std::max(0.0, pairs.values[pairs.count() - 1]),
-                 spread = std::abs(damping.alpha) + std::abs(damping.beta) * last;
-    const double known = spread > 0 ? std::min(std::sqrt(last), last / spread) : std::sqrt(last);
-    if (sizes[static_cast<std::size_t>(count) - 1] <= known) return modes;
-    if (asked == most) return std::nullopt;
   }
 }
 
@@ -417,11 +298,8 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   }
   const Stage stage("damped modes");
   const ScaledPencil pencil(M, C, K, rounding);
-  std::optional<Checked> simple;
-  if (isSymmetric(K) && !hasSingularMass(M))
-    if (const auto damping = proportionalDamping(pencil))
-      simple = proportionalModes(pencil, *damping, count, name);
-  const Checked found = simple ? *simple : generalModes(pencil, count, name);
+  const auto simple = hasSingularMass(M) ? std::nullopt : proportionalModes(pencil, count, name);
+  const DampedModes found = simple ? *simple : generalModes(pencil, count, name);
   std::vector<std::size_t> order(found.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {

@@ -90,22 +90,17 @@ MotionStatistics StudyComparison::statisticsOf(const RecordedHistory& history) c
 void StudyComparison::book(const StudyRun& run, const PreparedModel& prepared,
                            const Execution& execution, StudyRow& row) const {
   const auto& report = execution.report;
-  const auto& c = report.counters;
   forget(row);
   bookModel(prepared, row);
   row.status = "done";
   row.integrator = report.integrator;
-  row.stepOrTolerance = stepOrTolerance(run, c);
+  row.stepOrTolerance = stepOrTolerance(run, report.counters);
   row.simulated = report.end - report.start;
   row.cpu = {execution.cpu};
   row.wall = {execution.wall};
   row.setupCpu = prepared.setupCpu + execution.setupCpu;
   row.setupWall = prepared.setupWall + execution.setupWall;
-  row.steps = c.steps, row.rejected = c.rejected, row.halved = c.halved,
-  row.unconverged = c.unconvergedSteps;
-  row.newtonIterations = c.newtonIterations, row.factorisations = c.factorisations,
-  row.rightHandSides = c.rightHandSides;
-  row.minStep = c.minStep, row.maxStep = c.maxStep;
+  row.counters = report.counters;
   if (report.hasEnergy) row.energyResidual = report.energy.residual();
   row.estimatedVibration = execution.estimatedVibration;
   row.maxPenetration = execution.maxPenetration;

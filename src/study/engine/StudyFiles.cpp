@@ -96,13 +96,13 @@ io::SummaryRow summaryRow(const StudyRow& row, const Ratios& ratios) {
   out.set("wall_s", row.bestWall())
       .set("setup_cpu_s", row.setupCpu)
       .set("real_time_factor", row.realTimeFactor());
-  out.set("steps", row.steps)
-      .set("rejected", row.rejected)
-      .set("halved", row.halved)
-      .set("unconverged_steps", row.unconverged);
-  out.set("newton_iterations", row.newtonIterations)
-      .set("factorisations", row.factorisations)
-      .set("right_hand_sides", row.rightHandSides)
+  out.set("steps", row.counters.steps)
+      .set("rejected", row.counters.rejected)
+      .set("halved", row.counters.halved)
+      .set("unconverged_steps", row.counters.unconvergedSteps);
+  out.set("newton_iterations", row.counters.newtonIterations)
+      .set("factorisations", row.counters.factorisations)
+      .set("right_hand_sides", row.counters.rightHandSides)
       .set("missed_nodes", row.missedNodes);
   if (row.energyResidual) out.set("energy_residual", *row.energyResidual);
   if (row.errors)
@@ -177,7 +177,7 @@ void summarise(const StudyResult& result, io::Summary& summary) {
   summary.set("reference.machine", result.machine);
   if (const auto* reference = result.find(RunKind::Reference)) {
     summary.set("reference.integrator", reference->integrator);
-    summary.set("reference.max_step", reference->maxStep);
+    summary.set("reference.max_step", reference->counters.maxStep);
     summary.set("reference.cpu_s", reference->bestCpu());
     if (reference->energyResidual)
       summary.set("reference.energy_residual", *reference->energyResidual);

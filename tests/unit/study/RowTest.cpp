@@ -42,7 +42,7 @@ TEST(StudyRow, TimesAreTheShortestOfTheRepeats) {
 TEST(StudyRow, ComesBackFromItsText) {
   auto r = row("a", true, 0.1, 1.0 / 3.0);
   r.basis = "Craig-Bampton";
-  r.steps = 12345678901L;
+  r.counters.steps = 12345678901L;
   r.energyResidual = 1e-17;
   r.statistics = study::StatisticsDifference{1.0, 2.0, 3.0, 4.0, 5.0};
   r.curves.errorOverTime = {0.1, 1e-300};
@@ -51,7 +51,7 @@ TEST(StudyRow, ComesBackFromItsText) {
   study::StudyRow back;
   back.fromJson(r.toJson());
   EXPECT_EQ(back.cpu, r.cpu);
-  EXPECT_EQ(back.steps, r.steps);
+  EXPECT_EQ(back.counters.steps, r.counters.steps);
   EXPECT_EQ(back.basis, r.basis);
   EXPECT_EQ(back.energyResidual, r.energyResidual);
   EXPECT_FALSE(back.stepOrTolerance);
