@@ -2,19 +2,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A point law outside of the library, in a file of its own, between parts and in the bore.
 
-    check_extension.py PROGRAM EXTENSION MPIEXEC SOURCE
+    check_extension.py PROGRAM MPIEXEC FOLDER SOURCE
 
-PROGRAM is tooljoint, LAW the shared object compiled from CreepingWall.cpp, SOURCE the folder tests/.
+PROGRAM is tooljoint, FOLDER holds the shared objects of this folder, SOURCE the folder tests/.
 """
 import json
 import os
 import pathlib
 import re
-import subprocess
 import sys
 
 import h5py
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
 
 STIFFNESS, FAST, CREEP = 400.0, 600.0, 0.05  # of the wall between parts
 END = 1.0
@@ -73,33 +75,28 @@ def contact_list(law, own):
 """
 
 
-class Checks:
-    def __init__(self, program, law, mpiexec):
-        self.program, self.mpiexec, self.failures = program, mpiexec, 0
-        self.environment = dict(os.environ, LD_PRELOAD=law)
-
-    def expect(self, good, what):
-        self.failures += not good
-        print(f"{'ok    ' if good else 'FAILED'} {what}", flush=True)
-
-    def output(self, deck, output, *arguments, ranks=1, command="run"):
-        """What a command prints."""
-        launch = [self.mpiexec, "-np", str(ranks)] if ranks > 1 else []
-        done = subprocess.run([*launch, self.program, command, str(deck), "--output", output, *arguments], env=self.environment,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        if done.returncode != 0:
-            print(done.stdout)
-        self.expect(done.returncode == 0, f"{output} ends with 0")
-        return done.stdout
-
-    def run(self, deck, output, *arguments, ranks=1):
-        """The summary of a run."""
-        self.output(deck, output, *arguments, ranks=ranks)
-        return json.loads((pathlib.Path(output) / "summary.json").read_text(encoding="utf-8"))
+def load(*names):
+    """Programs started from here load these extensions; SOURCE."""
+    folder, source = sys.argv[3:5]
+    os.environ["LD_PRELOAD"] = " ".join(f"{folder}/lib{name}.so" for name in names)
+    return pathlib.Path(source)
 
 
-def displacement(output):
-    with h5py.File(f"{output}/results.h5") as file:
+def output(deck, folder, *arguments, ranks=1, command="run"):
+    """What a command prints."""
+    done = tooljoint(command, str(deck), "--output", folder, *arguments, ranks=ranks)
+    expect(f"{folder} ends with 0", done.returncode == 0, done.stdout + done.stderr)
+    return done.stdout + done.stderr
+
+
+def run(deck, folder, *arguments, ranks=1):
+    """The summary of a run."""
+    output(deck, folder, *arguments, ranks=ranks)
+    return json.loads((pathlib.Path(folder) / "summary.json").read_text(encoding="utf-8"))
+
+
+def displacement(folder):
+    with h5py.File(f"{folder}/results.h5") as file:
         return file["/transient/displacement"][...].reshape(len(file["/transient/time"]), -1)
 
 
@@ -122,53 +119,52 @@ def reference(times):
     return np.array(found)
 
 
-def between_parts(checks, source):
+def between_parts(source):
     exact = reference(np.arange(0, END + 1e-9, 0.05))
     size = np.abs(exact).max()
     for integrator, step, tolerance in [("RK4", 1e-4, 1e-6), ("Generalized-alpha", 5e-4, 1e-3)]:
         deck = pathlib.Path(f"{integrator}.xml")
         deck.write_text(PARTS.format(part=source / "decks/parts/good", law=own_list(STIFFNESS, FAST, CREEP), integrator=integrator,
                                      step=step, end=END), encoding="utf-8")
-        checks.run(deck, f"parts_{integrator}")
+        run(deck, f"parts_{integrator}")
         found = displacement(f"parts_{integrator}")
         error = np.abs(found[:, -2:] - exact).max() / size
-        checks.expect(error < tolerance, f"{integrator}: the chain bounces off the creeping wall as computed here, error {error:.1e}")
-        checks.run(deck, f"parts_{integrator}_np2", ranks=2)
-        checks.expect(np.array_equal(found, displacement(f"parts_{integrator}_np2")), f"{integrator}: the same on two ranks")
+        expect(f"{integrator}: the chain bounces off the creeping wall as computed here, error {error:.1e}", error < tolerance)
+        run(deck, f"parts_{integrator}_np2", ranks=2)
+        expect(f"{integrator}: the same on two ranks", np.array_equal(found, displacement(f"parts_{integrator}_np2")))
 
 
-def in_the_bore(checks, source):
+def in_the_bore(source):
     scene = (source / "effects/scene.xml").read_text(encoding="utf-8")
     summaries = {}
     for name, contact in [("elastic", contact_list("Hunt-Crossley", "")), ("creeping", contact_list("Creeping Wall", own_list(1e7, 3e7, 0.01)))]:
         text, count = re.subn(r'<ParameterList name="Contact">.*?\n  </ParameterList>\n', contact, scene, flags=re.DOTALL)
-        checks.expect(count == 1, "the scene has one list Contact")
+        expect("the scene has one list Contact", count == 1)
         deck = pathlib.Path(f"{name}.xml")
         deck.write_text(text, encoding="utf-8")
-        summaries[name] = checks.run(deck, f"bore_{name}")
+        summaries[name] = run(deck, f"bore_{name}")
     elastic, creeping = summaries["elastic"], summaries["creeping"]
     nodes = creeping["static"]["contact_nodes"]
-    checks.expect(nodes == elastic["static"]["contact_nodes"] > 0, f"{nodes} nodes rest on the creeping wall")
+    expect(f"{nodes} nodes rest on the creeping wall", nodes == elastic["static"]["contact_nodes"] > 0)
     for key in ("total_normal_force", "max_normal_force"):
         ratio = creeping["static"][key] / elastic["static"][key]
-        checks.expect(abs(ratio - 1) < 1e-6, f"at rest it is an elastic wall: {key} {ratio - 1:+.1e}")
+        expect(f"at rest it is an elastic wall: {key} {ratio - 1:+.1e}", abs(ratio - 1) < 1e-6)
     with h5py.File("bore_creeping/results.h5") as file:
         first, static = file["/transient/normal_force"][0], file["/static/normal_force"][...]
-        checks.expect(np.abs(first - static).max() < 1e-6 * static.max(), "the motion starts with the forces of the static state")
+        expect("the motion starts with the forces of the static state", np.abs(first - static).max() < 1e-6 * static.max())
     moved = np.abs(displacement("bore_creeping")[-1] - displacement("bore_elastic")[-1]).max()
-    checks.expect(moved > 1e-9, f"and moves otherwise than on an elastic wall, by {moved:.1e} m")
+    expect(f"and moves otherwise than on an elastic wall, by {moved:.1e} m", moved > 1e-9)
     residual = abs(creeping["transient"]["energy_residual"])
-    checks.expect(residual < 0.02, f"its ledger closes, residual {residual:.1e}")
-    checks.run("creeping.xml", "bore_creeping_np2", ranks=2)
-    checks.expect(np.allclose(displacement("bore_creeping"), displacement("bore_creeping_np2"), rtol=0, atol=1e-9), "the same on two ranks")
+    expect(f"its ledger closes, residual {residual:.1e}", residual < 0.02)
+    run("creeping.xml", "bore_creeping_np2", ranks=2)
+    expect("the same on two ranks", np.allclose(displacement("bore_creeping"), displacement("bore_creeping_np2"), rtol=0, atol=1e-9))
 
 
 def main():
-    program, law, mpiexec, source = sys.argv[1:5]
-    checks = Checks(program, law, mpiexec)
-    between_parts(checks, pathlib.Path(source))
-    in_the_bore(checks, pathlib.Path(source))
-    return 1 if checks.failures else 0
+    source = load("CreepingWall")
+    between_parts(source)
+    in_the_bore(source)
+    return finish()
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An element, a load and a mud model outside of the library, each in a file of its own, against closed forms.
 
-    check_string.py PROGRAM FOLDER
+    check_string.py PROGRAM MPIEXEC FOLDER
 
 PROGRAM is tooljoint, FOLDER holds the shared objects libRod.so, libWallDrag.so and libCuttings.so. The string hangs in a vertical
 well: `pipe` above, `tool` below, each PIPE and TOOL metres long.
@@ -12,10 +12,12 @@ import json
 import math
 import os
 import pathlib
-import subprocess
 import sys
 
 import h5py
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
 
 E, NU, RHO, G = 2.1e11, 0.3, 7850.0, 9.81
 OUTER, INNER = 0.06, 0.05
@@ -106,40 +108,32 @@ def component(name, length, element=""):
       </ParameterList>"""
 
 
-class Checks:
-    def __init__(self, program, folder):
-        self.program, self.failures = program, 0
-        modules = [folder / f"lib{name}.so" for name in ("Rod", "WallDrag", "Cuttings")]
-        self.environment = dict(os.environ, LD_PRELOAD=" ".join(str(module) for module in modules))
+def close(found, exact, tolerance, what):
+    error = abs(found - exact) / abs(exact)
+    expect(f"{what}: {found:.9g}, exact {exact:.9g}, relative error {error:.1e}", error < tolerance)
 
-    def expect(self, good, what):
-        self.failures += not good
-        print(f"{'ok    ' if good else 'FAILED'} {what}", flush=True)
 
-    def close(self, found, exact, tolerance, what):
-        error = abs(found - exact) / abs(exact)
-        self.expect(error < tolerance, f"{what}: {found:.9g}, exact {exact:.9g}, relative error {error:.1e}")
+def call(*words, code=0):
+    """What a command prints."""
+    done = tooljoint(*words)
+    expect(f"tooljoint {' '.join(words)} ends with {code}", done.returncode == code, done.stdout + done.stderr)
+    return done.stdout + done.stderr
 
-    def call(self, *words, code=0):
-        done = subprocess.run([self.program, *words], env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, check=False)
-        self.expect(done.returncode == code, f"tooljoint {' '.join(words)} ends with {code}")
-        if done.returncode != code:
-            print(done.stdout)
-        return done.stdout
 
-    def deck(self, name, weight_on_bit=0.0, rods=("tool",), supports=GUIDE, mud="", loads=""):
-        parts = {part: component(part, length, ROD if part in rods else "") for part, length in (("pipe", PIPE), ("tool", TOOL))}
-        path = pathlib.Path(f"{name}.xml")
-        path.write_text(DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads), encoding="utf-8")
-        return str(path)
+def written(name, weight_on_bit=0.0, rods=("tool",), supports=GUIDE, mud="", loads=""):
+    """The file of a deck."""
+    parts = {part: component(part, length, ROD if part in rods else "") for part, length in (("pipe", PIPE), ("tool", TOOL))}
+    path = pathlib.Path(f"{name}.xml")
+    path.write_text(DECK.format(**parts, weight_on_bit=weight_on_bit, supports=supports, mud=mud, loads=loads), encoding="utf-8")
+    return str(path)
 
-    def rest(self, name, **choices):
-        """w of the bit and axial force of the first element at rest."""
-        self.call("run", self.deck(name, **choices), "--output", name)
-        summary = json.loads((pathlib.Path(name) / "summary.json").read_text(encoding="utf-8"))
-        with h5py.File(f"{name}/results.h5") as file:
-            return file["/static/displacement"][-1, 2], summary["static"]["top_axial_force"], summary["model"]["free_dofs"]
+
+def rest(name, **choices):
+    """w of the bit and axial force of the first element at rest."""
+    call("run", written(name, **choices), "--output", name)
+    summary = json.loads((pathlib.Path(name) / "summary.json").read_text(encoding="utf-8"))
+    with h5py.File(f"{name}/results.h5") as file:
+        return file["/static/displacement"][-1, 2], summary["static"]["top_axial_force"], summary["model"]["free_dofs"]
 
 
 def stretch_under_weight(length_above, length, stiffness, area):
@@ -147,19 +141,19 @@ def stretch_under_weight(length_above, length, stiffness, area):
     return RHO * area * G * (length_above * length + length**2 / 2) / stiffness
 
 
-def an_element(checks):
+def an_element():
     """Rods below pipes: their compliances add up; rods alone: frequencies of a rod fixed at its top."""
     force = 2e4
-    free, _, dofs = checks.rest("rods")
-    pressed, _, _ = checks.rest("rods_pressed", weight_on_bit=force)
+    free, _, dofs = rest("rods")
+    pressed, _, _ = rest("rods_pressed", weight_on_bit=force)
     compliance = (PIPE + TOOL / FACTOR) / (E * AREA)
-    checks.close(free - pressed, force * compliance, 1e-9, "the weight on bit shortens pipe and rods by F (L1/ES + L2/(factor ES))")
+    close(free - pressed, force * compliance, 1e-9, "the weight on bit shortens pipe and rods by F (L1/ES + L2/(factor ES))")
     hanging = stretch_under_weight(TOOL, PIPE, E * AREA, AREA) + stretch_under_weight(0, TOOL, FACTOR * E * AREA, AREA)
-    checks.close(free, hanging, 1e-9, "their weight stretches them as it stretches rods")
+    close(free, hanging, 1e-9, "their weight stretches them as it stretches rods")
     held = 4 + 2  # u v w theta_z of the top, u v of the guide
-    checks.expect(dofs == 6 * (ELEMENTS + 1) - held + 2 * ELEMENTS, f"{dofs} free dofs: nodes of rods alone have two")
+    expect(f"{dofs} free dofs: nodes of rods alone have two", dofs == 6 * (ELEMENTS + 1) - held + 2 * ELEMENTS)
 
-    checks.call("modes", checks.deck("rods_alone", rods=("pipe", "tool"), supports=""), "--output", "modes", "--count", "4")
+    call("modes", written("rods_alone", rods=("pipe", "tool"), supports=""), "--output", "modes", "--count", "4")
     with open("modes/modes.csv", encoding="utf-8") as file:
         lines = [line for line in file if not line.startswith("#")]
     found = [float(row[1]) for row in list(csv.reader(lines))[1:]]
@@ -167,61 +161,61 @@ def an_element(checks):
     exact = sorted((2 * n - 1) * speed / (4 * (PIPE + TOOL)) for n in (1, 2, 3) for speed in speeds.values())[:4]
     # linear shape functions: (k h)^2/24 too high, k h = (2n - 1) pi/(4 ELEMENTS) on average
     for n, (frequency, closed) in enumerate(zip(found, exact), 1):
-        checks.close(frequency, closed, 2e-3, f"frequency {n} of the rods [Hz]")
-    checks.expect(len(found) == 4, "four frequencies listed")
+        close(frequency, closed, 2e-3, f"frequency {n} of the rods [Hz]")
+    expect("four frequencies listed", len(found) == 4)
 
 
-def a_wave(checks):
+def a_wave():
     """A force put on the free end of the rods makes it move at F/(A sqrt(factor E rho)) until the wave is back, in the full model
     and in a reduced one."""
     force, end = 1e4, 0.12
     speed = force / (AREA * math.sqrt(FACTOR * E * RHO))
-    checks.expect(end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO), "the wave is not back yet")
+    expect("the wave is not back yet", end < 2 * (PIPE + TOOL) / math.sqrt(FACTOR * E / RHO))
     loads = PUSH.format(node=2 * ELEMENTS + 1, force=force, end=end)
     for name, parts in (("full", ""), ("reduced", PARTS)):
-        deck = checks.deck(f"wave_{name}", rods=("pipe", "tool"), supports=parts + MOTION.format(end=end), loads=loads)
-        checks.call("run", deck, "--output", f"wave_{name}")
+        deck = written(f"wave_{name}", rods=("pipe", "tool"), supports=parts + MOTION.format(end=end), loads=loads)
+        call("run", deck, "--output", f"wave_{name}")
         with h5py.File(f"wave_{name}/results.h5") as file:
             w = file["/transient/displacement"][:, -1, 2]
         # the front is as wide as an element of 2.5 m, 1 % of the 310 m it has run
-        checks.close(w[-1] - w[0], speed * end, 1e-2, f"way of the free end in {end} s, {name} model")
+        close(w[-1] - w[0], speed * end, 1e-2, f"way of the free end in {end} s, {name} model")
 
 
-def a_load(checks):
+def a_load():
     """Drag between two depths hangs below the top, whatever elements carry it; both ends lie inside elements."""
     total = 50.0 * (154 - 31)
-    _, dry, _ = checks.rest("dry")
-    _, dragged, _ = checks.rest("dragged", loads=DRAG.format(drag=50.0))
-    checks.close(dry - dragged, total, 1e-9, "the drag takes its sum off the axial force at the top")
-    shown = checks.call("check", "dragged.xml")
-    checks.expect("wall drag" in shown and "6150" in shown, "check names the load and its size")
-    wrong = checks.deck("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
-    checks.expect("ends (To) before it starts" in checks.call("check", wrong, code=2), "a senseless load is refused")
+    _, dry, _ = rest("dry")
+    _, dragged, _ = rest("dragged", loads=DRAG.format(drag=50.0))
+    close(dry - dragged, total, 1e-9, "the drag takes its sum off the axial force at the top")
+    shown = call("check", "dragged.xml")
+    expect("check names the load and its size", "wall drag" in shown and "6150" in shown)
+    wrong = written("wrong", loads=DRAG.format(drag=50.0).replace('value="154"', 'value="3"'))
+    expect("a senseless load is refused", "ends (To) before it starts" in call("check", wrong, code=2))
 
 
-def a_mud_model(checks):
+def a_mud_model():
     """Buoyancy with a denser mud outside."""
-    _, dry, _ = checks.rest("no_mud")
-    _, wet, _ = checks.rest("mud", mud=MUD)
+    _, dry, _ = rest("no_mud")
+    _, wet, _ = rest("mud", mud=MUD)
     buoyancy = math.pi * (1200 * INNER**2 - 1500 * OUTER**2)
-    checks.close(wet / dry, 1 + buoyancy / (RHO * AREA), 1e-9, "the mud takes its share off the weight")
+    close(wet / dry, 1 + buoyancy / (RHO * AREA), 1e-9, "the mud takes its share off the weight")
 
 
-def the_manual(checks):
+def the_manual():
     """Names, parameters and units of all three."""
-    manual = json.dumps(json.loads(checks.call("doc", "--format", "json")))
+    manual = json.dumps(json.loads(call("doc", "--format", "json")))
     for word in ('"Rod"', '"Axial Factor"', '"Wall Drag"', '"Force Per Length"', '"Cuttings"', '"Cuttings Density"'):
-        checks.expect(word in manual, f"the manual has {word}")
+        expect(f"the manual has {word}", word in manual)
 
 
 def main():
-    checks = Checks(sys.argv[1], pathlib.Path(sys.argv[2]))
-    an_element(checks)
-    a_wave(checks)
-    a_load(checks)
-    a_mud_model(checks)
-    the_manual(checks)
-    return 1 if checks.failures else 0
+    os.environ["LD_PRELOAD"] = " ".join(f"{sys.argv[3]}/lib{name}.so" for name in ("Rod", "WallDrag", "Cuttings"))
+    an_element()
+    a_wave()
+    a_load()
+    a_mud_model()
+    the_manual()
+    return finish()
 
 
 if __name__ == "__main__":

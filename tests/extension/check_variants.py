@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A basis, an explicit and an implicit integrator outside of the library, each in a file of its own, named in decks.
 
-    check_variants.py PROGRAM FOLDER MPIEXEC SOURCE
+    check_variants.py PROGRAM MPIEXEC FOLDER SOURCE
 
 PROGRAM is tooljoint, FOLDER holds the shared objects of this folder, SOURCE the folder tests/.
 """
@@ -14,7 +14,7 @@ import sys
 import time
 
 import numpy as np
-from check_extension import CREEP, END, FAST, PARTS, STIFFNESS, Checks, displacement, own_list
+from check_extension import CREEP, END, FAST, PARTS, STIFFNESS, displacement, expect, finish, load, output, own_list, run
 
 
 def chain(source, integrator, step, own="", end=END):
@@ -23,77 +23,75 @@ def chain(source, integrator, step, own="", end=END):
     return text.replace('<Parameter name="Step"', own + '<Parameter name="Step"')
 
 
-def run_chain(checks, source, name, *arguments, **keywords):
+def run_chain(source, name, *arguments, **keywords):
     deck = pathlib.Path(f"{name}.xml")
     deck.write_text(chain(source, *arguments, **keywords), encoding="utf-8")
-    summary = checks.run(deck, name)["transient"]
+    summary = run(deck, name)["transient"]
     return displacement(name), summary
 
 
-def explicit(checks, source):
+def explicit(source):
     """Heun errs by O(h^2), RK4 at a tenth of its step by nothing beside that."""
-    exact, _ = run_chain(checks, source, "rk4", "RK4", 1e-4)
+    exact, _ = run_chain(source, "rk4", "RK4", 1e-4)
     errors = []
     for step in (1e-3, 5e-4):
-        found, summary = run_chain(checks, source, f"heun_{step}", "Heun", step)
+        found, summary = run_chain(source, f"heun_{step}", "Heun", step)
         errors.append(np.abs(found - exact).max() / np.abs(exact).max())
     # vibration of the stiffest mode, w = sqrt(1000) /s on the wall: phase error (w h)^2 / 6 per radian, a few radians of contact
-    checks.expect(errors[0] < 5 * 1000 * 1e-3**2 / 6, f"Heun agrees with RK4, error {errors[0]:.1e}")
-    checks.expect(3 < errors[0] / errors[1] < 5.5, f"and is of second order, {errors[0]:.1e} and {errors[1]:.1e}")
-    measured(checks, "Heun", summary)
+    expect(f"Heun agrees with RK4, error {errors[0]:.1e}", errors[0] < 5 * 1000 * 1e-3**2 / 6)
+    expect(f"and is of second order, {errors[0]:.1e} and {errors[1]:.1e}", 3 < errors[0] / errors[1] < 5.5)
+    measured("Heun", summary)
 
 
-def implicit(checks, source):
+def implicit(source):
     """Generalized-alpha with spectral radius 1 and without phase correction is the trapezoidal rule; what is left are the iterations."""
     alpha = """<ParameterList name="Generalized-alpha">
       <Parameter name="Spectral Radius" type="double" value="1"/>
       <Parameter name="Phase Correction" type="bool" value="false"/>
       <Parameter name="Tolerance" type="double" value="1e-10"/>
     </ParameterList>"""
-    exact, known = run_chain(checks, source, "alpha", "Generalized-alpha", 5e-4, alpha)
-    found, summary = run_chain(checks, source, "trapezoidal", "Trapezoidal", 5e-4)
+    exact, known = run_chain(source, "alpha", "Generalized-alpha", 5e-4, alpha)
+    found, summary = run_chain(source, "trapezoidal", "Trapezoidal", 5e-4)
     error = np.abs(found - exact).max() / np.abs(exact).max()
-    checks.expect(error < 1e-7, f"Trapezoidal agrees with Generalized-alpha, error {error:.1e}")
-    measured(checks, "Trapezoidal", summary)
+    expect(f"Trapezoidal agrees with Generalized-alpha, error {error:.1e}", error < 1e-7)
+    measured("Trapezoidal", summary)
     # the one has the third term of its series, the other a step and its halves, which differ by 3/4 of it
     ratio = summary["local_error"] / known["local_error"]
-    checks.expect(0.4 < ratio < 1.2, f"the local error is that of Generalized-alpha, ratio {ratio:.2f}")
+    expect(f"the local error is that of Generalized-alpha, ratio {ratio:.2f}", 0.4 < ratio < 1.2)
 
 
-def measured(checks, name, summary):
-    checks.expect(summary["integrator"] == name, f"{name} is named in the summary")
-    checks.expect(abs(summary["energy_residual"]) < 1e-3, f"its ledger closes, residual {summary['energy_residual']:.1e}")
-    checks.expect(0 < summary["local_error"] < 0.025 and summary["halving_error"] > 0,
-                  f"its steps are measured: {summary['local_error']:.1e} and {summary['halving_error']:.1e}")
+def measured(name, summary):
+    expect(f"{name} is named in the summary", summary["integrator"] == name)
+    expect(f"its ledger closes, residual {summary['energy_residual']:.1e}", abs(summary["energy_residual"]) < 1e-3)
+    expect(f"its steps are measured: {summary['local_error']:.1e} and {summary['halving_error']:.1e}", 0 < summary["local_error"] < 0.025 and summary["halving_error"] > 0)
 
 
-def coarse_steps(checks, source):
+def coarse_steps(source):
     """The chain alone, on a wall of no stiffness: w h = 1.0 and 0.4, of which a step loses about (w h)^2 / 16."""
     deck = pathlib.Path("coarse.xml")
     text = chain(source, "Trapezoidal", 0.25, end=250.0)
     deck.write_text(text.replace(f'value="{STIFFNESS}"', 'value="1e-9"').replace(f'value="{FAST}"', 'value="1e-9"'), encoding="utf-8")
-    said = checks.output(deck, "coarse")
-    checks.expect("warning: The time step (0.25 s) is too large: local error" in said and "Reduce Transient/Step." in said,
-                  "steps that are too large are told")
+    said = output(deck, "coarse")
+    expect("steps that are too large are told", "warning: The time step (0.25 s) is too large: local error" in said and "Reduce Transient/Step." in said)
 
 
-def restart(checks, source, integrator):
+def restart(source, integrator):
     """An interrupted run that goes on ends with the same numbers as one that was not."""
     name = f"restart_{integrator}"
     deck = pathlib.Path(f"{name}.xml")
     deck.write_text(chain(source, integrator, 1e-4, end=150.0), encoding="utf-8")
     folder = pathlib.Path(f"{name}_interrupted")
-    process = subprocess.Popen([checks.program, "run", str(deck), "--output", str(folder)], env=checks.environment, stdout=subprocess.DEVNULL)
+    process = subprocess.Popen([sys.argv[1], "run", str(deck), "--output", str(folder)], stdout=subprocess.DEVNULL)
     while process.poll() is None and not (folder / "checkpoint.bin").exists():
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    checks.expect(process.wait() == 130, f"{integrator} is interrupted")
-    checks.run(deck, str(folder), "--restart", str(folder))
-    checks.run(deck, f"{name}_whole")
-    checks.expect(np.array_equal(displacement(str(folder)), displacement(f"{name}_whole")), f"{integrator} goes on with the same numbers")
+    expect(f"{integrator} is interrupted", process.wait() == 130)
+    run(deck, str(folder), "--restart", str(folder))
+    run(deck, f"{name}_whole")
+    expect(f"{integrator} goes on with the same numbers", np.array_equal(displacement(str(folder)), displacement(f"{name}_whole")))
 
 
-def frequencies(checks, source, name, basis, own=""):
+def frequencies(source, name, basis, own=""):
     scene = (source.parent / "examples/07_your_own_basis/scene.xml").read_text(encoding="utf-8").replace("../../xml", str(source.parent / "xml"))
     head, tail = scene.split('<ParameterList name="Reduction">')
     deck = pathlib.Path(f"{name}.xml")
@@ -102,36 +100,34 @@ def frequencies(checks, source, name, basis, own=""):
     <ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="4"/></ParameterList>{own}
   </ParameterList>
 </ParameterList>""", encoding="utf-8")
-    checks.output(deck, name, command="modes")
+    output(deck, name, command="modes")
     with open(pathlib.Path(name) / "modes.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return np.array([float(row[column]) for row in rows for column in row if column == "coupled [Hz]" and row[column]])
 
 
-def basis(checks, source):
+def basis(source):
     """What the kept modes lack falls by (w_k / w_j)^2 with each step, j being the first vector beyond the subspace."""
-    known = frequencies(checks, source, "craig_bampton", "Craig-Bampton")
+    known = frequencies(source, "craig_bampton", "Craig-Bampton")
     errors = []
     for steps in (1, 30):
         own = f'<ParameterList name="Inverse Subspace"><Parameter name="Steps" type="int" value="{steps}"/></ParameterList>'
-        found = frequencies(checks, source, f"subspace_{steps}", "Inverse Subspace", own)
+        found = frequencies(source, f"subspace_{steps}", "Inverse Subspace", own)
         errors.append(np.abs(found / known - 1).max())
-    checks.expect(len(known) > 10, f"{len(known)} frequencies")
-    checks.expect(errors[1] < 1e-7, f"a subspace that has converged gives the frequencies of Craig-Bampton, error {errors[1]:.1e}")
-    checks.expect(errors[0] > 1e-5, f"one that has not gives others, error {errors[0]:.1e}")
+    expect(f"{len(known)} frequencies", len(known) > 10)
+    expect(f"a subspace that has converged gives the frequencies of Craig-Bampton, error {errors[1]:.1e}", errors[1] < 1e-7)
+    expect(f"one that has not gives others, error {errors[0]:.1e}", errors[0] > 1e-5)
 
 
 def main():
-    program, folder, mpiexec, source = sys.argv[1:5]
-    objects = " ".join(f"{folder}/lib{name}.so" for name in ("CreepingWall", "Heun", "Trapezoidal", "InverseSubspace"))
-    checks, source = Checks(program, objects, mpiexec), pathlib.Path(source)
-    explicit(checks, source)
-    implicit(checks, source)
-    coarse_steps(checks, source)
+    source = load("CreepingWall", "Heun", "Trapezoidal", "InverseSubspace")
+    explicit(source)
+    implicit(source)
+    coarse_steps(source)
     for integrator in ("Heun", "Trapezoidal"):
-        restart(checks, source, integrator)
-    basis(checks, source)
-    return 1 if checks.failures else 0
+        restart(source, integrator)
+    basis(source)
+    return finish()
 
 
 if __name__ == "__main__":
