@@ -45,13 +45,12 @@ void AlphaStep::setPhaseCorrection() {
 
 StepScheme AlphaStep::scheme(double h) const {
   const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, mass_->regular ? 0.5 * h * h * ca : 1.0};
+  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, mass_->regular() ? 0.5 * h * h * ca : 1.0};
 }
 
 /// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.
 void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   model_ = &model;
-  mass_ = std::make_shared<Mass>();
   const int n = model.size();
   for (auto& batch : model.points()) batch.look(state.t, 0.0, state.q.data());
   state.a.setZero();
@@ -61,27 +60,12 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   for (int i = 0; i < n; ++i) state.a[i] += model.load()[i];
   model.bindStates(state.x.data());
   model.addPointForces(state.t, state.q.data(), state.v.data(), state.a.data());
-  mass_->factor = linalg::BlockFactor(model.pattern());
-  Vector diagonal(n);
-  model.combine(1.0, 0.0, 0.0, mass_->factor.values());
-  model.diagonal(1.0, 0.0, 0.0, diagonal.data());
-  mass_->perUnit.setOnes(n);
-  mass_->missing.assign(static_cast<std::size_t>(n), 0);
-  for (int i = 0; i < n; ++i)
-    if (diagonal[i] == 0.0) {
-      mass_->factor.values()[model.pattern().address(i, i)] = 1.0;
-      mass_->missing[static_cast<std::size_t>(i)] = 1;
-      state.a[i] = 0.0;
-    } else {
-      mass_->perUnit[i] = 1.0 / diagonal[i];
-    }
+  mass_ = std::make_shared<MassFactor>(model);
   ++counters.factorisations;
-  const int bad = mass_->factor.factor();
-  mass_->regular = bad < 0;
-  if (mass_->regular) {
-    mass_->factor.solve(state.a.data());
+  if (mass_->regular()) {
+    mass_->solve(state.a);
   } else {
-    log::warn("The mass matrix is singular at " + model.dofName(bad) +
+    log::warn("The mass matrix is singular at " + model.dofName(mass_->singularAt()) +
               " although there is mass on it: the motion starts without acceleration, with an "
               "error of first order in the step.");
     state.a.setZero();
@@ -187,16 +171,7 @@ void AlphaStep::findImpacts() {
   clear(impacts_);
   for (const auto& batch : model_->points())
     if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
-  if (impacts_.blocks.empty()) return;
-  const auto& pattern = model_->pattern();
-  double largest = 0;
-  for (int b : impacts_.blocks)
-    for (int i = pattern.start(b); i < pattern.start(b + 1); ++i) {
-      if (mass_->missing[static_cast<std::size_t>(i)]) impacts_.a[i] = 0.0;
-      largest = std::max(largest, std::abs(mass_->perUnit[i] * impacts_.a[i]));
-    }
-  mass_->factor.solveNear(impacts_.a.data(), impacts_.blocks, mass_->perUnit.data(),
-                          negligible * largest);
+  if (!impacts_.blocks.empty()) mass_->solveNear(impacts_.a, impacts_.blocks, negligible);
 }
 
 void AlphaStep::keep() {

@@ -8,9 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
-#include "transient/contact/ImpactWatch.hpp"
+#include "transient/compiled/MassFactor.hpp"
 #include "transient/schemes/ImplicitStep.hpp"
 
 namespace tooljoint::transient {
@@ -51,22 +50,13 @@ class AlphaStep {
   const Vector& lastError() const { return error_; }
   const ImplicitStep& equation() const { return equation_; }
   /// After start().
-  ImpactWatch::Mass mass() const {
-    return {&mass_->factor, mass_->perUnit.data(), &mass_->missing};
-  }
+  const MassFactor& mass() const { return *mass_; }
   CompiledModel& model() const { return *model_; }
 
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
  private:
-  /// M with unit pivots where there is no mass.
-  struct Mass {
-    linalg::BlockFactor factor;
-    Vector perUnit;             ///< 1 / M_ii
-    std::vector<char> missing;  ///< per position: no mass
-    bool regular = true;        ///< but for those
-  };
   void setPhaseCorrection();
   void bind(const Vector& a);
   StepScheme scheme(double h) const;
@@ -89,7 +79,7 @@ class AlphaStep {
   double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
   CompiledModel* model_ = nullptr;
   ImplicitStep equation_;
-  std::shared_ptr<Mass> mass_;
+  std::shared_ptr<const MassFactor> mass_;
   Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
   Vector X_, nextX_, base_;        ///< the same for states of point laws; x_{n+1} without x'_{n+1}
   Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before

@@ -20,10 +20,10 @@
 /// (Jansen, Whiting and Hulbert 2000 in the same form).
 ///
 /// A step in which a point meets a wall is halved until its rebound is that of the wall
-/// (ImpactWatch); what comes to rest on a wall too stiff for the step stays there without rebound:
-/// averaging its force over two steps would make energy (up to eight times what comes in). It acts
-/// in full over the step in which it arises, and not beyond, as in Kane, Repetto, Ortiz and Marsden
-/// (1999) and Chen, Acary, Virlez and Bruels (2013):
+/// (ImpactResolution); what comes to rest on a wall too stiff for the step stays there without
+/// rebound: averaging its force over two steps would make energy (up to eight times what comes in).
+/// It acts in full over the step in which it arises, and not beyond, as in Kane, Repetto, Ortiz and
+/// Marsden (1999) and Chen, Acary, Virlez and Bruels (2013):
 ///
 ///     q_{n+1} = ... + h^2/2 M^-1 R'f,   v_{n+1} = ... + h M^-1 R'f   (with the v of the scheme for
 ///     that q),   A without f
@@ -50,6 +50,8 @@
 #include "transient/accuracy/StepAccuracy.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepDoublingError.hpp"
+#include "transient/accuracy/StepGrid.hpp"
+#include "transient/contact/ImpactResolution.hpp"
 #include "transient/schemes/AlphaHalves.hpp"
 
 namespace tooljoint::transient {
@@ -84,9 +86,11 @@ deck::ListSpec specification() {
                "Make up for the period error of the scheme: vibration is then followed to fourth "
                "order in the step, at about a "
                "third more work per step.")
-      .boolean("Resolve Impacts", true,
-               "Halve steps in which a point meets a wall, until its rebound is that of the wall. "
-               "Without, impacts on walls too stiff for the step have no rebound.")
+      .boolean(
+          "Resolve Impacts", true,
+          "Of fixed steps: halve those in which a point meets a wall, until its rebound is that "
+          "of the wall. Without, impacts on walls too stiff for the step have no rebound. Steps "
+          "with a Step Tolerance resolve impacts by their error.")
       .expert()
       .boolean("Accept Coarse Steps", false,
                "Accept a motion although the fixed time step is too large (its local error "
@@ -100,14 +104,6 @@ deck::ListSpec specification() {
 
 /// Largest step of the default when the deck gives none.
 constexpr double defaultStep = 1e-3;
-
-/// Halvings that impacts may ask for, and how many at a time: on the way to an impact, steps are
-/// cut only as far as it takes to find it.
-constexpr int mostForImpacts = 16, atATime = 3;
-/// Steps in a row without motion in closed contact, at least, before they grow again: the scheme
-/// remembers half of an acceleration from one step to the next at a spectral radius of 0, which
-/// must be gone from a step eight times as long.
-constexpr int calmSteps = 12;
 
 class GeneralizedAlpha final : public Integrator {
  public:
@@ -146,10 +142,9 @@ class GeneralizedAlpha final : public Integrator {
 
  private:
   void look(const State& from, const State& to, double h);
+  bool isAccurate(const State& from, double h);
   bool resolvesImpacts(const State& from, const State& to, double h);
-  void grow(const State& to, double h);
-  int deepestLevel() const;
-  double gridTime() const;
+  int deepestLevel(double longest) const;
   [[noreturn]] void giveUp(const State& from, double h) const;
   [[noreturn]] void giveUpAccuracy(const State& from, double h);
   [[noreturn]] void giveUpImpacts(const State& from, double h) const;
@@ -163,18 +158,9 @@ class GeneralizedAlpha final : public Integrator {
   double stepTolerance_ = 0, smallest_ = 0;
 
   CompiledModel* model_ = nullptr;
-  Window window_;
-  double step_ = 0;
-  long units_ = 16;  ///< sub-steps a full step may be cut into
-  long index_ = 0;   ///< full steps done
-  long done_ = 0;    ///< units done of the step under way
-  int level_ = 0;    ///< halvings in force
-  int deepest_ = 4;  ///< halvings possible
-
+  StepGrid grid_;
   StepControl control_;
-  ImpactWatch impacts_;
-  bool afterImpact_ = false;  ///< steps are short because of one
-  double calm_ = 0;           ///< time since contact moved [s]
+  ImpactResolution impacts_;
   StepAccuracy accuracy_;
   StepDoublingError doubling_;
   MassNorm length_;
@@ -185,27 +171,22 @@ class GeneralizedAlpha final : public Integrator {
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   checkParameters(window.step);
   model_ = &model;
-  window_ = window;
-  step_ = fittedStep(window, window.step > 0 ? window.step : defaultStep);
-  resolveImpacts_ = resolveImpacts_ && !controlled_ && !model.points().empty();
-  deepest_ = controlled_ ? deepestLevel() : resolveImpacts_ ? mostForImpacts : maxHalvings_;
-  units_ = 1L << deepest_;
-  if (controlled_) control_.set(stepTolerance_, deepest_);
-  length_.bind(model);
+  const double step = fittedStep(window, window.step > 0 ? window.step : defaultStep);
   scheme_->start(model, state, counters_);
-  scheme_->prepare(step_, state.t);
+  scheme_->prepare(step, state.t);
+  resolveImpacts_ =
+      resolveImpacts_ && !controlled_ && !model.points().empty() && scheme_->mass().regular();
+  grid_.set(window, step,
+            controlled_       ? deepestLevel(step)
+            : resolveImpacts_ ? ImpactResolution::mostHalvings
+                              : maxHalvings_);
+  if (controlled_) control_.set(stepTolerance_, grid_.deepest());
+  length_.bind(model);
   change_ = state.q;
   if (resolveImpacts_) impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
   if (!controlled_)
-    doubling_.bind(model, std::make_unique<AlphaHalves>(*scheme_), state, step_,
-                   std::lround((window.end - window.begin) / step_));
-}
-
-double GeneralizedAlpha::gridTime() const {
-  const double steps =
-      static_cast<double>(index_) + static_cast<double>(done_) / static_cast<double>(units_);
-  const double t = window_.begin + steps * step_;
-  return window_.end - t < 1e-9 * step_ ? window_.end : t;
+    doubling_.bind(model, std::make_unique<AlphaHalves>(*scheme_), state, step,
+                   std::lround((window.end - window.begin) / step));
 }
 
 void GeneralizedAlpha::checkParameters(double step) const {
@@ -224,38 +205,25 @@ void GeneralizedAlpha::checkParameters(double step) const {
 }
 
 /// Halvings of the longest step that leave it no shorter than allowed.
-int GeneralizedAlpha::deepestLevel() const {
+int GeneralizedAlpha::deepestLevel(double longest) const {
   constexpr int usual = 10, most = 30;
   if (!(smallest_ > 0)) return usual;
-  return std::clamp(static_cast<int>(std::floor(std::log2(step_ / smallest_) + 1e-9)), 0, most);
+  return std::clamp(static_cast<int>(std::floor(std::log2(longest / smallest_) + 1e-9)), 0, most);
 }
 
 void GeneralizedAlpha::advance(const State& from, State& to) {
   double h = 0;
-  int failures = 0;
-  for (;;) {
-    const long stride = units_ >> level_;
-    done_ += stride;
-    to.t = gridTime();
-    const bool last = level_ >= deepest_ || failures >= maxHalvings_;
-    // The nominal length, equal from step to step to the last digit; shorter only where the run
-    // ends.
-    h = step_ * static_cast<double>(stride) / static_cast<double>(units_);
-    if (to.t >= window_.end && std::abs(to.t - from.t - h) > 1e-9 * h) h = to.t - from.t;
-    const bool solved = scheme_->take(from, to, h, last && acceptUnconverged_, counters_);
-    if (solved && controlled_) error_ = length_(scheme_->localError(h, true));
-    if (solved && !controlled_ && resolvesImpacts(from, to, h)) break;
-    if (solved && controlled_ && control_.accepts(error_)) break;
-    done_ -= stride;
-    if (solved && !controlled_) continue;
-    if (solved) {
+  for (int failures = 0;;) {
+    to.t = grid_.next();
+    h = grid_.nextLength(from.t);
+    const bool last = grid_.level() >= grid_.deepest() || failures >= maxHalvings_;
+    if (scheme_->take(from, to, h, last && acceptUnconverged_, counters_)) {
+      if (controlled_ ? isAccurate(from, h) : resolvesImpacts(from, to, h)) break;
       ++counters_.rejected;
-      level_ = control_.shorter(error_, level_);
-      if (level_ > deepest_) giveUpAccuracy(from, h);
       continue;
     }
     if (last) giveUp(from, h);
-    ++level_;
+    grid_.setLevel(grid_.level() + 1);
     ++failures;
     ++counters_.halved;
     control_.forget();
@@ -263,38 +231,30 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
   if (!controlled_) look(from, to, h);
   scheme_->keep();
   counters_.accept(h);
-  if (done_ == units_) ++index_, done_ = 0;
+  grid_.advance();
   if (resolveImpacts_) impacts_.keep(to, h);
-  if (controlled_)
-    level_ = control_.next(error_, level_, done_);
-  else
-    grow(to, h);
+  grid_.setLevel(controlled_       ? control_.next(error_, grid_.level(), grid_.done())
+                 : resolveImpacts_ ? impacts_.nextLevel(to, h, grid_)
+                                   : grid_.lowest(0));
+}
+
+/// False, with a deeper level, when the error of the step just taken is too large.
+bool GeneralizedAlpha::isAccurate(const State& from, double h) {
+  error_ = length_(scheme_->localError(h, true));
+  if (control_.accepts(error_)) return true;
+  const int level = control_.shorter(error_, grid_.level());
+  if (level > grid_.deepest()) giveUpAccuracy(from, h);
+  grid_.setLevel(level);
+  return false;
 }
 
 /// False, with a deeper level, when the step just taken does not resolve its impacts.
 bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, double h) {
   const int missing = resolveImpacts_ ? impacts_.halvings(from, to, h) : 0;
   if (missing == 0) return true;
-  if (level_ + missing > deepest_) giveUpImpacts(from, std::ldexp(h, -missing));
-  ++counters_.rejected;
-  level_ += std::min(missing, atATime);
-  calm_ = 0;
-  afterImpact_ = true;
+  if (grid_.level() + missing > grid_.deepest()) giveUpImpacts(from, std::ldexp(h, -missing));
+  grid_.setLevel(grid_.level() + std::min(missing, ImpactResolution::atATime));
   return false;
-}
-
-/// Longer steps, as soon as those done fill one and, after an impact, contact has been calm.
-void GeneralizedAlpha::grow(const State& to, double h) {
-  const int least = afterImpact_ ? std::max(0, level_ - atATime) : 0;
-  if (afterImpact_ && level_ > 0) {
-    const double needed = impacts_.calmNeeded(to, std::ldexp(step_, -least));
-    calm_ = std::isfinite(needed) ? calm_ + h : 0.0;
-    if (calm_ < std::max(needed, calmSteps * h)) return;
-  }
-  const int before = level_;
-  while (level_ > least && done_ % (units_ >> (level_ - 1)) == 0) --level_;
-  if (level_ != before) calm_ = 0;
-  if (level_ == 0) afterImpact_ = false;
 }
 
 /// Collects the measures of the step's accuracy.
@@ -303,12 +263,12 @@ void GeneralizedAlpha::look(const State& from, const State& to, double h) {
     change_ = to.q - from.q;
     accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
   }
-  if (h == step_ && doubling_.isDue(index_)) doubling_.look(from, to);
+  if (h == grid_.length(0) && doubling_.isDue(grid_.index())) doubling_.look(from, to);
 }
 
 StepErrors GeneralizedAlpha::stepErrors() const {
   if (controlled_) return {};
-  return {accuracy_.ratio(), doubling_.ratio(accuracy_.change() / step_)};
+  return {accuracy_.ratio(), doubling_.ratio(accuracy_.change() / grid_.length(0))};
 }
 
 void GeneralizedAlpha::finish() const {
@@ -334,7 +294,7 @@ void GeneralizedAlpha::finish() const {
 std::string GeneralizedAlpha::describeFailure(double t, double h) const {
   std::ostringstream text;
   text << "Newton did not converge in the step from t = " << t << " s (length " << h << " s after "
-       << level_ << " halvings): the residual is " << scheme_->equation().relativeError()
+       << grid_.level() << " halvings): the residual is " << scheme_->equation().relativeError()
        << " of the largest force, tolerance " << tolerance_ << ", worst at "
        << model_->dofName(scheme_->equation().worstPosition()) << ".";
   return text.str();
@@ -361,14 +321,13 @@ void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
 void GeneralizedAlpha::giveUpImpacts(const State& from, double h) const {
   std::ostringstream text;
   text << "An impact at t = " << from.t << " s needs steps of " << h << " s, "
-       << "shorter than Transient/Step / 2^" << mostForImpacts
+       << "shorter than Transient/Step / 2^" << ImpactResolution::mostHalvings
        << ". Reduce Transient/Step or the stiffness of the wall.";
   throw ConvergenceError(text.str());
 }
 
 void GeneralizedAlpha::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {static_cast<double>(index_), static_cast<double>(done_),
-                               static_cast<double>(level_), afterImpact_ ? 1.0 : 0.0, calm_});
+  grid_.save(memory);
   scheme_->save(memory);
   if (resolveImpacts_) impacts_.save(memory);
   control_.save(memory);
@@ -377,11 +336,7 @@ void GeneralizedAlpha::save(std::vector<double>& memory) const {
 }
 
 void GeneralizedAlpha::restore(const double*& memory) {
-  index_ = static_cast<long>(*memory++);
-  done_ = static_cast<long>(*memory++);
-  level_ = static_cast<int>(*memory++);
-  afterImpact_ = *memory++ != 0.0;
-  calm_ = *memory++;
+  grid_.restore(memory);
   scheme_->restore(memory);
   if (resolveImpacts_) impacts_.restore(memory);
   control_.restore(memory);

@@ -11,6 +11,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "tests/support/ErrorText.hpp"
+#include "transient/accuracy/StepGrid.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -31,6 +32,35 @@ class Steps final : public SampleSink {
   }
   std::vector<double> time, place, speed;
 };
+
+// The grid
+// -------------------------------------------------------------------------------------------------
+
+TEST(StepGrid, longerStepsBeginAtMultiplesOfThemselves) {
+  StepGrid grid;
+  grid.set({1.0, 1.5, 0, 0}, 0.1, 4);
+  EXPECT_EQ(grid.next(), 1.1);
+  grid.setLevel(2);
+  EXPECT_EQ(grid.nextLength(1.0), 0.025);
+  grid.advance();
+  EXPECT_EQ(grid.lowest(0), 2);  // a quarter of the step is done
+  EXPECT_DOUBLE_EQ(grid.next(), 1.05);
+  grid.advance();
+  EXPECT_EQ(grid.lowest(0), 1);
+  EXPECT_EQ(grid.lowest(2), 2);
+  grid.setLevel(1);
+  grid.advance();
+  EXPECT_EQ(grid.index(), 1);
+  EXPECT_EQ(grid.lowest(0), 0);
+}
+
+TEST(StepGrid, theLastStepEndsWhereTheMotionDoes) {
+  StepGrid grid;
+  grid.set({0.0, 0.25, 0, 0}, 0.1, 4);
+  grid.advance(), grid.advance();
+  EXPECT_EQ(grid.next(), 0.25);
+  EXPECT_DOUBLE_EQ(grid.nextLength(0.2), 0.05);
+}
 
 // The rule
 // -------------------------------------------------------------------------------------------------

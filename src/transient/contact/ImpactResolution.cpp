@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "transient/contact/ImpactWatch.hpp"
+#include "transient/contact/ImpactResolution.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,10 @@ constexpr double mostLost = 0.005, mostMisplaced = 0.02;
 /// w h, and the part of its velocity that damping takes in a step, at which steps are short enough
 /// for any impact.
 constexpr double resolved = 0.15, resolvedDamping = 0.005;
+/// Steps in a row without motion in closed contact, at least, before they grow again: the scheme
+/// remembers half of an acceleration from one step to the next at a spectral radius of 0, which
+/// must be gone from a step eight times as long.
+constexpr int calmSteps = 12;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Speeds below this are rest [m/s]: a ball would rise by half a nanometre.
 constexpr double quiet = 1e-4;
@@ -25,23 +29,22 @@ constexpr long lookStride = 8;
 /// Residuals of the mobility of a point beside its own that are left out.
 constexpr double negligible = 1e-4;
 
-/// Mean part of its energy that a rebound from an elastic wall loses in steps of w h, a fit within
-/// 20 % to single masses for spectral radii r from 0 to 0.8 and w h up to 1; from w h = 2 contact
-/// is an impact without rebound (ContactForceIteration::setImpacts).
-double loss(double wh, double r) {
-  if (wh > 2.0) return 1.0;
-  return std::min(1.0, 0.55 * std::pow(1.0 - r, 4) * wh * wh);
-}
-
-/// Largest part that depends on where in a step the wall is met, likewise. A wall with damping c
-/// begins with a force: that of half a step, 1 - (1 - W c h / 2)^2, is met early or late.
+/// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
+/// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
+/// energy more or less.
 double scatter(double wh, double damping) { return std::min(1.0, 0.25 * wh * wh + damping); }
 
 }  // namespace
 
-void ImpactWatch::bind(CompiledModel& model, const Mass& mass, double radius) {
+double reboundLoss(double wh, double r) {
+  if (wh > 2.0) return 1.0;
+  const double slow = 0.55 * std::pow(1.0 - r, 4) * wh * wh;
+  return slow / (1.0 + slow);
+}
+
+void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double radius) {
   model_ = &model;
-  mass_ = mass;
+  mass_ = &mass;
   radius_ = radius;
   norm_.bind(model);
   sets_.clear();
@@ -61,13 +64,14 @@ void ImpactWatch::bind(CompiledModel& model, const Mass& mass, double radius) {
   f_.assign(widest, 0.0);
   dfdd_.assign(widest * widest, 0.0);
   dfdv_ = dfdd_;
-  normal_ = deeper_ = f_;
-  squares_ = time_ = unseen_ = 0;
+  normal_ = deeper_ = open_ = f_;
+  squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
+  recovering_ = false;
 }
 
 /// R M^-1 R', solved near the point.
-const double* ImpactWatch::mobility(int b, int point) {
+const double* ImpactResolution::mobility(int b, int point) {
   Set& set = sets_[at(b)];
   const PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
@@ -78,13 +82,7 @@ const double* ImpactWatch::mobility(int b, int point) {
     blocks_.clear();
     batch.appendBlocks(point, blocks_);
     batch.addRow(point * w + k, 1.0, column_.data());
-    double largest = 0;
-    for (int block : blocks_)
-      for (int i = pattern.start(block); i < pattern.start(block + 1); ++i) {
-        if ((*mass_.missing)[at(i)]) column_[i] = 0.0;
-        largest = std::max(largest, std::abs(mass_.perUnit[i] * column_[i]));
-      }
-    mass_.factor->solveNear(column_.data(), blocks_, mass_.perUnit, negligible * largest);
+    mass_->solveNear(column_, blocks_, negligible);
     for (int j = 0; j < w; ++j) W[j * w + k] = batch.rowTimesVector(point * w + j, column_.data());
     for (int block : blocks_) column_.segment(pattern.start(block), pattern.width(block)).setZero();
   }
@@ -92,10 +90,25 @@ const double* ImpactWatch::mobility(int b, int point) {
   return W;
 }
 
-/// J = df/dd at the point: n = J'f / |J'f|. What it meets is the wall behind the depth in which a
+/// What is met at the end of a step is a little force at a high speed: both count.
+ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, const double* before) {
+  const PointBatch& batch = model_->points()[at(b)];
+  const int w = batch.width();
+  const double* W = mobility(b, point);
+  Bound found;
+  for (int k = 0; k < w; ++k) {
+    if (batch.dfdd()[point * w * w + k * w + k] == 0) continue;
+    const double push = batch.force()[point * w + k] / batch.scale(point);
+    found.change += h * W[k * w + k] * std::abs(push - before[k]);
+    found.speed += std::abs(batch.v()[point * w + k]);
+  }
+  return found;
+}
+
+/// J = df/dd at the point: n = J'f / |J'f|. The wall is the one behind the depth in which a
 /// regularised law begins: k = -n'J n as deep as the change of velocity takes the point there,
 /// first in the whole step and then in 1/w.
-ImpactWatch::Wall ImpactWatch::wall(int b, int point, double t, double speed, double h) {
+ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double speed, double h) {
   PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
   const double* d = batch.d() + point * w;
@@ -134,11 +147,12 @@ ImpactWatch::Wall ImpactWatch::wall(int b, int point, double t, double speed, do
     if (!first || found.frequency == 0 || found.frequency * h < 1) break;
     depth = speed / found.frequency;
   }
-  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());  // what the batch holds
+  if (batch.states() != nullptr)  // they are left where the batch evaluated last
+    batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   return found;
 }
 
-double ImpactWatch::along(int b, int point, const Vector& v) const {
+double ImpactResolution::along(int b, int point, const Vector& v) const {
   const PointBatch& batch = model_->points()[at(b)];
   double sum = 0;
   for (int k = 0; k < batch.width(); ++k)
@@ -147,65 +161,67 @@ double ImpactWatch::along(int b, int point, const Vector& v) const {
 }
 
 /// v'M v: the mean over the run so far, or that of the step looked at where it is more.
-double ImpactWatch::square() const { return std::max(now_, time_ > 0 ? squares_ / time_ : 0.0); }
+double ImpactResolution::square() const {
+  return std::max(current_, time_ > 0 ? squares_ / time_ : 0.0);
+}
 
 /// Whether what changes by this, (dv)^2, is worth a shorter step.
-bool ImpactWatch::matters(double change) const {
+bool ImpactResolution::matters(double change) const {
   return change > 4 * mostLost * std::max(quiet * quiet, square() / norm_.mass());
 }
 
-bool ImpactWatch::resolves(const Wall& wall, double change, double h) const {
+bool ImpactResolution::resolves(const Wall& wall, double change, double h) const {
   const double wh = wall.frequency * h, damping = wall.damping * h;
   if ((wh <= resolved && damping <= resolvedDamping) || !matters(change * change)) return true;
-  if (matters(loss(wh, radius_) * change * change)) return false;
+  if (matters(reboundLoss(wh, radius_) * change * change)) return false;
   return scatter(wh, damping) * change * change / wall.mobility <= 4 * mostMisplaced * square();
 }
 
-int ImpactWatch::halvings(const State& from, const State& to, double h) {
+int ImpactResolution::halvings(const State& from, const State& to, double h) {
   int most = 0;
-  now_ = 0;
+  current_ = 0;
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
-    const Set& set = sets_[at(b)];
     const int w = batch.width();
     for (int p : batch.active()) {
-      // a bound of dv (dv + 2 v), before anything is evaluated, from the rows a wall pushes along:
-      // what is met at the end of a step is a little force at a high speed
-      const double* W = mobility(b, p);
-      double bound = 0, speed = 0;
-      for (int k = 0; k < w; ++k) {
-        if (batch.dfdd()[p * w * w + k * w + k] == 0) continue;
-        const double push = batch.force()[p * w + k] / batch.scale(p);
-        bound += h * W[k * w + k] * std::abs(push - set.force[at(p * w + k)]);
-        speed += std::abs(batch.v()[p * w + k]);
-      }
-      if (!matters(bound * (bound + 2 * speed))) continue;
-      if (now_ == 0) now_ = model_->massForm(to.v.data());
-      if (!matters(bound * (bound + 2 * speed))) continue;
-      const Wall met = wall(b, p, to.t, bound + speed, h);
+      const double* last = &sets_[at(b)].force[at(p * w)];
+      const auto [change, speed] = bound(b, p, h, last);
+      if (!matters(change * (change + 2 * speed))) continue;
+      if (current_ == 0) current_ = model_->massForm(to.v.data());
+      if (!matters(change * (change + 2 * speed))) continue;
+      const Wall met = wall(b, p, to.t, change + speed, h);
       if (met.frequency == 0) continue;
       double before = 0;
-      for (int k = 0; k < w; ++k) before += normal_[at(k)] * set.force[at(p * w + k)];
+      for (int k = 0; k < w; ++k) before += normal_[at(k)] * last[k];
       // What a force passes on to its neighbours is no change of velocity; what has begun to turn
       // goes on to its reversal.
-      const double first = along(b, p, from.v), last = along(b, p, to.v);
-      const double change = std::max(
-          {std::min(h * met.mobility * std::abs(met.push - before), 2 * std::abs(last - first)),
-           2 * std::abs(first), 2 * std::abs(last)});
+      const double begin = along(b, p, from.v), end = along(b, p, to.v);
+      const double reversal = std::max(
+          {std::min(h * met.mobility * std::abs(met.push - before), 2 * std::abs(end - begin)),
+           2 * std::abs(begin), 2 * std::abs(end)});
       int count = 0;
-      while (!resolves(met, change, std::ldexp(h, -count))) ++count;
+      while (!resolves(met, reversal, std::ldexp(h, -count))) ++count;
       most = std::max(most, count);
     }
+  }
+  if (most > 0) {
+    recovering_ = true;
+    calm_ = 0;
   }
   return most;
 }
 
-double ImpactWatch::calmNeeded(const State& to, double h) {
+/// Time for which contact that is closed at `to` must have been without motion before a step of
+/// length h may follow: half a period of its vibration, since it also rests where it is pressed in
+/// furthest; infinite where it moves, 0 where none is closed that h does not resolve.
+double ImpactResolution::calmNeeded(const State& to, double h) {
   double needed = 0;
-  now_ = model_->massForm(to.v.data());
+  current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     const PointBatch& batch = model_->points()[at(b)];
     for (int p : batch.active()) {
+      const double force = bound(b, p, h, open_.data()).change;
+      if (!matters(force * force)) continue;
       double fastest = 0;
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
@@ -218,7 +234,22 @@ double ImpactWatch::calmNeeded(const State& to, double h) {
   return needed;
 }
 
-void ImpactWatch::keep(const State& to, double h) {
+int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid) {
+  if (!recovering_ || grid.level() == 0) {
+    recovering_ = false;
+    return grid.lowest(0);
+  }
+  const int least = std::max(0, grid.level() - atATime);
+  const double needed = calmNeeded(to, grid.length(least));
+  calm_ = std::isfinite(needed) ? calm_ + h : 0.0;
+  if (calm_ < std::max(needed, calmSteps * h)) return grid.level();
+  const int level = grid.lowest(least);
+  if (level != grid.level()) calm_ = 0;
+  recovering_ = level > 0;
+  return level;
+}
+
+void ImpactResolution::keep(const State& to, double h) {
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     const PointBatch& batch = model_->points()[b];
     const int w = batch.width();
@@ -233,14 +264,16 @@ void ImpactWatch::keep(const State& to, double h) {
   unseen_ = 0;
 }
 
-void ImpactWatch::save(std::vector<double>& memory) const {
-  memory.insert(memory.end(), {squares_, time_, unseen_, static_cast<double>(kept_)});
+void ImpactResolution::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {squares_, time_, unseen_, calm_, static_cast<double>(kept_),
+                               recovering_ ? 1.0 : 0.0});
   for (const auto& set : sets_) memory.insert(memory.end(), set.force.begin(), set.force.end());
 }
 
-void ImpactWatch::restore(const double*& memory) {
-  for (double* sum : {&squares_, &time_, &unseen_}) *sum = *memory++;
+void ImpactResolution::restore(const double*& memory) {
+  for (double* sum : {&squares_, &time_, &unseen_, &calm_}) *sum = *memory++;
   kept_ = static_cast<long>(*memory++);
+  recovering_ = *memory++ != 0.0;
   for (auto& set : sets_)
     for (double& force : set.force) force = *memory++;
 }

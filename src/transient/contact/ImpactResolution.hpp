@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Steps short enough for the impacts in them. A point of mass 1/W = 1/(n' R M^-1 R' n) that meets
+/// a wall of stiffness k along n vibrates there with w = sqrt(k W), and a step of length h changes
+/// its velocity by
+///
+///     dv = h W n'(f_{n+1} - f_n).
+///
+/// A rebound in steps of length h loses the part reboundLoss() of its energy, and misplaces up to
+/// the part `scatter`, depending on where in a step the wall is met. With a full reversal of the
+/// speed v, dv = 2 v, this is loss dv^2 / (8 W) of energy. A step resolves it where
+///
+///     loss(w h) dv^2 / 4 <= a <v^2>   and   scatter(w h) dv^2 / (8 W) <= b <v'M v / 2>
+///
+/// with means over the run so far, or those of the step where they are larger: what is lost is
+/// small beside what a point of the string has, and what is misplaced beside what the whole has.
+#pragma once
+
+#include <vector>
+
+#include "transient/accuracy/StepControl.hpp"
+#include "transient/accuracy/StepGrid.hpp"
+#include "transient/compiled/CompiledModel.hpp"
+#include "transient/compiled/MassFactor.hpp"
+
+namespace tooljoint::transient {
+
+struct State;
+
+/// Mean part of its energy that a rebound from an elastic wall loses in steps of w h < 2, with
+/// spectral radius r: a fit to single masses, within 20 % or 0.03 from w h = 0.15 to 1.2. Beyond,
+/// contact is an impact without rebound (ContactForceIteration::setImpacts), and 1.
+double reboundLoss(double wh, double r);
+
+class ImpactResolution {
+ public:
+  /// Halvings that impacts may ask for, and how many at a time: on the way to an impact, steps are
+  /// cut only as far as it takes to find it.
+  static constexpr int mostHalvings = 16, atATime = 3;
+
+  /// For the scheme of spectral radius r; the mass must outlive this.
+  void bind(CompiledModel& model, const MassFactor& mass, double radius);
+
+  /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0
+  /// where it does so itself.
+  int halvings(const State& from, const State& to, double h);
+  /// The step that ended at `to` counts.
+  void keep(const State& to, double h);
+  /// Level of the next step. After an impact steps grow, at most by `atATime` halvings at once,
+  /// when closed contact has been without motion for half a period of its vibration.
+  int nextLevel(const State& to, double h, const StepGrid& grid);
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  struct Set {
+    std::vector<double> force;     ///< rows, at the end of the last step kept
+    std::vector<double> mobility;  ///< R M^-1 R' per point, width x width, row-major
+    std::vector<char> known;       ///< per point: its mobility
+  };
+  /// Where a point meets its wall.
+  struct Wall {
+    double frequency = 0;  ///< w [rad/s]; 0 where nothing is met
+    double mobility = 0;   ///< W [1/kg]
+    double damping = 0;    ///< -W n' df/dv n [1/s]
+    double push = 0;       ///< n'f [N]
+  };
+  /// What a step can do to a point, from the rows its wall pushes along [m/s].
+  struct Bound {
+    double change = 0;  ///< h W |f_{n+1} - f_n|
+    double speed = 0;
+  };
+  const double* mobility(int batch, int point);
+  Bound bound(int batch, int point, double h, const double* before);
+  Wall wall(int batch, int point, double t, double speed, double h);
+  bool resolves(const Wall& wall, double change, double h) const;
+  double calmNeeded(const State& to, double h);
+  double square() const;
+  bool matters(double change) const;
+  /// Component along the normal of the last wall().
+  double along(int batch, int point, const Vector& v) const;
+
+  CompiledModel* model_ = nullptr;
+  const MassFactor* mass_ = nullptr;
+  double radius_ = 1;
+  std::vector<Set> sets_;
+  MassNorm norm_;
+  double squares_ = 0, time_ = 0;  ///< integral of v'M v over the time looked at [J s]
+  double unseen_ = 0;              ///< time since the last look
+  double current_ = 0;             ///< v'M v of the step looked at, once it is asked for
+  long kept_ = 0;                  ///< steps
+  bool recovering_ = false;        ///< steps are short because of an impact
+  double calm_ = 0;                ///< time for which closed contact has been without motion [s]
+  Vector column_;
+  std::vector<int> blocks_;
+  std::vector<double> f_, dfdd_, dfdv_, open_;
+  std::vector<double> normal_, deeper_;  ///< n of the last wall() and a place behind it, in rows
+};
+
+}  // namespace tooljoint::transient
