@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "Models.hpp"
+#include "transient/contact/ImpactResolution.hpp"
 
 namespace tooljoint::transient::testing {
 namespace {
@@ -64,6 +65,29 @@ INSTANTIATE_TEST_SUITE_P(Steps, Rebound,
                          ::testing::Combine(::testing::Values(1e-4, 1e-3, 5e-3),
                                             ::testing::Values(0.0, 0.2, 0.5, 0.8, 1.0)));
 
+/// The mean energy that rebounds lose in steps that do not resolve them, over all places within a
+/// step where the wall is met, beside reboundLoss(), which decides on halvings.
+TEST(Impacts, UnresolvedReboundsLoseWhatTheFitSays) {
+  for (double radius : {0.0, 0.2, 0.5, 0.8})
+    for (double wh : {0.15, 0.3, 0.5, 0.8, 1.0, 1.2}) {
+      constexpr double h = 1e-4;
+      constexpr int phases = 40;
+      auto o = options("Generalized-alpha", 0.08, h, 0.08);
+      o.own.set("Spectral Radius", radius);
+      o.own.set("Resolve Impacts", false);
+      o.own.set("Accept Coarse Steps", true);
+      o.ledger = false;
+      double lost = 0;
+      for (int i = 0; i < phases; ++i)
+        lost += 1 - apex(fallingMass(mass * std::pow(wh / h, 2), 0,
+                                     (i + 0.5) / phases * h * std::sqrt(2 * gravity * drop)),
+                         o);
+      lost /= phases;
+      const double fit = reboundLoss(wh, radius);
+      EXPECT_NEAR(lost, fit, std::max(0.2 * fit, 0.03)) << radius << " " << wh;
+    }
+}
+
 /// Once a mass rests on a stiff wall, a slow change of its load needs no short steps.
 TEST(Impacts, AtRestStepsAreLongAgain) {
   auto model = fallingMass(1e10, 1e5, 0);
@@ -73,6 +97,67 @@ TEST(Impacts, AtRestStepsAreLongAgain) {
   const auto first = integrate(model, options("Generalized-alpha", 2.0, 1e-3, 0.1), samples);
   const auto longer = integrate(model, options("Generalized-alpha", 4.0, 1e-3, 0.1), samples);
   EXPECT_LE(longer.counters.steps - first.counters.steps, 2100);
+}
+
+/// St. Venant's bar: n springs in a row, of mass m and stiffness k each, fly at unit speed against
+/// a wall a hundred times as stiff as a spring. A wave takes sqrt(m/k) per spring.
+constexpr int springs = 50;
+constexpr double perSpring = 1e-4;  ///< [s]
+constexpr double contactTime = 2 * springs * perSpring;
+constexpr double start = 0.01 * contactTime;  ///< of the contact [s]
+
+model::SecondOrderModel flyingBar() {
+  constexpr double m = 1, k = m / (perSpring * perSpring);
+  constexpr int n = springs + 1;
+  Matrix M = m * Matrix::Identity(n, n), K = Matrix::Zero(n, n);
+  M(0, 0) = M(n - 1, n - 1) = 0.5 * m;
+  for (int i = 1; i < n; ++i) {
+    K(i, i) += k, K(i - 1, i - 1) += k;
+    K(i, i - 1) -= k, K(i - 1, i) -= k;
+  }
+  auto bar = denseModel(M, Matrix(), K);
+  bar.initialVelocity.setConstant(-1.0);
+  model::PointSet set;
+  set.name = "wall";
+  set.law = std::make_shared<Floor>(1, 100 * k, 0.0, 7e11);
+  set.rows.resize(1, n);
+  set.rows.insert(0, 0) = 1;
+  set.offset = Vector::Constant(1, start);
+  set.entities = {1};
+  bar.points.push_back(set);
+  return bar;
+}
+
+/// Velocity of the centre of mass at the samples.
+std::vector<double> centre(const model::SecondOrderModel& bar, const TransientOptions& o) {
+  Keep samples;
+  integrate(bar, o, samples);
+  const Vector weights = Matrix(bar.mass).diagonal();
+  std::vector<double> speed;
+  for (const auto& v : samples.v) speed.push_back(weights.dot(v) / weights.sum());
+  return speed;
+}
+
+/// Contact lasts 2 L / c, in which the momentum falls from -1 to 1 along a line. A bar of springs
+/// spreads the front of its wave, over some of them: the truth is RK4 in fine steps.
+TEST(Impacts, ABarRebounds) {
+  const auto bar = flyingBar();
+  const double interval = 0.1 * contactTime, end = 1.4 * contactTime;
+  const auto truth = centre(bar, options("RK4", end, 1e-2 * perSpring, interval));
+  const auto line = [&](double t) {
+    return std::clamp(2 * (t - start) / contactTime - 1, -1., 1.);
+  };
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_NEAR(truth[i], line(static_cast<double>(i) * interval), 0.05) << i;
+  for (double radius : {0.2, 0.8, 1.0})
+    for (double h : {0.5 * perSpring, perSpring}) {
+      auto o = options("Generalized-alpha", end, h, interval);
+      o.own.set("Spectral Radius", radius);
+      o.own.set("Accept Coarse Steps", true);  // of the front of the wave, which is a jump
+      const auto found = centre(bar, o);
+      for (std::size_t i = 0; i < truth.size(); ++i)
+        EXPECT_NEAR(found[i], truth[i], 0.02) << radius << " " << h << " " << i;
+    }
 }
 
 }  // namespace
