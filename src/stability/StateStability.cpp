@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/Constants.hpp"
@@ -81,26 +82,26 @@ std::vector<Growth> growingModes(const estimate::Linearised& tangent, const Matr
 ///
 ///     y = Q(s)^-1 Q'(s) phi,   s <- s - phi_k / y_k,   Q(s) = s^2 M + s C + K
 ///
-/// False when it does not converge.
-bool refine(const estimate::Linearised& tangent, Growth& mode) {
+/// Nothing when it does not converge.
+std::optional<Growth> refine(const estimate::Linearised& tangent, Growth mode) {
   using ComplexSparse = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
   const ComplexSparse M = tangent.mass.cast<Complex>(), C = tangent.damping.cast<Complex>(),
                       K = tangent.stiffness.cast<Complex>();
   for (int i = 0; i < mostRefinements; ++i) {
     const ComplexSparse Q = mode.s * mode.s * M + mode.s * C + K;
     const Eigen::SparseLU<ComplexSparse> factors(Q);
-    if (factors.info() != Eigen::Success) return i > 0;  // Q(s) is singular: s is the eigenvalue
+    if (factors.info() != Eigen::Success) return mode;  // Q(s) is singular: s is the eigenvalue
     const ComplexVector y =
         factors.solve(ComplexVector(C * mode.shape + 2.0 * mode.s * (M * mode.shape)));
     Eigen::Index k = 0;
     y.cwiseAbs().maxCoeff(&k);
-    if (!y.allFinite() || y[k] == 0.0) return false;
+    if (!y.allFinite() || y[k] == 0.0) return std::nullopt;
     const Complex change = mode.shape[k] / y[k];
     mode.s -= change;
     mode.shape = y / y[k];
-    if (std::abs(change) <= refined * std::abs(mode.s)) return true;
+    if (std::abs(change) <= refined * std::abs(mode.s)) return mode;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -122,11 +123,14 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.examined = modes.count();
   count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
-  for (Growth& mode : growingModes(tangent, modes.vectors)) {
-    if (refine(tangent, mode) && !isGrowth(mode.s)) continue;
+  for (const Growth& ritz : growingModes(tangent, modes.vectors)) {
+    const auto exact = refine(tangent, ritz);
+    const Growth& mode = exact ? *exact : ritz;
+    if (!isGrowth(mode.s)) continue;
+    found.refined = exact.has_value();
     found.growthRate = mode.s.real();
     if (std::abs(mode.s.imag()) > noGrowth * std::abs(mode.s))
-      found.frequency = std::abs(mode.s.imag()) / (2.0 * constants::pi);
+      found.frequency = std::abs(mode.s.imag()) / constants::twoPi;
     found.shape = mode.shape.real();
     found.shape /= found.shape.cwiseAbs().maxCoeff();
     break;

@@ -23,6 +23,8 @@ struct StateStability {
   /// negative pivots only friction and skew stiffness can make a motion grow.
   double growthRate = 0.0;
   double frequency = 0.0;  ///< its imaginary part, Hz; 0 for a state that is left without vibration
+  bool refined = true;  ///< false: s is a Ritz value of the projection, which the whole equations
+                        ///< did not confirm
   int examined = 0;  ///< modes the damped equations were projected on; 0 where none was needed
   Vector shape;      ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
 
@@ -38,8 +40,8 @@ constexpr double slowestGrowth = 1e-3;
 /// Assesses q(0) with the matrices, laws and point laws of time t. The negative pivots are counted
 /// by Sylvester's law of inertia. Where there are some, or where friction or skew stiffness can
 /// make a motion grow without them, the damped equations are projected on the lowest modes of the
-/// symmetric tangent, and a growing mode found there is refined with the whole equations. Growth
-/// that needs motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is
+/// symmetric tangent, and a growing mode found there is refined with the whole equations; where the
+/// refinement does not converge, the projected mode is kept (`refined` false). Growth that needs motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is
 /// linear in the number of dofs. ModelError, ConvergenceError: the pivots could not be counted or
 /// the modes not be found.
 StateStability assess(const model::SecondOrderModel& model, double t);

@@ -16,6 +16,11 @@ std::string shortNumber(double value) {
   return text;
 }
 
+/// What is said of a growth rate that stands for the lowest modes alone.
+const std::string unrefined =
+    "The growth rate is that of the lowest modes alone: its refinement with all dofs did not "
+    "converge.";
+
 std::string counted(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -49,7 +54,8 @@ std::string describeStability(const StaticStage& stage) {
   return "unstable: " +
          (s.diverges() ? "the string leaves it as " + growth
                        : "a vibration of " + shortNumber(s.frequency) + " Hz grows as " + growth) +
-         " (" + modeText(stage) + "); " + text + ".";
+         " (" + modeText(stage) + "); " + text + "." +
+         (s.refined ? "" : " " + unrefined);
 }
 
 void summariseStability(const StaticStage& stage, io::Summary& summary) {

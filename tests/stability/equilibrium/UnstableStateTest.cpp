@@ -107,6 +107,31 @@ TEST(UnstableState, IsNotReportedBelowGreenhillsTorque) {
   EXPECT_TRUE(stage.stability.stable()) << drillstring::describeStability(stage);
 }
 
+/// Skew stiffness that couples a falling dof to one too stiff for the projection makes s^2 = -2 of
+/// s^2 = 1: Newton's method, which begins on the real axis, has nothing to converge to. What stands
+/// for the lowest modes is kept, and said to be no more than that.
+TEST(UnstableState, KeepsTheProjectedModeThatCannotBeRefined) {
+  constexpr int n = 14;
+  constexpr double stiff = 1e4;
+  const double skew = std::sqrt(3.0 * stiff);
+  Matrix K = Vector::LinSpaced(n, 0, n - 1).asDiagonal();
+  K(0, 0) = -1.0;
+  K(n - 1, n - 1) = stiff;
+  K(0, n - 1) = skew;
+  K(n - 1, 0) = -skew;
+  model::SecondOrderModel model;
+  model.componentNames = {"u"};
+  for (int i = 0; i < n; ++i) model.dofs.push_back(model::DofLabel::physical(1 + i, 0));
+  model.mass = Sparse(Matrix(Matrix::Identity(n, n)).sparseView());
+  model.stiffness.push_back({"stiffness", K.sparseView(), 0});
+  model.initialDisplacement = model.initialVelocity = Vector::Zero(n);
+  const auto stability = stability::assess(model, 0.0);
+  EXPECT_FALSE(stability.refined);
+  EXPECT_NEAR(stability.growthRate, 1.0, 1e-6);
+  EXPECT_EQ(stability.frequency, 0.0);
+  EXPECT_EQ(stability.shape[0], 1.0);
+}
+
 TEST(UnstableState, IsRefusedWhenTheDeckSaysSo) {
   const auto scene = column(1.01, {"Static/Unstable State=Refuse"});
   try {
