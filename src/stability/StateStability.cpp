@@ -104,41 +104,7 @@ std::optional<Growth> refine(const estimate::Linearised& tangent, Growth mode) {
   return std::nullopt;
 }
 
-}  // namespace
-
-StateStability assess(const model::SecondOrderModel& model, double t) {
-  const Stage stage("stability of the static state");
-  StateStability found;
-  const auto tangent = estimate::linearise(model, t);
-  const Sparse symmetric =
-      reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
-  found.negativePivots =
-      linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
-  if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
-  linalg::EigenOptions options;
-  if (found.negativePivots == 0) options.shift = -4 * slowestGrowth * slowestGrowth;  // below all
-  const auto modes = linalg::lowestFiniteModes(
-      symmetric, tangent.mass,
-      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}), options);
-  found.examined = modes.count();
-  count("modes of the static state", modes.count());
-  if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
-  for (const Growth& ritz : growingModes(tangent, modes.vectors)) {
-    const auto exact = refine(tangent, ritz);
-    const Growth& mode = exact ? *exact : ritz;
-    if (!isGrowth(mode.s)) continue;
-    found.refined = exact.has_value();
-    found.growthRate = mode.s.real();
-    if (std::abs(mode.s.imag()) > noGrowth * std::abs(mode.s))
-      found.frequency = std::abs(mode.s.imag()) / constants::twoPi;
-    found.shape = mode.shape.real();
-    found.shape /= found.shape.cwiseAbs().maxCoeff();
-    break;
-  }
-  return found;
-}
-
-ShapeOutline outline(const model::SecondOrderModel& model, const Vector& shape) {
+ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {
   using Translation = Eigen::Matrix<double, 1, 3>;
   const auto& names = model.componentNames;
   std::map<std::int64_t, Translation> nodes;
@@ -169,6 +135,41 @@ ShapeOutline outline(const model::SecondOrderModel& model, const Vector& shape) 
   widest->second.cwiseAbs().maxCoeff(&component);
   found.node = widest->first;
   found.component = names[static_cast<std::size_t>(component)];
+  return found;
+}
+
+}  // namespace
+
+StateStability assess(const model::SecondOrderModel& model, double t) {
+  const Stage stage("stability of the static state");
+  StateStability found;
+  const auto tangent = estimate::linearise(model, t);
+  const Sparse symmetric =
+      reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);
+  found.negativePivots =
+      linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
+  if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
+  linalg::EigenOptions options;
+  if (found.negativePivots == 0) options.shift = -4 * slowestGrowth * slowestGrowth;  // below all
+  const auto modes = linalg::lowestFiniteModes(
+      symmetric, tangent.mass,
+      std::min({model.size(), mostModes, found.negativePivots + modesBeyond}), options);
+  found.examined = modes.count();
+  count("modes of the static state", modes.count());
+  if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
+  for (const Growth& ritz : growingModes(tangent, modes.vectors)) {
+    const auto exact = refine(tangent, ritz);
+    const Growth& mode = exact ? *exact : ritz;
+    if (!isGrowth(mode.s)) continue;
+    found.refined = exact.has_value();
+    found.growthRate = mode.s.real();
+    if (std::abs(mode.s.imag()) > noGrowth * std::abs(mode.s))
+      found.frequency = std::abs(mode.s.imag()) / constants::twoPi;
+    found.shape = mode.shape.real();
+    found.shape /= found.shape.cwiseAbs().maxCoeff();
+    found.outline = outlineOf(model, found.shape);
+    break;
+  }
   return found;
 }
 

@@ -11,6 +11,14 @@
 
 namespace tooljoint::stability {
 
+/// Where a shape is largest, and how often it changes sign in the direction it has there; nodes in
+/// the order of their labels.
+struct ShapeOutline {
+  std::int64_t node = 0;  ///< label of the node that moves most; 0 where nothing translates
+  std::string component;  ///< component that moves most there
+  int halfWaves = 0;
+};
+
 /// What is known of the stability of q(0) of a model.
 struct StateStability {
   /// Eigenvalues of the symmetric tangent (symmetric part of K, closed contacts linear, no
@@ -25,8 +33,9 @@ struct StateStability {
   double frequency = 0.0;  ///< its imaginary part, Hz; 0 for a state that is left without vibration
   bool refined = true;  ///< false: s is a Ritz value of the projection, which the whole equations
                         ///< did not confirm
-  int examined = 0;  ///< modes the damped equations were projected on; 0 where none was needed
-  Vector shape;      ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
+  int examined = 0;     ///< modes the damped equations were projected on; 0 where none was needed
+  Vector shape;  ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
+  ShapeOutline outline;  ///< of that
 
   bool stable() const { return shape.size() == 0; }
   /// The state is left without vibration: another state of rest exists.
@@ -41,19 +50,10 @@ constexpr double slowestGrowth = 1e-3;
 /// by Sylvester's law of inertia. Where there are some, or where friction or skew stiffness can
 /// make a motion grow without them, the damped equations are projected on the lowest modes of the
 /// symmetric tangent, and a growing mode found there is refined with the whole equations; where the
-/// refinement does not converge, the projected mode is kept (`refined` false). Growth that needs motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is
-/// linear in the number of dofs. ModelError, ConvergenceError: the pivots could not be counted or
-/// the modes not be found.
+/// refinement does not converge, the projected mode is kept (`refined` false). Growth that needs
+/// motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is linear in the
+/// number of dofs. ModelError, ConvergenceError: the pivots could not be counted or the modes not
+/// be found.
 StateStability assess(const model::SecondOrderModel& model, double t);
-
-/// Where a shape is largest, and how often it changes sign in the direction it has there.
-struct ShapeOutline {
-  std::int64_t node = 0;  ///< label of the node that moves most; 0 where nothing translates
-  std::string component;  ///< component that moves most there
-  int halfWaves = 0;
-};
-
-/// Of a shape in the dofs of a model; nodes in the order of their labels.
-ShapeOutline outline(const model::SecondOrderModel& model, const Vector& shape);
 
 }  // namespace tooljoint::stability

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringStability.hpp"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
@@ -10,33 +10,22 @@ namespace tooljoint::drillstring {
 
 namespace {
 
-std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// What is said of a growth rate that stands for the lowest modes alone.
-const std::string unrefined =
-    "The growth rate is that of the lowest modes alone: its refinement with all dofs did not "
+constexpr const char* unrefined =
+    " The growth rate is that of the lowest modes alone: its refinement with all dofs did not "
     "converge.";
 
 std::string counted(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-stability::ShapeOutline outlineOf(const StaticStage& stage) {
-  return stability::outline(assemble(stage.equations), stage.stability.shape);
-}
-
 /// "3 half waves, largest in u of node 13 (s = 6 m)".
 std::string modeText(const StaticStage& stage) {
-  const auto shape = outlineOf(stage);
-  if (shape.node == 0) return "no node moves along";
-  return counted(shape.halfWaves, "half wave") + ", largest in " + shape.component + " of node " +
-         std::to_string(shape.node) +
-         " (s = " + shortNumber(stage.path.arcLength[static_cast<std::size_t>(shape.node - 1)]) +
-         " m)";
+  const auto& mode = stage.stability.outline;
+  if (mode.node == 0) return "no node moves along";
+  return fmt::format("{}, largest in {} of node {} (s = {:.4g} m)",
+                     counted(mode.halfWaves, "half wave"), mode.component, mode.node,
+                     stage.path.arcLength[static_cast<std::size_t>(mode.node - 1)]);
 }
 
 }  // namespace
@@ -50,12 +39,11 @@ std::string describeStability(const StaticStage& stage) {
           ", no damped motion in the space of its " + counted(s.examined, "lowest mode") + " grows";
     return "stable: " + text + ".";
   }
-  const std::string growth = "exp(" + shortNumber(s.growthRate) + " t)";
-  return "unstable: " +
-         (s.diverges() ? "the string leaves it as " + growth
-                       : "a vibration of " + shortNumber(s.frequency) + " Hz grows as " + growth) +
-         " (" + modeText(stage) + "); " + text + "." +
-         (s.refined ? "" : " " + unrefined);
+  const std::string motion = s.diverges()
+                                 ? "the string leaves it"
+                                 : fmt::format("a vibration of {:.4g} Hz grows", s.frequency);
+  return fmt::format("unstable: {} as exp({:.4g} t) ({}); {}.{}", motion, s.growthRate,
+                     modeText(stage), text, s.refined ? "" : unrefined);
 }
 
 void summariseStability(const StaticStage& stage, io::Summary& summary) {
@@ -64,11 +52,10 @@ void summariseStability(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.perturbations", stage.perturbations);
   summary.set("static.stable", s.stable());
   if (s.stable()) return;
-  const auto shape = outlineOf(stage);
   summary.set("static.growth_rate", s.growthRate);
   summary.set("static.growth_hz", s.frequency);
-  summary.set("static.unstable_node", static_cast<int>(shape.node));
-  summary.set("static.unstable_half_waves", shape.halfWaves);
+  summary.set("static.unstable_node", static_cast<int>(s.outline.node));
+  summary.set("static.unstable_half_waves", s.outline.halfWaves);
 }
 
 void judgeStability(const Scene& scene, const StaticStage& stage) {

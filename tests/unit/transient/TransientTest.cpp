@@ -259,6 +259,48 @@ TEST(Transient, aLawFasterThanTheStepsIsWarnedOf) {
   }
 }
 
+/// q_{n+1} = q_n + h v_n; neither judges its steps nor takes one again.
+class Drift final : public Integrator {
+ public:
+  std::string advice() const override { return "Reduce Transient/Step"; }
+  void prepare(CompiledModel&, const Window& window, State& state) override {
+    h_ = window.step;
+    state.a.setZero();
+  }
+  void advance(const State& from, State& to) override {
+    to = from;
+    to.t = from.t + h_;
+    to.q += h_ * from.v;
+    counters_.accept(h_);
+  }
+  void save(std::vector<double>&) const override {}
+  void restore(const double*&) override {}
+
+ private:
+  double h_ = 0;
+};
+
+TEST(Transient, theAccuracyOfStepsThatNobodyMeasuresIsNotKnown) {
+  IntegratorRegistry::instance().add("Drift",
+                                     {"Constant velocity.", {}, [](const Teuchos::ParameterList&) {
+                                        return std::make_unique<Drift>();
+                                      }});
+  const auto model = oscillator(1, 0, 0, 0, 1);
+  const auto said = [&](const std::string& integrator) {
+    Keep samples;
+    auto o = options(integrator, 1.0, 0.125, 0.5);
+    o.ledger = false;
+    ::testing::internal::CaptureStdout();
+    integrate(model, o, samples);
+    EXPECT_EQ(samples.q.back()[0], 1.0);
+    return ::testing::internal::GetCapturedStdout();
+  };
+  EXPECT_NE(said("Drift").find("accuracy    not known: the integrator \"Drift\" does not measure "
+                               "its steps. Compare with a run of half the step."),
+            std::string::npos);
+  EXPECT_EQ(said("Generalized-alpha").find("not known"), std::string::npos);
+}
+
 // Interrupt
 // -------------------------------------------------------------------------------------------------
 
