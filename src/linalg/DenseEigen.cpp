@@ -51,7 +51,8 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
 
 }  // namespace
 
-QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
+QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
+                           double largestResidual) {
   const auto n = M.rows();
   if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
     throw ModelError(
@@ -106,7 +107,7 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
     modes.values[j] = s;
     modes.vectors.col(j) = phi;
     modes.residuals[j] = size > 0.0 ? residual.cwiseAbs().maxCoeff() / size : 0.0;
-    if (!(modes.residuals[j] <= 1e-8))
+    if (!(modes.residuals[j] <= largestResidual))
       throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " +
                              scientific(modes.residuals[j]) + ".");
   }

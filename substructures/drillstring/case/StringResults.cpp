@@ -5,6 +5,7 @@
 #include <fmt/printf.h>
 
 #include "common/Constants.hpp"
+#include "common/Text.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
 
@@ -176,6 +177,9 @@ std::string describeScene(const Scene& scene) {
                    scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
                    scene.well.length(), scene.freeDofs());
   for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
+  if (scene.contact && scene.contact->law->attracts())
+    text += "\ncontact     the law " + inQuotes(scene.contact->lawName) +
+            " attracts points to the wall, on rebound and when open; Clamped never does";
   return text;
 }
 

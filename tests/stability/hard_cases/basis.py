@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reduced models beyond their basis: impacts shorter than its modes, start states outside of it."""
+import math
+
+import numpy as np
+
+from rows import Plot, case, judged, statement
+from scenes import alpha, parts_deck, planar_beam, reduced, times
+
+FACTOR = 3.0  # of an estimate to the true error
+
+
+def estimated(run):
+    return run.summary["reduction"]["estimate"]["motion_error"]
+
+
+def error(program, run, full, end):
+    return program.vibration_error(run, full, end)
+
+
+@case(27, "A reduced model beyond its basis", "tip of a beam of two parts on stops of 1e3 to 1e8 N/m; 0 to 16 modes a part",
+      "the error estimate says so: at least a third of the true error wherever that is above 1 %", "soft stop")
+def beyond_basis(program, short):
+    elements, end = 16, 0.5
+    K, M = planar_beam(elements, 1.0, 1000.0, 2.0)
+    C = 0.2 * M + 2e-6 * K
+    file = program.part("c27", ["v", "theta_z"], M, K, C, sets={"near": [1], "far": [elements + 1]})
+    files = {"left": {"File": file, "Fixed": ["near"]}, "right": file}
+    lists = {"Joints": ["left:far = right:near"], "Loads": {"push": {"Part": "right", "Node": elements + 1, "Component": "v", "Value": -40.0, "Law": "pulse"}},
+             "Laws": {"pulse": {"Form": "Table", "Table": {"Times": [0.0, 0.05, 0.1], "Values": [0.0, 1.0, 0.0]}}}}
+    series = {}
+    for stiffness in (1e6,) if short else (1e3, 1e5, 1e6, 1e8):
+        stop = {"Stops": {"stop": {"First": f"right:{elements + 1}", "Component": "v", "Gap": 0.002, "Stiffness": stiffness}}}
+        settings = {**times(end, 0.001), **alpha(1e-4)}
+        full = program.run("c27_full", parts_deck(program, "c27_full", files, settings, Parts=lists, Coupling=stop))
+        for modes in (2,) if short else (0, 1, 2, 4, 8, 16):
+            more = {**settings, **reduced(modes), "Reduction/Error Estimate": "Transient"}
+            run = program.run("c27", parts_deck(program, "c27", files, more, Parts=lists, Coupling=stop))
+
+            def said():
+                true, guess = error(program, run, full, end), estimated(run)
+                series.setdefault(f"stop {stiffness:.0e} N/m", []).append((true, guess))
+                return f"{true:.2g}", f"estimate {guess:.2g}", 0.0 if true < 0.01 or guess > true / FACTOR else true / guess
+            yield judged(run, f"stop {stiffness:.0e} N/m", f"{modes} modes", said, FACTOR, easy=full)
+    if not short:
+        series["truth"] = [(1e-6, 1e-6), (10.0, 10.0)]
+        yield Plot("estimate", "Estimated beside true error of the reduced motion", "vibration error", "estimate", series, "xy")
+
+
+@case(31, "A start outside the basis", "velocity, or displacement, of one node in the interior of a part; 0 to 16 modes; with and without Start State Vectors",
+      "the misfit is said; the error estimate is within 3 of the error; Start State Vectors put the start into the basis", "the full model")
+def outside_basis(program, short):
+    elements, end = 16, 0.2
+    K, M = planar_beam(elements, 1.0, 1000.0, 2.0)
+    C = 0.2 * M + 2e-6 * K
+    file = program.part("c31", ["v", "theta_z"], M, K, C, sets={"near": [1], "far": [elements + 1]})
+    files = {"left": {"File": file, "Fixed": ["near"]}, "right": file}
+    series = {}
+    for what, value in (("Velocity", 1.0),) if short else (("Velocity", 1.0), ("Displacement", 1e-3)):
+        lists = {"Joints": ["left:far = right:near"], "Starts": {"kick": {"Part": "left", "Node": elements // 2 + 1, "Component": "v", what: value}}}
+        settings = {**times(end, 0.001), **alpha(2.5e-5)}
+        full = program.run("c31_full", parts_deck(program, "c31_full", files, settings, Parts=lists))
+        for vectors in (False, True):
+            for modes in (2,) if short else (0, 2, 4, 8, 16):
+                more = {**settings, **reduced(modes), "Reduction/Error Estimate": "Transient", "Reduction/Start State Vectors": vectors}
+                run = program.run("c31", parts_deck(program, "c31", files, more, Parts=lists))
+                variant = f"{what.lower()} of one node{', Start State Vectors' if vectors else ''}"
+
+                def said():
+                    true, guess = error(program, run, full, end), estimated(run)
+                    series.setdefault(variant, []).append((true, guess))
+                    return f"{true:.2g}", f"estimate {guess:.2g}", 0.0 if true < 0.01 or true / FACTOR < guess else true / guess
+                yield judged(run, variant, f"{modes} modes", said, FACTOR, easy=full)
+                if run.done:
+                    misfit = run.summary["reduction"].get("start_misfit")
+                    warned = any("not in the basis" in w for w in run.warnings())
+                    good = misfit is not None and warned == (misfit > 0.01) and (not vectors or misfit < 1e-6)
+                    yield statement(variant, f"{modes} modes: the misfit", "said above 1 %" if not vectors else "none",
+                                    f"{misfit:.2g}, {'said' if warned else 'no word'}" if misfit is not None else "not measured", good)
+    if not short:
+        series["truth"] = [(1e-6, 1e-6), (10.0, 10.0)]
+        yield Plot("start", "Estimated beside true error of a start outside the basis", "vibration error", "estimate", series, "xy")

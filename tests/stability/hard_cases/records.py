@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Restarts anywhere, with other ranks; long runs at rest and of stationary motion."""
+import math
+import signal
+import subprocess
+import time
+
+import h5py
+import numpy as np
+
+from program import FULL, QUIET, ROOT, Run
+from rows import Plot, case, judged, statement
+from scenes import LYING, THETA_Z, U, V, alpha, arkode, bit_speed, models, rk4, rk4_adaptive, times
+
+LIVELY = ROOT / "tests/effects/scene.xml"
+
+
+def interrupted(program, deck, settings, without, after, ranks):
+    """A run stopped by a signal some time after its first checkpoint, gone on with on other ranks; None when it ended before."""
+    folder = program.work / "c26"
+    subprocess.run(["rm", "-rf", str(folder)], check=True)
+    options = program.overrides({**QUIET, **settings}, without)
+    process = subprocess.Popen(program.command("run", deck, "--output", folder, *options, ranks=ranks[0]), stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, cwd=program.work)
+    while process.poll() is None and not (folder / "checkpoint.bin").exists():
+        time.sleep(0.001)
+    time.sleep(after)
+    process.send_signal(signal.SIGTERM)
+    if process.wait() == 0:
+        return None
+    done = subprocess.run(program.command("run", deck, "--restart", folder, *options, ranks=ranks[1]), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, cwd=program.work)
+    return Run(folder, done.returncode, done.stdout, 0.0)
+
+
+def farthest(run, whole):
+    """Largest difference of the samples over their largest value."""
+    worst = 0.0
+    with h5py.File(run.folder / "results.h5", "r") as a, h5py.File(whole.folder / "results.h5", "r") as b:
+        for name in ("transient/time", "transient/displacement", "transient/velocity"):
+            x, y = a[name][()], b[name][()]
+            if x.shape != y.shape:
+                return math.inf
+            worst = max(worst, float(np.abs(x - y).max() / np.abs(y).max()))
+    return worst
+
+
+@case(26, "Restart anywhere, with other ranks", "interrupted 0 to 1 s after the first checkpoint; five integrators; 1, 2 ranks; lying string, full and reduced",
+      "bitwise with the same ranks, 1e-10 with others", "the run that is not interrupted")
+def restart(program, short):
+    settings = {"generalized-alpha 1 ms": {**alpha(1e-3), **times(40.0, 0.01), "Transient/Checkpoint Interval": 1.0}}
+    if not short:
+        settings.update({"Step Tolerance 1e-6": {**alpha(4e-3, Step_Tolerance=1e-6), **times(40.0, 0.02), "Transient/Checkpoint Interval": 1.0},
+                         "RK4": {**rk4(), **times(2.0, 0.01), "Transient/Checkpoint Interval": 0.1},
+                         "RK4 adaptive": {**rk4_adaptive(1e-2), **times(1.0, 0.01), "Transient/Checkpoint Interval": 0.05},
+                         "ARKODE 1e-4": {**arkode(1e-4), **times(20.0, 0.01), "Transient/Checkpoint Interval": 1.0}})
+    for label, way in settings.items():
+        for model, more, without in models(way):
+            if model == "reduced" and label != "generalized-alpha 1 ms" or short and model == "full":
+                continue
+            whole = program.run("c26_whole", LYING, more, without)
+            cases = [(0.0, (1, 1))] if short else [(0.0, (1, 1)), (0.2, (1, 1)), (0.1, (1, 2)), (0.1, (2, 1))]
+            for after, ranks in cases if label.startswith("generalized") else cases[:2]:
+                run = interrupted(program, LYING, more, without, after, ranks)
+                if run is None:
+                    continue  # the run was over before its signal
+                bound = 0.0 if ranks[0] == ranks[1] else 1e-10
+                yield judged(run, f"{label}, {model}", f"stopped {after:g} s after a checkpoint, ranks {ranks[0]} then {ranks[1]}",
+                             lambda: ("0", "largest difference", farthest(run, whole)), bound, required=True)
+
+
+@case(28, "600 s", "a string at rest that turns: generalized-alpha steps of 1 and 5 ms, spectral radius 0 to 1; 60 s of RK4; a shaken string",
+      "no drift of energy or position at rest; statistics of the shaken string do not change from third to third", "10 s")
+def long_runs(program, short):
+    end = 20.0 if short else 600.0
+    ways = [("generalized-alpha 5 ms, radius 0.8", alpha(5e-3), end, "both")]
+    if not short:
+        ways += [("generalized-alpha 5 ms, radius 1", alpha(5e-3, 1.0), end, "full"), ("generalized-alpha 5 ms, radius 0", alpha(5e-3, 0.0), end, "full"),
+                 ("generalized-alpha 1 ms, radius 0.8", alpha(1e-3), 100.0, "full"), ("RK4", rk4(), 10.0, "full")]
+    for label, way, last, which in ways:
+        for model, more, without in models({**way, **times(last, 0.5)})[:1 if which == "full" else 2]:
+            run = program.run("c28", LYING, more, without)
+
+            def drift():
+                at = run.data("transient/displacement")
+                return 0.0, float(np.abs(at - at[0]).max()), float(np.abs(at - at[0]).max())
+            yield judged(run, f"at rest, {label}, {model}", f"{last:g} s: change of place [m, rad]", drift, 1e-6, required=True)
+            if run.done:
+                residual = run.motion["energy_residual"]
+                yield statement(f"at rest, {label}, {model}", f"{last:g} s: energy residual", "0", f"{residual:.2g}", abs(residual) < 1e-3)
+    shaken = {"Loads/Unbalance/collar/Moment": 2.0}
+    for model, more, without in models({**shaken, **alpha(1e-3), **times(end, 0.02)})[:1 if short else 2]:
+        run = program.run("c28_shaken", LIVELY, more, without)
+
+        def stationary():
+            speeds, clock = bit_speed(run, 0.0), run.time()
+            edges = np.linspace(0.1 * end, end, 4)
+            thirds = [np.percentile(speeds[(clock >= a) & (clock <= b)], (5, 25, 50, 75, 95)) for a, b in zip(edges, edges[1:])]
+            return "the same", "largest change of a quantile over the range", float(np.ptp(thirds, axis=0).max() / (thirds[0][4] - thirds[0][0]))
+        yield judged(run, f"shaken, {model}", f"{end:g} s: quantiles of the bit speed in three thirds", stationary, 0.3 if short else 0.05, required=True)
+        if run.done:
+            yield statement(f"shaken, {model}", f"{end:g} s: energy residual", "below 5 %", f"{run.motion['energy_residual']:.2g}", abs(run.motion["energy_residual"]) < 0.05)

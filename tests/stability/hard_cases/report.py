@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes docs/hard-cases.md and its figures from the rows of the cases."""
+import math
+import platform
+import re
+
+from rows import CASES
+
+ORDER = ("met", "warned", "refused", "WRONG", "open")
+LONGEST_NOTE = 150  # characters of a sentence in the tables
+HEAD = """# Hard cases
+
+Cases that are hard for the statics, the reduction or the integration, each swept over a range of its
+parameter and set beside a truth of its own: a closed form, an eigenvalue, a tighter step, another
+integrator, or the statistics of perturbed runs. The table is written by
+
+    cmake --build --preset release --target hard-cases
+
+A row of a sweep is *met* where the number is within its bound of the truth, *warned* where it is not and
+the run says so (error up to 50 %), *refused* where the program ends with exit code 2, 3 or 4 and a
+sentence instead of a number, and WRONG where none of these holds. The command fails when a row is
+WRONG, or when a row that must be met is refused. Costs are CPU times over those of the easy variant
+that is named; counters are those of `summary.json`, per step where they grow with the steps. `ctest -R
+hard_cases` runs a short version.
+
+"""
+
+
+def cell(text):
+    return " ".join(str(text).replace("|", "\\|").split())
+
+
+def shortened(text):
+    return text if len(text) <= LONGEST_NOTE else text[:LONGEST_NOTE - 3].rsplit(" ", 1)[0] + " ..."
+
+
+def table(head, lines):
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] +
+                     ["| " + " | ".join(cell(x) for x in line) + " |" for line in lines]) + "\n"
+
+
+def span(values, digits=2):
+    values = [v for v in values if math.isfinite(v)]
+    if not values:
+        return ""
+    low, high = (f"{v:.{digits}g}" if v < 100 else f"{v:.0f}" for v in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def happened(rows):
+    counts = {verdict: [row for row in rows if row.verdict == verdict] for verdict in ORDER}
+    parts = []
+    for verdict, found in counts.items():
+        if not found:
+            continue
+        where = "" if verdict in ("met", "open") else \
+            " (" + "; ".join(dict.fromkeys(f"{row.variant}: {row.parameter}" for row in found[:4])) + \
+            ("; ..." if len(found) > 4 else "") + ")"
+        parts.append(f"{len(found)} {verdict}{where}")
+    return ", ".join(parts)
+
+
+def strategies(rows):
+    """Iterations and factorisations per step, and the totals of what happens now and then."""
+    used = [row.counters for row in rows if row.counters.get("steps")]
+    texts = []
+    for name in dict.fromkeys(key for counters in used for key in counters):
+        if name == "steps":
+            continue
+        rates = [counters.get(name, 0) / counters["steps"] for counters in used]
+        texts.append(f"{name} {span(rates)}")
+    return "per step: " + ", ".join(texts) if texts else ""
+
+
+def deviation(row):
+    return f"{row.deviation:.2g} / {row.bound:.2g}" if math.isfinite(row.deviation) else ""
+
+
+def details(case, rows, plots):
+    lines = [(row.variant, row.parameter, row.truth, row.found, deviation(row), row.verdict,
+              f"{row.cost:.2g}" if math.isfinite(row.cost) else "", shortened(row.note)) for row in rows]
+    head = ("variant", "parameter", "truth", "found", "deviation / bound", "verdict",
+            "cost", "what the program says")
+    keep = [i for i in range(len(head)) if i < 2 or any(line[i] != "" for line in lines)]
+    pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in plots)
+    return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
+            (f" Easy variant: {case.easy}." if case.easy else "") + "\n" + pictures + "\n" +
+            table([head[i] for i in keep], [[line[i] for i in keep] for line in lines]))
+
+
+def draw(plot, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": plot.name, "font.size": 9,
+                         "legend.frameon": False})
+    figure, axes = plt.subplots(figsize=(5.6, 3.4))
+    for i, (label, points) in enumerate(plot.series.items()):
+        points = [(x, y) for x, y in points if y is not None and math.isfinite(y)]
+        if points:
+            line = label.startswith("truth")
+            axes.plot(*zip(*points), "-" if line else "osD^v<>px*"[i % 10], label=label, markersize=4,
+                      linewidth=1, color="black" if line else None)
+    axes.set(xlabel=plot.x, ylabel=plot.y, title=plot.title,
+             xscale="log" if "x" in plot.log else "linear", yscale="log" if "y" in plot.log else "linear")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
+
+
+def write(path, results):
+    """`results`: case number -> (rows, plots)."""
+    figures = path.parent / "figures"
+    figures.mkdir(exist_ok=True)
+    for _, plots in results.values():
+        for plot in plots:
+            draw(plot, figures / f"hard_{plot.name}.svg")
+    overview = []
+    for n, (rows, _) in sorted(results.items()):
+        case = CASES[n]
+        anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
+        overview.append((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
+                         span([row.cost for row in rows]), strategies(rows)))
+    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
+    text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
+                   "strategies used"), overview)
+    text += "".join("\n" + details(CASES[n], *results[n]) for n in sorted(results))
+    path.write_text(text, encoding="utf-8")
