@@ -54,7 +54,7 @@ def regularised(value):
 
 
 @case(2, "Sharp contact laws", "lambda 1e6, 1e7, 1e8, 7e11 1/m; stress_170m, full and reduced, laws Nguyen and Clamped",
-      "vibration error of 1e-4 at most against 7e11 1/m; iterations within 10 %", "lambda = 7e11 1/m")
+      "vibration error against 7e11 1/m of 1e-4 at most, or a tenth of what the laws differ by; iterations within 10 %", "lambda = 7e11 1/m")
 def sharp_laws(program, short):
     end = 0.3 if short else 1.0
     for law in ("Clamped",) if short else ("Clamped", "Nguyen"):
@@ -63,9 +63,11 @@ def sharp_laws(program, short):
             easy = program.run("c2_easy", STRESS, {**settings, **regularised(7e11)}, without)
             for value in (1e8,) if short else (1e6, 1e7, 1e8):
                 run = program.run("c2", STRESS, {**settings, **regularised(value)}, without)
+                # the laws themselves differ by the depth 2 / (pi^2 lambda), beside what points sink in at rest
+                sink = easy.summary["static"]["total_normal_force"] / easy.summary["static"]["contact_nodes"] / 1e7
                 yield judged(run, f"{law}, {model}", f"lambda {value:g} 1/m",
                              lambda: ("0", "vibration error", program.vibration_error(run, easy, end)),
-                             1e-4, required=True, easy=easy)
+                             max(1e-4, 0.1 * 2 / (math.pi**2 * value) / sink), required=True, easy=easy, motion=True)
                 before, after = (one.motion.get("newton_iterations", 0) for one in (easy, run))
                 yield statement(f"{law}, {model}", f"iterations at {value:g} 1/m", str(before), str(after),
                                 abs(after - before) <= 0.1 * before)
@@ -101,7 +103,7 @@ def dissipation(restitution, speed):
     return x / speed
 
 
-def ball(program, stiffness, chi, height, settings, name="ball", count=1, link=0.0):
+def ball(program, stiffness, chi, height, settings, name="c8_ball", count=1, link=0.0):
     """Balls that fall by `height` on stops; neighbours are linked by springs."""
     K = link * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
     K[0, 0], K[-1, -1] = (link, link) if count > 1 else (0.0, 0.0)
@@ -177,12 +179,12 @@ def static_walls(program, short):
 
 def striking_strings(program, short):
     end, begin = (0.15, 0.0) if short else (2.0, 0.5)
+    easy = program.run("c8_easy", STRESS, {**times(end, 0.0025), **alpha(1e-3)}, FULL)
     for stiffness in (3e9,) if short else (1e8, 3e9, 5e11):
         for damping in ("none",) if short else ("none", "scaled"):
             wall = {"Contact/Law": "Clamped", "Contact/Stiffness": stiffness, **times(end, 0.0025),
                     "Contact/Damping": 0.0 if damping == "none" else 1e4 * math.sqrt(stiffness / 1e7)}
             truths = [program.run(f"c8_truth{i}", STRESS, {**wall, **rk4_adaptive(tolerance)}, FULL) for i, tolerance in enumerate((1e-2, 3e-3))]
-            easy = program.run("c8_easy", STRESS, {**times(end, 0.0025), **alpha(1e-3)}, FULL)
             ways = [(1e-3, 0.2, "full", FULL)]
             if not short:
                 ways = [(step, radius, "full", FULL) for step in (5e-4, 1e-3, 2.5e-3) for radius in (0.2, 0.8)] + [(1e-3, 0.8, "reduced", ())]
@@ -223,7 +225,7 @@ def grazing(program, short):
                 free = amplitude * np.cos(omega * run.time())
                 return (f"differs from no stop by {relative_error(exact, free):.2g}", "error",
                         relative_error(run.nodes(0)[:, 0], exact))
-            yield judged(run, label, f"beyond by {beyond:g}", measure, 0.02, required=True, easy=easy)
+            yield judged(run, label, f"beyond by {beyond:g}", measure, 0.02, required=True, easy=easy, motion=True)
 
 
 def law_force(law, gap, rate, stiffness, damping, dissipation_, sharpness):
@@ -277,8 +279,8 @@ def all_at_once(program, short):
     speed = math.sqrt(2 * GRAVITY * height)
     for stiffness in (1e7,) if short else (1e5, 1e7, 1e9):
         settings = {**alpha(step, Max_Iterations=20), **times(0.2, step)}
-        easy = ball(program, stiffness, 0.0, height, settings)
-        run = ball(program, stiffness, 0.0, height, settings, "balls", count, 1e4)
+        easy = ball(program, stiffness, 0.0, height, settings, "c24_ball")
+        run = ball(program, stiffness, 0.0, height, settings, "c24_balls", count, 1e4)
 
         def measure():
             top = 2 * speed / GRAVITY + math.pi * math.sqrt(BALL / stiffness)
@@ -297,7 +299,7 @@ def all_at_once(program, short):
         for model, without in (("full", FULL),) if short else (("full", FULL), ("reduced", ())):
             run = program.run("c24", LYING, {**throw, **times(end, 0.005), **alpha(step, Max_Iterations=20)}, without)
             yield judged(run, f"string, {model}, Max Iterations 20", f"thrown with {factor:g} times its weight",
-                         lambda: ("0", "vibration error", program.vibration_error(run, truth, end)), 0.05, required=True)
+                         lambda: ("0", "vibration error", program.vibration_error(run, truth, end)), 0.05, motion=True, required=True)
 
 
 @case(29, "Nothing touches, then one touch", "12 m of pipe shaken in a bore that it never reaches, or reaches at one node; clearance 1e-3 to "
@@ -307,29 +309,30 @@ def first_touch(program, short):
     end = 0.5
     shaken = {"Loads/Weight On Bit": 0.0, "Loads/Forces/push/Node": MIDDLE, "Loads/Forces/push/Component": "u",
               "Loads/Forces/push/Value": 3000.0, "Loads/Forces/push/Frequency": 2.0, "Damping/Mass Coefficient": 1.0, **times(end, 0.0025)}
-    for label, way in (("generalized-alpha 0.5 ms", alpha(5e-4)),) if short else \
-            (("generalized-alpha 0.5 ms", alpha(5e-4)), ("RK4", rk4()), ("ARKODE 1e-5", arkode(1e-5))):
-        for model, more in (("full", {}), ("reduced", reduced(12))):
-            settings = {**shaken, **way, **more}
-            easy = program.run("c29_easy", COLUMN, settings, ("Contact",))
-            if not easy.done:
-                yield judged(easy, f"{label}, {model}", "no wall", None, 0.0, required=True)
-                continue
-            reach = float(np.hypot(easy.nodes(U), easy.nodes(V)).max())
-            for share in (1.5,) if short else (1.001, 1.5, 10.0):
-                run = program.run("c29", COLUMN, {**settings, "Well/Bore Radius": OUTER + share * reach})
+    ways = [("generalized-alpha 0.5 ms", alpha(5e-4))]
+    if not short:
+        ways += [("RK4", rk4()), ("ARKODE 1e-5", arkode(1e-5))]
+    for model, more in (("full", {}), ("reduced", reduced(12))):
+        settings = {**shaken, **more}
+        free = {label: program.run(f"c29_free_{i}", COLUMN, {**settings, **way}, ("Contact",)) for i, (label, way) in enumerate(ways)}
+        easy = free[ways[0][0]]
+        reach = float(np.hypot(easy.nodes(U), easy.nodes(V)).max())
+        for share in (1.5,) if short else (1.001, 1.5, 10.0):
+            for label, way in ways:
+                run = program.run("c29", COLUMN, {**settings, **way, "Well/Bore Radius": OUTER + share * reach})
                 yield judged(run, f"{label}, {model}", f"clearance {share:g} of the largest displacement",
                              lambda: ("0", "largest difference over the motion",
-                                      float(np.abs(run.data("transient/displacement") - easy.data("transient/displacement")).max() / reach)),
+                                      float(np.abs(run.data("transient/displacement") - free[label].data("transient/displacement")).max() / reach)),
                              1e-9, required=True, easy=easy)
-            for share in (0.8,) if short else (0.99, 0.8, 0.5):
-                touch = {"Well/Bore Radius": OUTER + share * reach, "Contact/Damping": 1e3}
-                truth = program.run("c29_truth", COLUMN, {**settings, **touch, **arkode(1e-6)})
-                run = program.run("c29", COLUMN, {**settings, **touch})
+        for share in (0.8,) if short else (0.99, 0.8, 0.5):
+            touch = {"Well/Bore Radius": OUTER + share * reach, "Contact/Damping": 1e3}
+            truth = program.run("c29_truth", COLUMN, {**settings, **touch, **arkode(1e-6)})
+            for label, way in ways:
+                run = program.run("c29", COLUMN, {**settings, **way, **touch})
                 yield judged(run, f"{label}, {model}", f"clearance {share:g} of it, against ARKODE 1e-6",
-                             lambda: ("0", "vibration error", program.vibration_error(run, truth, end)), 0.05, required=True, easy=easy)
-                every = program.run("c29_every", COLUMN, {**settings, **touch, "Contact/Law": "Nguyen", "Contact/Damping": 0.0,
-                                                          **regularised(1e8)})
-                same = program.run("c29_same", COLUMN, {**settings, **touch, "Contact/Damping": 0.0, **regularised(1e8)})
-                yield judged(every, f"{label}, {model}", f"clearance {share:g} of it, the law that acts at every gap",
-                             lambda: ("0", "vibration error", program.vibration_error(every, same, end)), 1e-3, required=True)
+                             lambda: ("0", "vibration error", program.vibration_error(run, truth, end)), 0.05, motion=True, required=True, easy=easy)
+            undamped = {**settings, **touch, **ways[0][1], "Contact/Damping": 0.0, **regularised(1e8)}
+            every = program.run("c29_every", COLUMN, {**undamped, "Contact/Law": "Nguyen"})
+            same = program.run("c29_same", COLUMN, undamped)
+            yield judged(every, f"{ways[0][0]}, {model}", f"clearance {share:g} of it, the law that acts at every gap",
+                         lambda: ("0", "vibration error", program.vibration_error(every, same, end)), 1e-3, required=True)

@@ -16,7 +16,7 @@ def long_strings(program, short):
     for length, pipes in ((60, 5), (240, 20)) if short else ((240, 20), (1008, 84), (10008, 834)):
         settings = {"Well/Vertical/Length": float(length), "Drillstring/Assembly": f"{{{pipes}*pipe}}",
                     "Drillstring/Components/pipe/Elements": 24, "Well/Vertical/Inclination": "5 deg", **times(0.1, 0.01), **alpha(1e-3)}
-        for model, more, without in models(settings):
+        for model, more, without in models(settings)[:1 if length > 5000 else 2]:
             run = program.run("c17", LYING, more, without, seconds=1200)
             dofs = run.summary.get("model", {}).get("free_dofs") or 0
 
@@ -32,7 +32,7 @@ def long_strings(program, short):
         yield Plot("length", "Work of an iteration per dof", "dofs", "[ns]", series, "xy")
 
 
-@case(21, "Spin-up with large angular acceleration", "400 rpm in 1 ms to 0.5 s, with and without gravity's contact; steps 0.1 to 2 ms; full and reduced",
+@case(21, "Spin-up with large angular acceleration", "400 rpm in 1 ms to 0.1 s, with and without gravity's contact; steps 0.1 to 2 ms; full and reduced",
       "the twist is that of ARKODE on the same model; the end state that of the slow limit; the ledger closes (the skew part does no work)", "spin-up in 0.5 s")
 def spin_up(program, short):
     speed, end = 400 * math.pi / 30, 0.6
@@ -42,7 +42,7 @@ def spin_up(program, short):
                 "Rotary Speed/Ramp/Final Speed": speed}
         gone = ("Rotary Speed/Constant",) if contact else ("Rotary Speed/Constant", "Contact")
         easy = program.run("c21_easy", LYING, {**base, **times(end, 0.005), **alpha(1e-3), "Rotary Speed/Ramp/Duration": 0.5}, (*FULL, *gone))
-        for duration in (0.01,) if short else (1e-3, 2e-3, 1e-2, 5e-2, 0.5):
+        for duration in (0.01,) if short else (1e-3, 1e-2, 0.1) if not contact else (1e-2,):
             settings = {**base, **times(end, 0.005), "Rotary Speed/Ramp/Duration": duration}
             truths = {model: program.run(f"c21_truth_{model}", LYING, more, (*without, *gone)) for model, more, without in
                       models({**settings, **arkode(1e-6)})}
@@ -59,7 +59,7 @@ def spin_up(program, short):
                         if model == "full":
                             series.setdefault(variant, []).append((duration, found))
                         return float(np.abs(b).max()), float(np.abs(a).max()), found
-                    yield judged(run, variant, f"twist of the end, in {1e3 * duration:g} ms", twist, 0.05, easy=easy)
+                    yield judged(run, variant, f"twist of the end, in {1e3 * duration:g} ms", twist, 0.05, easy=easy, motion=True)
                     if run.done and step <= 1e-3:
                         residual = run.motion["energy_residual"]
                         yield statement(variant, f"ledger, in {1e3 * duration:g} ms", "below 5 %, or said", f"{residual:.2g}",
@@ -86,6 +86,6 @@ def large_steps(program, short):
                     found = program.vibration_error(run, truth, end)
                     series.setdefault(f"{name}, {model}", []).append((1e3 * step, found))
                     return "0", "vibration error", found
-                yield judged(run, f"{name}, {model}", f"step {1e3 * step:g} ms", wrong, 0.2, required=step <= 1e-3, easy=easy)
+                yield judged(run, f"{name}, {model}", f"step {1e3 * step:g} ms", wrong, 0.05, required=step <= 1e-3, easy=easy, motion=True)
     if not short:
         yield Plot("steps", "Error of the steps that are accepted", "step [ms]", "vibration error", series, "xy")

@@ -106,13 +106,13 @@ def uneven_elements(program, short):
                 if not short and label == "RK4" and run.done:
                     steps.append((1.0 / ratio, run.motion["max_step"]))
 
-                def motion():
+                def deflection():
                     late = np.maximum(0.0, run.time() - 0.01)
                     exact_motion = sum(2000.0 / (LENGTH * MODAL_MASS * square) * (1 - np.cos(math.sqrt(square) * late))
                                        for k in (1, 3, 5, 7, 9) for square in [square_of(k)])
                     found = run.nodes(U)[:, 6]
                     return float(exact_motion.max()), float(found.max()), relative_error(found, exact_motion)
-                yield judged(run, f"motion, {label}, {model}", f"1:{ratio}", motion, 0.05, easy=easy[label])
+                yield judged(run, f"motion, {label}, {model}", f"1:{ratio}", deflection, 0.05, easy=easy[label], motion=True)
     if steps:
         yield Plot("elements", "Step of RK4 beside the shortest element", "shortest element [m]", "step [s]", {"RK4": steps}, "xy")
         shortest, first = min(steps), max(steps)

@@ -6,7 +6,7 @@ import re
 
 from rows import CASES
 
-ORDER = ("met", "warned", "refused", "WRONG", "open")
+ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
 LONGEST_NOTE = 150  # characters of a sentence in the tables
 HEAD = """# Hard cases
 
@@ -17,7 +17,8 @@ integrator, or the statistics of perturbed runs. The table is written by
     cmake --build --preset release --target hard-cases
 
 A row of a sweep is *met* where the number is within its bound of the truth, *warned* where it is not and
-the run says so (error up to 50 %), *refused* where the program ends with exit code 2, 3 or 4 and a
+the run says so (error up to 50 %), *off* where nothing says so and the error of the motion is below 20 %,
+*refused* where the program ends with exit code 2, 3 or 4 and a
 sentence instead of a number, and WRONG where none of these holds. The command fails when a row is
 WRONG, or when a row that must be met is refused. Costs are CPU times over those of the easy variant
 that is named; counters are those of `summary.json`, per step where they grow with the steps. `ctest -R

@@ -4,6 +4,7 @@
 A row ends as one of
     met        the number is within its bound of the truth
     warned     it is not, and a warning of the run says so; up to an error of 50 %
+    off        it is not, and nothing says so; errors of motions up to 20 % alone
     refused    the run ended with exit code 2, 3 or 4 and a sentence, before a wrong number
     WRONG      neither: a silent wrong number, an end without a sentence, or no end
     open       the case has no program yet
@@ -14,6 +15,7 @@ import math
 from program import NoResult
 
 WARNED_UP_TO = 0.5  # largest relative error a warning excuses
+SILENT_UP_TO = 0.2  # largest error of a motion that may pass without a warning
 REFUSALS = {2: "deck", 3: "model", 4: "solver"}
 CASES = {}
 
@@ -72,9 +74,9 @@ def number(value, digits=4):
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
 
 
-def judged(run, variant, parameter, measure, bound, required=False, easy=None, note=""):
+def judged(run, variant, parameter, measure, bound, required=False, easy=None, note="", motion=False):
     """The row of a run. measure(): (truth, found, deviation), called where the run is done; numbers
-    are printed, texts are taken as they are."""
+    are printed, texts are taken as they are. `motion`: the deviation is an error of a motion."""
     common = {"required": required, "counters": run.counters(), "bound": bound}
     if easy is not None and easy.work() > 0:
         common["cost"] = run.work() / easy.work()
@@ -91,6 +93,8 @@ def judged(run, variant, parameter, measure, bound, required=False, easy=None, n
         verdict = "met"
     elif warnings and deviation <= WARNED_UP_TO:
         verdict = "warned"
+    elif motion and deviation <= SILENT_UP_TO:
+        verdict = "off"
     else:
         verdict = "WRONG"
     said = "; ".join([note] * bool(note) + warnings)
