@@ -112,6 +112,14 @@ def growth(t, x, floor, ceiling):
     return np.polyfit(t[peaks], np.log(size[peaks]), 1)[0]
 
 
+def growth_of_pair(t, x):
+    """Rate [1/s] of the growing pair that is left at the end of equal samples, by linear prediction:
+    x_{k+1} = a x_k + b x_{k-1}, whose roots are exp(s dt) (Prony)."""
+    late = x[len(x) // 2:]
+    prediction = np.linalg.lstsq(np.column_stack([late[1:-1], late[:-2]]), late[2:], rcond=None)[0]
+    return float(np.log(np.abs(np.roots([1.0, *-prediction])).max()) / (t[1] - t[0]))
+
+
 def relative_error(found, truth):
     """Norm of the difference over the norm of the truth about its start."""
     return float(np.linalg.norm(found - truth) / np.linalg.norm(truth - truth[0]))
