@@ -44,6 +44,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
     space_ = Thyra::createVectorSpace<double>(map_);
     problem_.jacobian(start, jacobian_);
     scaleJacobian();
+    pattern_ = jacobian_;
     jacobianAt_ = start;
     MEB::InArgsSetup<double> in;
     in.setModelEvalDescription(this->description());
@@ -73,8 +74,8 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   /// W^-1.
   Teuchos::RCP<Thyra::PreconditionerBase<double>> create_W_prec() const override {
-    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(new linalg::FunctionOperator(
-        map_, [this](const Matrix& b) { return Matrix(factors_->solve(b)); }));
+    const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
+        new linalg::FunctionOperator(map_, [this](const Matrix& b) { return factors_->apply(b); }));
     const Teuchos::RCP<const Thyra::LinearOpBase<double>> op =
         Thyra::tpetraLinearOp<double>(space_, space_, inverse);
     const auto preconditioner = Teuchos::rcp(new Thyra::DefaultPreconditioner<double>());
@@ -113,10 +114,9 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
 
   void updateJacobian(const Vector& x) const {
     if (jacobianAt_ && *jacobianAt_ == x) return;
-    const Sparse before = jacobian_;
     guarded([&] { problem_.jacobian(x, jacobian_); });
     scaleJacobian();
-    if (!linalg::samePattern(before, jacobian_))
+    if (!linalg::samePattern(pattern_, jacobian_))
       throw std::logic_error("The pattern of the Jacobian changed between two evaluations.");
     jacobianAt_ = x;
   }
@@ -124,7 +124,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   void updateFactors(const Vector& x) const {
     updateJacobian(x);
     if (factors_)
-      factors_->refactor(jacobian_);
+      factors_->refactorUnchecked(jacobian_);
     else
       factors_ = std::make_unique<linalg::DirectSolver>(
           jacobian_, [this](int i) { return problem_.unknownName(i); });
@@ -155,6 +155,7 @@ class ThyraProblem : public Thyra::StateFuncModelEvaluatorBase<double> {
   Thyra::ModelEvaluatorBase::InArgs<double> prototypeIn_, nominal_;
   Thyra::ModelEvaluatorBase::OutArgs<double> prototypeOut_;
   mutable Sparse jacobian_;
+  Sparse pattern_;  ///< the Jacobian at the start
   mutable std::optional<Vector> jacobianAt_;
   mutable std::unique_ptr<linalg::DirectSolver> factors_;
   mutable int factorisations_ = 0;

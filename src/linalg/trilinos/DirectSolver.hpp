@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rank-local sparse direct solver for square unsymmetric systems (KLU2 through Amesos2, on
-/// Teuchos::SerialComm).
+/// Rank-local sparse direct solver for square unsymmetric systems: long chains of nodes by blocks,
+/// all others by KLU2 (through Amesos2, on Teuchos::SerialComm).
 #pragma once
 
 #include <functional>
@@ -47,6 +47,9 @@ class DirectSolver {
   /// Factors another matrix; the ordering is kept when the pattern is the same. Errors as the
   /// constructor.
   void refactor(const Sparse& A);
+  /// The same without looking for a motion that nothing resists: for one matrix of a sequence whose
+  /// first was looked at.
+  void refactorUnchecked(const Sparse& A);
 
   /// x with A x = b; b is a vector or the columns of a matrix, with size() rows.
   /// ModelError: b is not finite, or the backward error stays above the tolerance.
@@ -63,6 +66,9 @@ class DirectSolver {
     using Result = std::conditional_t<Derived::ColsAtCompileTime == 1, Vector, Matrix>;
     return Result(transposed().solveColumns(Matrix(b)));
   }
+
+  /// A^-1 b by the factors alone, neither refined nor checked: a preconditioner.
+  Matrix apply(const Matrix& b) const;
 
   int size() const;
   /// Backward error of the last solve (largest of its columns); 0 before the first.

@@ -23,6 +23,9 @@ namespace tooljoint::linalg {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+/// Residual of the iteration as a part of the accuracy asked for. Rounding of long strings, eps
+/// times the largest over the lowest eigenvalue, does not allow much less.
+constexpr double iterationShare = 1e-4;
 
 /// A checked symmetric pencil and what is derived from it once.
 struct Pencil {
@@ -80,7 +83,7 @@ Teuchos::ParameterList solverParameters(const Pencil& pencil, int wanted, int at
   list.set("Num Blocks", blocks);
   list.set("Maximum Restarts", 100);
   if (attempt > 0) list.set("Step Size", std::max(1, blocks / 4));
-  list.set("Convergence Tolerance", 1e-12);
+  list.set("Convergence Tolerance", std::max(1e-12, iterationShare * options.tolerance));
   list.set("Verbosity", 0);
   if (options.anasazi != nullptr) list.setParameters(*options.anasazi);
   return list;

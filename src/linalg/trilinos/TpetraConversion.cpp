@@ -34,16 +34,10 @@ Teuchos::RCP<tpetra::CrsMatrix> toTpetra(const Sparse& A,
 }
 
 void replaceValues(tpetra::CrsMatrix& matrix, const Sparse& A) {
-  matrix.resumeFill();
-  for (int row = 0; row < A.rows(); ++row) {
-    const int begin = A.outerIndexPtr()[row];
-    const int count = A.outerIndexPtr()[row + 1] - begin;
-    const auto replaced =
-        matrix.replaceLocalValues(row, count, A.valuePtr() + begin, A.innerIndexPtr() + begin);
-    if (replaced != count)
-      throw std::logic_error("replaceValues: the pattern of the matrix has changed.");
-  }
-  matrix.fillComplete(matrix.getDomainMap(), matrix.getRangeMap());
+  const auto local = matrix.getLocalMatrixHost();
+  if (static_cast<Eigen::Index>(local.nnz()) != A.nonZeros())
+    throw std::logic_error("replaceValues: the pattern of the matrix has changed.");
+  std::copy_n(A.valuePtr(), A.nonZeros(), local.values.data());
 }
 
 Teuchos::RCP<tpetra::MultiVector> toTpetra(const Matrix& columns,

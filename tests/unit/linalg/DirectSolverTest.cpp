@@ -9,6 +9,7 @@
 #include "Models.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/blocks/NodeBlocks.hpp"
 
 namespace tooljoint::linalg {
 namespace {
@@ -28,12 +29,12 @@ std::string message(const std::function<void()>& work) {
 
 const DofNamer spoken = [](int i) { return "<" + std::to_string(i) + ">"; };
 
-void expectSolved(const Sparse& A, double tolerance = 1e-10) {
+void expectSolved(const Sparse& A, double tolerance = 1e-10, double residual = 1e-14) {
   const DirectSolver solver(A);
   const Vector b = scatteredNumbers(A.rows(), 1, 1);
   const Vector x = solver.solve(b);
   EXPECT_LT((b - A * x).norm() / b.norm(), tolerance);
-  EXPECT_LT(solver.lastResidual(), 1e-14);
+  EXPECT_LT(solver.lastResidual(), residual);
   const Vector exact = Matrix(A).partialPivLu().solve(b);
   EXPECT_LT((x - exact).norm() / exact.norm(), 1e-6);
 }
@@ -108,6 +109,54 @@ TEST(DirectSolver, RefactorsWithTheSameAndWithAnotherPattern) {
   EXPECT_LT((b - first * Vector(solver.solve(b))).norm(), 1e-11 * b.norm());
   DirectSolver moved(std::move(solver));
   EXPECT_LT((b - first * Vector(moved.solve(b))).norm(), 1e-11 * b.norm());
+}
+
+/// Nodes of six dofs in a row, coupled to their neighbours by full unsymmetric blocks. What
+/// dominates stands in the diagonal blocks, or in the coupling of nodes 0 and 1, 2 and 3 ...
+Sparse nodeChain(int nodes, double diagonal, double pairs = 0.0) {
+  const Matrix numbers = scatteredNumbers(18 * nodes, 6, 11);
+  Triplets entries;
+  for (int n = 0; n < nodes; ++n)
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) {
+        const int row = 6 * n + i, column = 6 * n + j;
+        entries.emplace_back(row, column,
+                             diagonal * ((i == j ? 20.0 : 0.0) + numbers(18 * n + i, j)));
+        if (n == 0) continue;
+        const double pair = i == j && n % 2 == 1 ? pairs : 0.0;
+        entries.emplace_back(row, column - 6, pair + numbers(18 * n + 6 + i, j));
+        entries.emplace_back(row - 6, column, pair + numbers(18 * n + 12 + i, j));
+      }
+  return testing::assembled(6 * nodes, entries);
+}
+
+TEST(DirectSolver, FactorsALongChainOfNodesByItsBlocks) {
+  const Sparse A = nodeChain(200, 1.0);
+  ASSERT_TRUE(NodeBlocks::isChain(A));
+  EXPECT_FALSE(NodeBlocks::isChain(springChain(1200, 1.0, 1.0).K));
+  expectSolved(A);
+  DirectSolver solver(A);
+  // two factors of three blocks of 36 per node, and nothing else
+  EXPECT_LT(solver.factorEntries(), 200 * 3 * 36 * 1.3);
+  const Sparse other = nodeChain(200, 3.0);
+  solver.refactor(other);
+  const Vector b = scatteredNumbers(1200, 1, 3);
+  EXPECT_LT((b - other * solver.solve(b)).norm(), 1e-13 * b.norm());
+  EXPECT_LT((b - other.transpose() * solver.solveTransposed(b)).norm(), 1e-13 * b.norm());
+}
+
+TEST(DirectSolver, SolvesChainsWhoseDiagonalBlocksCannotBePivots) {
+  for (const double diagonal : {0.0, 1e-18, 1e-14}) expectSolved(nodeChain(200, diagonal, 20.0));
+}
+
+TEST(DirectSolver, NamesTheDofOfALongChainThatNothingHolds) {
+  Sparse A = nodeChain(200, 1.0);
+  for (int k = 0; k < A.rows(); ++k)
+    for (Sparse::InnerIterator it(A, k); it; ++it)
+      if (k == 603 || it.col() == 603) it.valueRef() = 0.0;
+  const std::string text = message([&] { DirectSolver(A, spoken); });
+  EXPECT_NE(text.find("singular"), std::string::npos) << text;
+  EXPECT_NE(text.find("<603>"), std::string::npos) << text;
 }
 
 TEST(DirectSolver, HandlesEmptyAndSingleSystems) {

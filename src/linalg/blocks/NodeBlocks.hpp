@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// LU of a sparse matrix by the blocks that its pattern shows: the dofs of a node stand in rows of
+/// one pattern. The string of beams, whose blocks of six form a chain, costs O(n).
+#pragma once
+
+#include <vector>
+
+#include "common/Types.hpp"
+#include "linalg/blocks/BlockFactor.hpp"
+
+namespace tooljoint::linalg {
+
+class NodeBlocks {
+ public:
+  /// Whether nearly all rows stand in blocks of at least `widest` / 2 dofs and no row has more
+  /// entries than three blocks of `widest` dofs: a chain of nodes of up to six dofs. Other matrices
+  /// are left to a general sparse solver.
+  static bool isChain(const Sparse& A);
+
+  NodeBlocks() = default;
+  /// Symbolic phase for matrices on the pattern of A (square, compressed; values do not matter).
+  explicit NodeBlocks(const Sparse& A);
+
+  bool empty() const { return factor_.empty(); }
+  /// Factors A, which has the pattern of the symbolic phase. False: a pivot vanished.
+  bool factor(const Sparse& A);
+  /// x := A^-1 x, x of size() entries.
+  void solve(double* x) const { factor_.solve(x); }
+  /// Entries of both factors.
+  long entries() const { return entries_; }
+
+ private:
+  BlockFactor factor_;
+  std::vector<std::size_t> address_;  ///< in BlockFactor::values() of each entry of A
+  std::size_t storage_ = 0;
+  long entries_ = 0;
+};
+
+}  // namespace tooljoint::linalg
