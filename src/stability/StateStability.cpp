@@ -29,6 +29,8 @@ using ComplexVector = Eigen::VectorXcd;
 /// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
 /// of negative pivots, and at most.
 constexpr int modesBeyond = 12, mostModes = 60;
+/// Accuracy of these modes: they span a basis, and what grows in it is refined.
+constexpr double basisAccuracy = 1e-4;
 /// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
 constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;
@@ -153,6 +155,7 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
       linalg::eigenvaluesBelow(symmetric, tangent.mass, -slowestGrowth * slowestGrowth);
   if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
   linalg::EigenOptions options;
+  options.tolerance = basisAccuracy;
   if (found.negativePivots == 0) options.shift = -4 * slowestGrowth * slowestGrowth;  // below all
   const auto modes = linalg::lowestFiniteModes(
       symmetric, tangent.mass,
