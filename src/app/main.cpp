@@ -149,6 +149,12 @@ int run(int argc, char** argv) {
                            "[s] (default: the end of the motion)");
   modesCommand->callback([&] { command = [&] { app::modes(options); }; });
 
+  auto* torqueDragCommand = program.add_subcommand(
+      "torque-drag",
+      "hook load, surface torque, buckling and yield margins against the depth of the bit");
+  addDeckOptions(*torqueDragCommand, options, true);
+  torqueDragCommand->callback([&] { command = [&] { app::torqueDrag(options); }; });
+
   auto* exportCommand =
       program.add_subcommand("export",
                              "reduce the parts of a deck and write them with their bases as part "

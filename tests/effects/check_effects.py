@@ -7,7 +7,7 @@
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
 "effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
-"files" for the list of files. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
+"files" for the list of files; with NAME torque_drag.csv the command is `tooljoint torque-drag`. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
 import argparse
@@ -36,13 +36,12 @@ class Runs:
         self.program = program
         self.done = {}
 
-    def folder(self, overrides, scene):
+    def folder(self, overrides, scene, command="run"):
         """Results of the scene with these overrides; each set of overrides runs once."""
-        key = json.dumps([scene, *overrides])
+        key = json.dumps([command, scene, *overrides])
         if key not in self.done:
             folder = pathlib.Path("run_" + hashlib.sha1(key.encode()).hexdigest()[:12])
-            study = scene == STUDY
-            command = [self.program, "study" if study else "run", str(HERE / scene), "--output", str(folder)]
+            command = [self.program, command, str(HERE / scene), "--output", str(folder)]
             for override in overrides:
                 command += ["--without", override[1:]] if override.startswith("!") else ["--set", override]
             result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -52,7 +51,8 @@ class Runs:
         return self.done[key]
 
     def value(self, overrides, key, scene):
-        folder = self.folder(overrides, scene)
+        command = "torque-drag" if key == "file:torque_drag.csv" else "study" if scene == STUDY else "run"
+        folder = self.folder(overrides, scene, command)
         if key.startswith("file:"):
             return (folder / key[5:]).read_bytes()
         if key == "size":

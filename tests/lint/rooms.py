@@ -31,9 +31,11 @@ DRILLSTRING = {
     "contact": ("", GROUND, "the borehole wall"),
     "mud": ("beam", GROUND, "added mass, drag, flow"),
     "path": ("beam well", GROUND, "bending of the string into the well"),
+    "softstring": ("beam well", GROUND, "torque and drag of a string without bending stiffness"),
     "equilibrium": ("beam contact", GROUND, "the static state"),
     "drillstring": ("beam contact loads mud path well", GROUND, "components, mesh, supports, equations"),
-    "drillstring/case": ("beam contact drillstring equilibrium loads mud path well", f"{CASES} cases", "from a deck to a case"),
+    "drillstring/case": ("beam contact drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
+    "drillstring/analyses": ("beam contact drillstring drillstring/case loads mud softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 
 

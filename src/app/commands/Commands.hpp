@@ -50,6 +50,10 @@ void check(const RunOptions& options);
 /// model with MAC values, true and estimated errors; modes.csv and damped_modes.csv in the output
 /// folder, if one is given.
 void modes(const RunOptions& options);
+/// `tooljoint torque-drag`: hook load, surface torque, buckling and yield margins of a string
+/// against the depth of its bit; torque_drag.csv and torque_drag_profile.csv in the output folder,
+/// if one is given.
+void torqueDrag(const RunOptions& options);
 /// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file,
 /// to be imported elsewhere.
 void exportReduced(const RunOptions& options);

@@ -14,6 +14,7 @@
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
+#include "substructures/softstring/TorqueDragParameters.hpp"
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::drillstring {
@@ -33,6 +34,7 @@ deck::ListSpec sceneSpec() {
   scene.list(loads::dampingParameters());
   scene.list(path::parameters());
   scene.list(equilibrium::parameters());
+  scene.list(softstring::torqueDragParameters());
   scene.list(partitionParameters());
   scene.list(coupling::parameters());
   scene.list(parts::parameters());

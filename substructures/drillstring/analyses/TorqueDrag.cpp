@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/analyses/TorqueDrag.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "common/Text.hpp"
+#include "deck/Defaults.hpp"
+#include "substructures/softstring/Buckling.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+/// Speed of operations that turn when neither list gives one [rad/s].
+constexpr double usualSpeed = 120.0 * constants::rpm;
+/// Of a string that does not turn; without rotation any speed gives the same [m/s].
+constexpr double trippingSpeed = 0.3;
+/// When the start of the rotation counts as over [s].
+constexpr double started = 1e4;
+
+double mudDensity(const Scene& scene) {
+  return scene.list().isSublist("Mud") ? mud::readProperties(scene.list().sublist("Mud")).density
+                                       : 0.0;
+}
+
+double gravityOf(const Scene& scene) { return loads::acceleration(scene.loads).z(); }
+
+/// The force or torque on the bit that does not change in time.
+double onBit(const Scene& scene, int component) {
+  double sum = 0.0;
+  for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary))
+    if (load.parameter.rfind("Loads/", 0) == 0 && load.node == scene.string.nodeCount() &&
+        load.component == component)
+      sum -= load.value;
+  return sum;
+}
+
+void keepLeast(Margin& margin, double factor, double depth) {
+  if (factor < margin.factor) margin = {factor, depth};
+}
+
+/// Largest von Mises stress of the section at both walls and on both sides of the bend [Pa]. Equal
+/// pressure inside and outside is hydrostatic in the wall and part of the effective tension T:
+///
+///     sigma^2 = (T/S +- E kappa R)^2 + 3 (M R/J)^2
+double vonMises(const beam::Section& section, double tension, double torque, double curvature) {
+  double largest = 0.0;
+  for (const double radius : {section.innerRadius(), section.outerRadius()}) {
+    const double axial =
+        std::abs(tension) / section.area() + section.youngModulus() * curvature * radius;
+    const double shear = torque * radius / section.torsion();
+    largest = std::max(largest, std::sqrt(axial * axial + 3.0 * shear * shear));
+  }
+  return largest;
+}
+
+}  // namespace
+
+softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
+  const auto spec = softstring::torqueDragParameters();
+  softstring::TorqueDragSettings settings;
+  const bool given = scene.list().isSublist(spec.name());
+  deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
+                     [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
+  return settings;
+}
+
+std::vector<softstring::Stretch> softStretches(const Scene& scene) {
+  const double gravity = gravityOf(scene), mud = mudDensity(scene);
+  if (!(gravity > 0.0))
+    throw DeckError("Torque and drag needs the weight of the string. Add the list Loads.");
+  std::vector<softstring::Stretch> stretches;
+  const auto& string = scene.string;
+  std::vector<double> widest(string.instances.size(), 0.0);
+  for (int e = 0; e < string.elementCount(); ++e) {
+    double& radius = widest[at(string.elements[at(e)].instance)];
+    for (const int node : {e, e + 1})
+      if (string.nodes[at(node)].gauge)
+        radius = std::max(radius, string.nodes[at(node)].contactRadius);
+    radius = std::max(radius, string.elements[at(e)].section().outerRadius());
+  }
+  for (int e = 0; e < string.elementCount(); ++e) {
+    const Element& element = string.elements[at(e)];
+    const auto& section = element.section();
+    stretches.push_back({element.length(), section,
+                         (section.massPerLength() - mud * section.area()) * gravity,
+                         widest[at(element.instance)], element.instance});
+  }
+  return stretches;
+}
+
+softstring::Hole softHole(const Scene& scene) {
+  if (!scene.contact || !scene.contact->friction)
+    throw DeckError(
+        "Torque and drag needs friction between string and wall. Add the list Contact with a list "
+        "Friction.");
+  softstring::Hole hole;
+  const auto* well = &scene.well;
+  const auto* contact = &*scene.contact;
+  hole.at = [well](double s) { return well->at(s); };
+  hole.radius = [well](double s) { return well->boreRadius(s); };
+  hole.friction = [contact](double s) { return contact->pointAt(s, 1, 0.0, 0.0).muDynamic; };
+  hole.breaks = scene.well.trajectory().breaks();
+  for (const auto& interval : scene.well.intervals()) {
+    hole.breaks.push_back(interval.from);
+    hole.breaks.push_back(interval.to);
+  }
+  for (const auto& interval : scene.contact->intervals) {
+    hole.breaks.push_back(interval.from);
+    hole.breaks.push_back(interval.to);
+  }
+  return hole;
+}
+
+std::vector<softstring::Operation> softOperations(const Scene& scene,
+                                                  const softstring::TorqueDragSettings& settings) {
+  const double deckSpeed = scene.rotary.present() ? std::abs(scene.rotary.speed(started)) : 0.0;
+  const double omega = settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed);
+  const double weight = onBit(scene, 2), torque = onBit(scene, 5);
+  std::vector<softstring::Operation> operations;
+  for (const std::string& name : settings.operations) {
+    softstring::Operation operation{name};
+    if (name == "Trip out") operation.axialSpeed = -trippingSpeed;
+    if (name == "Trip in") operation.axialSpeed = trippingSpeed;
+    if (name == "Back-ream") operation.axialSpeed = -settings.reamingSpeed;
+    if (name == "Ream") operation.axialSpeed = settings.reamingSpeed;
+    if (name == "Drill rotating" || name == "Drill sliding") {
+      operation.axialSpeed = settings.penetrationRate;
+      operation.weightOnBit = weight;
+      operation.torqueOnBit = torque;
+    }
+    if (name != "Trip out" && name != "Trip in" && name != "Drill sliding")
+      operation.rotarySpeed = omega;
+    operations.push_back(operation);
+  }
+  return operations;
+}
+
+TorqueDragProfile torqueDragAt(const Scene& scene, const softstring::TorqueDragSettings& settings,
+                               const softstring::Operation& operation, double bit) {
+  const auto stretches = softStretches(scene);
+  const auto hole = softHole(scene);
+  TorqueDragProfile profile;
+  profile.loads = softstring::march(stretches, hole, bit, operation, settings.helix);
+  const auto& loads = profile.loads;
+  TorqueDragRow& row = profile.row;
+  row.bit = bit;
+  row.operation = operation.name;
+  row.hookLoad = loads.tension.back() + settings.blockWeight;
+  row.surfaceTorque = -loads.torque.back();
+  row.twist = -loads.twist;
+  row.stretch = loads.stretching;
+  row.lockUpDepth = loads.lockUpDepth;
+  row.yield = row.sinusoidal = row.helical = {infinite, bit};
+  row.neutralDepth = bit;
+  for (std::size_t i = 0; i < loads.depth.size(); ++i) {
+    const double s = loads.depth[i];
+    const auto& stretch = stretches[at(loads.stretch[i])];
+    const auto point = hole.at(s);
+    const double bending = stretch.section.youngModulus() * stretch.section.inertiaX();
+    const auto limits = softstring::bucklingLimits(point, stretch.weight, bending,
+                                                   hole.radius(s) - stretch.section.outerRadius());
+    profile.sinusoidal.push_back(limits.sinusoidal);
+    profile.helical.push_back(limits.helical);
+    profile.vonMises.push_back(
+        vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
+    if (settings.yieldStrength && profile.vonMises.back() > 0.0)
+      keepLeast(row.yield, *settings.yieldStrength / profile.vonMises.back(), s);
+    if (loads.tension[i] < 0.0) {
+      keepLeast(row.sinusoidal, limits.sinusoidal / -loads.tension[i], s);
+      keepLeast(row.helical, limits.helical / -loads.tension[i], s);
+      row.neutralDepth = s;
+    }
+    if (loads.sideForce[i] > row.largestSideForce) {
+      row.largestSideForce = loads.sideForce[i];
+      row.sideForceDepth = s;
+    }
+  }
+  return profile;
+}
+
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
+  auto settings = torqueDragSettings(scene);
+  const double deepest = scene.string.length();
+  if (settings.depths.empty())
+    for (int i = 1; i <= settings.count; ++i)
+      settings.depths.push_back(deepest * i / settings.count);
+  for (const double depth : settings.depths)
+    if (depth > deepest * (1.0 + 1e-12))
+      throw DeckError(scene.deck.error(
+          "Torque and Drag/Depths",
+          "holds " + formatNumber(depth) + " m, but the string of the deck ends at " +
+              formatNumber(deepest) + " m. Give depths down to there, or a longer string."));
+  std::vector<TorqueDragProfile> profiles;
+  for (const double depth : settings.depths)
+    for (const auto& operation : softOperations(scene, settings))
+      profiles.push_back(torqueDragAt(scene, settings, operation, depth));
+  return profiles;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `tooljoint torque-drag`: hook load, surface torque and margins of a deck's string against the
+/// depth of its bit, by the soft-string model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/softstring/SoftString.hpp"
+#include "substructures/softstring/TorqueDragParameters.hpp"
+
+namespace tooljoint::drillstring {
+
+/// The least of a ratio of allowed to present load, and where it stands.
+struct Margin {
+  double factor = 0.0;  ///< infinite where nothing loads the string
+  double depth = 0.0;   ///< measured depth [m]
+};
+
+/// One operation at one depth of the bit.
+struct TorqueDragRow {
+  double bit = 0.0;  ///< [m]
+  std::string operation;
+  double hookLoad = 0.0;       ///< effective tension at the surface plus block weight [N]
+  double surfaceTorque = 0.0;  ///< -M(0) [N m]
+  double twist = 0.0;          ///< of the surface ahead of the bit [rad]
+  double stretch = 0.0;        ///< by effective tension [m]
+  double neutralDepth = 0.0;   ///< above it nothing is compressed [m]
+  double largestSideForce = 0.0, sideForceDepth = 0.0;  ///< [N/m], [m]
+  Margin yield, sinusoidal, helical;
+  double lockUpDepth = -1.0;  ///< [m]; negative: none
+};
+
+/// Loads and limits along the string, from the bit up.
+struct TorqueDragProfile {
+  TorqueDragRow row;
+  softstring::Loads loads;
+  std::vector<double> vonMises;             ///< [Pa]
+  std::vector<double> sinusoidal, helical;  ///< critical compressions [N]
+};
+
+/// The deck's list `Torque and Drag`; its defaults where the deck has none.
+softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
+
+/// What the deck's string, hole, mud and loads are to the soft string. A stretch touches the wall
+/// at the largest radius of its entry of the assembly (the tool joint of a pipe).
+/// DeckError: the deck has no friction or no weight.
+std::vector<softstring::Stretch> softStretches(const Scene& scene);
+softstring::Hole softHole(const Scene& scene);
+std::vector<softstring::Operation> softOperations(const Scene& scene,
+                                                  const softstring::TorqueDragSettings& settings);
+
+/// One march with its margins. Yield by von Mises from effective tension, bending by the curvature
+/// of the hole, and torsion, at both walls of the pipe, with mud at rest inside and outside.
+TorqueDragProfile torqueDragAt(const Scene& scene, const softstring::TorqueDragSettings& settings,
+                               const softstring::Operation& operation, double bit);
+
+/// Every operation at every depth. DeckError: a depth is below the deck's bit.
+std::vector<TorqueDragProfile> torqueDrag(const Scene& scene);
+
+/// Prints the table of the deepest bit and writes torque_drag.csv (a row for each depth and
+/// operation) and torque_drag_profile.csv (along the string, at the deepest bit) into `folder`;
+/// "" writes nothing. Collective.
+void reportTorqueDrag(const Scene& scene, const std::string& folder);
+
+}  // namespace tooljoint::drillstring

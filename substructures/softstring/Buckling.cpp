@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/softstring/Buckling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "substructures/softstring/SoftString.hpp"
+
+namespace tooljoint::softstring {
+namespace {
+
+/// Wu and Juvkam-Wold 1992: F = factor (E I w^2)^(1/3) in a vertical hole.
+constexpr double verticalSinusoidal = 2.55, verticalHelical = 5.55;
+/// Growth of the trial load while a root is looked for; two roots nearer than that count as none.
+constexpr double growth = 1.05;
+/// Loads are looked for up to this multiple of those of a horizontal hole and of a bare bend.
+constexpr double most = 1e3;
+
+/// Least F > 0 with F^2 = factor^2 (E I/r) N(F).
+double leastRoot(const well::WellPoint& point, double weight, double ratio, double factor) {
+  const auto excess = [&](double F) {
+    return F * F - factor * factor * ratio * sideForce(point, -F, weight);
+  };
+  const double scale = factor * std::sqrt(ratio * weight) + ratio * point.curvature.norm();
+  double low = 0.0, high = 1e-4 * scale;
+  while (excess(high) < 0.0 && high < most * scale) low = high, high *= growth;
+  if (excess(high) < 0.0) return std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) < 0.0 ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+BucklingLimits bucklingLimits(const well::WellPoint& point, double weight, double stiffness,
+                              double clearance) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  if (!(clearance > 0.0)) return {infinite, infinite};
+  const double vertical = std::cbrt(stiffness * weight * weight);
+  const double ratio = stiffness / clearance;
+  return {
+      std::max(verticalSinusoidal * vertical, leastRoot(point, weight, ratio, 2.0)),
+      std::max(verticalHelical * vertical, leastRoot(point, weight, ratio, 2.0 * std::sqrt(2.0)))};
+}
+
+double helicalSideForce(double compression, double stiffness, double clearance) {
+  return clearance * compression * compression / (4.0 * stiffness);
+}
+
+}  // namespace tooljoint::softstring

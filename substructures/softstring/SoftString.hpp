@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Torque and drag of a string without bending stiffness that lies on the axis of its hole
+/// (Johancsik, Friesen and Dawson, J. Petroleum Technology 36, 1984; Sheppard, Wick and Burgess,
+/// SPE Drilling Engineering 2, 1987), in vector form:
+///
+///     N = |T kappa + w (g - (g.t) t)|
+///     dT/ds = -w g.t + mu N v_a/v,   dM/ds = mu N r_f v_c/v,   v = sqrt(v_a^2 + v_c^2)
+///     T(bit) = -WOB,  M(bit) = -TOB
+///
+/// s downwards along the hole, T effective tension, M torque, t tangent, kappa = dt/ds, g unit
+/// gravity, w buoyed weight per length, v_a axial speed (down positive), v_c = Omega r_f.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "substructures/beam/Section.hpp"
+#include "substructures/well/Trajectory.hpp"
+
+namespace tooljoint::softstring {
+
+/// A uniform stretch of the string.
+struct Stretch {
+  double length = 0.0;  ///< [m]
+  beam::Section section;
+  double weight = 0.0;          ///< w [N/m]
+  double frictionRadius = 0.0;  ///< r_f [m]
+  int component = 0;            ///< of the assembly, 0-based
+};
+
+/// The hole, by measured depth [m].
+struct Hole {
+  std::function<well::WellPoint(double)> at;
+  std::function<double(double)> radius;    ///< [m]
+  std::function<double(double)> friction;  ///< mu
+  std::vector<double> breaks;  ///< depths where curvature, radius or friction jump, in any order
+};
+
+/// What is done with the string.
+struct Operation {
+  std::string name;
+  double axialSpeed = 0.0;   ///< v_a [m/s], down positive
+  double rotarySpeed = 0.0;  ///< Omega [rad/s]
+  double weightOnBit = 0.0;  ///< [N]
+  double torqueOnBit = 0.0;  ///< [N m]
+};
+
+/// Loads along the string, from the bit up to the surface; vectors of equal length.
+struct Loads {
+  std::vector<double> depth;      ///< measured depth [m], decreasing
+  std::vector<double> tension;    ///< T, effective [N]
+  std::vector<double> torque;     ///< M [N m]
+  std::vector<double> sideForce;  ///< N [N/m], just above the point
+  std::vector<int> stretch;       ///< the one just above the point; the last point has that below
+  double twist = 0.0;             ///< of the bit ahead of the surface, integral of M/(G J) [rad]
+  double stretching = 0.0;        ///< integral of T/(E A) [m]
+  /// Depth above which the string buckles into a helix so tightly that no force from above reaches
+  /// the bit [m]; negative where it does not.
+  double lockUpDepth = -1.0;
+};
+
+/// Loads of a string whose lower end is at the depth `bit`; what of it stands above the surface is
+/// left out. `string` from the surface down, at least as long as `bit`. Fourth-order Runge-Kutta in
+/// steps of at most `step` [m] that end where anything jumps. With `helix`, the side force of a
+/// string buckled into a helix, r T^2/(4 E I), is added where -T exceeds the helical limit
+/// (Buckling.hpp). ModelError when the string is too short.
+Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
+            const Operation& operation, bool helix = true, double step = 3.0);
+
+/// N of the equation above [N/m].
+double sideForce(const well::WellPoint& point, double tension, double weight);
+
+}  // namespace tooljoint::softstring

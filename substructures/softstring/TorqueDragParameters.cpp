@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/softstring/TorqueDragParameters.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterList.hpp>
+
+namespace tooljoint::softstring {
+namespace {
+
+const std::vector<std::string> operationNames{
+    "Trip out",  "Trip in", "Rotate off bottom", "Drill rotating", "Drill sliding",
+    "Back-ream", "Ream"};
+
+}  // namespace
+
+deck::ListSpec torqueDragParameters() {
+  deck::ListSpec list(
+      "Torque and Drag",
+      "Hook load and surface torque against the depth of the bit by the soft-string "
+      "model: what `tooljoint torque-drag` computes. Weight and torque on bit come "
+      "from Loads, friction (Dynamic) from Contact, buoyancy from Mud.");
+  list.integer("Count", 20, deck::Range::atLeast(1),
+               "Number of bit depths, evenly spaced from the surface to the bit of the deck.");
+  list.realArray("Depths", "m", deck::Optional{}, deck::Range::positive(),
+                 "Bit depths, in place of Count.");
+  list.textArray("Operations",
+                 std::vector<std::string>(operationNames.begin(), operationNames.end()),
+                 operationNames, "What is done with the string.");
+  list.real("Block Weight", "N", 0.0, deck::Range::nonNegative(),
+            "Weight of block, hook and top drive, which the hook load includes.");
+  list.real("Rotary Speed", "rad/s", deck::Optional{}, deck::Range::positive(),
+            "Speed of the operations that turn; without it that of the list Rotary Speed after its "
+            "start, else 120 rpm.");
+  list.real("Reaming Speed", "m/s", 0.05, deck::Range::positive(),
+            "Axial speed of Ream and Back-ream, which turn at the same time.");
+  list.real("Rate Of Penetration", "m/s", 0.005, deck::Range::positive(),
+            "Axial speed of drilling.");
+  list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
+            "Yield strength of the string, e.g. 931 MPa for S-135; without it no margin to yield.");
+  list.boolean("Helical Contact", true,
+               "Adds the side force of a string buckled into a helix, which leads to lock-up.")
+      .expert();
+  return list;
+}
+
+TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
+  TorqueDragSettings settings;
+  settings.count = list.get<int>("Count");
+  if (list.isParameter("Depths"))
+    settings.depths = list.get<Teuchos::Array<double>>("Depths").toVector();
+  settings.operations = list.get<Teuchos::Array<std::string>>("Operations").toVector();
+  settings.blockWeight = list.get<double>("Block Weight");
+  settings.reamingSpeed = list.get<double>("Reaming Speed");
+  settings.penetrationRate = list.get<double>("Rate Of Penetration");
+  if (list.isParameter("Rotary Speed")) settings.rotarySpeed = list.get<double>("Rotary Speed");
+  if (list.isParameter("Yield Strength"))
+    settings.yieldStrength = list.get<double>("Yield Strength");
+  settings.helix = list.get<bool>("Helical Contact");
+  return settings;
+}
+
+}  // namespace tooljoint::softstring

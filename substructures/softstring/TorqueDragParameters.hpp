@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Deck list `Torque and Drag`: at which depths of the bit, and for which operations.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+
+namespace Teuchos {
+class ParameterList;
+}
+
+namespace tooljoint::softstring {
+
+struct TorqueDragSettings {
+  std::vector<double> depths;           ///< of the bit [m]; empty: `count` of them, evenly spaced
+  int count = 0;                        ///< from total depth / count to total depth
+  std::vector<std::string> operations;  ///< names
+  double blockWeight = 0.0;             ///< [N]
+  double reamingSpeed = 0.0;            ///< [m/s]
+  double penetrationRate = 0.0;         ///< of drilling [m/s]
+  std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck
+  std::optional<double> yieldStrength;  ///< [Pa]; none: no margin to yield
+  bool helix = true;                    ///< side force of a string buckled into a helix
+};
+
+/// Description of the list `Torque and Drag`.
+deck::ListSpec torqueDragParameters();
+
+/// From the validated list.
+TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::softstring

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks `tooljoint torque-drag` through the program: closed forms, the stiff string's own static state, tables, refusals, ranks.
+
+    check_torque_drag.py PROGRAM MPIEXEC SOURCES
+"""
+import csv
+import json
+import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
+SOURCES = pathlib.Path(sys.argv[3])
+DECK = str(SOURCES / "xml/build_hold_1400m.xml")
+
+
+def rows(folder, name="torque_drag.csv"):
+    with open(pathlib.Path(folder) / name, encoding="utf-8", newline="") as file:
+        table = list(csv.DictReader(file))
+    return [{key.split(" [")[0]: value for key, value in row.items()} for row in table]
+
+
+def run(folder, *settings, ranks=1):
+    arguments = [part for setting in settings for part in ("--set", setting)]
+    done = tooljoint("torque-drag", DECK, "--output", folder, *arguments, ranks=ranks)
+    expect(f"torque-drag ends well {settings}", done.returncode == 0, done.stderr)
+    return rows(folder)
+
+
+def near(what, value, expected, tolerance):
+    expect(f"{what}: {value:.6g} against {expected:.6g}", abs(value - expected) <= tolerance * abs(expected))
+
+
+def straight():
+    """An inclined straight hole: weight along the axis, friction by the side force, buckling by Dawson and Paslay."""
+    inclination = math.radians(50)
+    well = ["Well/Trajectory=Survey", "Well/Survey/File=straight.csv"]
+    survey = pathlib.Path("straight.csv").resolve()
+    survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 50, 20\n2000, 50, 20\n", encoding="utf-8")
+    well[1] = f"Well/Survey/File={survey}"
+    table = run("straight", *well, "Torque and Drag/Count=2", "Torque and Drag/Yield Strength=724 MPa")
+    length, density, gravity, mu, joint = 1425.0, 7850.0, 9.81, 0.25, 0.084
+    body, tool = (math.pi * (a * a - b * b) for a, b in ((0.0635, 0.0543), (0.084, 0.0413)))
+    weight = density * gravity * 150 * (9.0 * body + 0.5 * tool)
+    along, across = weight * math.cos(inclination), weight * math.sin(inclination)
+    full = {row["operation"]: row for row in table if float(row["bit_depth"]) > 0.99 * length}
+    near("trip out", float(full["Trip out"]["hook_load"]), along + mu * across, 1e-6)
+    near("trip in", float(full["Trip in"]["hook_load"]), along - mu * across, 1e-6)
+    near("drill rotating", float(full["Drill rotating"]["surface_torque"]), 4000 + mu * joint * across, 1e-4)
+    near("drill sliding", float(full["Drill sliding"]["hook_load"]), along - mu * across - 5e4, 1e-6)
+    inertia = math.pi / 4 * (0.0635**4 - 0.0543**4)
+    limit = 2 * math.sqrt(210e9 * inertia * density * gravity * body * math.sin(inclination) / (0.108 - 0.0635))
+    expect("the compression above the bit is that on it, so the margin of the lowest body is the limit over it",
+           abs(float(full["Drill rotating"]["sinusoidal_margin"]) / (limit / 5e4) - 1) < 0.05, full["Drill rotating"]["sinusoidal_margin"])
+    expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
+
+
+def stiff():
+    """Axial force and torque at the top against the program's own static state of the same scene, turning on bottom."""
+    soft = {row["operation"]: row for row in run("soft", "Torque and Drag/Count=1")}["Drill rotating"]
+    done = tooljoint("run", DECK, "--output", "stiff", "--without", "Transient")
+    expect("the static state is found", done.returncode == 0, done.stderr)
+    static = json.loads(pathlib.Path("stiff/summary.json").read_text(encoding="utf-8"))["static"]
+    # Drilling adds the drag of its axial speed, 5 mm/s against a metre per second around.
+    near("tension at the top, soft against stiff", float(soft["hook_load"]), static["top_axial_force"], 0.01)
+    near("torque at the top, soft against stiff", float(soft["surface_torque"]), -static["top_torque_equilibrium"], 0.02)
+
+
+def tables_and_refusals():
+    depths = run("some", "Torque and Drag/Depths={400, 800}", "Torque and Drag/Operations={Trip in}", "Torque and Drag/Block Weight=100 kN")
+    expect("a row for each depth and operation", [float(row["bit_depth"]) for row in depths] == [400, 800], depths)
+    bare = run("bare", "Torque and Drag/Depths={400, 800}", "Torque and Drag/Operations={Trip in}")
+    near("the block hangs on the hook", float(depths[0]["hook_load"]) - float(bare[0]["hook_load"]), 1e5, 1e-9)
+    profile = rows("some", "torque_drag_profile.csv")
+    expect("the profile is that of the deepest bit", float(profile[0]["depth"]) == 800 and float(profile[-1]["depth"]) == 0, profile[0])
+    two = run("ranks", "Torque and Drag/Depths={400, 800}", "Torque and Drag/Operations={Trip in}", ranks=2)
+    expect("two ranks give the same table", two == bare)
+    for name, words, arguments in (
+        ("frame", "string in its well", ["torque-drag", str(SOURCES / "xml/frame.xml")]),
+        ("no friction", "Add the list Contact", ["torque-drag", DECK, "--without", "Contact"]),
+        ("no weight", "Add the list Loads", ["torque-drag", DECK, "--without", "Loads"]),
+        ("too deep", "longer string", ["torque-drag", DECK, "--set", "Torque and Drag/Depths={9000}"]),
+    ):
+        done = tooljoint(*arguments)
+        expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr}")
+
+
+straight()
+stiff()
+tables_and_refusals()
+sys.exit(finish())
