@@ -49,10 +49,34 @@ bool comesFirst(const std::complex<double>& a, const std::complex<double>& b, do
   return a.imag() < b.imag();
 }
 
+/// Of an eigenvalue, max |Q(s) phi| / (|s|^2 |M| + |s| |C| + |K|), Q(s) = s^2 M + s C + K, may be
+/// this much; refinements of one that has more.
+constexpr double mostResidual = 1e-8;
+constexpr int mostRefinements = 3;
+
+struct QuadraticPencil {
+  const Matrix &M, &C, &K;
+  double residual(std::complex<double> s, const Eigen::VectorXcd& phi) const {
+    const Eigen::VectorXcd r = s * s * (M * phi) + s * (C * phi) + K * phi;
+    const double size = std::norm(s) * maxNorm(M) + std::abs(s) * maxNorm(C) + maxNorm(K);
+    return size > 0.0 ? r.cwiseAbs().maxCoeff() / size : 0.0;
+  }
+  /// y = Q(s)^-1 Q'(s) phi, s <- s - phi_k / y_k (Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
+  /// eigenvalues far below the largest one (strong damping) have lost digits to the QR iteration.
+  void refine(std::complex<double>& s, Eigen::VectorXcd& phi) const {
+    const Eigen::MatrixXcd Q = s * s * M + s * C + K;
+    const Eigen::VectorXcd y = Q.partialPivLu().solve(C * phi + 2.0 * s * (M * phi));
+    Eigen::Index k = 0;
+    y.cwiseAbs().maxCoeff(&k);
+    if (!y.allFinite() || y[k] == 0.0) return;  // Q(s) is singular: s is the eigenvalue
+    s -= phi[k] / y[k];
+    phi = y / y[k];
+  }
+};
+
 }  // namespace
 
-QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
-                           double largestResidual) {
+QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K) {
   const auto n = M.rows();
   if (M.cols() != n || C.rows() != n || C.cols() != n || K.rows() != n || K.cols() != n)
     throw ModelError(
@@ -62,6 +86,7 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
     throw ModelError("A matrix of a quadratic eigenproblem has an entry that is not finite.");
   QuadraticModes modes;
   if (n == 0) return modes;
+  const QuadraticPencil pencil{M, C, K};
   const Eigen::FullPivLU<Matrix> mass(M);
   if (!mass.isInvertible())
     throw ModelError("The mass matrix of a quadratic eigenproblem is singular.");
@@ -94,7 +119,7 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
   modes.residuals.resize(2 * n);
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     const Eigen::Index from = order[static_cast<std::size_t>(j)];
-    const std::complex<double> s = gamma * mu[from];
+    std::complex<double> s = gamma * mu[from];
     // Of x and y = mu x the larger one is the more accurate shape.
     const Eigen::VectorXcd top = solver.eigenvectors().col(from).head(n),
                            bottom = solver.eigenvectors().col(from).tail(n);
@@ -102,12 +127,12 @@ QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
     Eigen::Index largest = 0;
     phi.cwiseAbs().maxCoeff(&largest);
     phi /= phi[largest];
-    const Eigen::VectorXcd residual = s * s * (M * phi) + s * (C * phi) + K * phi;
-    const double size = std::norm(s) * maxNorm(M) + std::abs(s) * maxNorm(C) + maxNorm(K);
+    for (int i = 0; i < mostRefinements && pencil.residual(s, phi) > mostResidual; ++i)
+      pencil.refine(s, phi);
     modes.values[j] = s;
     modes.vectors.col(j) = phi;
-    modes.residuals[j] = size > 0.0 ? residual.cwiseAbs().maxCoeff() / size : 0.0;
-    if (!(modes.residuals[j] <= largestResidual))
+    modes.residuals[j] = pencil.residual(s, phi);
+    if (!(modes.residuals[j] <= mostResidual))
       throw ConvergenceError("An eigenvalue of a quadratic eigenproblem has a residual of " +
                              scientific(modes.residuals[j]) + ".");
   }

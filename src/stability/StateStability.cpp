@@ -36,9 +36,6 @@ constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;
 /// Growth, and frequencies, below this part of |s| are within the accuracy of s.
 constexpr double noGrowth = 1e-7;
-/// Largest residual of a projected mode. Growing ones are refined with the whole matrices; sharp
-/// friction, N/v_r = 1e9 N s/m beside 1e3 N s/m, leaves 1e-8.
-constexpr double roughResidual = 1e-4;
 /// Skew stiffness below this part of the rows is rounding.
 constexpr double skewRounding = 1e-12;
 /// Smallest part of the largest displacement that counts as a deflection of its own.
@@ -72,7 +69,7 @@ std::vector<Growth> growingModes(const estimate::Linearised& tangent, const Matr
     return Matrix(basis.transpose() * Matrix(A * basis));
   };
   const auto modes = linalg::dampedModes(projected(tangent.mass), projected(tangent.damping),
-                                         projected(tangent.stiffness), roughResidual);
+                                         projected(tangent.stiffness));
   std::vector<Growth> growing;
   for (Eigen::Index j = 0; j < modes.values.size(); ++j)
     if (isGrowth(modes.values[j]) && modes.values[j].imag() >= 0.0)

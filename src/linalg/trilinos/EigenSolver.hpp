@@ -80,9 +80,8 @@ struct QuadraticModes {
 
 /// Dense, through the linearised state-space problem; for whirl speeds and Campbell diagrams. M
 /// must be invertible (ModelError). ConvergenceError when the QR iteration fails or a residual
-/// exceeds `largestResidual`.
-QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K,
-                           double largestResidual = 1e-8);
+/// exceeds 1e-8.
+QuadraticModes dampedModes(const Matrix& M, const Matrix& C, const Matrix& K);
 
 /// What rounding leaves of phi^H K phi.
 using EnergyRounding = std::function<double(const Eigen::VectorXcd& phi)>;
