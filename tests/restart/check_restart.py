@@ -7,6 +7,8 @@ with) or "folders" (full disks, other ranks, two runs in one folder, damaged and
 tables, pictures and figures of the one that was not, bit by bit.
 """
 import fcntl
+import functools
+import hashlib
 import json
 import os
 import pathlib
@@ -21,7 +23,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish  # noqa: E402
+from checks import expect, finish, of_ranks  # noqa: E402
 
 PROGRAM, MPIEXEC, PART = sys.argv[1:4]
 ROOT = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
@@ -39,7 +41,7 @@ def command(*arguments, ranks=1):
 
 def run(*arguments, ranks=1, largest=None):
     limit = (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest))) if largest else None
-    return subprocess.run(command(*arguments, ranks=ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit)
+    return subprocess.run(command(*arguments, ranks=ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit, env=of_ranks(ranks))
 
 
 def fresh(*folders):
@@ -68,7 +70,7 @@ def stop(signum, folder, *arguments, ranks=1):
     """Starts a run and sends it a signal as soon as it has written a checkpoint; its exit code. With several ranks the signal goes to each of them:
     mpiexec hands it on late, or never, and a short run would end first."""
     before = stamp(folder)
-    process = subprocess.Popen(command(*arguments, ranks=ranks), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(command(*arguments, ranks=ranks), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=of_ranks(ranks))
     while process.poll() is None and stamp(folder) == before:
         time.sleep(0.002)
     for target in children(process.pid) if ranks > 1 else [process.pid]:
@@ -132,12 +134,20 @@ def settings(integrator, end, interval):
     return out
 
 
+@functools.lru_cache(maxsize=None)
+def whole_run(deck, options):
+    """Folder of the run that nothing stops, made once for all that is compared with it."""
+    folder = f"whole_{hashlib.sha1(repr((deck, options)).encode()).hexdigest()[:12]}"
+    fresh(folder)
+    done = run("run", deck, "--output", folder, *options)
+    if done.returncode != 0:
+        raise RuntimeError(f"the whole run of {deck}: {done.stderr[-400:]}")
+    return folder
+
+
 def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0):
     """Stopped by SIGTERM, gone on with and killed, gone on with: the numbers of a run that was not."""
-    fresh("whole", "halted")
-    whole = run("run", deck, "--output", "whole", *options)
-    if whole.returncode != 0:
-        return expect(f"{title}: the whole run", False, whole.stderr[-400:])
+    whole = whole_run(deck, tuple(options))
     for _ in range(5):  # a machine that is busy elsewhere may let a run end before its signal
         fresh("halted")
         codes = [stop(signal.SIGTERM, "halted", "run", deck, "--output", "halted", *options, ranks=ranks[0])]
@@ -148,7 +158,7 @@ def interrupted_twice(title, deck, options, ranks=(1, 1, 1), tolerance=0.0):
     done = run("run", deck, "--restart", "halted", *options, ranks=ranks[2])
     if done.returncode != 0:
         return expect(f"{title}: stopped {codes}, goes on", False, done.stderr[-400:])
-    wrong = differences("whole", "halted", tolerance)
+    wrong = differences(whole, "halted", tolerance)
     expect(f"{title}: stopped {codes}, the same numbers", len(codes) == 2 and 0 not in codes and not wrong, "; ".join(wrong[:6]))
     return expect(f"{title}: nothing of the checkpoint is left", left("halted") == [], str(left("halted")))
 
@@ -162,33 +172,33 @@ def integrators():
             interrupted_twice(f"{integrator}, {model} frame", FRAME, [*settings(integrator, *frame[integrator]), *without[:2]])
 
 
-LONG = settings("Generalized-alpha", 15, 0.5)
+LONG = tuple(settings("Generalized-alpha", 15, 0.5))
 
 
 def full_disk():
     for title, deck in (("string", STRING), ("frame", FRAME)):
-        fresh("whole", "full")
-        run("run", deck, "--output", "whole", *LONG)
-        half = int(0.6 * pathlib.Path("whole/results.h5").stat().st_size)
+        fresh("full")
+        whole = whole_run(deck, LONG)
+        half = int(0.6 * pathlib.Path(whole, "results.h5").stat().st_size)
         done = run("run", deck, "--output", "full", *LONG, largest=half)
         expect(f"{title}: a full disk ends with 5 and a sentence", done.returncode == 5 and "File too large" in done.stderr, f"{done.returncode} {done.stderr[-300:]}")
         expect(f"{title}: and leaves a checkpoint", stamp("full") > 0)
         done = run("run", deck, "--restart", "full", *LONG, largest=half)
         expect(f"{title}: as full as before, the same end", done.returncode == 5, f"{done.returncode} {done.stderr[-300:]}")
         done = run("run", deck, "--restart", "full", *LONG)
-        wrong = differences("whole", "full") if done.returncode == 0 else [done.stderr[-300:]]
+        wrong = differences(whole, "full") if done.returncode == 0 else [done.stderr[-300:]]
         expect(f"{title}: with room again it goes on to the same numbers", not wrong, "; ".join(wrong[:6]))
 
-    fresh("whole", "full")
-    table = [*settings("Generalized-alpha", 70, 20), "--set", "Transient/Sampling Interval=0.001", "--set", "Output/Fields={}", "--set", "Output/XDMF=false"]
-    run("run", STRING, "--output", "whole", *table)
-    sizes = [pathlib.Path("whole", name).stat().st_size for name in ("results.h5", "motion.csv")]
+    fresh("full")
+    table = (*settings("Generalized-alpha", 70, 20), "--set", "Transient/Sampling Interval=0.001", "--set", "Output/Fields={}", "--set", "Output/XDMF=false")
+    whole = whole_run(STRING, table)
+    sizes = [pathlib.Path(whole, name).stat().st_size for name in ("results.h5", "motion.csv")]
     expect("a table larger than the results", sizes[1] > 1.2 * sizes[0], str(sizes))
     done = run("run", STRING, "--output", "full", *table, largest=int(0.95 * sizes[1]))
     expect("a table beyond the limit of the process ends with 5 and a sentence", done.returncode == 5 and "motion.csv.part cannot be written: File too large" in done.stderr,
            f"{done.returncode} {done.stderr[-300:]}")
     done = run("run", STRING, "--restart", "full", *table)
-    wrong = differences("whole", "full") if done.returncode == 0 else [done.stderr[-300:]]
+    wrong = differences(whole, "full") if done.returncode == 0 else [done.stderr[-300:]]
     expect("and goes on without it to the same numbers", not wrong, "; ".join(wrong[:6]))
 
 
@@ -202,9 +212,9 @@ def two_runs_in_one_folder():
     """Another run in the folder of an interrupted one, failing or not, leaves the pair of checkpoint and samples whole."""
     other = {STRING: ["--set", "Contact/Stiffness=2e7"], FRAME: ["--set", "Parts/Loads/shaker/Value=600"]}
     for title, deck in (("string", STRING), ("frame", FRAME)):
-        fresh("whole", "shared", "spare")
-        run("run", deck, "--output", "whole", *LONG)
-        size = pathlib.Path("whole/results.h5").stat().st_size
+        fresh("shared", "spare")
+        whole = whole_run(deck, LONG)
+        size = pathlib.Path(whole, "results.h5").stat().st_size
         code = stop(signal.SIGTERM, "shared", "run", deck, "--output", "shared", *LONG)
         expect(f"{title}: run A is interrupted", code == 130, str(code))
         shutil.copytree("shared", "spare")
@@ -214,7 +224,7 @@ def two_runs_in_one_folder():
         joined = run("run", deck, "--restart", "shared", *LONG)
         expect(f"{title}: A does not go on from B", joined.returncode == 2 and "belongs to another run" in joined.stderr, f"{joined.returncode} {joined.stderr[-300:]}")
         done = run("run", deck, "--restart", "shared/interrupted", *LONG)
-        wrong = differences("whole", "shared/interrupted") if done.returncode == 0 else [done.stderr[-300:]]
+        wrong = differences(whole, "shared/interrupted") if done.returncode == 0 else [done.stderr[-300:]]
         expect(f"{title}: A goes on from where it is now", not wrong, "; ".join(wrong[:6]))
         # the samples of B beside the checkpoint of A, and none at all
         for name in ("results.h5", "results.h5.part"):
@@ -228,28 +238,28 @@ def two_runs_in_one_folder():
 
 def restart_killed_early():
     """A restart that is killed, or fails, before its own first checkpoint leaves what it went on from."""
-    fresh("whole", "early")
-    run("run", STRING, "--output", "whole", *LONG)
+    fresh("early")
+    whole = whole_run(STRING, LONG)
     stop(signal.SIGKILL, "early", "run", STRING, "--output", "early", *LONG)
     for _ in range(2):
-        process = subprocess.Popen(command("run", STRING, "--restart", "early", *LONG), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen(command("run", STRING, "--restart", "early", *LONG), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=of_ranks(1))
         while process.poll() is None and not pathlib.Path("early/checkpoint.h5").exists():
             time.sleep(0.001)
         process.kill()
         process.wait()
     done = run("run", STRING, "--restart", "early", *LONG)
-    wrong = differences("whole", "early") if done.returncode == 0 else [done.stderr[-300:]]
+    wrong = differences(whole, "early") if done.returncode == 0 else [done.stderr[-300:]]
     expect("after restarts that came to nothing it still goes on to the same numbers", not wrong, "; ".join(wrong[:6]))
 
 
 def elsewhere():
     """--output beside --restart: the interrupted run stays as it is."""
-    fresh("whole", "from", "to")
-    run("run", STRING, "--output", "whole", *LONG)
+    fresh("from", "to")
+    whole = whole_run(STRING, LONG)
     stop(signal.SIGTERM, "from", "run", STRING, "--output", "from", *LONG)
     before = {path.name: path.read_bytes() for path in pathlib.Path("from").iterdir()}
     done = run("run", STRING, "--restart", "from", "--output", "to", *LONG)
-    wrong = differences("whole", "to") if done.returncode == 0 else [done.stderr[-300:]]
+    wrong = differences(whole, "to") if done.returncode == 0 else [done.stderr[-300:]]
     expect("a restart into another folder ends with the same numbers", not wrong, "; ".join(wrong[:6]))
     expect("and changes nothing in the first", before == {path.name: path.read_bytes() for path in pathlib.Path("from").iterdir()})
 
