@@ -136,7 +136,7 @@ int run(int argc, char** argv) {
   addDeckOptions(*checkCommand, options, false);
   checkCommand->add_flag(
       "--cost", options.cost,
-      "compute static state and reduction too, and predict which model is the cheaper one to move");
+      "compute static state and reduction too, and predict which model is faster");
   checkCommand->callback([&] { command = [&] { app::check(options); }; });
 
   auto* modesCommand = program.add_subcommand(

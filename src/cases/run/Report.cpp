@@ -45,17 +45,14 @@ double startMisfit(const std::vector<reduction::ReducedSubstructure>& parts) {
 
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced) {
   const double ratio = reduced.total() / full.total();
-  std::string text = fmt::sprintf(
-      "cost        a step of the reduced model takes about %.2f of the work of one of the full "
-      "model (%.3g of %.3g "
-      "multiplications)\n",
+  const std::string text = fmt::sprintf(
+      "cost        predicted work of a step: reduced model %.2f of the full model (%.3g of %.3g "
+      "multiplications)\n            ",
       ratio, reduced.total(), full.total());
-  if (ratio < transient::worthReducing)
-    return text + "            the reduced model is the cheaper one";
+  if (ratio < transient::worthReducing) return text + "The reduced model is faster.";
   return text +
-         "            the full model is the cheaper one, or as cheap, and the more accurate: run "
-         "it with --without Reduction "
-         "--without Substructures";
+         "The full model is as fast, and exact: run it with --without Reduction --without "
+         "Substructures.";
 }
 
 std::string describeCoupling(const coupling::Coupling& coupled) {

@@ -20,7 +20,7 @@ std::string describeReduction(const std::vector<reduction::ReducedSubstructure>&
 /// Energy of what the bases do not represent of the start of the motion over the energy of the
 /// start; 0 for a start at rest.
 double startMisfit(const std::vector<reduction::ReducedSubstructure>& parts);
-/// Cost of a step of both models, and which is the cheaper one.
+/// Predicted work of a step of both models, and which is faster.
 std::string describeCost(const transient::CostModel& full, const transient::CostModel& reduced);
 /// Assembly, joined dofs, and what the interface reduction kept of them.
 std::string describeCoupling(const coupling::Coupling& coupled);
