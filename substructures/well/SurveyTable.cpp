@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "common/Constants.hpp"
-#include "common/DelimitedText.hpp"
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "deck/reading/Units.hpp"
 #include "substructures/well/ArcChain.hpp"
+#include "substructures/well/DelimitedText.hpp"
 
 namespace tooljoint::well {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/DelimitedText.hpp"
+#include "substructures/well/DelimitedText.hpp"
 
 #include <algorithm>
 #include <charconv>
