@@ -295,9 +295,11 @@ TEST(Transient, theAccuracyOfStepsThatNobodyMeasuresIsNotKnown) {
     EXPECT_EQ(samples.q.back()[0], 1.0);
     return ::testing::internal::GetCapturedStdout();
   };
-  EXPECT_NE(said("Drift").find("accuracy    not known: the integrator \"Drift\" does not measure "
-                               "its steps. Compare with a run of half the step."),
-            std::string::npos);
+  const auto text = said("Drift");
+  EXPECT_NE(text.find("accuracy    not known: the integrator \"Drift\" does not measure"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("half the step."), std::string::npos) << text;
   EXPECT_EQ(said("Generalized-alpha").find("not known"), std::string::npos);
 }
 
