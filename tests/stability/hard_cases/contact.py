@@ -39,7 +39,7 @@ def no_clearance(program, short):
                           (("First", str(MIDDLE)), ("Component", c), ("Stiffness", stiffness))}
                 easy = program.run("c1_easy", COLUMN, {**gauge(0.01), **settings, **spring}, ("Contact",))
                 for clearance in clearances:
-                    run = program.run("c1", COLUMN, {**gauge(clearance), **settings, "Contact/Stiffness": stiffness})
+                    run = program.run("c1", COLUMN, {**gauge(clearance), **settings, **regularised(1e11), "Contact/Stiffness": stiffness})
 
                     def measure():
                         truth = easy.nodes(U)[:, MIDDLE - 1]
@@ -303,7 +303,7 @@ def all_at_once(program, short):
 
 
 @case(29, "Nothing touches, then one touch", "12 m of pipe shaken in a bore that it never reaches, or reaches at one node; clearance 1e-3 to "
-      "1e-1 of the bore", "free: the numbers of the run without a wall to 1e-9; touching: those of ARKODE within 5 %, and of the law that acts "
+      "1e-1 of the bore", "free: the numbers of the run without a wall to 1e-9 (ARKODE 1e-4); touching: those of ARKODE within 5 %, and of the law that acts "
       "at every gap", "no wall")
 def first_touch(program, short):
     end = 0.5
@@ -323,7 +323,7 @@ def first_touch(program, short):
                 yield judged(run, f"{label}, {model}", f"clearance {share:g} of the largest displacement",
                              lambda: ("0", "largest difference over the motion",
                                       float(np.abs(run.data("transient/displacement") - free[label].data("transient/displacement")).max() / reach)),
-                             1e-9, required=True, easy=easy)
+                             1e-4 if "ARKODE" in label else 1e-9, required=True, easy=easy)
         for share in (0.8,) if short else (0.99, 0.8, 0.5):
             touch = {"Well/Bore Radius": OUTER + share * reach, "Contact/Damping": 1e3}
             truth = program.run("c29_truth", COLUMN, {**settings, **touch, **arkode(1e-6)})
@@ -331,7 +331,7 @@ def first_touch(program, short):
                 run = program.run("c29", COLUMN, {**settings, **way, **touch})
                 yield judged(run, f"{label}, {model}", f"clearance {share:g} of it, against ARKODE 1e-6",
                              lambda: ("0", "vibration error", program.vibration_error(run, truth, end)), 0.05, motion=True, required=True, easy=easy)
-            undamped = {**settings, **touch, **ways[0][1], "Contact/Damping": 0.0, **regularised(1e8)}
+            undamped = {**settings, **touch, **ways[0][1], "Contact/Damping": 0.0, **regularised(9e9)}
             every = program.run("c29_every", COLUMN, {**undamped, "Contact/Law": "Nguyen"})
             same = program.run("c29_same", COLUMN, undamped)
             yield judged(every, f"{ways[0][0]}, {model}", f"clearance {share:g} of it, the law that acts at every gap",

@@ -51,7 +51,7 @@ def restart(program, short):
     settings = {"generalized-alpha 1 ms": {**alpha(1e-3), **times(40.0, 0.01), "Transient/Checkpoint Interval": 1.0}}
     if not short:
         settings.update({"Step Tolerance 1e-6": {**alpha(4e-3, Step_Tolerance=1e-6), **times(40.0, 0.02), "Transient/Checkpoint Interval": 1.0},
-                         "RK4": {**rk4(), **times(2.0, 0.01), "Transient/Checkpoint Interval": 0.1},
+                         "RK4": {**rk4(1e-4), **times(4.0, 0.01), "Transient/Checkpoint Interval": 0.1},
                          "RK4 adaptive": {**rk4_adaptive(1e-2), **times(1.0, 0.01), "Transient/Checkpoint Interval": 0.05},
                          "ARKODE 1e-4": {**arkode(1e-4), **times(20.0, 0.01), "Transient/Checkpoint Interval": 1.0}})
     for label, way in settings.items():
@@ -76,7 +76,7 @@ def long_runs(program, short):
     ways = [("generalized-alpha 5 ms, radius 0.8", alpha(5e-3), end, "both")]
     if not short:
         ways += [("generalized-alpha 5 ms, radius 1", alpha(5e-3, 1.0), end, "full"), ("generalized-alpha 5 ms, radius 0", alpha(5e-3, 0.0), end, "full"),
-                 ("generalized-alpha 1 ms, radius 0.8", alpha(1e-3), 100.0, "full"), ("RK4", rk4(), 10.0, "full")]
+                 ("generalized-alpha 1 ms, radius 0.8", alpha(1e-3), 100.0, "full"), ("RK4, 0.1 ms", rk4(1e-4), 10.0, "full")]
     for label, way, last, which in ways:
         for model, more, without in models({**way, **times(last, 0.5), "Damping/Mass Coefficient": 0.5})[:1 if which == "full" else 2]:
             run = program.run("c28", LYING, more, without)

@@ -44,9 +44,13 @@ def stored(path):
 
 def results(case, options, program):
     """Rows and plots of a case, from the work folder or by running it."""
-    path = program.work / f"case_{case.number:02d}{'_short' if options.short else ''}.json"
+    paths = {short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json" for short in (False, True)}
+    path = paths[options.short]
     if path.exists() and not options.fresh:
         return stored(path)
+    if options.no_run:
+        found, plots = stored(paths[True]) if paths[True].exists() else ([], [])
+        return [dataclasses.replace(row, variant=f"(short version) {row.variant}") for row in found], plots
     print(f"case {case.number}: {case.title}", flush=True)
     begin, found = time.monotonic(), []
     for item in case.function(program, options.short):
@@ -75,6 +79,8 @@ def main():
     parser.add_argument("--only", default="", help="numbers of cases, separated by commas")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--fresh", action="store_true", help="run cases again that are in the work folder")
+    parser.add_argument("--no-run", action="store_true",
+                        help="run nothing: take what is in the work folder, short rows where the whole case is not there")
     parser.add_argument("--write", help="file of the table; figures go into figures/ beside it")
     options = parser.parse_args()
     missing = sorted(set(NUMBERS) - set(table.CASES))
