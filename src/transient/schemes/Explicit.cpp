@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/schemes/Explicit.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-
 #include "common/Error.hpp"
 
 namespace tooljoint::transient {
@@ -48,72 +44,6 @@ bool ExplicitRightHandSide::missed(const double* q) {
   bool any = false;
   for (auto& batch : model_->points()) any = batch.addMissed(q) || any;
   return any;
-}
-
-double ExplicitRightHandSide::largestFrequency(const State& state) {
-  const int n = model_->size();
-  CompiledModel& model = *model_;
-  model.setTime(state.t);
-  model.bindStates(state.x.data());
-  for (auto& batch : model.points()) {
-    batch.look(state.t, 0.0, state.q.data());
-    batch.evaluateWithTangent(state.t, state.q.data(), state.v.data());
-    batch.freezeTangent(1.0, 0.0);
-  }
-  const auto stiffnessTimes = [&](const Vector& x, Vector& y) {
-    y.setZero();
-    model.addStiffness(x.data(), y.data());
-    Vector contact = Vector::Zero(n);
-    for (auto& batch : model.points()) batch.addTangentTimes(x.data(), contact.data());
-    y -= contact;
-  };
-  // Lanczos for K x = omega^2 M x: M-orthonormal vectors, full re-orthogonalisation, deterministic
-  // start.
-  const int steps = std::min(n, 60);
-  Matrix V(n, steps + 1);
-  Matrix MV(n, steps + 1);
-  Vector alpha = Vector::Zero(steps);
-  Vector beta = Vector::Zero(steps + 1);
-  Vector x(n), y(n);
-  for (int i = 0; i < n; ++i) x[i] = std::sin(1.0 + 12.9898 * i) + ((i % 2) == 0 ? 1.0 : -1.0);
-  const auto massTimes = [&](const Vector& in, Vector& out) {
-    out.setZero();
-    model.addMass(in.data(), out.data());
-  };
-  // The first vector is M^-1 x, so that masses far apart in size do not hide the stiff ones.
-  mass_.solve(x.data());
-  double largest = 0;
-  int used = 0;
-  for (int k = 0; k < steps; ++k) {
-    massTimes(x, y);
-    const double norm = std::sqrt(std::max(0.0, x.dot(y)));
-    beta[k] = norm;
-    if (!(norm > 1e-12 * std::max(1.0, largest))) break;
-    V.col(k) = x / norm;
-    MV.col(k) = y / norm;
-    x = V.col(k);
-    stiffnessTimes(x, y);
-    alpha[k] = x.dot(y);
-    mass_.solve(y.data());
-    x = y;
-    for (int pass = 0; pass < 2; ++pass)
-      x -= V.leftCols(k + 1) * (MV.leftCols(k + 1).transpose() * x);
-    used = k + 1;
-    largest = std::max(largest, std::abs(alpha[k]));
-  }
-  for (auto& batch : model.points()) batch.forgetTangent();
-  if (used == 0) return 0;
-  massTimes(x, y);
-  const double last = std::sqrt(std::max(0.0, x.dot(y)));
-  Matrix T = Matrix::Zero(used, used);
-  for (int k = 0; k < used; ++k) {
-    T(k, k) = alpha[k];
-    if (k > 0) T(k, k - 1) = T(k - 1, k) = beta[k];
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(T);
-  const double bound =
-      ritz.eigenvalues()[used - 1] + std::abs(last * ritz.eigenvectors()(used - 1, used - 1));
-  return std::sqrt(std::max(0.0, bound));
 }
 
 void RungeKuttaStep::resize(const State& like) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// What the explicit integrators share: the acceleration M^-1 (F + R'f - C v - K q), the classical
-/// Runge-Kutta step, and the largest frequency that bounds its length.
+/// Runge-Kutta step, and the largest rate that bounds its length.
 #pragma once
 
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
+#include "transient/accuracy/LargestRate.hpp"
 
 namespace tooljoint::transient {
 
@@ -34,9 +35,11 @@ class ExplicitRightHandSide {
   /// True when a point that was not looked at has touched at q; it is active from then on.
   bool missed(const double* q);
 
-  /// Largest angular frequency [rad/s] of M^-1 (K + point tangents at the initial state), by
-  /// Lanczos iteration in the mass inner product; an upper estimate (Ritz value plus residual).
-  double largestFrequency(const State& state);
+  /// Of a motion from `state` to the time `end`; what the points hold of their last evaluation is
+  /// lost.
+  LargestRate::Rates largestRates(const State& state, double end) {
+    return LargestRate(*model_, mass_)(state, end);
+  }
 
   CompiledModel& model() { return *model_; }
 

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/accuracy/LargestRate.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "common/Index.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Arnoldi steps: the norm of a string of 1e5 dofs is then known within 1 %.
+constexpr int arnoldiSteps = 60;
+/// Times at which laws are looked at for their largest size.
+constexpr int lawSamples = 1000;
+/// How deep a wall is met [m]: laws that grow with depth have no stiffness of their own.
+constexpr double depth = 1e-3;
+/// A wall farther away than this [m] is not met, and how often the distance to it is measured on
+/// the way.
+constexpr double farthest = 1e3;
+constexpr int mostLooks = 200;
+/// A clearance below this [m] is contact.
+constexpr double touching = 1e-9;
+/// A vector of this length, beside those before, has no direction of its own.
+constexpr double negligible = 1e-12;
+
+}  // namespace
+
+LargestRate::Rates LargestRate::operator()(const State& state, double end) {
+  const auto laws = largestLaws(state.t, end);
+  model_.setTime(state.t);
+  evaluatePoints(state);
+  const auto sum = [&](const MatrixSum& matrices, std::vector<double> Tangents::*points) {
+    return [this, &matrices, &laws, points](const Vector& x, Vector& y) {
+      y.setZero();
+      for (const auto& term : matrices.terms())
+        term.product.addTo(term.values.data(), x.data(), y.data(), laws[at(term.law)]);
+      subtractPoints(points, x, y);
+    };
+  };
+  const double k = norm(sum(model_.stiffness(), &Tangents::position));
+  const double g = norm(sum(model_.damping(), &Tangents::velocity));
+  const double contact = norm([this](const Vector& x, Vector& y) {
+    y.setZero();
+    subtractPoints(&Tangents::position, x, y);
+  });
+  return {0.5 * g + std::sqrt(0.25 * g * g + k), std::sqrt(contact)};
+}
+
+/// The value of each law where it is largest in size.
+std::vector<double> LargestRate::largestLaws(double begin, double end) const {
+  std::vector<double> largest;
+  for (const auto& law : model_.source().laws) {
+    double value = law.value(begin);
+    for (int i = 1; i <= lawSamples; ++i) {
+      const double next = law.value(begin + (end - begin) * i / lawSamples);
+      if (std::abs(next) > std::abs(value)) value = next;
+    }
+    largest.push_back(value);
+  }
+  return largest;
+}
+
+void LargestRate::evaluatePoints(const State& state) {
+  model_.bindStates(state.x.data());
+  tangents_.clear();
+  for (auto& batch : model_.points()) {
+    const int w = batch.width();
+    const std::size_t entries = at(batch.points() * w) * at(w);
+    tangents_.push_back({std::vector<double>(entries, 0.0), std::vector<double>(entries, 0.0)});
+    batch.gatherAll(state.q.data(), state.v.data());
+    const Vector start = Eigen::Map<const Vector>(batch.d(), batch.points() * w);
+    Vector d = start;
+    for (int p = 0; p < batch.points(); ++p) {
+      evaluate(batch, p, state.t, d);
+      takeLarger(p, tangents_.back());
+    }
+    for (int p = 0; p < batch.points(); ++p)
+      for (int k = p * w; k < p * w + batch.law().reach(); ++k)
+        for (const double way : {1.0, -1.0}) {
+          if (goToWall(batch, p, k, way, d)) {
+            d[k] += way * depth;
+            evaluate(batch, p, state.t, d);
+            keepNormalDamping();
+            takeLarger(p, tangents_.back());
+          }
+          d[k] = start[k];
+        }
+  }
+}
+
+/// Moves a point along one of its coordinates until it touches; false where no wall stands that
+/// way. A clearance never shrinks by more than the point moves, so that going as far as it says
+/// passes no wall.
+bool LargestRate::goToWall(const PointBatch& batch, int point, int coordinate, double way,
+                           Vector& d) {
+  gap_.resize(batch.points());
+  const std::vector<int> one{point};
+  for (int looks = 0; looks < mostLooks && std::abs(d[coordinate]) < farthest; ++looks) {
+    batch.law().clearanceLeft(one, d.data(), gap_.data());
+    if (!(gap_[point] > touching)) return true;
+    d[coordinate] += way * gap_[point];
+  }
+  return false;
+}
+
+void LargestRate::evaluate(PointBatch& batch, int point, double t, const Vector& d) {
+  const int w = batch.width();
+  force_.resize(w);
+  position_.resize(w, w);
+  velocity_.resize(w, w);
+  batch.evaluateOne(t, point, d.data() + point * w, batch.v() + point * w, force_.data(),
+                    position_.data(), velocity_.data());
+}
+
+/// Friction grows with the force, which a wall met on the way does not tell: of df/dv the part
+/// along the normal n = (df/dd)'f / |(df/dd)'f| is left.
+void LargestRate::keepNormalDamping() {
+  Vector n = position_.transpose() * force_;
+  if (!(n.norm() > 0)) return;
+  n.normalize();
+  velocity_ = n.dot(velocity_ * n) * n * n.transpose();
+}
+
+/// The tangents last evaluated, where they are larger than those found before.
+void LargestRate::takeLarger(int point, Tangents& tangents) const {
+  const auto take = [&](const Square& found, std::vector<double>& kept) {
+    Eigen::Map<Square> before(kept.data() + point * found.size(), found.rows(), found.cols());
+    if (found.norm() > before.norm()) before = found;
+  };
+  take(position_, tangents.position);
+  take(velocity_, tangents.velocity);
+}
+
+/// y -= R' J R x
+void LargestRate::subtractPoints(std::vector<double> Tangents::*which, const Vector& x,
+                                 Vector& y) const {
+  for (std::size_t b = 0; b < tangents_.size(); ++b) {
+    const auto& batch = model_.points()[b];
+    const int w = batch.width();
+    for (int p = 0; p < batch.points(); ++p) {
+      const double* J = (tangents_[b].*which).data() + p * w * w;
+      for (int j = 0; j < w; ++j) {
+        const double d = batch.rowTimesVector(p * w + j, x.data());
+        if (d == 0.0) continue;
+        for (int i = 0; i < w; ++i) batch.addRow(p * w + i, -J[i * w + j] * d, y.data());
+      }
+    }
+  }
+}
+
+/// |M^-1 A|_M by Arnoldi's method: M^-1 A V = V+ H with V'MV = I, of which |H| is a lower bound
+/// that converges with the number of steps. The first vector is M^-1 x of a vector x without
+/// structure, so that masses far apart in size do not hide the stiff ones.
+template <class Product>
+double LargestRate::norm(const Product& times) const {
+  const int n = model_.size(), steps = std::min(n, arnoldiSteps);
+  Matrix V(n, steps + 1), MV(n, steps + 1);
+  Matrix H = Matrix::Zero(steps + 1, steps);
+  Vector x(n), y(n);
+  for (int i = 0; i < n; ++i) x[i] = std::sin(1.0 + 12.9898 * i) + ((i % 2) == 0 ? 1.0 : -1.0);
+  mass_.solve(x.data());
+  for (int k = 0;; ++k) {
+    y.setZero();
+    model_.addMass(x.data(), y.data());
+    const double length = std::sqrt(std::max(0.0, x.dot(y)));
+    if (k > 0) H(k, k - 1) = length;
+    if (k == steps || !(length > negligible * std::max(1.0, H.norm()))) break;
+    V.col(k) = x / length;
+    MV.col(k) = y / length;
+    times(V.col(k), x);
+    mass_.solve(x.data());
+    for (int pass = 0; pass < 2; ++pass) {
+      const Vector h = MV.leftCols(k + 1).transpose() * x;
+      H.col(k).head(k + 1) += h;
+      x -= V.leftCols(k + 1) * h;
+    }
+  }
+  return H.jacobiSvd().singularValues()[0];
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A bound of the rates |lambda| at which a model moves, which bounds explicit steps:
+///
+///     lambda^2 M x + lambda C x + K x = 0,   x*M x = 1:   |lambda|^2 <= g |lambda| + k
+///     |lambda| <= g/2 + sqrt(g^2/4 + k),     k = |M^-1 K|_M,  g = |M^-1 C|_M
+///
+/// Norms rather than eigenvalues: they hold for unsymmetric matrices too (torque, gyroscopic and
+/// Coriolis terms, friction), and laws of time take part with their largest size. Points of a wall
+/// take part as if they touched it; sqrt(k) of their stiffness alone is the rate of an impact.
+#pragma once
+
+#include <vector>
+
+#include "linalg/blocks/BlockFactor.hpp"
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+class LargestRate {
+ public:
+  /// \param mass  factor of the mass matrix; both must outlive this
+  LargestRate(CompiledModel& model, const linalg::BlockFactor& mass) : model_(model), mass_(mass) {}
+  struct Rates {
+    double all;     ///< bound of |lambda| [1/s]
+    double impact;  ///< of the points alone, without damping [1/s]
+  };
+  /// For a motion that starts at `state` and ends at the time `end`. Where points are evaluated,
+  /// what a batch holds of its last evaluation is lost.
+  Rates operator()(const State& state, double end);
+
+ private:
+  /// Tangents of all points of a batch, width x width each, row-major.
+  struct Tangents {
+    std::vector<double> position, velocity;
+  };
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  void evaluatePoints(const State& state);
+  bool goToWall(const PointBatch& batch, int point, int coordinate, double way, Vector& d);
+  void evaluate(PointBatch& batch, int point, double t, const Vector& d);
+  void keepNormalDamping();
+  void takeLarger(int point, Tangents& tangents) const;
+  void subtractPoints(std::vector<double> Tangents::*which, const Vector& x, Vector& y) const;
+  std::vector<double> largestLaws(double begin, double end) const;
+  template <class Product>
+  double norm(const Product& times) const;
+
+  CompiledModel& model_;
+  const linalg::BlockFactor& mass_;
+  std::vector<Tangents> tangents_;  ///< per batch
+  Vector gap_;                      ///< clearances of a batch
+  Vector force_;                    ///< of one point, with its tangents
+  Square position_, velocity_;
+};
+
+}  // namespace tooljoint::transient
