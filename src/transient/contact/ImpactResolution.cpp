@@ -147,8 +147,8 @@ ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double
     if (!first || found.frequency == 0 || found.frequency * h < 1) break;
     depth = speed / found.frequency;
   }
-  if (batch.states() != nullptr)  // they are left where the batch evaluated last
-    batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  // the batch goes on from where it evaluated last
+  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   return found;
 }
 
@@ -220,8 +220,7 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     const PointBatch& batch = model_->points()[at(b)];
     for (int p : batch.active()) {
-      const double force = bound(b, p, h, open_.data()).change;
-      if (!matters(force * force)) continue;
+      if (bound(b, p, h, open_.data()).change == 0) continue;  // no force
       double fastest = 0;
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));

@@ -111,7 +111,7 @@ def draw(plot, path):
     plt.close(figure)
 
 
-def write(path, results):
+def write(path, results, short=False):
     """`results`: case number -> (rows, plots)."""
     figures = path.parent / "figures"
     figures.mkdir(exist_ok=True)
@@ -124,7 +124,10 @@ def write(path, results):
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
         overview.append((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
                          span([row.cost for row in rows]), strategies(rows)))
-    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n## Overview\n\n"
+    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n"
+    if short:
+        text += "This is the short version: a few points of each range, near its easy end.\n\n"
+    text += "## Overview\n\n"
     text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
                    "strategies used"), overview)
     text += "".join("\n" + details(CASES[n], *results[n]) for n in sorted(results))

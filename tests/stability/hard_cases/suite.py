@@ -90,7 +90,7 @@ def main():
     program = tooljoint.Program(options.program, options.work, options.mpiexec)
     found = {n: results(table.CASES[n], options, program) for n in chosen}
     if options.write:
-        report.write(pathlib.Path(options.write), found)
+        report.write(pathlib.Path(options.write), found, options.short)
     everything = [(n, row) for n, (rows, _) in found.items() for row in rows]
     faults = [(n, row) for n, row in everything if row.failed]
     faults += [(n, None) for n, (rows, _) in found.items() if not rows]
