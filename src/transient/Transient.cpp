@@ -121,8 +121,11 @@ constexpr double unresolved = 0.01;
 /// Steps of a run at which laws are looked at: the first ones, and as many spread over the rest.
 constexpr long lawSteps = 10000;
 
-/// How much of a law the steps miss: the sum of |T_h - T_{h/2}| over that of |T_{h/2}|, with T the
-/// trapezoidal sums of the law over a step and over its two halves.
+/// Looks at a law within a step: what is shorter than the distance of two of them may be missed.
+constexpr int looksInStep = 8;
+
+/// How much of a law the steps miss: the sum of |T_h - T_{h/8}| over that of |T_{h/8}|, with T the
+/// trapezoidal sums of the law over a step and over its eighths.
 double missedPart(const model::ScalarLaw& law, double start, double end, double h) {
   const auto steps = static_cast<long>(std::floor((end - start) / h * (1 + 1e-12)));
   const long stride = std::max(1L, steps / lawSteps);
@@ -130,9 +133,11 @@ double missedPart(const model::ScalarLaw& law, double start, double end, double 
   for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) {
     const double t = start + static_cast<double>(i) * h;
     const double whole = 0.5 * (law.value(t) + law.value(t + h));
-    const double halves = 0.5 * (whole + law.value(t + 0.5 * h));
-    missed += std::abs(whole - halves);
-    sum += std::abs(halves);
+    double fine = whole;
+    for (int k = 1; k < looksInStep; ++k) fine += law.value(t + h * k / looksInStep);
+    fine /= looksInStep;
+    missed += std::abs(whole - fine);
+    sum += std::abs(fine);
   }
   return sum > 0.0 ? missed / sum : 0.0;
 }

@@ -132,9 +132,8 @@ Vector heldOnAxis(StaticProblem& problem, StaticSwitches switches) {
   Sparse stiffness;
   problem.residual(zero, negativeLoad);
   problem.jacobian(zero, stiffness);
-  const double stiff = 1e6 * Matrix(stiffness.diagonal()).cwiseAbs().maxCoeff();
-  for (int i = 0; i < problem.size(); ++i)
-    if (problem.isLateral(i)) stiffness.coeffRef(i, i) += stiff;
+  const double stiff = 1e6 * Vector(stiffness.diagonal()).cwiseAbs().maxCoeff();
+  for (const int i : problem.lateralUnknowns()) stiffness.coeffRef(i, i) += stiff;
   return linalg::DirectSolver(stiffness, [&problem](int i) { return problem.unknownName(i); })
       .solve(-negativeLoad);
 }

@@ -227,9 +227,11 @@ Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
   return there;
 }
 
-bool StaticProblem::isLateral(int i) const {
-  const auto dof = static_cast<int>(std::find(index_.begin(), index_.end(), i) - index_.begin());
-  return dof % kDofs < 2;
+std::vector<int> StaticProblem::lateralUnknowns() const {
+  std::vector<int> lateral;
+  for (std::size_t i = 0; i < index_.size(); ++i)
+    if (index_[i] >= 0 && static_cast<int>(i) % kDofs < 2) lateral.push_back(index_[i]);
+  return lateral;
 }
 
 std::string StaticProblem::unknownName(int i) const {

@@ -74,8 +74,8 @@ class StaticProblem : public model::NonlinearProblem {
   /// press it in by t^2/2r, far more than a stiff wall yields.
   Vector moved(const Vector& x, const Vector& dx, double s) const override;
   std::string unknownName(int i) const override;
-  /// Whether an unknown is u or v.
-  bool isLateral(int i) const;
+  /// The unknowns that are u or v.
+  std::vector<int> lateralUnknowns() const;
 
   /// All dofs from the free ones (held dofs are zero), and the free ones of a full vector.
   Vector expand(const Vector& x) const;
