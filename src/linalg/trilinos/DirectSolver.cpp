@@ -11,7 +11,7 @@
 #include "common/report/EvaluationCounters.hpp"
 #include "linalg/Deterministic.hpp"
 #include "linalg/Scientific.hpp"
-#include "linalg/blocks/NodeBlocks.hpp"
+#include "linalg/blocks/ChainFactor.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
 
 namespace tooljoint::linalg {
@@ -109,7 +109,7 @@ class Factors {
   bool factor(const Sparse& A) {
     if (!samePattern(pattern_, A)) {
       pattern_ = A;
-      chain_ = A.rows() >= longChain && NodeBlocks::isChain(A) ? NodeBlocks(A) : NodeBlocks();
+      chain_ = A.rows() >= longChain && ChainFactor::isChain(A) ? ChainFactor(A) : ChainFactor();
     }
     byBlocks_ = !chain_.empty() && chain_.factor(A);
     return byBlocks_ || sparse_.factor(A);
@@ -132,7 +132,7 @@ class Factors {
 
  private:
   Sparse pattern_;
-  NodeBlocks chain_;
+  ChainFactor chain_;
   Klu2 sparse_;
   bool byBlocks_ = false;
 };

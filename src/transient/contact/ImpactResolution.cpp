@@ -64,7 +64,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   f_.assign(widest, 0.0);
   dfdd_.assign(widest * widest, 0.0);
   dfdv_ = dfdd_;
-  normal_ = deeper_ = open_ = f_;
+  normal_ = deeper_ = f_;
   squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
@@ -147,8 +147,8 @@ ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double
     if (!first || found.frequency == 0 || found.frequency * h < 1) break;
     depth = speed / found.frequency;
   }
-  // the batch goes on from where it evaluated last
-  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  if (batch.states() != nullptr)  // they are left where the batch evaluated last
+    batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   return found;
 }
 
@@ -220,7 +220,8 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     const PointBatch& batch = model_->points()[at(b)];
     for (int p : batch.active()) {
-      if (bound(b, p, h, open_.data()).change == 0) continue;  // no force
+      const double* force = batch.force() + p * batch.width();
+      if (std::all_of(force, force + batch.width(), [](double f) { return f == 0; })) continue;
       double fastest = 0;
       for (int k = p * batch.width(); k < (p + 1) * batch.width(); ++k)
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));

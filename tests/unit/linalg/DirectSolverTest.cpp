@@ -9,7 +9,7 @@
 #include "Models.hpp"
 #include "common/Error.hpp"
 #include "linalg/Deterministic.hpp"
-#include "linalg/blocks/NodeBlocks.hpp"
+#include "linalg/blocks/ChainFactor.hpp"
 
 namespace tooljoint::linalg {
 namespace {
@@ -132,8 +132,8 @@ Sparse nodeChain(int nodes, double diagonal, double pairs = 0.0) {
 
 TEST(DirectSolver, FactorsALongChainOfNodesByItsBlocks) {
   const Sparse A = nodeChain(200, 1.0);
-  ASSERT_TRUE(NodeBlocks::isChain(A));
-  EXPECT_FALSE(NodeBlocks::isChain(springChain(1200, 1.0, 1.0).K));
+  ASSERT_TRUE(ChainFactor::isChain(A));
+  EXPECT_FALSE(ChainFactor::isChain(springChain(1200, 1.0, 1.0).K));
   expectSolved(A);
   DirectSolver solver(A);
   // two factors of three blocks of 36 per node, and nothing else

@@ -259,6 +259,25 @@ TEST(Transient, aLawFasterThanTheStepsIsWarnedOf) {
   }
 }
 
+/// A pulse that is over before the middle of a step, and before its quarter: sums over whole steps
+/// and their halves alone do not see it.
+TEST(Transient, aPulseBetweenTheHalvesOfAStepIsWarnedOf) {
+  auto model = oscillator(1.0, 1.0, 4.0, 0.0, 0.0);
+  const double h = 1e-2, begin = 5e-2;
+  const int law = model.lawIndex({"kick", [=](double t) {
+                                    const double part = (t - begin) / h;
+                                    return part > 0.05 && part < 0.2 ? 1.0 : 0.0;
+                                  }});
+  model.loads.push_back({"kick", Vector::Ones(1), law});
+  log::clearWarnings();
+  Keep samples;
+  integrate(model, options("Generalized-alpha", 1.0, h, 0.1), samples);
+  const auto& warnings = log::warnings();
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const auto& one) {
+    return one.find("too large for the law \"kick\"") != std::string::npos;
+  }));
+}
+
 /// q_{n+1} = q_n + h v_n; neither judges its steps nor takes one again.
 class Drift final : public Integrator {
  public:

@@ -11,16 +11,15 @@
 
 namespace tooljoint::linalg {
 
-class NodeBlocks {
+class ChainFactor {
  public:
-  /// Whether nearly all rows stand in blocks of at least `widest` / 2 dofs and no row has more
-  /// entries than three blocks of `widest` dofs: a chain of nodes of up to six dofs. Other matrices
-  /// are left to a general sparse solver.
+  /// Whether blocks have three dofs or more on average and no row has more than 18 entries: a chain
+  /// of nodes of up to six dofs. Other matrices are left to a general sparse solver.
   static bool isChain(const Sparse& A);
 
-  NodeBlocks() = default;
+  ChainFactor() = default;
   /// Symbolic phase for matrices on the pattern of A (square, compressed; values do not matter).
-  explicit NodeBlocks(const Sparse& A);
+  explicit ChainFactor(const Sparse& A);
 
   bool empty() const { return factor_.empty(); }
   /// Factors A, which has the pattern of the symbolic phase. False: a pivot vanished.
@@ -28,13 +27,12 @@ class NodeBlocks {
   /// x := A^-1 x, x of size() entries.
   void solve(double* x) const { factor_.solve(x); }
   /// Entries of both factors.
-  long entries() const { return entries_; }
+  long entries() const { return static_cast<long>(storage_); }
 
  private:
   BlockFactor factor_;
   std::vector<std::size_t> address_;  ///< in BlockFactor::values() of each entry of A
-  std::size_t storage_ = 0;
-  long entries_ = 0;
+  std::size_t storage_ = 0;           ///< length of BlockFactor::values()
 };
 
 }  // namespace tooljoint::linalg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linalg/blocks/NodeBlocks.hpp"
+#include "linalg/blocks/ChainFactor.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -36,7 +36,7 @@ BlockPartition partitionOf(const Sparse& A) {
 
 }  // namespace
 
-bool NodeBlocks::isChain(const Sparse& A) {
+bool ChainFactor::isChain(const Sparse& A) {
   if (!A.isCompressed() || A.rows() < 2 * nodeDofs) return false;
   const int* start = A.outerIndexPtr();
   for (int i = 0; i < A.rows(); ++i)
@@ -45,20 +45,19 @@ bool NodeBlocks::isChain(const Sparse& A) {
   return 2 * A.rows() > nodeDofs * runs;
 }
 
-NodeBlocks::NodeBlocks(const Sparse& A) {
+ChainFactor::ChainFactor(const Sparse& A) {
   Sparse pattern = A;
   std::fill(pattern.valuePtr(), pattern.valuePtr() + pattern.nonZeros(), 1.0);
   const BlockPattern blocks(partitionOf(A), {&pattern});
   factor_ = BlockFactor(blocks);
   storage_ = blocks.storage() + factor_.fill();
-  entries_ = static_cast<long>(storage_);
   address_.reserve(static_cast<std::size_t>(A.nonZeros()));
   for (int i = 0; i < A.rows(); ++i)
     for (Sparse::InnerIterator it(A, i); it; ++it)
       address_.push_back(blocks.address(i, static_cast<int>(it.col())));
 }
 
-bool NodeBlocks::factor(const Sparse& A) {
+bool ChainFactor::factor(const Sparse& A) {
   double* values = factor_.values();
   std::fill(values, values + storage_, 0.0);
   const double* entry = A.valuePtr();
