@@ -51,7 +51,8 @@ int guarded(const std::function<void()>& command) {
 }
 
 /// A deck on the command line with its overrides and where results go.
-void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool writes) {
+enum class Output { None, Wanted, Always };
+void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output) {
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
   command
       .add_option("--set", options.overrides,
@@ -62,9 +63,11 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, bool
                   "take a list out of the deck before --set, e.g. --without Mud: what it describes "
                   "is not modelled")
       ->allow_extra_args(false);
-  if (writes)
+  if (output != Output::None)
     command.add_option("--output,-o", options.output,
-                       "folder for the results (default: results/<name of the deck>)");
+                       output == Output::Always
+                           ? "folder for the results (default: results/<name of the deck>)"
+                           : "folder for the tables (default: none are written)");
 }
 
 /// What is wrong with a command line that holds words or options no command takes.
@@ -119,21 +122,21 @@ int run(int argc, char** argv) {
 
   auto* runCommand = program.add_subcommand(
       "run", "path, static state, reduction, transient: from deck to results");
-  addDeckOptions(*runCommand, options, true);
+  addDeckOptions(*runCommand, options, Output::Always);
   runCommand->add_option("--restart", options.restart,
                          "folder of an interrupted run to go on from");
   runCommand->callback([&] { command = [&] { app::run(options); }; });
 
   auto* studyCommand = program.add_subcommand(
       "study", "speed against error: the runs of the deck's Study list against its reference run");
-  addDeckOptions(*studyCommand, options, true);
+  addDeckOptions(*studyCommand, options, Output::Always);
   studyCommand->add_flag("--fresh", options.fresh,
                          "forget the runs an earlier study left in the folder");
   studyCommand->callback([&] { command = [&] { app::study(options); }; });
 
   auto* checkCommand =
       program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
-  addDeckOptions(*checkCommand, options, false);
+  addDeckOptions(*checkCommand, options, Output::None);
   checkCommand->add_flag(
       "--cost", options.cost,
       "compute static state and reduction too, and predict which model is faster");
@@ -141,7 +144,7 @@ int run(int argc, char** argv) {
 
   auto* modesCommand = program.add_subcommand(
       "modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
-  addDeckOptions(*modesCommand, options, true);
+  addDeckOptions(*modesCommand, options, Output::Wanted);
   modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
       ->check(CLI::PositiveNumber);
   modesCommand->add_option("--time", options.modeTime,
@@ -152,14 +155,14 @@ int run(int argc, char** argv) {
   auto* torqueDragCommand = program.add_subcommand(
       "torque-drag",
       "hook load, surface torque, buckling and yield margins against the depth of the bit");
-  addDeckOptions(*torqueDragCommand, options, true);
+  addDeckOptions(*torqueDragCommand, options, Output::Wanted);
   torqueDragCommand->callback([&] { command = [&] { app::torqueDrag(options); }; });
 
   auto* exportCommand =
       program.add_subcommand("export",
                              "reduce the parts of a deck and write them with their bases as part "
                              "files, to be imported by other decks");
-  addDeckOptions(*exportCommand, options, true);
+  addDeckOptions(*exportCommand, options, Output::Always);
   exportCommand
       ->add_option("--format", options.format,
                    "hdf5 (one file a part) or mtx (a folder of Matrix Market files a part)")

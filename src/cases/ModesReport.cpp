@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <filesystem>
 
 #include "cases/ReducedCase.hpp"
 #include "cases/run/Report.hpp"
@@ -25,17 +24,6 @@
 namespace tooljoint::cases {
 
 namespace {
-
-void writeInto(const std::string& folder, const std::string& name, const io::Csv& table) {
-  parallel::agree([&] {
-    if (parallel::rank() != 0) return;
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-      throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
-    table.write((std::filesystem::path(folder) / name).string());
-  });
-}
 
 const char* const undampedHeading =
     "Undamped modes about the static state: symmetric part of the stiffness, friction left out, "
@@ -98,7 +86,7 @@ void writeTable(const std::vector<estimate::ModeComparison>& modes, const std::s
     cells.push_back(formatNumber(m.coupledImHz()));
     table.row(cells);
   }
-  writeInto(folder, name, table);
+  table.writeInto(folder, name);
 }
 
 /// Undamped and damped modes of one model.
@@ -118,7 +106,7 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     log::info(line);
     table.row({static_cast<double>(i + 1), values(i).imag() / constants::twoPi});
   }
-  if (!options.output.empty()) writeInto(options.output, "modes.csv", table);
+  if (!options.output.empty()) table.writeInto(options.output, "modes.csv");
   const auto m = estimate::linearise(full, t);
   const auto damped = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, count);
   log::info(dampedHeading(t) + ":");
@@ -136,7 +124,7 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
   }
   log::info(verdict({damped.values.begin(), damped.values.end()}));
   reportTimes();
-  if (!options.output.empty()) writeInto(options.output, "damped_modes.csv", dampedTable);
+  if (!options.output.empty()) dampedTable.writeInto(options.output, "damped_modes.csv");
 }
 
 /// Full and coupled modes side by side, undamped and with the matrices of time t.

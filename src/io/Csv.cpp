@@ -2,9 +2,11 @@
 #include "io/Csv.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "io/TextFile.hpp"
 
@@ -57,5 +59,16 @@ void Csv::row(const std::vector<std::string>& values) {
 
 void Csv::stage(const std::string& path) const { stageText(path, text_); }
 void Csv::write(const std::string& path) const { writeText(path, text_); }
+
+void Csv::writeInto(const std::string& folder, const std::string& name) const {
+  parallel::agree([&] {
+    if (parallel::rank() != 0) return;
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+      throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
+    write((std::filesystem::path(folder) / name).string());
+  });
+}
 
 }  // namespace tooljoint::io

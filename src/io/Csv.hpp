@@ -33,6 +33,9 @@ class Csv {
   void stage(const std::string& path) const;
   /// Write `path` at once, never half.
   void write(const std::string& path) const;
+  /// Rank 0 makes the folder where it is missing and writes the file in it. Collective; FileError
+  /// on all ranks when that fails.
+  void writeInto(const std::string& folder, const std::string& name) const;
 
  private:
   std::vector<Column> columns_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Buckling loads of a string in its hole: the compression at which it snakes along the low side,
-/// and at which it turns into a helix.
+/// Critical loads of sinusoidal and helical buckling of a string in its hole.
 #pragma once
 
 #include "substructures/well/Trajectory.hpp"

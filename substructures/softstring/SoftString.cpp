@@ -58,7 +58,6 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
   using State = Eigen::Vector2d;  // T, M
   Loads loads;
   State y(-operation.weightOnBit, -operation.torqueOnBit);
-  double side = 0.0;
   for (const Piece& piece : pieces(string, hole, bit)) {
     const Stretch& own = string[static_cast<std::size_t>(piece.stretch)];
     const double stiffness = own.section.youngModulus() * own.section.inertiaX();
@@ -88,11 +87,10 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
     const double h = -length / steps;
     for (int k = 0; k < steps; ++k) {
       const double s = piece.bottom + k * h;
-      side = normal(s, y[0]).first;
       loads.depth.push_back(s);
       loads.tension.push_back(y[0]);
       loads.torque.push_back(y[1]);
-      loads.sideForce.push_back(side);
+      loads.sideForce.push_back(normal(s, y[0]).first);
       loads.stretch.push_back(piece.stretch);
       const State k1 = rate(s, y), k2 = rate(s + 0.5 * h, y + 0.5 * h * k1),
                   k3 = rate(s + 0.5 * h, y + 0.5 * h * k2), k4 = rate(s + h, y + h * k3);
@@ -101,18 +99,17 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
       loads.twist += -h / 6.0 * (y[1] + 4.0 * mean[1] + next[1]) / own.section.torsionalRigidity();
       loads.stretching += -h / 6.0 * (y[0] + 4.0 * mean[0] + next[0]) / own.section.axialRigidity();
       y = next;
-      if (loads.lockUpDepth < 0.0 && -y[0] > lockedStrain * own.section.axialRigidity()) {
+      const double strain = -y[0] / own.section.axialRigidity();
+      if (!(strain <= lockedStrain)) {  // the side force may have become infinite within the step
         loads.lockUpDepth = s + h;
-        y[0] = -lockedStrain * own.section.axialRigidity();
+        return loads;
       }
-      if (loads.lockUpDepth >= 0.0) break;
     }
     loads.depth.push_back(piece.top);
     loads.tension.push_back(y[0]);
     loads.torque.push_back(y[1]);
     loads.sideForce.push_back(normal(piece.top, y[0]).first);
     loads.stretch.push_back(piece.stretch);
-    if (loads.lockUpDepth >= 0.0) break;
   }
   return loads;
 }

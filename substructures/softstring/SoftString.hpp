@@ -27,7 +27,6 @@ struct Stretch {
   beam::Section section;
   double weight = 0.0;          ///< w [N/m]
   double frictionRadius = 0.0;  ///< r_f [m]
-  int component = 0;            ///< of the assembly, 0-based
 };
 
 /// The hole, by measured depth [m].
@@ -47,7 +46,8 @@ struct Operation {
   double torqueOnBit = 0.0;  ///< [N m]
 };
 
-/// Loads along the string, from the bit up to the surface; vectors of equal length.
+/// Loads along the string, from the bit up to the surface or to where it locks up; vectors of equal
+/// length.
 struct Loads {
   std::vector<double> depth;      ///< measured depth [m], decreasing
   std::vector<double> tension;    ///< T, effective [N]

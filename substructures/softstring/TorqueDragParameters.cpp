@@ -3,13 +3,37 @@
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <array>
 
 namespace tooljoint::softstring {
 namespace {
 
-const std::vector<std::string> operationNames{
-    "Trip out",  "Trip in", "Rotate off bottom", "Drill rotating", "Drill sliding",
-    "Back-ream", "Ream"};
+/// What an operation is made of: the axial speed, down positive, is `direction` times one of the
+/// settings. (Without rotation any speed gives the same loads.)
+struct Kind {
+  const char* name;
+  double TorqueDragSettings::*speed;
+  double direction;
+  bool turns;
+  bool onBottom;
+};
+using Settings = TorqueDragSettings;
+constexpr std::array kinds{
+    Kind{"Trip out", &Settings::reamingSpeed, -1.0, false, false},
+    Kind{"Trip in", &Settings::reamingSpeed, 1.0, false, false},
+    Kind{"Rotate off bottom", &Settings::reamingSpeed, 0.0, true, false},
+    Kind{"Drill rotating", &Settings::penetrationRate, 1.0, true, true},
+    Kind{"Drill sliding", &Settings::penetrationRate, 1.0, false, true},
+    Kind{"Back-ream", &Settings::reamingSpeed, -1.0, true, false},
+    Kind{"Ream", &Settings::reamingSpeed, 1.0, true, false},
+};
+
+std::vector<std::string> operationNames() {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
 
 }  // namespace
 
@@ -23,9 +47,7 @@ deck::ListSpec torqueDragParameters() {
                "Number of bit depths, evenly spaced from the surface to the bit of the deck.");
   list.realArray("Depths", "m", deck::Optional{}, deck::Range::positive(),
                  "Bit depths, in place of Count.");
-  list.textArray("Operations",
-                 std::vector<std::string>(operationNames.begin(), operationNames.end()),
-                 operationNames, "What is done with the string.");
+  list.textArray("Operations", operationNames(), operationNames(), "What is done with the string.");
   list.real("Block Weight", "N", 0.0, deck::Range::nonNegative(),
             "Weight of block, hook and top drive, which the hook load includes.");
   list.real("Rotary Speed", "rad/s", deck::Optional{}, deck::Range::positive(),
@@ -57,6 +79,18 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
     settings.yieldStrength = list.get<double>("Yield Strength");
   settings.helix = list.get<bool>("Helical Contact");
   return settings;
+}
+
+std::vector<Operation> operations(const TorqueDragSettings& settings, double rotarySpeed,
+                                  double weightOnBit, double torqueOnBit) {
+  std::vector<Operation> found;
+  for (const std::string& name : settings.operations) {
+    const Kind& kind = *std::find_if(kinds.begin(), kinds.end(),
+                                     [&](const Kind& one) { return one.name == name; });
+    found.push_back({name, kind.direction * settings.*kind.speed, kind.turns ? rotarySpeed : 0.0,
+                     kind.onBottom ? weightOnBit : 0.0, kind.onBottom ? torqueOnBit : 0.0});
+  }
+  return found;
 }
 
 }  // namespace tooljoint::softstring

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deck/ListSpec.hpp"
+#include "substructures/softstring/SoftString.hpp"
 
 namespace Teuchos {
 class ParameterList;
@@ -18,7 +19,7 @@ namespace tooljoint::softstring {
 struct TorqueDragSettings {
   std::vector<double> depths;           ///< of the bit [m]; empty: `count` of them, evenly spaced
   int count = 0;                        ///< from total depth / count to total depth
-  std::vector<std::string> operations;  ///< names
+  std::vector<std::string> operations;  ///< names, from the list of the description
   double blockWeight = 0.0;             ///< [N]
   double reamingSpeed = 0.0;            ///< [m/s]
   double penetrationRate = 0.0;         ///< of drilling [m/s]
@@ -32,5 +33,11 @@ deck::ListSpec torqueDragParameters();
 
 /// From the validated list.
 TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list);
+
+/// The operations that the settings name.
+/// \param rotarySpeed  of those that turn [rad/s]
+/// \param weightOnBit  of those on bottom [N]; likewise the torque [N m]
+std::vector<Operation> operations(const TorqueDragSettings& settings, double rotarySpeed,
+                                  double weightOnBit, double torqueOnBit);
 
 }  // namespace tooljoint::softstring

@@ -58,18 +58,46 @@ def straight():
     expect("nothing is compressed off bottom", full["Rotate off bottom"]["helical_margin"] == "")
 
 
+def static_state(name, ranks=1):
+    """The list `static` of summary.json of the scene at rest."""
+    deck = SOURCES / f"xml/{name}.xml"
+    folder = f"stiff_{name}_{ranks}"
+    lists = [part for one in ("Transient", "Reduction", "Substructures", "Study") for part in ("--without", one) if f'"{one}"' in deck.read_text(encoding="utf-8")]
+    done = tooljoint("run", str(deck), "--output", folder, *lists, ranks=ranks)
+    expect(f"the static state of {name} is found", done.returncode == 0, done.stderr)
+    return json.loads(pathlib.Path(f"{folder}/summary.json").read_text(encoding="utf-8"))["static"]
+
+
 def stiff(name, tension, torque):
     """Axial force and torque at the top against the program's own static state of the same scene, turning on bottom."""
     deck = str(SOURCES / f"xml/{name}.xml")
     soft = {row["operation"]: row for row in run(f"soft_{name}", "Torque and Drag/Count=1", deck=deck)}["Drill rotating"]
-    lists = [part for one in ("Transient", "Reduction", "Substructures", "Study") for part in ("--without", one) if f'"{one}"' in pathlib.Path(deck).read_text(encoding="utf-8")]
-    done = tooljoint("run", deck, "--output", f"stiff_{name}", *lists)
-    expect("the static state is found", done.returncode == 0, done.stderr)
-    static = json.loads(pathlib.Path(f"stiff_{name}/summary.json").read_text(encoding="utf-8"))["static"]
+    static = static_state(name)
     expect(f"{name}: the torque balances", abs(static["torque_balance_defect"]) < 5e-3 * static["torque_scale"], static["torque_balance_defect"])
     # Drilling adds the drag of its axial speed, 5 mm/s against a metre per second around. The stiff string bridges the waves of a survey.
     near(f"{name}: tension at the top, soft against stiff", float(soft["hook_load"]), static["top_axial_force"], tension)
     near(f"{name}: torque at the top, soft against stiff", float(soft["surface_torque"]), -static["top_torque_equilibrium"], torque)
+    return static
+
+
+def weight_on_bit():
+    """Weight on bit is that of the deck, whatever else acts on the bit: xml/first_run.xml has bit bounce too."""
+    table = {row["operation"]: row for row in run("first_run", "Torque and Drag/Count=1", deck=str(SOURCES / "xml/first_run.xml"))}
+    off, on = table["Rotate off bottom"], table["Drill rotating"]
+    near("weight on bit of first_run", float(off["hook_load"]) - float(on["hook_load"]), 40e3, 0.01)
+
+
+def locked():
+    """Pushed so hard that it locks up, a string has no loads at the surface, and its profile ends below the lock-up."""
+    survey = pathlib.Path("horizontal.csv").resolve()
+    survey.write_text("MD [m], Inc [deg], Azi [deg]\n0, 90, 0\n2000, 90, 0\n", encoding="utf-8")
+    table = run("locked", "Well/Trajectory=Survey", f"Well/Survey/File={survey}", "Torque and Drag/Count=1",
+                "Torque and Drag/Operations={Drill sliding}", "Loads/Weight On Bit=600 kN")
+    row = table[0]
+    expect("it locks up", row["lock_up_depth"] != "" and 0 < float(row["lock_up_depth"]) < 1425, row)
+    expect("no loads at the surface", all(row[key] == "" for key in ("hook_load", "surface_torque", "twist", "stretch")), row)
+    depths = [float(line["depth"]) for line in rows("locked", "torque_drag_profile.csv")]
+    expect("the profile ends where it locks up", 0 < depths[-1] - float(row["lock_up_depth"]) <= 3.0, depths[-1])
 
 
 def tables_and_refusals():
@@ -94,5 +122,13 @@ def tables_and_refusals():
 straight()
 stiff("build_hold_1400m", 0.01, 0.02)
 stiff("extended_reach_5000m", 0.01, 0.05)
+# A vertical string hardly touches: what torque the bit does not ask for is small.
+alone = stiff("vertical_5000m", 0.01, 0.03)
+together = static_state("vertical_5000m", ranks=2)
+for key in ("top_axial_force", "top_torque_equilibrium"):
+    near(f"vertical_5000m: {key} on two ranks", together[key], alone[key], 1e-10)
+stiff("vertical_10000m", 0.01, 0.03)
+weight_on_bit()
+locked()
 tables_and_refusals()
 sys.exit(finish())

@@ -16,10 +16,9 @@ namespace tooljoint::drillstring {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// Speed of operations that turn when neither list gives one [rad/s].
 constexpr double usualSpeed = 120.0 * constants::rpm;
-/// Of a string that does not turn; without rotation any speed gives the same [m/s].
-constexpr double trippingSpeed = 0.3;
 /// When the start of the rotation counts as over [s].
 constexpr double started = 1e4;
 
@@ -29,16 +28,6 @@ double mudDensity(const Scene& scene) {
 }
 
 double gravityOf(const Scene& scene) { return loads::acceleration(scene.loads).z(); }
-
-/// The force or torque on the bit that does not change in time.
-double onBit(const Scene& scene, int component) {
-  double sum = 0.0;
-  for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary))
-    if (load.parameter.rfind("Loads/", 0) == 0 && load.node == scene.string.nodeCount() &&
-        load.component == component)
-      sum -= load.value;
-  return sum;
-}
 
 void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
@@ -59,22 +48,12 @@ double vonMises(const beam::Section& section, double tension, double torque, dou
   return largest;
 }
 
-}  // namespace
-
-softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
-  const auto spec = softstring::torqueDragParameters();
-  softstring::TorqueDragSettings settings;
-  const bool given = scene.list().isSublist(spec.name());
-  deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
-                     [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
-  return settings;
-}
-
-std::vector<softstring::Stretch> softStretches(const Scene& scene) {
+std::vector<softstring::Stretch> stretches(const Scene& scene) {
   const double gravity = gravityOf(scene), mud = mudDensity(scene);
   if (!(gravity > 0.0))
-    throw DeckError("Torque and drag needs the weight of the string. Add the list Loads.");
-  std::vector<softstring::Stretch> stretches;
+    throw DeckError(scene.deck.file() +
+                    ": torque and drag needs the weight of the string. Add the list Loads.");
+  std::vector<softstring::Stretch> found;
   const auto& string = scene.string;
   std::vector<double> widest(string.instances.size(), 0.0);
   for (int e = 0; e < string.elementCount(); ++e) {
@@ -87,18 +66,18 @@ std::vector<softstring::Stretch> softStretches(const Scene& scene) {
   for (int e = 0; e < string.elementCount(); ++e) {
     const Element& element = string.elements[at(e)];
     const auto& section = element.section();
-    stretches.push_back({element.length(), section,
-                         (section.massPerLength() - mud * section.area()) * gravity,
-                         widest[at(element.instance)], element.instance});
+    found.push_back({element.length(), section,
+                     (section.massPerLength() - mud * section.area()) * gravity,
+                     widest[at(element.instance)]});
   }
-  return stretches;
+  return found;
 }
 
-softstring::Hole softHole(const Scene& scene) {
+softstring::Hole holeOf(const Scene& scene) {
   if (!scene.contact || !scene.contact->friction)
-    throw DeckError(
-        "Torque and drag needs friction between string and wall. Add the list Contact with a list "
-        "Friction.");
+    throw DeckError(scene.deck.file() +
+                    ": torque and drag needs friction between string and wall. Add the list "
+                    "Contact with a list Friction.");
   softstring::Hole hole;
   const auto* well = &scene.well;
   const auto* contact = &*scene.contact;
@@ -117,50 +96,49 @@ softstring::Hole softHole(const Scene& scene) {
   return hole;
 }
 
+}  // namespace
+
+softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
+  const auto spec = softstring::torqueDragParameters();
+  softstring::TorqueDragSettings settings;
+  const bool given = scene.list().isSublist(spec.name());
+  deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
+                     [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
+  return settings;
+}
+
+SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
+
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
   const double deckSpeed = scene.rotary.present() ? std::abs(scene.rotary.speed(started)) : 0.0;
-  const double omega = settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed);
-  const double weight = onBit(scene, 2), torque = onBit(scene, 5);
-  std::vector<softstring::Operation> operations;
-  for (const std::string& name : settings.operations) {
-    softstring::Operation operation{name};
-    if (name == "Trip out") operation.axialSpeed = -trippingSpeed;
-    if (name == "Trip in") operation.axialSpeed = trippingSpeed;
-    if (name == "Back-ream") operation.axialSpeed = -settings.reamingSpeed;
-    if (name == "Ream") operation.axialSpeed = settings.reamingSpeed;
-    if (name == "Drill rotating" || name == "Drill sliding") {
-      operation.axialSpeed = settings.penetrationRate;
-      operation.weightOnBit = weight;
-      operation.torqueOnBit = torque;
-    }
-    if (name != "Trip out" && name != "Trip in" && name != "Drill sliding")
-      operation.rotarySpeed = omega;
-    operations.push_back(operation);
-  }
-  return operations;
+  const auto& loads = scene.list().sublist("Loads");
+  return softstring::operations(
+      settings, settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed),
+      loads.get<double>("Weight On Bit"), loads.get<double>("Torque On Bit"));
 }
 
-TorqueDragProfile torqueDragAt(const Scene& scene, const softstring::TorqueDragSettings& settings,
+TorqueDragProfile torqueDragAt(const SoftModel& model,
+                               const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit) {
-  const auto stretches = softStretches(scene);
-  const auto hole = softHole(scene);
+  const auto& hole = model.hole;
   TorqueDragProfile profile;
-  profile.loads = softstring::march(stretches, hole, bit, operation, settings.helix);
+  profile.loads = softstring::march(model.string, hole, bit, operation, settings.helix);
   const auto& loads = profile.loads;
   TorqueDragRow& row = profile.row;
   row.bit = bit;
   row.operation = operation.name;
-  row.hookLoad = loads.tension.back() + settings.blockWeight;
-  row.surfaceTorque = -loads.torque.back();
-  row.twist = -loads.twist;
-  row.stretch = loads.stretching;
   row.lockUpDepth = loads.lockUpDepth;
+  const bool locked = loads.lockUpDepth >= 0.0;
+  row.hookLoad = locked ? none : loads.tension.back() + settings.blockWeight;
+  row.surfaceTorque = locked ? none : -loads.torque.back();
+  row.twist = locked ? none : -loads.twist;
+  row.stretch = locked ? none : loads.stretching;
   row.yield = row.sinusoidal = row.helical = {infinite, bit};
   row.neutralDepth = bit;
   for (std::size_t i = 0; i < loads.depth.size(); ++i) {
     const double s = loads.depth[i];
-    const auto& stretch = stretches[at(loads.stretch[i])];
+    const auto& stretch = model.string[at(loads.stretch[i])];
     const auto point = hole.at(s);
     const double bending = stretch.section.youngModulus() * stretch.section.inertiaX();
     const auto limits = softstring::bucklingLimits(point, stretch.weight, bending,
@@ -196,10 +174,12 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
           "Torque and Drag/Depths",
           "holds " + formatNumber(depth) + " m, but the string of the deck ends at " +
               formatNumber(deepest) + " m. Give depths down to there, or a longer string."));
+  const SoftModel model = softModel(scene);
+  const auto operations = softOperations(scene, settings);
   std::vector<TorqueDragProfile> profiles;
   for (const double depth : settings.depths)
-    for (const auto& operation : softOperations(scene, settings))
-      profiles.push_back(torqueDragAt(scene, settings, operation, depth));
+    for (const auto& operation : operations)
+      profiles.push_back(torqueDragAt(model, settings, operation, depth));
   return profiles;
 }
 

@@ -23,11 +23,12 @@ struct Margin {
 struct TorqueDragRow {
   double bit = 0.0;  ///< [m]
   std::string operation;
-  double hookLoad = 0.0;       ///< effective tension at the surface plus block weight [N]
-  double surfaceTorque = 0.0;  ///< -M(0) [N m]
-  double twist = 0.0;          ///< of the surface ahead of the bit [rad]
-  double stretch = 0.0;        ///< by effective tension [m]
-  double neutralDepth = 0.0;   ///< above it nothing is compressed [m]
+  /// At the surface; NaN where the string locks up on the way.
+  double hookLoad = 0.0;                                ///< effective tension plus block weight [N]
+  double surfaceTorque = 0.0;                           ///< -M(0) [N m]
+  double twist = 0.0;                                   ///< of the surface ahead of the bit [rad]
+  double stretch = 0.0;                                 ///< by effective tension [m]
+  double neutralDepth = 0.0;                            ///< above it nothing is compressed [m]
   double largestSideForce = 0.0, sideForceDepth = 0.0;  ///< [N/m], [m]
   Margin yield, sinusoidal, helical;
   double lockUpDepth = -1.0;  ///< [m]; negative: none
@@ -44,17 +45,24 @@ struct TorqueDragProfile {
 /// The deck's list `Torque and Drag`; its defaults where the deck has none.
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
 
-/// What the deck's string, hole, mud and loads are to the soft string. A stretch touches the wall
-/// at the largest radius of its entry of the assembly (the tool joint of a pipe).
-/// DeckError: the deck has no friction or no weight.
-std::vector<softstring::Stretch> softStretches(const Scene& scene);
-softstring::Hole softHole(const Scene& scene);
+/// A deck's string in its hole as the soft-string model sees them.
+struct SoftModel {
+  std::vector<softstring::Stretch> string;
+  softstring::Hole hole;
+};
+
+/// A stretch touches the wall at the largest radius of its entry of the assembly (the tool joint of
+/// a pipe). The scene must outlive the model. DeckError: the deck has no friction or no weight.
+SoftModel softModel(const Scene& scene);
+
+/// The operations of the settings, with weight and torque on bit of the deck's list `Loads`.
 std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings);
 
 /// One march with its margins. Yield by von Mises from effective tension, bending by the curvature
 /// of the hole, and torsion, at both walls of the pipe, with mud at rest inside and outside.
-TorqueDragProfile torqueDragAt(const Scene& scene, const softstring::TorqueDragSettings& settings,
+TorqueDragProfile torqueDragAt(const SoftModel& model,
+                               const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit);
 
 /// Every operation at every depth. DeckError: a depth is below the deck's bit.

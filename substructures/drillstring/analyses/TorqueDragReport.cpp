@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "common/Constants.hpp"
-#include "common/Error.hpp"
-#include "common/Index.hpp"
-#include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
@@ -14,7 +10,8 @@
 namespace tooljoint::drillstring {
 namespace {
 
-/// Tables hold finite numbers alone: a margin of a string that nothing loads is left empty.
+/// Tables hold finite numbers alone: a margin of a string that nothing loads, and the loads at the
+/// surface of one that locks up, are left empty.
 std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.10g}", value) : "";
 }
@@ -72,16 +69,17 @@ io::Csv profileTable(const std::vector<TorqueDragProfile>& profiles, double bit)
   return table;
 }
 
-std::string marginText(const Margin& margin) {
-  return std::isfinite(margin.factor) ? fmt::format("{:.2f}", margin.factor) : "-";
+std::string text(double value, const char* unit, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "-";
 }
 
 void print(const TorqueDragRow& row) {
-  log::info(fmt::format("{:<18}{:>10.1f} kN{:>10.2f} kN m{:>9.2f}{:>9.2f} kN/m{:>8}{:>8}{:>8}",
-                        row.operation, row.hookLoad / 1e3, row.surfaceTorque / 1e3,
-                        row.twist / constants::twoPi, row.largestSideForce / 1e3,
-                        marginText(row.yield), marginText(row.sinusoidal),
-                        marginText(row.helical)));
+  log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", row.operation,
+                        text(row.hookLoad / 1e3, " kN", 1),
+                        text(row.surfaceTorque / 1e3, " kN m", 2),
+                        text(row.twist / constants::twoPi, "", 2),
+                        text(row.largestSideForce / 1e3, " kN/m", 2), text(row.yield.factor, "", 2),
+                        text(row.sinusoidal.factor, "", 2), text(row.helical.factor, "", 2)));
   if (row.lockUpDepth >= 0.0)
     log::warn(
         fmt::format("{} with the bit at {:.0f} m: the string locks up at {:.0f} m. No force "
@@ -109,16 +107,8 @@ void reportTorqueDrag(const Scene& scene, const std::string& folder) {
   for (const auto& profile : profiles)
     if (profile.row.bit == deepest) print(profile.row);
   if (folder.empty()) return;
-  parallel::agree([&] {
-    if (parallel::rank() != 0) return;
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed)
-      throw FileError("The folder \"" + folder + "\" cannot be made: " + failed.message() + ".");
-    const std::filesystem::path path(folder);
-    rowTable(profiles).write((path / "torque_drag.csv").string());
-    profileTable(profiles, deepest).write((path / "torque_drag_profile.csv").string());
-  });
+  rowTable(profiles).writeInto(folder, "torque_drag.csv");
+  profileTable(profiles, deepest).writeInto(folder, "torque_drag_profile.csv");
   log::info("results     " + folder + ": torque_drag.csv, torque_drag_profile.csv");
 }
 

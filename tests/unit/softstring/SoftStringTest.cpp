@@ -19,7 +19,7 @@ constexpr double weight = 250.0, radius = 0.08, mu = 0.25, exact = 1e-6;
 beam::Section pipe() { return beam::Section::hollow(0.0635, 0.0543, beam::Material{}); }
 
 std::vector<Stretch> stringOf(double length, double w = weight) {
-  return {{length, pipe(), w, radius, 0}};
+  return {{length, pipe(), w, radius}};
 }
 
 Hole holeOf(std::shared_ptr<const well::Trajectory> curve, double friction = mu) {
@@ -164,8 +164,8 @@ TEST(SoftString, KnowsNeitherNorthNorStations) {
 }
 
 TEST(SoftString, HangsThePartBelowTheSurface) {
-  const std::vector<Stretch> string{{900, pipe(), weight, radius, 0},
-                                    {100, pipe(), 4 * weight, radius, 1}};
+  const std::vector<Stretch> string{{900, pipe(), weight, radius},
+                                    {100, pipe(), 4 * weight, radius}};
   const auto hole = holeOf(well::straight(1000));
   EXPECT_NEAR(march(string, hole, 500, sliding(0.3)).tension.back(),
               400 * weight + 100 * 4 * weight, 1e-3);
@@ -185,6 +185,9 @@ TEST(SoftString, LocksUpWhereTheHelixHoldsIt) {
   // integral of dF/(w (1 + k^2 F^2)) from 2.5e5 (above the limit) to F1
   const double way = (std::atan(k * F1) - std::atan(k * 2.5e5)) / (k * weight * 0.4);
   EXPECT_NEAR(length - loads.lockUpDepth, way, 0.01 * way);
+  EXPECT_GT(loads.depth.back(), loads.lockUpDepth);
+  EXPECT_LE(loads.depth.back() - loads.lockUpDepth, 3.0 + 1e-9);
+  EXPECT_LT(-loads.tension.back(), F1);
   EXPECT_LT(march(stringOf(length), hole, length, sliding(0.3, 2.5e5), false).lockUpDepth, 0.0);
 }
 
