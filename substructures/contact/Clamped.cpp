@@ -12,7 +12,6 @@ namespace {
 /// and C likewise: both rise from zero, so force and elastic tangent are continuous at the wall.
 class ClampedKernel {
  public:
-  static constexpr bool attracts = false;
   void prepare(const ContactPoints& points) {
     for (int p = 0; p < points.size(); ++p) {
       const ContactPoint point = points.at(p);

@@ -29,8 +29,6 @@ class ContactLaw {
   virtual std::shared_ptr<const StaticContact> atRest(ContactPoints points) const = 0;
   /// False where the friction of the law begins with the motion: atRest() has none.
   virtual bool hasFrictionAtRest() const { return true; }
-  /// Whether the wall may attract a point.
-  virtual bool attracts() const { return false; }
 };
 
 /// Laws by name; each gets its own sublist (empty when the law has no parameters of its own).

@@ -11,7 +11,6 @@ namespace {
 /// model::HuntCrossley without a transition. No regularisation.
 class HuntCrossleyKernel {
  public:
-  static constexpr bool attracts = false;
   explicit HuntCrossleyKernel(double exponent = 1.0, double dissipation = 0.0)
       : law_(exponent, dissipation) {}
 

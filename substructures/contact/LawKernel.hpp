@@ -3,7 +3,6 @@
 /// Turns a kernel of the normal force into a contact law. Included by the laws' own files only.
 ///
 /// A kernel is a class with
-///   static constexpr bool attracts                                   whether F_n < 0 occurs
 ///   void prepare(const ContactPoints&)                               constants per point, once
 ///   double forceOnly(size_t i, double G, double rate) const          F_n
 ///   NormalForce force(size_t i, double G, double rate) const         F_n and its derivatives
@@ -353,7 +352,6 @@ class ContactLawOf final : public ContactLaw {
   std::shared_ptr<const StaticContact> atRest(ContactPoints points) const override {
     return std::make_shared<StaticContactOf<Kernel>>(std::move(points), kernel_);
   }
-  bool attracts() const override { return Kernel::attracts; }
 
  private:
   Kernel kernel_;

@@ -11,7 +11,6 @@ namespace {
 /// F_n = K(G) G + C(G) G',  K = (k/pi) atan2(1, -pi lambda G), C likewise.
 class NguyenKernel {
  public:
-  static constexpr bool attracts = true;
   void prepare(const ContactPoints& points) {
     for (int p = 0; p < points.size(); ++p) {
       const ContactPoint point = points.at(p);

@@ -51,8 +51,8 @@ std::string describeCost(const transient::CostModel& full, const transient::Cost
       ratio, reduced.total(), full.total());
   if (ratio < transient::worthReducing) return text + "The reduced model is faster.";
   return text +
-         "The full model is as fast, and exact: run it with --without Reduction --without "
-         "Substructures.";
+         "The full model is as fast and has no reduction error: run it with --without Reduction "
+         "--without Substructures.";
 }
 
 std::string describeCoupling(const coupling::Coupling& coupled) {

@@ -177,7 +177,7 @@ std::string describeScene(const Scene& scene) {
                    scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
                    scene.well.length(), scene.freeDofs());
   for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
-  if (scene.contact && scene.contact->law->attracts())
+  if (scene.contact && scene.contact->law->atRest(scene.contactPoints)->largestPull() > 0.0)
     text += "\ncontact     the law " + inQuotes(scene.contact->lawName) +
             " attracts points to the wall, on rebound and when open; Clamped never does";
   return text;

@@ -14,8 +14,8 @@ namespace tooljoint::test {
 class Scratch {
  public:
   Scratch() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "tooljoint_test_XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "tooljoint_test_").string() +
+                          std::string(6, 'X');  // mkdtemp replaces them
     if (mkdtemp(pattern.data()) == nullptr)
       throw std::runtime_error("no folder for a test can be made");
     folder_ = pattern;
