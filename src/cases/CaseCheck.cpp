@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "cases/CaseLists.hpp"
 #include "cases/ReducedCase.hpp"

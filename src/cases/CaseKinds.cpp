@@ -2,6 +2,7 @@
 #include "cases/CaseKinds.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/Error.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/CaseLists.hpp"
 
+#include <utility>
+
 #include "cases/PartsExport.hpp"
 #include "cases/ReductionRules.hpp"
 #include "common/Text.hpp"

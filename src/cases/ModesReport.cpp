@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <vector>
 
 #include "cases/ReducedCase.hpp"
 #include "cases/run/Report.hpp"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cases/MotionRecord.hpp"
 #include "linalg/blocks/GroupedRows.hpp"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "cases/Case.hpp"
 #include "estimate/AdaptiveReduction.hpp"

@@ -2,6 +2,7 @@
 #include "cases/ReductionRules.hpp"
 
 #include <Teuchos_ParameterList.hpp>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

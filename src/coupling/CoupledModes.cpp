@@ -2,6 +2,7 @@
 #include "coupling/CoupledModes.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "common/report/StageTimes.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"

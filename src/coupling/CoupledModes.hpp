@@ -4,6 +4,7 @@
 #pragma once
 
 #include <complex>
+#include <vector>
 
 #include "coupling/assembly/Assembler.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"

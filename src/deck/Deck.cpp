@@ -5,6 +5,7 @@
 #include <cctype>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"

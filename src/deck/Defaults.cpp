@@ -3,6 +3,7 @@
 
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
+#include <string>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

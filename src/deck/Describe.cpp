@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <vector>
 
 #include "common/Text.hpp"
 

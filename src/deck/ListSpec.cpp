@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "deck/ListSpec.hpp"
 #include "deck/Registry.hpp"

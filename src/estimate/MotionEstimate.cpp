@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "reduction/part/Partition.hpp"
 #include "reduction/vectors/ModalVectors.hpp"

@@ -3,6 +3,8 @@
 /// Free vibration of what a basis does not represent of the start of a motion.
 #pragma once
 
+#include <vector>
+
 #include "estimate/PartResidual.hpp"
 
 namespace tooljoint::estimate {

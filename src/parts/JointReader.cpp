@@ -2,6 +2,7 @@
 #include "parts/JointReader.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

@@ -2,6 +2,7 @@
 #include "parts/RestState.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

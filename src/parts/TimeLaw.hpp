@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <string>
 
 #include "deck/ListSpec.hpp"
 #include "deck/Registry.hpp"

@@ -3,6 +3,7 @@
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 

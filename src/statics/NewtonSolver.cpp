@@ -12,6 +12,8 @@
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_oblackholestream.hpp>
 #include <Thyra_BelosLinearOpWithSolveFactory.hpp>
+#include <algorithm>
+#include <limits>
 
 #include "common/Error.hpp"
 #include "linalg/Scientific.hpp"

@@ -12,7 +12,10 @@
 #include <NOX_Thyra_Vector.H>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
+#include <string>
+#include <utility>
 
 #include "model/NonlinearProblem.hpp"
 #include "statics/NewtonSolver.hpp"

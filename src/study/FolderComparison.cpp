@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "cases/imported/MeasuredComponents.hpp"
 #include "common/Error.hpp"

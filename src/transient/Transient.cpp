@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/beam/Element.hpp"
 
+#include <utility>
+
 #include "deck/Deck.hpp"
 #include "deck/Variants.hpp"
 

@@ -2,6 +2,7 @@
 #include "substructures/beam/SparseAssembler.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tooljoint::beam {
 

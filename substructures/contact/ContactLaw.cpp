@@ -2,6 +2,7 @@
 #include "substructures/contact/ContactLaw.hpp"
 
 #include <Teuchos_ParameterList.hpp>
+#include <string>
 
 namespace tooljoint::contact {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "deck/Registry.hpp"
 #include "substructures/contact/BoreholeContact.hpp"

@@ -18,7 +18,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"

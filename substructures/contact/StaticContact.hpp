@@ -4,6 +4,8 @@
 /// et al. 2020, eqs. (21), (22).
 #pragma once
 
+#include <utility>
+
 #include "substructures/contact/ContactPoints.hpp"
 
 namespace tooljoint::contact {

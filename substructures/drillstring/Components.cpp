@@ -4,6 +4,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <array>
 #include <charconv>
+#include <utility>
 
 #include "common/Text.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/ContactNodes.hpp"
 
+#include <string>
+
 namespace tooljoint::drillstring {
 
 contact::ContactPoints contactPoints(const contact::ContactSettings& settings,

@@ -3,6 +3,7 @@
 /// Which nodes of a string can touch the wall.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "substructures/contact/ContactParameters.hpp"

@@ -2,6 +2,8 @@
 #include "substructures/drillstring/EquationBuilder.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "common/report/EvaluationCounters.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "substructures/contact/BoreholeContact.hpp"

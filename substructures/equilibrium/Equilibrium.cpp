@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "common/Error.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"

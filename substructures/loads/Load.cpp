@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/loads/Load.hpp"
 
+#include <utility>
+
 #include "deck/Variants.hpp"
 
 namespace tooljoint::loads {

@@ -7,6 +7,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/Types.hpp"

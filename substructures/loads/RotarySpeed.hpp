@@ -6,6 +6,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deck/ListSpec.hpp"

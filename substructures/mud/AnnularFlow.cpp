@@ -2,6 +2,8 @@
 #include "substructures/mud/AnnularFlow.hpp"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"

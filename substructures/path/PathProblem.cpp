@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "common/Index.hpp"
 #include "substructures/beam/Rotation.hpp"

@@ -4,6 +4,7 @@
 /// in space.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,9 @@
 /// The scenes of xml/ taken through the stages of a run in memory.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/assembly/Assembler.hpp"

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "cases/CaseKinds.hpp"
 #include "cases/ListText.hpp"

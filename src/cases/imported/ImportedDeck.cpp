@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cases/imported/ImportedDeck.hpp"
 
+#include <utility>
+
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"

@@ -2,6 +2,7 @@
 #include "cases/run/Recorder.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/Text.hpp"
 #include "io/TextFile.hpp"

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 #include "cases/PartsExport.hpp"
 #include "cases/ReducedCase.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <unistd.h>
+#include <utility>
 
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

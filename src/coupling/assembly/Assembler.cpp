@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Assembler.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Congruence.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 

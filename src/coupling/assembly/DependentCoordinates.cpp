@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "coupling/assembly/Congruence.hpp"

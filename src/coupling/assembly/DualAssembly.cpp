@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/DualAssembly.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "common/Index.hpp"
 #include "coupling/assembly/Congruence.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/LabelAssembly.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

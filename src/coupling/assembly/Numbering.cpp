@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/assembly/Numbering.hpp"
 
+#include <algorithm>
+
 #include "common/Index.hpp"
 #include "common/Indexing.hpp"
 

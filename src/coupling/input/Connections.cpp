@@ -2,6 +2,7 @@
 #include "coupling/input/Connections.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <map>
 

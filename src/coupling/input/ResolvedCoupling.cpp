@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <map>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

@@ -2,8 +2,10 @@
 #include "coupling/interface/InterfaceReduction.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

@@ -2,6 +2,7 @@
 #include "deck/reading/Overrides.hpp"
 
 #include <charconv>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "common/Text.hpp"

@@ -4,6 +4,7 @@
 #include <Teuchos_Array.hpp>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"

@@ -9,6 +9,8 @@
 #include <libxml/tree.h>
 #include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/InputFile.hpp"

@@ -2,6 +2,7 @@
 #include "linalg/blocks/BlockKernels.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tooljoint::linalg::kernel {
 namespace {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tooljoint::linalg::kernel {
 

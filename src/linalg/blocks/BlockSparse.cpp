@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

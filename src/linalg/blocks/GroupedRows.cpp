@@ -2,6 +2,7 @@
 #include "linalg/blocks/GroupedRows.hpp"
 
 #include <map>
+#include <utility>
 
 namespace tooljoint::linalg {
 namespace {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/report/StageTimes.hpp"

@@ -4,6 +4,7 @@
 /// result.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "linalg/trilinos/EigenSolver.hpp"

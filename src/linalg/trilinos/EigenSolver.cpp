@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"

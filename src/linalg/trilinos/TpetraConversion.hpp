@@ -7,6 +7,8 @@
 /// Included by solver sources only; no public header of the project includes Tpetra.
 #pragma once
 
+#include <algorithm>
+
 #include "common/Types.hpp"
 #include "linalg/trilinos/TrilinosAliases.hpp"
 

@@ -13,8 +13,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
+#include <vector>
 
 #include "model/laws/StatefulPointLaw.hpp"
 

@@ -3,6 +3,7 @@
 /// What laws share whose points have parameters of their own.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <memory>
 
 #include "deck/Registry.hpp"
 #include "model/laws/FormulaLaw.hpp"

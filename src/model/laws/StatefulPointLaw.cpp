@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/laws/StatefulPointLaw.hpp"
 
+#include <vector>
+
 namespace tooljoint::model {
 namespace {
 

@@ -8,6 +8,8 @@
 /// values, and a checkpoint holds them. A law is a constant function of them.
 #pragma once
 
+#include <vector>
+
 #include "model/laws/PointLaw.hpp"
 
 namespace tooljoint::model {

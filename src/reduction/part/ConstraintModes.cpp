@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/part/ConstraintModes.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

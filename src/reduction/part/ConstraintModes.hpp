@@ -3,6 +3,8 @@
 /// Static shapes of the interior for unit motions of the boundary dofs.
 #pragma once
 
+#include <vector>
+
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::reduction {

@@ -2,8 +2,10 @@
 #include "reduction/part/InteriorStatics.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

@@ -2,6 +2,7 @@
 #include "reduction/part/MasterDofs.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <utility>

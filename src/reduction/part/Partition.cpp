@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/part/Partition.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 

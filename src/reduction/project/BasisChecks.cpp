@@ -2,8 +2,10 @@
 #include "reduction/project/BasisChecks.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

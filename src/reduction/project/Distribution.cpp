@@ -2,6 +2,8 @@
 #include "reduction/project/Distribution.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "common/Indexing.hpp"
 #include "common/Message.hpp"

@@ -2,8 +2,10 @@
 #include "reduction/project/Projection.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "common/Error.hpp"
 

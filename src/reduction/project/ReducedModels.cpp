@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "linalg/blocks/BlockKernels.hpp"
 #include "reduction/project/Projection.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/selection/InterfaceCriteria.hpp"
 
+#include <vector>
+
 #include "common/Error.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 

@@ -3,6 +3,8 @@
 /// Coupling of a fixed-interface mode to the boundary of its part.
 #pragma once
 
+#include <vector>
+
 #include "reduction/ReductionMethod.hpp"
 #include "reduction/selection/ModeChoice.hpp"
 

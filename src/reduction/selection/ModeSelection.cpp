@@ -3,6 +3,8 @@
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
+#include <string>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

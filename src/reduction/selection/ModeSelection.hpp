@@ -4,6 +4,8 @@
 /// it holds is the choice, its value the number, frequency, fraction or tolerance.
 #pragma once
 
+#include <string>
+
 #include "deck/ListSpec.hpp"
 #include "reduction/selection/ModeChoice.hpp"
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/FixedInterfaceModes.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/vectors/FreeInterfaceModes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "common/Index.hpp"
 #include "reduction/ReductionMethod.hpp"

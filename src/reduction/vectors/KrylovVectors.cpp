@@ -2,8 +2,12 @@
 #include "reduction/vectors/KrylovVectors.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"

@@ -2,6 +2,7 @@
 #include "reduction/vectors/ModalVectors.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

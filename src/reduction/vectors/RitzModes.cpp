@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"

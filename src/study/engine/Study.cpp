@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"

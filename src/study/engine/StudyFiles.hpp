@@ -4,6 +4,7 @@
 /// docs/file-formats.md describes all of it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 

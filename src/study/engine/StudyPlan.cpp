@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "cases/CaseLists.hpp"
 #include "cases/ListText.hpp"

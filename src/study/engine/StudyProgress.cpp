@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"

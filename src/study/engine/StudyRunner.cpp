@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "cases/ListText.hpp"
 #include "common/Error.hpp"

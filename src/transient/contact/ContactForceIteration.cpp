@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/Index.hpp"
 #include "transient/compiled/PointWidth.hpp"

@@ -19,6 +19,7 @@
 /// is, see PointSolve; its error is then measured in y.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "linalg/blocks/BlockFactor.hpp"

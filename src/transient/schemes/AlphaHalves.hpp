@@ -3,6 +3,8 @@
 /// Steps of an AlphaStep taken again as two halves, from what it remembers of the steps before.
 #pragma once
 
+#include <vector>
+
 #include "transient/accuracy/HalvedStep.hpp"
 #include "transient/schemes/AlphaStep.hpp"
 

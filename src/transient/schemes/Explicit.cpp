@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transient/schemes/Explicit.hpp"
 
+#include <string>
+
 #include "common/Error.hpp"
 
 namespace tooljoint::transient {

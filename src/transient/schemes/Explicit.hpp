@@ -4,6 +4,8 @@
 /// Runge-Kutta step, and the largest rate that bounds its length.
 #pragma once
 
+#include <string>
+
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/accuracy/LargestRate.hpp"

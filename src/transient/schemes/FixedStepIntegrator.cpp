@@ -2,6 +2,7 @@
 #include "transient/schemes/FixedStepIntegrator.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "common/Error.hpp"
 

@@ -4,6 +4,9 @@
 /// Times, restart and the measured accuracy of the steps come with it.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::transient {

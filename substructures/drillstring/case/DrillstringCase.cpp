@@ -2,6 +2,7 @@
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "cases/CaseKinds.hpp"
 #include "cases/ListText.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"

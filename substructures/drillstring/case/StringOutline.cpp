@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringOutline.hpp"
 
+#include <string>
+#include <vector>
+
 #include "common/Text.hpp"
 #include "substructures/drillstring/case/Stages.hpp"
 

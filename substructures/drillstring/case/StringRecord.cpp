@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"

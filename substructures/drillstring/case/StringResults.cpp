@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fmt/printf.h>
+#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Text.hpp"

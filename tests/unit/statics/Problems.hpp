@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "model/NonlinearProblem.hpp"

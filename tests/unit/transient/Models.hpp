@@ -3,8 +3,10 @@
 /// Small models and point laws with known motion, for the tests of the integrators.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/Constants.hpp"

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <Teuchos_ParameterList.hpp>
+#include <algorithm>
+#include <string>
 
 #include "Models.hpp"
 #include "model/laws/PointLawRegistry.hpp"
