@@ -4,6 +4,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <gtest/gtest.h>
 
@@ -155,7 +156,8 @@ TEST(Guyan, MastersOfThousandsOfDofsTakeSeconds) {
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%zu dofs ranked in %.1f s of CPU time\n", ranking.positions.size(), seconds);
   EXPECT_EQ(ranking.positions.size(), p.interior.size());
-  EXPECT_LT(seconds, 20.0);
+  const char* factor = std::getenv("TOOLJOINT_TIME_FACTOR");  // programs with sanitizers
+  EXPECT_LT(seconds, 20.0 * (factor != nullptr ? std::atof(factor) : 1.0));
 }
 
 TEST(Guyan, AllMastersAreTheFullModel) {
