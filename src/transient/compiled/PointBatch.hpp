@@ -98,6 +98,7 @@ class PointBatch {
   void freezeTangent(double cd, double cv);
   /// Take out of P what pushes on as its point moves (friction that falls with speed), at points
   /// where it pushes on in one coordinate at least: an effective matrix with it may be indefinite.
+  /// The part of P that is df/dd alone keeps only what resists and is symmetric.
   void takeOutPush();
   /// Matrix -= R' P R on the pattern.
   void subtractTangent(double* values) const;

@@ -54,20 +54,30 @@ void PointBatch::freezeTangent(double cd, double cv) {
     }
 }
 
-/// P - sum_+ lambda q q', where lambda q q' make up its symmetric part.
+/// Of P all that resists: P - sum_+ lambda q q', where lambda q q' make up its symmetric part. Of
+/// its part of df/dd what resists and is symmetric, sum_- lambda q q': friction, which follows the
+/// normal force, is no part of it.
 void PointBatch::takeOutPush() {
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
   if (width_ > 6) return;
   Eigen::SelfAdjointEigenSolver<Square> parts(width_);
+  const auto decompose = [&](const Square& A) {
+    return parts.compute(0.5 * (A + A.transpose())).info() == Eigen::Success;
+  };
   for (int p : frozen_) {
-    Eigen::Map<Square> tangent(&P_[at(p * width_ * width_)], width_, width_);
-    if (!(tangent.diagonal().maxCoeff() > 0)) continue;
-    const Square symmetric = 0.5 * (tangent + tangent.transpose());
-    if (parts.compute(symmetric).info() != Eigen::Success) continue;
-    for (int i = 0; i < width_; ++i)
-      if (parts.eigenvalues()[i] > 0)
-        tangent.noalias() -= parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
-                             parts.eigenvectors().col(i).transpose();
+    Eigen::Map<Square> tangent(&P_[at(p * width_ * width_)], width_, width_),
+        ofPosition(&positionP_[at(p * width_ * width_)], width_, width_);
+    if (tangent.diagonal().maxCoeff() > 0 && decompose(tangent))
+      for (int i = 0; i < width_; ++i)
+        if (parts.eigenvalues()[i] > 0)
+          tangent.noalias() -= parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
+                               parts.eigenvectors().col(i).transpose();
+    const bool found = decompose(ofPosition);
+    ofPosition.setZero();
+    for (int i = 0; found && i < width_; ++i)
+      if (parts.eigenvalues()[i] < 0)
+        ofPosition.noalias() += parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
+                                parts.eigenvectors().col(i).transpose();
   }
 }
 

@@ -136,7 +136,7 @@ def reversals(run):
 def low_speed(program, short):
     end = 0.1 if short else 1.5
     decks = {"stress": STRESS, "helical": HELICAL}
-    for name, deck in list(decks.items())[:1] if short else decks.items():
+    for name, deck in decks.items():
         settings = {**times(end, 0.005), **alpha(1e-3), "Contact/Friction/Static": 0.55, "Contact/Friction/Dynamic": 0.45}
         easy = program.run("c6_easy", deck, {**settings, "Rotary Speed/Exponential/Final Speed": "2 rpm"}, FULL)
         for model, without in (("full", FULL),) if short else (("full", FULL), ("reduced", ())):

@@ -312,6 +312,49 @@ TEST(PointBatch, takesOutWhatPushesOn) {
   EXPECT_GT(taken, 3);
 }
 
+/// The matrix with these values on the pattern.
+Matrix onPattern(const linalg::BlockPattern& pattern, const std::vector<double>& values) {
+  Matrix A = Matrix::Zero(pattern.start(pattern.blocks()), pattern.start(pattern.blocks()));
+  for (int b = 0; b < pattern.blocks(); ++b)
+    for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e) {
+      const int width = pattern.width(b), c = pattern.column(e);
+      A.block(pattern.start(b), pattern.start(c), width, pattern.width(c)) =
+          Eigen::Map<const Matrix>(&values[pattern.offset(e)], width, pattern.width(c));
+    }
+  return A;
+}
+
+// The filter of the phase correction is a positive matrix only if contact adds stiffness to it that
+// is symmetric and resists: friction, which follows the normal force, would make vibration grow.
+TEST(PointBatch, whatResistsByPositionIsSymmetric) {
+  for (bool general : {false, true}) {
+    auto source = rich();
+    addBore(source, general);
+    CompiledModel model(source);
+    const int n = 18;
+    bool closed = false;
+    for (int trial = 0; trial < 40; ++trial) {
+      Vector qp, vp;
+      model.toPositions(sampleVector(n, 0.1 * trial), qp);
+      model.toPositions(sampleVector(n, 1.0 + 0.3 * trial), vp);
+      std::vector<double> values(model.pattern().storage(), 0.0);
+      for (auto& batch : model.points()) {
+        batch.look(0.4, 0.0, qp.data());
+        batch.evaluateWithTangent(0.4, qp.data(), vp.data());
+        batch.freezeTangent(1.0, 300.0);
+        batch.takeOutPush();
+        batch.subtractPositionTangent(values.data());
+      }
+      const Matrix A = onPattern(model.pattern(), values);
+      const double size = A.cwiseAbs().maxCoeff();
+      closed = closed || size > 1e3;
+      EXPECT_LE((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-12 * size);
+      EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix>(A).eigenvalues().minCoeff(), -1e-10 * size);
+    }
+    EXPECT_TRUE(closed);
+  }
+}
+
 TEST(PointBatch, tangentsMatchDifferences) {
   for (bool general : {false, true}) {
     auto source = rich();
