@@ -127,7 +127,9 @@ alone = stiff("vertical_5000m", 0.01, 0.03)
 together = static_state("vertical_5000m", ranks=2)
 for key in ("top_axial_force", "top_torque_equilibrium"):
     near(f"vertical_5000m: {key} on two ranks", together[key], alone[key], 1e-10)
-stiff("vertical_10000m", 0.01, 0.03)
+# 10 km stretch by 16 m under their weight. The stiff string is linear about the nodes as they were meshed, in the build above the
+# collars too, and presses on its wall there more than the string that lies on the axis.
+stiff("vertical_10000m", 0.01, 0.15)
 weight_on_bit()
 locked()
 tables_and_refusals()

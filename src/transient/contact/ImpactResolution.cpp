@@ -13,7 +13,7 @@ namespace tooljoint::transient {
 namespace {
 
 /// Parts of the energy that one impact may lose, and may misplace.
-constexpr double mostLost = 0.005, mostMisplaced = 0.02;
+constexpr double mostLost = 0.005, mostMisplaced = 0.015;
 /// w h, and the part of its velocity that damping takes in a step, at which steps are short enough
 /// for any impact.
 constexpr double resolved = 0.15, resolvedDamping = 0.005;
@@ -64,7 +64,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   f_.assign(widest, 0.0);
   dfdd_.assign(widest * widest, 0.0);
   dfdv_ = dfdd_;
-  normal_ = deeper_ = f_;
+  normal_ = deeper_ = d_ = v_ = f_;
   squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
@@ -111,8 +111,9 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, cons
 ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double speed, double h) {
   PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
-  const double* d = batch.d() + point * w;
-  const double* v = batch.v() + point * w;
+  std::copy_n(batch.d() + point * w, w, d_.begin());
+  std::copy_n(batch.v() + point * w, w, v_.begin());
+  const double *d = d_.data(), *v = v_.data();
   const double* W = mobility(b, point);
   batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   Wall found;
@@ -147,8 +148,8 @@ ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double
     if (!first || found.frequency == 0 || found.frequency * h < 1) break;
     depth = speed / found.frequency;
   }
-  if (batch.states() != nullptr)  // they are left where the batch evaluated last
-    batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  // the batch keeps where it was evaluated last
+  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   return found;
 }
 

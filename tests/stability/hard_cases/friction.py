@@ -134,14 +134,14 @@ def reversals(run):
 @case(6, "Sharp friction at low speed", "v_r 1e-5, 3e-5, 1e-4 m/s; 0.2 to 2 rpm; friction 0.55/0.45; stress_170m and helical_170m, full and reduced, 1 ms",
       "every step of 1 ms converges; the bit turns no faster than friction and twist allow; the ledger closes", "v_r 0.02 m/s, 2 rpm")
 def low_speed(program, short):
-    end = 0.1 if short else 1.5
     decks = {"stress": STRESS, "helical": HELICAL}
     for name, deck in decks.items():
+        end = 1.5 if not short else 0.1 if name == "stress" else 0.6
         settings = {**times(end, 0.005), **alpha(1e-3), "Contact/Friction/Static": 0.55, "Contact/Friction/Dynamic": 0.45}
         easy = program.run("c6_easy", deck, {**settings, "Rotary Speed/Exponential/Final Speed": "2 rpm"}, FULL)
         for model, without in (("full", FULL),) if short else (("full", FULL), ("reduced", ())):
             for slip in (3e-5,) if short else (1e-5, 3e-5, 1e-4):
-                for speed in (0.5,) if short else ((0.2, 0.5, 1.0, 2.0) if model == "full" else (0.5, 2.0)):
+                for speed in (0.5 if name == "stress" else 1.0,) if short else ((0.2, 0.5, 1.0, 2.0) if model == "full" else (0.5, 2.0)):
                     run = program.run("c6", deck, {**settings, "Contact/Friction/Regularisation Velocity": slip,
                                                    "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"}, without)
 

@@ -99,6 +99,38 @@ TEST(Impacts, AtRestStepsAreLongAgain) {
   EXPECT_LE(longer.counters.steps - first.counters.steps, 2100);
 }
 
+/// The step goes on from what its points were evaluated at, whatever the impact was looked at in.
+TEST(Impacts, ALookLeavesThePointWhereItWas) {
+  auto ball = denseModel(Matrix::Identity(1, 1), Matrix(), Matrix::Zero(1, 1));
+  model::PointSet set;
+  set.name = "wall";
+  set.law = std::make_shared<Floor>(1, 1e9, 1e3, 7e11);
+  set.rows.resize(1, 1);
+  set.rows.insert(0, 0) = 1;
+  set.offset = Vector::Zero(1);
+  set.entities = {1};
+  ball.points.push_back(set);
+  CompiledModel model(ball);
+  const MassFactor factor(model);
+  ImpactResolution impacts;
+  impacts.bind(model, factor, 0.8);
+  State from, to;
+  for (State* each : {&from, &to}) {
+    each->resize(1, 0);
+    each->q.setConstant(1e-4), each->v.setConstant(-1), each->a.setZero();
+  }
+  to.t = 1e-3, to.q.setConstant(-1e-5);
+  auto& batch = model.points().front();
+  batch.look(to.t, 0.0, to.q.data());
+  batch.evaluateWithTangent(to.t, to.q.data(), to.v.data());
+  const double d = batch.d()[0], v = batch.v()[0], f = batch.force()[0];
+  ASSERT_GT(f, 0);
+  EXPECT_GT(impacts.halvings(from, to, 1e-3), 0);
+  EXPECT_EQ(batch.d()[0], d);
+  EXPECT_EQ(batch.v()[0], v);
+  EXPECT_EQ(batch.force()[0], f);
+}
+
 /// St. Venant's bar: n springs in a row, of mass m and stiffness k each, fly at unit speed against
 /// a wall a hundred times as stiff as a spring. A wave takes sqrt(m/k) per spring.
 constexpr int springs = 50;
