@@ -125,10 +125,19 @@ TEST(StartStateVectors, PutTheStartIntoTheBasis) {
   const auto with = energies(options);
   EXPECT_DOUBLE_EQ(with.first, without.first);
   EXPECT_LT(with.second, 1e-12 * with.first);
-  for (auto& part : parts) {
-    part.model.initialVelocity.setZero();
-    part.model.initialDisplacement.setZero();
+  // each of the two alone
+  const auto moved = parts;
+  for (auto& part : parts) part.model.initialDisplacement.setZero();
+  const auto velocity = energies({});
+  EXPECT_GT(velocity.second, 0.1 * velocity.first);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].model.initialVelocity.setZero();
+    parts[i].model.initialDisplacement = moved[i].model.initialDisplacement;
   }
+  const auto displacement = energies({});
+  EXPECT_GT(displacement.second, 0.1 * displacement.first);
+  EXPECT_NEAR(velocity.second + displacement.second, without.second, 1e-9 * without.second);
+  for (auto& part : parts) part.model.initialDisplacement.setZero();
   EXPECT_EQ(energies({}), std::make_pair(0.0, 0.0));
   EXPECT_EQ(synthesise(parts, "Craig-Bampton", options, 2).coupled.model.size(),
             synthesise(parts, "Craig-Bampton", {}, 2).coupled.model.size());
