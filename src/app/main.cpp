@@ -50,8 +50,10 @@ int guarded(const std::function<void()>& command) {
   }
 }
 
-/// A deck on the command line with its overrides and where results go.
+/// Whether a command writes no results, writes them where a folder is given, or always.
 enum class Output { None, Wanted, Always };
+
+/// A deck on the command line with its overrides and where results go.
 void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output) {
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
   command

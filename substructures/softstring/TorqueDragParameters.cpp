@@ -18,15 +18,14 @@ struct Kind {
   bool turns;
   bool onBottom;
 };
-using Settings = TorqueDragSettings;
 constexpr std::array kinds{
-    Kind{"Trip out", &Settings::reamingSpeed, -1.0, false, false},
-    Kind{"Trip in", &Settings::reamingSpeed, 1.0, false, false},
-    Kind{"Rotate off bottom", &Settings::reamingSpeed, 0.0, true, false},
-    Kind{"Drill rotating", &Settings::penetrationRate, 1.0, true, true},
-    Kind{"Drill sliding", &Settings::penetrationRate, 1.0, false, true},
-    Kind{"Back-ream", &Settings::reamingSpeed, -1.0, true, false},
-    Kind{"Ream", &Settings::reamingSpeed, 1.0, true, false},
+    Kind{"Trip out", &TorqueDragSettings::reamingSpeed, -1.0, false, false},
+    Kind{"Trip in", &TorqueDragSettings::reamingSpeed, 1.0, false, false},
+    Kind{"Rotate off bottom", &TorqueDragSettings::reamingSpeed, 0.0, true, false},
+    Kind{"Drill rotating", &TorqueDragSettings::penetrationRate, 1.0, true, true},
+    Kind{"Drill sliding", &TorqueDragSettings::penetrationRate, 1.0, false, true},
+    Kind{"Back-ream", &TorqueDragSettings::reamingSpeed, -1.0, true, false},
+    Kind{"Ream", &TorqueDragSettings::reamingSpeed, 1.0, true, false},
 };
 
 std::vector<std::string> operationNames() {

@@ -79,6 +79,7 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   }
   watch_ = ContactBroadPhase(points_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
   small_.assign(at(width_), 0.0);
+  own_.assign(at(2 * width_), 0.0);
   active_.reserve(at(points_));
   frozen_.reserve(at(points_));
   isActive_.assign(at(points_), 0);
@@ -335,6 +336,11 @@ void PointBatch::evaluateHere(double t, const std::vector<int>& points, bool tan
   evaluations_ += static_cast<long>(points.size());
 }
 
+void PointBatch::evaluateHere(double t, int point, bool tangent) {
+  one_[0] = point;
+  evaluateHere(t, one_, tangent);
+}
+
 void PointBatch::markBlocks(std::vector<char>& blocks) const {
   for (int b : block_) blocks[at(b)] = 1;
 }
@@ -366,15 +372,24 @@ void PointBatch::evaluateOne(double t, int point, const double* d, const double*
   const int first = point * width_;
   std::copy(d, d + width_, d_.begin() + first);
   std::copy(v, v + width_, v_.begin() + first);
-  one_[0] = point;
-  ++evaluations_;
-  callLaw(t, one_, dfdd != nullptr);
-  scalePoint(point, dfdd != nullptr);
+  evaluateHere(t, point, dfdd != nullptr);
   if (dfdd != nullptr) {
     std::copy_n(dfdd_.begin() + first * width_, width_ * width_, dfdd);
     std::copy_n(dfdv_.begin() + first * width_, width_ * width_, dfdv);
   }
   std::copy_n(f_.begin() + first, width_, f);
+}
+
+void PointBatch::evaluateElsewhere(double t, int point, const double* d, const double* v, double* f,
+                                   double* dfdd, double* dfdv) {
+  const int first = point * width_;
+  double *ownD = own_.data(), *ownV = ownD + width_;
+  std::copy_n(d_.begin() + first, width_, ownD);
+  std::copy_n(v_.begin() + first, width_, ownV);
+  evaluateOne(t, point, d, v, f, dfdd, dfdv);
+  std::copy_n(ownD, width_, d_.begin() + first);
+  std::copy_n(ownV, width_, v_.begin() + first);
+  evaluateHere(t, point, true);
 }
 
 void PointBatch::save(std::vector<double>& memory) const {

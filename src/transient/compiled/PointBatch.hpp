@@ -73,6 +73,7 @@ class PointBatch {
   double* velocity() { return v_.data(); }
   /// Forces, with tangents if asked, at position() and velocity().
   void evaluateHere(double t, const std::vector<int>& points, bool tangent);
+  void evaluateHere(double t, int point, bool tangent);
   /// df/dd and df/dv of the last evaluation with tangents, width() x width() per point, row-major.
   const double* dfdd() const { return dfdd_.data(); }
   const double* dfdv() const { return dfdv_.data(); }
@@ -118,10 +119,13 @@ class PointBatch {
   void addRow(int row, double factor, double* y) const;
   /// Largest |R_row,i| weight_i.
   double rowWeight(int row, const double* weight) const;
-  /// The law at one point for width() coordinates d, v; tangents row-major, both null if not
-  /// wanted.
+  /// The law at one point for width() coordinates d, v, which the batch then holds; tangents
+  /// row-major, both null if not wanted.
   void evaluateOne(double t, int point, const double* d, const double* v, double* f, double* dfdd,
                    double* dfdv);
+  /// The same with tangents for a place where the point is not: the batch holds what it held.
+  void evaluateElsewhere(double t, int point, const double* d, const double* v, double* f,
+                         double* dfdd, double* dfdv);
 
   /// Powers at (q, v), summed over these points.
   model::PointLaw::Power power(double t, const double* q, const double* v,
@@ -205,6 +209,7 @@ class PointBatch {
   std::vector<int> frozen_;            ///< points of the frozen tangent
   std::vector<double> P_, positionP_;  ///< frozen tangent, and its part of df/dd
   mutable std::vector<double> small_;
+  std::vector<double> own_;  ///< d, v of a point that is evaluated elsewhere
   std::vector<int> one_;
   long evaluations_ = 0;
 };

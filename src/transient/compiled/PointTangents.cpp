@@ -13,6 +13,24 @@ namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+/// Coordinates of a point up to which its tangent is taken apart: those of a node.
+constexpr int widestPush = 6;
+using Square =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, widestPush, widestPush>;
+
+Square symmetric(const Square& A) { return 0.5 * (A + A.transpose()); }
+
+/// sum lambda q q' over lambda > 0, where lambda q q' make up the symmetric part of A.
+Square pushing(const Square& A, Eigen::SelfAdjointEigenSolver<Square>& parts) {
+  Square sum = Square::Zero(A.rows(), A.cols());
+  if (parts.compute(symmetric(A)).info() != Eigen::Success) return sum;
+  for (int i = 0; i < A.rows(); ++i)
+    if (parts.eigenvalues()[i] > 0)
+      sum.noalias() += parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
+                       parts.eigenvectors().col(i).transpose();
+  return sum;
+}
+
 }  // namespace
 
 void PointBatch::project(int point, const double* values, double* block) const {
@@ -54,30 +72,17 @@ void PointBatch::freezeTangent(double cd, double cv) {
     }
 }
 
-/// Of P all that resists: P - sum_+ lambda q q', where lambda q q' make up its symmetric part. Of
-/// its part of df/dd what resists and is symmetric, sum_- lambda q q': friction, which follows the
-/// normal force, is no part of it.
+/// P -= pushing(P), and (P + P')/2 - pushing(P) of its part of df/dd: friction, which follows the
+/// normal force, is no part of what is symmetric.
 void PointBatch::takeOutPush() {
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 6, 6>;
-  if (width_ > 6) return;
+  if (width_ > widestPush) return;
   Eigen::SelfAdjointEigenSolver<Square> parts(width_);
-  const auto decompose = [&](const Square& A) {
-    return parts.compute(0.5 * (A + A.transpose())).info() == Eigen::Success;
-  };
   for (int p : frozen_) {
     Eigen::Map<Square> tangent(&P_[at(p * width_ * width_)], width_, width_),
         ofPosition(&positionP_[at(p * width_ * width_)], width_, width_);
-    if (tangent.diagonal().maxCoeff() > 0 && decompose(tangent))
-      for (int i = 0; i < width_; ++i)
-        if (parts.eigenvalues()[i] > 0)
-          tangent.noalias() -= parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
-                               parts.eigenvectors().col(i).transpose();
-    const bool found = decompose(ofPosition);
-    ofPosition.setZero();
-    for (int i = 0; found && i < width_; ++i)
-      if (parts.eigenvalues()[i] < 0)
-        ofPosition.noalias() += parts.eigenvalues()[i] * parts.eigenvectors().col(i) *
-                                parts.eigenvectors().col(i).transpose();
+    if (tangent.diagonal().maxCoeff() > 0) tangent -= pushing(tangent, parts);
+    ofPosition = symmetric(ofPosition);
+    ofPosition -= pushing(ofPosition, parts);
   }
 }
 

@@ -147,10 +147,8 @@ double ContactForceIteration::yieldingDeeper(PointBatch& batch, int point, doubl
                           deeper = d - Rows(G0, w, w).lazyProduct(local(batch.force()));
   PointSolve::Local f = d;
   double dfdd[widest * widest] = {}, dfdv[widest * widest];
-  batch.evaluateOne(t, point, deeper.data(), v.data(), f.data(), dfdd, dfdv);
-  const double result = yielding(w, dfdd, G0);
-  batch.evaluateOne(t, point, d.data(), v.data(), f.data(), dfdd, dfdv);  // what the batch holds
-  return result;
+  batch.evaluateElsewhere(t, point, deeper.data(), v.data(), f.data(), dfdd, dfdv);
+  return yielding(w, dfdd, G0);
 }
 
 void ContactForceIteration::setCompliance(linalg::BlockFactor& factor) {

@@ -64,7 +64,7 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   f_.assign(widest, 0.0);
   dfdd_.assign(widest * widest, 0.0);
   dfdv_ = dfdd_;
-  normal_ = deeper_ = d_ = v_ = f_;
+  normal_ = deeper_ = f_;
   squares_ = time_ = unseen_ = calm_ = 0;
   kept_ = 0;
   recovering_ = false;
@@ -111,30 +111,29 @@ ImpactResolution::Bound ImpactResolution::bound(int b, int point, double h, cons
 ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double speed, double h) {
   PointBatch& batch = model_->points()[at(b)];
   const int w = batch.width();
-  std::copy_n(batch.d() + point * w, w, d_.begin());
-  std::copy_n(batch.v() + point * w, w, v_.begin());
-  const double *d = d_.data(), *v = v_.data();
+  const double *d = batch.d() + point * w, *v = batch.v() + point * w;
   const double* W = mobility(b, point);
-  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
+  batch.evaluateHere(t, point, true);
+  const double *f = batch.force() + point * w, *J = batch.dfdd() + point * w * w;
   Wall found;
   double size = 0;
   for (int k = 0; k < w; ++k) {
     normal_[at(k)] = 0;
-    for (int i = 0; i < w; ++i) normal_[at(k)] -= dfdd_[at(i * w + k)] * f_[at(i)];
+    for (int i = 0; i < w; ++i) normal_[at(k)] -= J[i * w + k] * f[i];
     size = std::hypot(size, normal_[at(k)]);
   }
   if (!(size > 0)) return found;
   for (int k = 0; k < w; ++k) normal_[at(k)] /= size;
   double push = 0;
   for (int i = 0; i < w; ++i) {
-    push += normal_[at(i)] * f_[at(i)] / batch.scale(point);
+    push += normal_[at(i)] * f[i] / batch.scale(point);
     for (int k = 0; k < w; ++k) found.mobility += normal_[at(i)] * W[i * w + k] * normal_[at(k)];
   }
   found.push = push;
   if (!(found.mobility > 0)) return found;
   for (double depth = h * speed; depth > 0;) {
     for (int k = 0; k < w; ++k) deeper_[at(k)] = d[k] - std::copysign(depth, push) * normal_[at(k)];
-    batch.evaluateOne(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
+    batch.evaluateElsewhere(t, point, deeper_.data(), v, f_.data(), dfdd_.data(), dfdv_.data());
     double stiffness = 0, damping = 0;
     for (int i = 0; i < w; ++i)
       for (int k = 0; k < w; ++k) {
@@ -148,8 +147,6 @@ ImpactResolution::Wall ImpactResolution::wall(int b, int point, double t, double
     if (!first || found.frequency == 0 || found.frequency * h < 1) break;
     depth = speed / found.frequency;
   }
-  // the batch keeps where it was evaluated last
-  batch.evaluateOne(t, point, d, v, f_.data(), dfdd_.data(), dfdv_.data());
   return found;
 }
 

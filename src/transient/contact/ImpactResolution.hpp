@@ -94,8 +94,8 @@ class ImpactResolution {
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
   Vector column_;
   std::vector<int> blocks_;
-  std::vector<double> d_, v_, f_, dfdd_, dfdv_;  ///< of the point looked at
   std::vector<double> normal_, deeper_;  ///< n of the last wall() and a place behind it, in rows
+  std::vector<double> f_, dfdd_, dfdv_;  ///< at that place
 };
 
 }  // namespace tooljoint::transient
