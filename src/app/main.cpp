@@ -134,6 +134,25 @@ int run(int argc, char** argv) {
   addDeckOptions(*studyCommand, options, Output::Always);
   studyCommand->add_flag("--fresh", options.fresh,
                          "forget the runs an earlier study left in the folder");
+  studyCommand
+      ->add_option("--ranks-per-row", options.ranksPerRow,
+                   "ranks that work on a row together; the others take other rows")
+      ->check(CLI::PositiveNumber);
+  studyCommand
+      ->add_option(
+          "--timing", options.timing,
+          "alone: refuse to time rows that share a machine; shared: time them all the same")
+      ->check(CLI::IsMember({"alone", "shared"}));
+  auto* plan = studyCommand->add_option(
+      "--plan", options.plan, "run nothing: write one command for each row into this folder");
+  auto* collect = studyCommand->add_option(
+      "--collect", options.collect, "run nothing: tables and plots of the rows in this folder");
+  studyCommand
+      ->add_option("--row", options.row,
+                   "run this row only: \"reference\", or its number (the commands of --plan)")
+      ->excludes(plan)
+      ->excludes(collect);
+  plan->excludes(collect);
   studyCommand->callback([&] { command = [&] { app::study(options); }; });
 
   auto* checkCommand =

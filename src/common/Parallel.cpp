@@ -44,6 +44,8 @@ CommunicatorScope::~CommunicatorScope() {
   if (own_ != MPI_COMM_NULL && active()) MPI_Comm_free(&own_);
 }
 
+MPI_Comm communicator() { return world; }
+
 int rank() {
   if (!active()) return 0;
   int value = 0;

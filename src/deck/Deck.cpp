@@ -18,6 +18,12 @@
 
 namespace tooljoint::deck {
 
+struct Deck::Source {
+  std::string text;
+  RawList tree;
+  ListSpec scene;
+};
+
 struct Deck::Map {
   Places places;
 
@@ -61,19 +67,30 @@ Deck Deck::parse(const std::string& text, const std::string& file, const ChooseS
   for (const RawList& list : tree.lists())
     if (std::find(overrides.begin(), overrides.end(), "!" + list.name) == overrides.end())
       names.push_back(list.name);
-  const ListSpec scene = choose(names);
+  ListSpec scene = choose(names);
   requireConsistent(scene);
+  return make(std::make_shared<const Source>(Source{text, std::move(tree), std::move(scene)}), file,
+              overrides);
+}
+
+Deck Deck::with(const std::vector<std::string>& overrides) const {
+  return make(source_, file_, overrides);
+}
+
+Deck Deck::make(std::shared_ptr<const Source> source, const std::string& file,
+                const std::vector<std::string>& overrides) {
   std::vector<Finding> findings;
-  applyOverrides(tree, scene, overrides, findings);
+  RawList tree = source->tree;
+  applyOverrides(tree, source->scene, overrides, findings);
   auto map = std::make_shared<Map>();
-  auto list =
-      std::make_shared<Teuchos::ParameterList>(validate(tree, scene, findings, map->places));
+  auto list = std::make_shared<Teuchos::ParameterList>(
+      validate(tree, source->scene, findings, map->places));
   raise(std::move(findings), file);
 
   Deck deck;
   deck.file_ = file;
-  deck.text_ = text;
   deck.name_ = tree.name;
+  deck.source_ = std::move(source);
   deck.overrides_ = overrides;
   markOrigin(*list, file);
   deck.list_ = std::move(list);
@@ -106,7 +123,9 @@ Deck Deck::readNamed(const std::string& path, const std::string& name,
   }
 }
 
-std::string Deck::sha256() const { return tooljoint::sha256(text_); }
+std::string Deck::text() const { return source_->text; }
+
+std::string Deck::sha256() const { return tooljoint::sha256(text()); }
 
 std::string Deck::folder() const {
   const auto slash = file_.rfind('/');

@@ -47,10 +47,13 @@ class Deck {
   static Deck parse(const std::string& text, const std::string& file, const ListSpec& scene,
                     const std::vector<std::string>& overrides = {});
 
+  /// This deck with these overrides instead of its own, from the text that has been parsed.
+  Deck with(const std::vector<std::string>& overrides) const;
+
   const Teuchos::ParameterList& list() const { return *list_; }
   const std::string& name() const { return name_; }  ///< of the root list
-  std::string text() const { return text_; }  ///< of the file as it was read, overrides not applied
-  std::string sha256() const;                 ///< of text()
+  std::string text() const;    ///< of the file as it was read, overrides not applied
+  std::string sha256() const;  ///< of text()
   std::string file() const { return file_; }
   std::string folder() const;  ///< that holds the file; "." when its name has none
   const std::vector<std::string>& overrides() const { return overrides_; }
@@ -80,15 +83,18 @@ class Deck {
   std::string located(const std::string& message) const;
 
  private:
-  struct Map;  ///< path -> place
+  struct Source;  ///< what was read, and its description
+  struct Map;     ///< path -> place
   static Deck parse(const std::string& text, const std::string& file, const ChooseSpec& choose,
                     const std::vector<std::string>& overrides);
+  static Deck make(std::shared_ptr<const Source> source, const std::string& file,
+                   const std::vector<std::string>& overrides);
   std::string relative(const std::string& path) const;
 
   std::string file_;
-  std::string text_;
   std::string name_;
   std::vector<std::string> overrides_;
+  std::shared_ptr<const Source> source_;
   std::shared_ptr<const Teuchos::ParameterList> list_;
   std::shared_ptr<const Map> places_;
 

@@ -139,6 +139,7 @@ const std::vector<std::string>& documentedKeys() {
       "study[].integrator",
       "study[].step_or_tolerance",
       "study[].cpu_s",
+      "study[].beside",
       "study[].cpu_spread",
       "study[].cpu_per_simulated_s",
       "study[].wall_s",

@@ -18,14 +18,18 @@ void take(const Json& json, const char* key, T& value) {
   value = json.at(key).get<T>();
 }
 
-void take(const Json& json, const char* key, std::optional<double>& value) {
+template <class T>
+void take(const Json& json, const char* key, std::optional<T>& value) {
   if (json.at(key).is_null())
     value.reset();
   else
-    value = json.at(key).get<double>();
+    value = json.at(key).get<T>();
 }
 
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+template <class T>
+Json orNull(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json toJson(const RowCurves& c) {
   const auto& s = c.statistics;
@@ -97,6 +101,7 @@ void eachNumber(Row& row, const Visit& visit) {
   visit("reason", row.reason);
   visit("basis", row.basis);
   visit("integrator", row.integrator);
+  visit("machine", row.machine);
 }
 
 }  // namespace
@@ -120,6 +125,7 @@ std::string StudyRow::toJson() const {
   Json json{{"label", plan.label}};
   eachNumber(*this, [&](const char* key, const auto& value) { json[key] = value; });
   json["step_or_tolerance"] = orNull(stepOrTolerance);
+  json["beside"] = orNull(beside);
   json["energy_residual"] = orNull(energyResidual);
   json["estimated_vibration_error"] = orNull(estimatedVibration);
   json["errors"] = errors
@@ -139,6 +145,7 @@ void StudyRow::fromJson(const std::string& text) {
     const Json json = Json::parse(text);
     eachNumber(*this, [&](const char* key, auto& value) { take(json, key, value); });
     take(json, "step_or_tolerance", stepOrTolerance);
+    take(json, "beside", beside);
     take(json, "energy_residual", energyResidual);
     take(json, "estimated_vibration_error", estimatedVibration);
     errors.reset();

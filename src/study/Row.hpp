@@ -69,6 +69,8 @@ struct StudyRow {
   double maxPenetration = 0.0;
   long missedNodes = 0;  ///< nodes that passed the wall where the model does not look at contact
   double givenUpAfter = 0.0;  ///< CPU time limit that ended the run [s]; 0: it was not the time
+  std::string machine;        ///< on which it was timed
+  std::optional<int> beside;  ///< rows that ran there meanwhile; none: not known
   RowCurves curves;
 
   bool done() const { return status == "done"; }

@@ -33,6 +33,8 @@ const std::vector<io::Csv::Column>& columns() {
                                                 {"vibration_error", ""},
                                                 {"estimated_vibration_error", ""},
                                                 {"cpu", "s"},
+                                                {"machine", ""},
+                                                {"beside", ""},
                                                 {"cpu_spread", ""},
                                                 {"repeats", ""},
                                                 {"cpu_per_simulated_s", ""},
@@ -95,8 +97,11 @@ std::vector<std::string> cells(const StudyRow& row, const Ratios& ratios) {
                       &PointwiseErrors::epsNMax, &PointwiseErrors::vibration})
     out.push_back(e != nullptr ? formatNumber(e->*member) : std::string());
   out.push_back(known ? text(row.estimatedVibration) : "");
-  number(row.bestCpu()), number(row.spread()), number(row.cpu.size()),
-      number(row.cpuPerSimulatedSecond()), number(row.bestWall());
+  number(row.bestCpu());
+  out.push_back(known ? row.machine : "");
+  out.push_back(known && row.beside ? std::to_string(*row.beside) : "");
+  number(row.spread()), number(row.cpu.size()), number(row.cpuPerSimulatedSecond()),
+      number(row.bestWall());
   number(row.realTimeFactor()), number(row.setupCpu), number(row.setupWall);
   out.push_back(text(ratios.baseline));
   out.push_back(text(ratios.bestFull));

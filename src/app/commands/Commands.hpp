@@ -19,9 +19,14 @@ struct RunOptions {
   bool cost = false;    ///< `check` also solves for the state at rest and reduces, to compare
                         ///< the cost of a step
   bool fresh = false;   ///< `study` forgets the runs it has done before
-  std::string restart;  ///< folder of an interrupted run; empty: start anew
-  int modeCount = 20;   ///< frequencies listed by `modes`
-  std::string format = "hdf5";  ///< files of `export`: "hdf5" or "mtx"
+  int ranksPerRow = 0;  ///< of `study`; 0: all
+  std::string timing = "alone";  ///< of `study`: "alone" or "shared"
+  std::string plan;              ///< folder in which `study` writes its commands and runs nothing
+  std::string collect;           ///< folder whose rows `study` makes tables of
+  std::string row;               ///< the only one that `study` runs
+  std::string restart;           ///< folder of an interrupted run; empty: start anew
+  int modeCount = 20;            ///< frequencies listed by `modes`
+  std::string format = "hdf5";   ///< files of `export`: "hdf5" or "mtx"
   std::optional<double>
       modeTime;  ///< when `modes` looks at the laws of time [s]; the end of the motion
 };

@@ -144,7 +144,7 @@ ImportedCase::ImportedCase(ImportedDeck lists, std::shared_ptr<Shared> shared)
 }
 
 std::unique_ptr<Case> ImportedCase::with(const std::vector<std::string>& overrides) const {
-  ImportedDeck lists(deck::Deck::parse(deck().text(), deck().file(), importedSpec(), overrides));
+  ImportedDeck lists(deck().with(overrides));
   return std::unique_ptr<Case>(new ImportedCase(std::move(lists), shared_));
 }
 

@@ -5,28 +5,63 @@
 #include <filesystem>
 #include <optional>
 #include <unistd.h>
-#include <utility>
 #include <vector>
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "common/Sha256.hpp"
+#include "common/RankGroups.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
-#include "study/RowStore.hpp"
-#include "study/engine/StudyComparison.hpp"
+#include "io/TextFile.hpp"
 #include "study/engine/StudyFiles.hpp"
-#include "study/engine/StudyPlan.hpp"
 #include "study/engine/StudyProgress.hpp"
-#include "study/engine/StudyRunner.hpp"
+#include "study/engine/StudyRows.hpp"
 
 namespace tooljoint::study {
 
 namespace {
 
-constexpr int kStoreFormat = 3;  ///< raised when the meaning of a stored row changes
+/// Rows named in a sentence; the others are counted.
+constexpr std::size_t mostNamed = 10;
+
+std::string folderName(const cases::Case& scene, const StudyOptions& options) {
+  if (!options.output.empty()) return options.output;
+  // beside the folder of `tooljoint run`, whose files would be replaced otherwise
+  const auto& given = scene.output().folder;
+  if (!given.empty()) return given + "_study";
+  return (std::filesystem::path("results") / std::filesystem::path(scene.deck().file()).stem())
+             .string() +
+         "_study";
+}
+
+/// Repeats of a run that are to be done when the job is.
+struct Job {
+  std::size_t run;
+  int repeats;
+};
+
+/// One group times all runs once, then all again. Of several groups each does a run with all its
+/// repeats, and long runs come first: full models, then short steps.
+std::vector<Job> jobsOf(const StudyPlan& plan, const StudyRows& rows, bool apart) {
+  std::vector<Job> jobs;
+  const int repeats = plan.settings.repeats;
+  for (int pass = apart ? repeats : 1; pass <= repeats; ++pass)
+    for (std::size_t i = plan.referenceRuns(); i < plan.runs.size(); ++i)
+      if (rows.isFirst(i) && rows.timed()[i] >= 0 && rows.timed()[i] < pass)
+        jobs.push_back({i, pass});
+  const auto step = [&](const Job& job) {
+    const auto& transient = plan.runs[job.run].scene->transient();
+    return transient.isType<double>("Step") ? transient.get<double>("Step") : 0.0;
+  };
+  const auto longer = [&](const Job& a, const Job& b) {
+    const bool fullA = !plan.runs[a.run].plan.reduced, fullB = !plan.runs[b.run].plan.reduced;
+    return fullA != fullB ? fullA : step(a) < step(b);
+  };
+  if (apart) std::stable_sort(jobs.begin(), jobs.end(), longer);
+  return jobs;
+}
 
 /// One study in one folder.
 class Study {
@@ -35,24 +70,24 @@ class Study {
       : options_(options),
         scene_(scene),
         plan_(planStudy(scene)),
-        result_{plan_, nullptr, {}, ""},
-        timed_(plan_.runs.size(), 0),
-        comparison_(plan_),
-        progress_(plan_) {
-    for (const auto& run : plan_.runs) {
-      StudyRow row;
-      row.plan = run.plan;
-      result_.rows.push_back(row);
-    }
+        groups_(options.ranksPerRow),
+        progress_(plan_, groups_.count()) {
+    timing_.ranks = parallel::size() / groups_.count();
+    timing_.beside = groups_.beside();
   }
 
   void go() {
+    if (groups_.beside() > 0 && !options_.sharedTiming)
+      throw UsageError(std::to_string(groups_.beside() + 1) +
+                       " rows would run on one machine at a time, so that their CPU times are not "
+                       "those of a run alone. Accept that with --timing shared, or give each group "
+                       "of ranks a machine.");
     open();
     try {
-      announce();
-      reference();
-      const int passes = plan_.settings.repeats;
-      for (int pass = 0; pass < passes; ++pass) repeat(pass);
+      groups_.apart([&] { first(); });
+      if (groups_.count() > 1) groups_.apart([&] { follow(); });
+      groups_.apart([&] { deal(); });
+      gather();
       finish();
     } catch (const Error& error) {
       leave(error);
@@ -61,68 +96,78 @@ class Study {
     }
   }
 
- private:
-  std::string folderName() const {
-    if (!options_.output.empty()) return options_.output;
-    // beside the folder of `tooljoint run`, whose files would be replaced otherwise
-    const auto& given = scene_.output().folder;
-    if (!given.empty()) return given + "_study";
-    return (std::filesystem::path("results") / std::filesystem::path(scene_.deck().file()).stem())
-               .string() +
-           "_study";
+  /// \param ranks  on which the rows were computed
+  void collectRows(int ranks) {
+    timing_.ranks = ranks;
+    timing_.anyMachine = true;
+    open();
+    rows_.emplace(plan_, folder_->folder(), timing_);
+    rows_->takeReference();
+    rows_->copyTwins();
+    nameMissing();
+    finish();
   }
 
+ private:
   void open() {
     parallel::agree([&] {
-      folder_.emplace(folderName());
-      store_.emplace(folder_->folder());
-      if (options_.fresh) store_->clear();
-      result_.machine = machineName();
+      folder_.emplace(folderName(scene_, options_));
+      if (options_.fresh) RowStore(folder_->folder()).clear();
     });
     scene_.summarise(summary_);
-    makeKeys();
-    // what rank 0 finds decides for all
-    std::vector<int> found;
-    for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
-      auto& row = result_.rows[i];
-      const bool known = store_->restore(keys_[i], row);
-      const auto limit = plan_.settings.timeLimit;
-      if (known && row.givenUpAfter > 0.0 && (!limit || *limit > row.givenUpAfter)) forget(row);
-      found.push_back(row.status == "failed" ? -1 : static_cast<int>(row.cpu.size()));
-    }
-    history_ = store_->restoreHistory(keys_[0]);
-    if (!history_) found[0] = 0;
-    if (found[0] == 0 && parallel::rank() == 0) forget(result_.rows[0]);
-    parallel::broadcast(found);
-    timed_ = found;
   }
 
-  /// What decides a row: the deck of its run and that of the reference, the program, the machine
-  /// and the ranks, and what is compared.
-  void makeKeys() {
-    keys_.assign(plan_.runs.size(), "");
-    parallel::agree([&] {
-      if (parallel::rank() != 0) return;
-      const auto program = std::to_string(kStoreFormat) + "\n" + programStamp() + "\n" +
-                           std::to_string(parallel::size()) + "\n";
-      const auto reference = sha256(program + contentOf(*plan_.runs[0].scene));
-      const auto common = reference + "\n" + result_.machine + "\n" +
-                          formatNumber(plan_.windowEnd) + "\n" +
-                          (plan_.hasStatistics() ? "statistics\n" : "\n");
-      for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
-        const auto& run = plan_.runs[i];
-        auto kind = kindName(run.plan.kind);
-        if (run.plan.kind == RunKind::Sensitivity)
-          kind += formatNumber(plan_.settings.perturbation);
-        if (run.plan.reduced) kind += std::to_string(plan_.settings.frequencies);
-        keys_[i] = sha256(common + kind + "\n" + contentOf(*run.scene));
+  /// The first group computes the reference, which the others then read.
+  void first() {
+    if (groups_.mine() != 0) return;
+    rows_.emplace(plan_, folder_->folder(), timing_);
+    announce();
+    rows_->computeReference();
+    log::info(describeReference(rows_->result()));
+  }
+
+  void follow() {
+    if (groups_.mine() == 0) return;
+    rows_.emplace(plan_, folder_->folder(), timing_);
+    rows_->takeReference();
+  }
+
+  void deal() {
+    const bool apart = groups_.count() > 1;
+    const auto jobs = jobsOf(plan_, *rows_, apart);
+    auto timed = rows_->timed();  // of all groups, as far as it is known here
+    std::size_t before = 0;
+    for (int n = groups_.next(); n >= 0 && n < static_cast<int>(jobs.size()); n = groups_.next()) {
+      const auto [i, repeats] = jobs[static_cast<std::size_t>(n)];
+      for (; apart && before < static_cast<std::size_t>(n); ++before)
+        timed[jobs[before].run] = jobs[before].repeats;
+      while (rows_->timed()[i] >= 0 && rows_->timed()[i] < repeats) {
+        const Stopwatch watch;
+        rows_->run(i, !apart && isatty(STDERR_FILENO) == 1 ? plan_.runs[i].plan.label : "");
+        timed[i] = rows_->timed()[i];
+        if (!apart) stageTable();
+        progress_.report(i, rows_->result().rows[i], timed, watch.wall());
       }
-    });
+    }
+    rows_->copyTwins();
+  }
+
+  /// What all groups have left in the folder.
+  void gather() {
+    if (groups_.count() == 1) return;
+    rows_.emplace(plan_, folder_->folder(), timing_);
+    if (rows_->timed()[0] > 0) rows_->takeReference();
+    rows_->copyTwins();
+  }
+
+  void stageTable() {
+    rows_->copyTwins();
+    parallel::agree([&] { stageStudyTable(rows_->result(), *folder_); });
   }
 
   void announce() {
     log::info("Tooljoint " + programVersion() + ": study of " + scene_.deck().name() + " on " +
-              result_.machine);
+              rows_->result().machine);
     for (const auto& remark : scene_.remarks()) log::warn(remark);
     const auto methods = plan_.settings.methods.size();
     log::info("study       " + std::to_string(plan_.runs.size() - plan_.referenceRuns()) +
@@ -130,143 +175,33 @@ class Study {
               " to " + formatNumber(plan_.end) + " s, each timed " +
               std::to_string(plan_.settings.repeats) + " times; pointwise errors up to " +
               formatNumber(plan_.windowEnd) + " s");
-    const auto known = completed();
+    if (groups_.count() > 1)
+      log::info("            " + std::to_string(groups_.count()) + " at a time, on " +
+                std::to_string(timing_.ranks) + (timing_.ranks == 1 ? " rank" : " ranks") +
+                " each");
+    const auto known = rows_->completed();
     if (known > 0)
-      log::info("            " + std::to_string(known) + " of " + std::to_string(timed_.size()) +
+      log::info("            " + std::to_string(known) + " of " +
+                std::to_string(plan_.runs.size()) +
                 " runs are known from before (--fresh forgets them)");
   }
 
-  int wantedRepeats(std::size_t i) const {
-    return plan_.runs[i].plan.kind == RunKind::Method ? plan_.settings.repeats : 1;
-  }
-  bool complete(std::size_t i) const { return timed_[i] < 0 || timed_[i] >= wantedRepeats(i); }
-  std::size_t completed() const {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < timed_.size(); ++i) count += complete(i) ? 1 : 0;
-    return count;
-  }
-
-  /// The reference and its companions. A reference that fails ends the study.
-  void reference() {
-    try {
-      moveReference();
-    } catch (const Error& error) {
-      for (auto passed :
-           {ExitCode::Interrupted, ExitCode::Files, ExitCode::Internal, ExitCode::InvalidDeck})
-        if (error.code() == passed) throw;
-      result_.rows[0].status = "failed";
-      result_.rows[0].reason = error.what();
-      throw ConvergenceError(
-          std::string("The reference run failed, so there is nothing to compare with. ") +
-          error.what() + " Change the deck, or Study/Reference/Set.");
-    }
-    for (std::size_t i = 1; i < plan_.referenceRuns(); ++i)
-      if (!complete(i)) run(i, result_.rows[i].plan.label);
-    log::info(describeReference(result_));
-  }
-
-  void moveReference() {
-    const auto& first = plan_.runs[0];
-    result_.rest = first.scene->atRest();
-    if (timed_[0] > 0) {
-      parallel::agree([&] {
-        if (parallel::rank() == 0) comparison_.setReference(*result_.rest, std::move(*history_));
-      });
-      return;
-    }
-    const auto prepared = runner_.prepare(*first.scene, 0);
-    auto execution = runner_.move(*first.scene, prepared, {"reference", true, 0.0, std::nullopt});
-    parallel::agree([&] {
-      if (parallel::rank() != 0) return;
-      comparison_.setReference(*result_.rest, std::move(execution.history));
-      store_->keepHistory(keys_[0], comparison_.reference());
-      comparison_.book(first, prepared, execution, result_.rows[0]);
-      store_->keep(keys_[0], result_.rows[0]);
-    });
-    timed_[0] = 1;
-  }
-
-  /// All methods once; those that failed before, or have been timed often enough, are left out.
-  void repeat(int pass) {
-    for (std::size_t i = plan_.referenceRuns(); i < plan_.runs.size(); ++i) {
-      if (timed_[i] >= 0 && timed_[i] <= pass && isFirst(i))
-        run(i, isatty(STDERR_FILENO) == 1 ? result_.rows[i].plan.label : "");
-      if (!isFirst(i)) copyTwin(i);
-    }
-  }
-
-  /// Not the same deck as an earlier run.
-  bool isFirst(std::size_t i) const { return plan_.runs[i].twin == i; }
-  void copyTwin(std::size_t i) {
-    const auto plan = result_.rows[i].plan;
-    result_.rows[i] = result_.rows[plan_.runs[i].twin];
-    result_.rows[i].plan = plan;
-    timed_[i] = timed_[plan_.runs[i].twin];
-  }
-
-  void run(std::size_t i, const std::string& title) {
-    const Stopwatch watch;
-    try {
-      execute(i, title);
-      ++timed_[i];
-    } catch (const TimeLimitError& error) {
-      fail(i, error.what(), plan_.settings.timeLimit.value_or(0.0));
-    } catch (const Error& error) {
-      const auto code = error.code();
-      if (code != ExitCode::InvalidDeck && code != ExitCode::ModelNotBuilt &&
-          code != ExitCode::NotConverged)
-        throw;
-      fail(i, error.what(), 0.0);
-    }
-    parallel::agree([&] {
-      if (parallel::rank() == 0) store_->keep(keys_[i], result_.rows[i]);
-      stageStudyTable(result_, *folder_);
-    });
-    progress_.report(i, result_.rows[i], timed_, watch.wall());
-  }
-
-  void execute(std::size_t i, const std::string& title) {
-    const auto& one = plan_.runs[i];
-    const bool first = timed_[i] == 0;
-    const double perturbation =
-        one.plan.kind == RunKind::Sensitivity ? plan_.settings.perturbation : 0.0;
-    const auto limit = one.plan.kind == RunKind::Method ? plan_.settings.timeLimit : std::nullopt;
-    const auto prepared = runner_.prepare(*one.scene, first ? plan_.settings.frequencies : 0);
-    if (first) bookModel(prepared, result_.rows[i]);
-    const auto execution = runner_.move(*one.scene, prepared, {title, first, perturbation, limit});
-    parallel::agree([&] {
-      if (parallel::rank() != 0) return;
-      if (first)
-        comparison_.book(one, prepared, execution, result_.rows[i]);
-      else
-        again(result_.rows[i], prepared, execution);
-    });
-  }
-
-  /// What was known before the motion is kept.
-  void fail(std::size_t i, const std::string& reason, double givenUpAfter) {
-    StudyRow row;
-    auto& old = result_.rows[i];
-    row.plan = old.plan, row.basis = old.basis, row.modes = old.modes, row.dofs = old.dofs,
-    row.modeErrors = old.modeErrors;
-    row.status = "failed";
-    row.reason = reason;
-    row.givenUpAfter = givenUpAfter;
-    old = row;
-    timed_[i] = -1;
-  }
-
-  static void again(StudyRow& row, const PreparedModel& prepared, const Execution& execution) {
-    row.cpu.push_back(execution.cpu);
-    row.wall.push_back(execution.wall);
-    row.setupCpu = std::min(row.setupCpu, prepared.setupCpu + execution.setupCpu);
-    row.setupWall = std::min(row.setupWall, prepared.setupWall + execution.setupWall);
+  void nameMissing() {
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < plan_.runs.size(); ++i)
+      if (!rows_->isComplete(i)) missing.push_back(inQuotes(plan_.runs[i].plan.label));
+    if (missing.empty()) return;
+    const auto count = missing.size();
+    missing.resize(std::min(count, mostNamed));
+    log::warn(std::to_string(count) + " of " + std::to_string(plan_.runs.size()) +
+              " runs are missing or not timed as often as asked for: " + join(missing, ", ") +
+              (count > mostNamed ? " ..." : "") + ".");
   }
 
   void finish() {
-    const auto speedUps = ratios(result_.rows, plan_.settings.baseline);
-    log::info(printedTable(result_.rows, speedUps));
-    log::info(describeReference(result_));
+    const auto speedUps = ratios(rows_->result().rows, plan_.settings.baseline);
+    log::info(printedTable(rows_->result().rows, speedUps));
+    log::info(describeReference(rows_->result()));
     stamp("finished", "");
     parallel::agree([&] {
       stageAll();
@@ -277,9 +212,11 @@ class Study {
   }
 
   void stageAll() {
-    stageStudyTable(result_, *folder_);
-    stageStudyFile(result_, *folder_);
-    summarise(result_, summary_);
+    if (rows_) {
+      stageStudyTable(rows_->result(), *folder_);
+      stageStudyFile(rows_->result(), *folder_);
+      summarise(rows_->result(), summary_);
+    }
     summary_.set("files", folder_->files());
     summary_.stage(folder_->file("summary.json"));
   }
@@ -288,6 +225,7 @@ class Study {
   void leave(const Error& error) {
     stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
     try {
+      gather();
       stageAll();
       folder_->publishUnfinished();
     } catch (const Error& second) {
@@ -303,30 +241,87 @@ class Study {
   }
 
   std::string interruptedSentence() const {
-    return "Interrupted with " + std::to_string(completed()) + " of " +
-           std::to_string(timed_.size()) + " runs done. They are kept in " + folder_->folder() +
+    return "Interrupted with " + std::to_string(rows_ ? rows_->completed() : 0) + " of " +
+           std::to_string(plan_.runs.size()) + " runs done. They are kept in " + folder_->folder() +
            "; the same command goes on from there.";
   }
 
   const StudyOptions& options_;
   const cases::Case& scene_;
   StudyPlan plan_;
-  StudyResult result_;
-  std::vector<int>
-      timed_;  ///< repeats done of each run, -1 for one that failed; the same on every rank
-  std::vector<std::string> keys_;  ///< rank 0
-  StudyRunner runner_;
-  StudyComparison comparison_;
+  parallel::RankGroups groups_;
+  Timing timing_;
   StudyProgress progress_;
-  std::optional<RecordedHistory> history_;  ///< of a reference known from before, rank 0
+  std::optional<StudyRows> rows_;
   std::optional<io::OutputFolder> folder_;
-  std::optional<RowStore> store_;
   io::Summary summary_;
   Stopwatch watch_;
 };
 
+/// In single quotes, as a shell reads it.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 }  // namespace
 
 void run(const cases::Case& one, const StudyOptions& options) { Study(one, options).go(); }
+
+void collect(const cases::Case& one, const StudyOptions& options) {
+  auto alone = options;
+  alone.ranksPerRow = 0;
+  Study(one, alone).collectRows(std::max(options.ranksPerRow, 1));
+}
+
+void plan(const cases::Case& one, const std::string& folder, const std::string& program,
+          const StudyOptions& options) {
+  const auto plan = planStudy(one);
+  const auto absolute = [](const std::string& path) {
+    return quoted(std::filesystem::absolute(path).lexically_normal().string());
+  };
+  std::string command = quoted(program) + " study " + absolute(one.deck().file());
+  if (options.ranksPerRow > 1)
+    command = "mpiexec -n " + std::to_string(options.ranksPerRow) + " " + command;
+  for (const auto& item : one.deck().overrides())
+    command += item[0] == '!' ? " --without " + quoted(item.substr(1)) : " --set " + quoted(item);
+  if (options.sharedTiming) command += " --timing shared";
+  command += " --output " + absolute(folder) + " --row ";
+  std::string rows;
+  std::size_t count = 0;
+  for (std::size_t i = plan.referenceRuns(); i < plan.runs.size(); ++i)
+    if (plan.runs[i].twin == i) rows += command + std::to_string(i + 1) + "\n", ++count;
+  parallel::agree([&] {
+    if (parallel::rank() != 0) return;
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw FileError("The folder " + folder + " cannot be made: " + error.message() + ".");
+    io::writeText(folder + "/reference.txt", command + "reference\n");
+    io::writeText(folder + "/rows.txt", rows);
+  });
+  log::info("plan        " + folder + "/reference.txt is the command to run first, " + folder +
+            "/rows.txt has " + std::to_string(count) +
+            " commands that may run in any order, each in a process of its own");
+  log::info(
+      "            tooljoint study " + one.deck().file() + " --collect " + folder +
+      (options.ranksPerRow > 1 ? " --ranks-per-row " + std::to_string(options.ranksPerRow) : "") +
+      " makes the tables of what is there");
+}
+
+void computeRow(const cases::Case& one, const std::string& row, const StudyOptions& options) {
+  const auto plan = planStudy(one, row);
+  const auto wanted = runNumber(plan, row);
+  Timing timing{parallel::size(), std::nullopt, false};
+  if (!options.sharedTiming) timing.beside = 0;
+  StudyRows rows(plan, folderName(one, options), timing);
+  if (wanted < plan.referenceRuns()) return rows.computeReference();
+  rows.takeReference();
+  while (!rows.isComplete(wanted)) rows.run(wanted, "");
+  const auto& found = rows.result().rows[wanted];
+  log::info("row         " + plan.runs[wanted].plan.label + ": " + found.status +
+            (found.reason.empty() ? "" : ", " + found.reason));
+}
 
 }  // namespace tooljoint::study

@@ -93,6 +93,7 @@ io::SummaryRow summaryRow(const StudyRow& row, const Ratios& ratios) {
   out.set("cpu_s", row.bestCpu())
       .set("cpu_spread", row.spread())
       .set("cpu_per_simulated_s", row.cpuPerSimulatedSecond());
+  if (row.beside) out.set("beside", static_cast<long>(*row.beside));
   out.set("wall_s", row.bestWall())
       .set("setup_cpu_s", row.setupCpu)
       .set("real_time_factor", row.realTimeFactor());

@@ -2,6 +2,7 @@
 #include "study/engine/StudyPlan.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -55,9 +56,20 @@ std::vector<std::string> vectorFiles(const cases::Case& scene) {
   return files;
 }
 
+/// "reference" is 0, "1" too.
+std::size_t numberOf(std::size_t runs, const std::string& row) {
+  if (row == "reference") return 0;
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
+  if (error != std::errc() || end != row.data() + row.size() || number < 1 || number > runs)
+    throw UsageError("--row " + row + ": the study has the rows 1 to " + std::to_string(runs) +
+                     ", and \"reference\".");
+  return number - 1;
+}
+
 class Planner {
  public:
-  explicit Planner(const cases::Case& scene) : scene_(scene) {}
+  Planner(const cases::Case& scene, const std::string& row) : scene_(scene), row_(row) {}
 
   StudyPlan plan() {
     if (!scene_.list().isSublist("Study"))
@@ -73,7 +85,14 @@ class Planner {
     for (auto& run : expand(plan_.settings, scene_.reductionLists()))
       planned.push_back(std::move(run));
     baseline(planned);
-    for (auto& run : planned) add(std::move(run));
+    const auto only = row_.empty() ? 0 : numberOf(planned.size(), row_);
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+      const bool companion = planned[i].kind != RunKind::Method && only == 0;
+      if (row_.empty() || i == 0 || i == only || companion)
+        add(std::move(planned[i]));
+      else
+        plan_.runs.push_back({std::move(planned[i]), nullptr, i});
+    }
     if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
     compare();
     if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
@@ -159,6 +178,7 @@ class Planner {
     for (std::size_t i = 0; i < plan_.runs.size(); ++i) {
       auto& run = plan_.runs[i];
       const auto& source = run.plan.source;
+      if (!run.scene) continue;
       if (!run.scene->moves()) {
         fault(source, "takes the Transient list out: nothing would move.");
         continue;
@@ -185,6 +205,7 @@ class Planner {
   }
 
   const cases::Case& scene_;
+  const std::string& row_;
   StudyPlan plan_;
   std::vector<std::string> faults_;
 };
@@ -207,7 +228,13 @@ std::size_t StudyPlan::referenceRuns() const {
   }));
 }
 
-StudyPlan planStudy(const cases::Case& scene) { return Planner(scene).plan(); }
+StudyPlan planStudy(const cases::Case& scene, const std::string& row) {
+  return Planner(scene, row).plan();
+}
+
+std::size_t runNumber(const StudyPlan& plan, const std::string& row) {
+  return numberOf(plan.runs.size(), row);
+}
 
 std::string describe(const StudyPlan& plan) {
   const auto runs = plan.runs.size() - plan.referenceRuns();

@@ -38,7 +38,13 @@ struct StudyPlan {
 /// Reads the deck once for every run. DeckError that points into the Study list: overrides that do
 /// not fit the deck, runs that cannot be compared (other nodes), a window beyond the end, a method
 /// with two runs that are the same. ModelError: a run whose parts make no model.
-StudyPlan planStudy(const cases::Case& scene);
+/// \param row  where it is given, the only run to read beside the reference: "reference" (with its
+///             companions), or its number in study.h5. UsageError when there is none. Other runs
+///             then have no scene.
+StudyPlan planStudy(const cases::Case& scene, const std::string& row = "");
+
+/// Position of a run, as above; 0 for the reference.
+std::size_t runNumber(const StudyPlan& plan, const std::string& row);
 
 /// "12 runs of 4 methods, ...": for a person.
 std::string describe(const StudyPlan& plan);

@@ -49,7 +49,7 @@ void StudyProgress::report(std::size_t run, const StudyRow& row, const std::vect
     std::snprintf(line, sizeof line, "%.3g s CPU, vibration error %.2e", row.cpu.back(),
                   row.errors->vibration);
   log::info("run " + std::to_string(done) + " of " + std::to_string(all) + "  " + row.plan.label +
-            ": " + line + (done < all ? "; about " + duration(left) + " left" : ""));
+            ": " + line + (done < all ? "; about " + duration(left / groups_) + " left" : ""));
 }
 
 }  // namespace tooljoint::study

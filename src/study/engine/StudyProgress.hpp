@@ -12,7 +12,9 @@ namespace tooljoint::study {
 
 class StudyProgress {
  public:
-  explicit StudyProgress(const StudyPlan& plan) : plan_(plan), wall_(plan.runs.size(), 0.0) {}
+  /// \param groups of ranks that work at a time
+  StudyProgress(const StudyPlan& plan, int groups)
+      : plan_(plan), groups_(groups), wall_(plan.runs.size(), 0.0) {}
 
   /// "run 3 of 40  label: what it gave; about 2 min left", once for every finished run of a method.
   /// \param timed repeats done of each run, -1 for one that failed \param wall seconds this one
@@ -21,6 +23,7 @@ class StudyProgress {
 
  private:
   const StudyPlan& plan_;
+  int groups_;
   std::vector<double> wall_;  ///< last time of each run [s]; 0: not seen yet
   double spent_ = 0.0;
   double executed_ = 0.0;

@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
+#include "common/RankGroups.hpp"
 #include "common/Text.hpp"
 #include "common/report/Stopwatch.hpp"
 #include "coupling/CoupledModes.hpp"
@@ -137,8 +138,11 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
     const Stopwatch watch;
     long looks = 0;
     hooks.stop = [&] {
-      // the clock costs as much as a few per cent of a short step
-      if (options.timeLimit && ++looks % 64 == 0) late = watch.cpu() > *options.timeLimit;
+      // the clock costs as much as a few per cent of a short step; other groups of ranks may ask
+      if (++looks % 64 == 0) {
+        parallel::progress();
+        late = options.timeLimit && watch.cpu() > *options.timeLimit;
+      }
       return late || interruptRequested();
     };
     execution.report = transient::integrate(model, transientOptions, recorder, hooks);

@@ -103,8 +103,7 @@ DrillstringCase::DrillstringCase(Scene scene)
 
 std::unique_ptr<cases::Case> DrillstringCase::with(
     const std::vector<std::string>& overrides) const {
-  auto other = std::make_unique<DrillstringCase>(
-      readScene(deck::Deck::parse(deck().text(), deck().file(), sceneSpec(), overrides)));
+  auto other = std::make_unique<DrillstringCase>(readScene(deck().with(overrides)));
   other->found_ = found_;
   return other;
 }

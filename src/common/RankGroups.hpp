@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Groups of ranks that work apart from each other and take numbers from one counter.
+#pragma once
+
+#include <functional>
+#include <mpi.h>
+
+namespace tooljoint::parallel {
+
+class RankGroups {
+ public:
+  /// All ranks, in groups of this many (ranks 0 to ranksPerGroup - 1 are the first); 0 makes one
+  /// group of all. Collective. UsageError unless ranksPerGroup divides the number of ranks.
+  explicit RankGroups(int ranksPerGroup);
+  ~RankGroups();
+  RankGroups(const RankGroups&) = delete;
+  RankGroups& operator=(const RankGroups&) = delete;
+
+  int count() const { return count_; }
+  /// Number of the group of this rank.
+  int mine() const { return mine_; }
+  /// The most groups that share one machine, less one. The same on every rank.
+  int beside() const { return beside_; }
+
+  /// `work` in every group by itself: Parallel.hpp is about the ranks of the group meanwhile.
+  /// Collective. An Error in one of the groups is thrown on all ranks once all groups have ended.
+  void apart(const std::function<void()>& work);
+  /// Inside apart(): 0, 1, 2 ..., each number once to one of the groups; -1 when a group has
+  /// failed. Collective in the group.
+  int next();
+
+ private:
+  void count(int word, int value, MPI_Op operation, int& before) const;
+
+  int count_ = 1, mine_ = 0, beside_ = 0;
+  int dealt_ = 0;  ///< of a group without others
+  MPI_Comm group_ = MPI_COMM_NULL;
+  MPI_Win shared_ = MPI_WIN_NULL;  ///< on the first rank: numbers dealt, groups that have failed
+};
+
+/// Lets MPI answer other ranks in the middle of a long computation. Not collective.
+void progress();
+
+}  // namespace tooljoint::parallel

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many rows of a study at a time: check_study_rows.py PROGRAM MPIEXEC DECK
+
+Groups of ranks that take rows, and a plan of one command per row, run by GNU parallel and collected, leave the table of a study that runs
+row after row.
+"""
+import csv
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
+DECK = sys.argv[3]
+
+
+def rows(folder):
+    summary = json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
+    return {row["label"]: row for row in summary["study"]}
+
+
+def table(folder):
+    with open(pathlib.Path(folder, "study.csv"), newline="", encoding="utf-8") as text:
+        return {row["label"]: row for row in csv.DictReader(text)}
+
+
+def known(done):
+    """How many runs a study says it has from before."""
+    match = re.search(r"(\d+) of (\d+) runs are known", done.stdout)
+    return int(match.group(1)) if match else 0
+
+
+def one_row_at_a_time():
+    done = tooljoint("study", DECK, "--output", "one", "--set", "Study/Repeats=1")
+    expect("a study runs row after row", done.returncode == 0 and len(rows("one")) == 13, done.stderr[-300:])
+
+
+def same_errors(one, two):
+    """Labels of the rows of `two` whose outcome or error is not that of `one`."""
+    return [label for label, row in two.items() if row["status"] != one[label]["status"]
+            or (row["kind"] == "method" and row["vibration_error"] is not None
+                and abs(row["vibration_error"] / one[label]["vibration_error"] - 1) > 1e-5)]
+
+
+def groups_of_ranks():
+    one = rows("one")
+    common = ("--set", "Study/Repeats=2")
+    done = tooljoint("study", DECK, "--output", "groups", *common, "--ranks-per-row", "1", ranks=2)
+    expect("rows that would share the machine are refused", done.returncode == 1 and "--timing shared" in done.stderr, done.stderr[-300:])
+    done = tooljoint("study", DECK, "--output", "groups", *common, "--ranks-per-row", "3", "--timing", "shared", ranks=2)
+    expect("so are ranks that make no whole groups", done.returncode == 1 and "Groups of 3 ranks" in done.stderr, done.stderr[-300:])
+    done = tooljoint("study", DECK, "--output", "groups", *common, "--ranks-per-row", "1", "--timing", "shared", ranks=2)
+    found = rows("groups")
+    wrong = same_errors(one, found)
+    expect("two rows at a time give the table of one", done.returncode == 0 and len(found) == 13 and not wrong, f"({wrong}) {done.stderr[-300:]}")
+    expect("each row was timed twice, beside one other",
+           all(row["beside"] == 1 for row in found.values() if row["kind"] == "method" and row["status"] == "done")
+           and all(row["repeats"] in ("2", "") for row in table("groups").values() if row["kind"] == "method"))
+    done = tooljoint("study", DECK, "--output", "groups", *common, "--ranks-per-row", "1", "--timing", "shared", ranks=2)
+    expect("and are known afterwards", known(done) == 13 and rows("groups") == found, f"({known(done)})")
+    done = tooljoint("study", DECK, "--output", "groups", *common)
+    expect("but not to a study that times alone", done.returncode == 0 and known(done) < 6
+           and all(row["beside"] == 0 for row in rows("groups").values() if row["status"] == "done"), f"({known(done)})")
+    done = tooljoint("study", DECK, "--output", "lost_groups", "--set", "Study/Reference/Set={Transient/Integrator=RK4, Transient/Step=5 ms}",
+                     "--ranks-per-row", "1", "--timing", "shared", ranks=2)
+    expect("a reference that fails ends all groups with 4", done.returncode == 4 and done.stderr.count("The reference run failed") == 1,
+           f"({done.returncode})")
+
+
+def planned():
+    common = ("--set", "Study/Repeats=1")
+    done = tooljoint("study", DECK, "--plan", "plan", *common)
+    commands = pathlib.Path("plan/rows.txt").read_text(encoding="utf-8").splitlines()
+    first = pathlib.Path("plan/reference.txt").read_text(encoding="utf-8")
+    expect("a plan has a command for every row", done.returncode == 0 and len(commands) == 10 and len(set(commands)) == 10, f"({len(commands)})")
+    early = subprocess.run(["bash", "-c", commands[0]], capture_output=True, text=True)
+    expect("a row waits for the reference", early.returncode == 5 and "--row reference" in early.stderr, f"({early.returncode})")
+    subprocess.run(["bash", "-c", first], check=True, capture_output=True)
+    subprocess.run(["bash", "-c", commands[2]], check=True, capture_output=True)
+    done = tooljoint("study", DECK, "--collect", "plan", *common)
+    expect("missing rows are named", done.returncode == 0 and "9 of 13 runs are missing" in done.stderr, done.stderr[-300:])
+    before = pathlib.Path("plan/study.csv").read_text(encoding="utf-8").count(",done,")
+    done = subprocess.run(["parallel", "--jobs", "2"], stdin=open("plan/rows.txt", encoding="utf-8"), capture_output=True, text=True)
+    expect("GNU parallel takes the rows as they are", done.returncode == 0, done.stderr[-300:])
+    done = tooljoint("study", DECK, "--collect", "plan", *common)
+    wrong = same_errors(rows("one"), rows("plan"))
+    expect("and their table is that of the study", done.returncode == 0 and "missing" not in done.stderr and before == 4 and not wrong,
+           f"({before}; {wrong})")
+    for row in ("0", "14", "first"):
+        done = tooljoint("study", DECK, "--row", row, "--output", "plan")
+        expect(f"there is no row {row}", done.returncode == 1 and "rows 1 to 13" in done.stderr, done.stderr[-200:])
+
+
+def main():
+    for left in ("one", "groups", "lost_groups", "plan"):  # of an earlier run of this test
+        shutil.rmtree(left, ignore_errors=True)
+    for check in (one_row_at_a_time, groups_of_ranks, planned):
+        check()
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
