@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/SecondOrderModel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -112,6 +113,29 @@ Sparse SecondOrderModel::pointStiffness(double t, const Vector& q, const Vector&
     sum -= Sparse(rowsTransposed * Sparse(tangent * set.rows));
   }
   return sum;
+}
+
+std::vector<int> SecondOrderModel::loadsOnNothing() const {
+  std::vector<char> determined(static_cast<std::size_t>(size()), 0);
+  const auto note = [&](const Sparse& matrix, bool rows) {
+    for (int k = 0; k < matrix.outerSize(); ++k)
+      for (Sparse::InnerIterator it(matrix, k); it; ++it)
+        if (it.value() != 0.0) {
+          determined[static_cast<std::size_t>(it.col())] = 1;
+          if (rows) determined[static_cast<std::size_t>(it.row())] = 1;
+        }
+  };
+  note(mass, true);
+  for (const auto* terms : {&damping, &stiffness})
+    for (const auto& term : *terms) note(term.matrix, true);
+  for (const auto& set : points) note(set.rows, false);
+  std::vector<int> found;
+  for (int i = 0; i < size(); ++i)
+    if (determined[static_cast<std::size_t>(i)] == 0 &&
+        std::any_of(loads.begin(), loads.end(),
+                    [&](const LoadTerm& load) { return load.vector[i] != 0.0; }))
+      found.push_back(i);
+  return found;
 }
 
 void SecondOrderModel::validate() const {

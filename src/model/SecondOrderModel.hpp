@@ -78,6 +78,9 @@ struct SecondOrderModel {
   Vector pointForce(double t, const Vector& q, const Vector& qDot) const;
   /// -sum R' (df/dd) R: stiffness of the point laws about a state (set-up code and tests).
   Sparse pointStiffness(double t, const Vector& q, const Vector& qDot) const;
+  /// Dofs with a load but without an entry in M, C_i, K_i and the rows of points: nothing
+  /// determines their motion.
+  std::vector<int> loadsOnNothing() const;
   /// Throws ModelError naming what is inconsistent (sizes, non-finite entries, law indices).
   void validate() const;
 };

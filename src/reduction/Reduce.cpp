@@ -148,6 +148,23 @@ std::vector<int> identicalParts(const std::vector<int>& classes,
   return representative;
 }
 
+/// Interior dofs without mass and stiffness are in no basis, and dampers on them neither: a load
+/// there would be lost.
+void refuseLostLoads(const model::Substructure& part) {
+  auto undamped = part.model;
+  undamped.damping.clear();
+  const auto loaded = undamped.loadsOnNothing();
+  if (loaded.empty()) return;
+  const auto interior = part.interior();
+  for (int i : loaded)
+    if (std::binary_search(interior.begin(), interior.end(), i))
+      throw ModelError(
+          "Part \"" + part.name + "\": a load acts on " +
+          model::describe(part.model.dofs[static_cast<std::size_t>(i)], part.model.componentNames) +
+          ", an interior dof with neither mass nor stiffness, which no basis holds. "
+          "Retain or fix the dof, give it mass or stiffness, or remove the load.");
+}
+
 /// checkPart for the first of identical parts; of the others what may differ from it.
 void checkParts(const std::vector<model::Substructure>& parts, const std::vector<int>& classes) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -162,6 +179,7 @@ void checkParts(const std::vector<model::Substructure>& parts, const std::vector
       good =
           good && fits(load.vector) && load.law >= 0 && load.law < static_cast<int>(m.laws.size());
     if (!good) checkPart(parts[p]);
+    refuseLostLoads(parts[p]);
   }
 }
 

@@ -424,11 +424,22 @@ void refuseForcesWithMass(const model::SecondOrderModel& model) {
                        "Craig-Bampton\" to false, or take \"Rubin\".");
 }
 
+void refuseLoadsOnNothing(const model::SecondOrderModel& model) {
+  const auto found = model.loadsOnNothing();
+  if (found.empty()) return;
+  throw ModelError(
+      "A load acts on " +
+      model::describe(model.dofs[static_cast<std::size_t>(found.front())], model.componentNames) +
+      ", which has neither mass, damping nor stiffness: nothing determines its "
+      "motion. Give it one of these, fix it, or remove the load.");
+}
+
 }  // namespace
 
 TransientReport integrate(const model::SecondOrderModel& model, const TransientOptions& options,
                           SampleSink& sink, const RunHooks& hooks) {
   refuseForcesWithMass(model);
+  refuseLoadsOnNothing(model);
   return Run(model, options, sink, hooks).go();
 }
 

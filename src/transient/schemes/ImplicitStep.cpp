@@ -33,9 +33,8 @@ constexpr double mostWrong = 0.1;
 /// costs beside the blocks it reaches, in blocks.
 constexpr double driftPrice = 0.5, nearPrice = 16;
 
-/// max_i w_i sum_j |A_ij|
-double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight,
-               Vector& rows) {
+/// sum_j |A_ij|
+void rowSums(const linalg::BlockPattern& pattern, const double* values, Vector& rows) {
   rows.setZero();
   for (int b = 0; b < pattern.blocks(); ++b)
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
@@ -43,7 +42,21 @@ double rowNorm(const linalg::BlockPattern& pattern, const double* values, const 
         for (int i = 0; i < pattern.width(b); ++i)
           rows[pattern.start(b) + i] +=
               std::abs(values[pattern.offset(e) + at(j * pattern.width(b) + i)]);
+}
+
+/// max_i w_i sum_j |A_ij|
+double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight,
+               Vector& rows) {
+  rowSums(pattern, values, rows);
   return rows.cwiseProduct(weight).maxCoeff();
+}
+
+/// 1 on the diagonal of rows without an entry: what has damping alone has no acceleration to
+/// filter.
+void determineEmptyRows(const linalg::BlockPattern& pattern, double* values, Vector& rows) {
+  rowSums(pattern, values, rows);
+  for (int i = 0; i < rows.size(); ++i)
+    if (rows[i] == 0.0) values[pattern.address(i, i)] = 1.0;
 }
 
 }  // namespace
@@ -89,8 +102,7 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
     stiffnessNorms_.push_back(rowNorm(pattern, term.values.data(), weight_, scratch_));
   // |K| row sums bound the rounding of K q.
   rowSize_.setZero();
-  if (!model_->stiffness().empty())
-    rowNorm(pattern, model_->stiffness().current(), weight_, rowSize_);
+  if (!model_->stiffness().empty()) rowSums(pattern, model_->stiffness().current(), rowSize_);
   rowSize_ = 4e-16 * rowSize_.cwiseProduct(weight_);
 }
 
@@ -363,6 +375,7 @@ void ImplicitStep::buildFactor() {
   if (factorScheme_.phase == 0.0) return;
   model_->combine(factorScheme_.filter * factorScheme_.acceleration, 0.0, 1.0, filter_.values());
   for (auto& batch : model_->points()) batch.subtractPositionTangent(filter_.values());
+  determineEmptyRows(model_->pattern(), filter_.values(), scratch_);
   factored_ = factored_ && filter_.factor() < 0;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
@@ -245,9 +246,30 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
                            "with Path/Pre-stress \"Axial and torque\".");
 }
 
+void judgeStretch(const Scene& scene, const StaticStage& stage) {
+  constexpr double worthAWarning = 0.02;  // [rad]: 1.2 deg
+  constexpr int axial = 2;
+  const auto depths = scene.string.depths();
+  double turn = 0.0, depth = 0.0, shift = 0.0;
+  for (std::size_t node = 0; node < depths.size(); ++node) {
+    const double w = stage.state.displacement[static_cast<Eigen::Index>(kNodeDofs * node) + axial];
+    const double angle = std::abs(w) * scene.well.trajectory().at(depths[node]).curvature.norm();
+    if (angle > turn) turn = angle, depth = depths[node], shift = w;
+  }
+  if (turn <= worthAWarning) return;
+  log::warn("Loads move the string by " + formatNumber(std::round(10 * std::abs(shift)) / 10) +
+            " m along the well at " + formatNumber(std::round(depth)) +
+            " m, where the well turns by " +
+            formatNumber(std::round(10 * turn / constants::degree) / 10) +
+            " deg over that length. Displacements are small ones about the nodes as they were "
+            "meshed, so that side forces and friction are too large there; tooljoint torque-drag "
+            "does not have this error.");
+}
+
 StaticStage solveStatic(const Scene& scene) {
   auto stage = findEquilibrium(scene);
   judgeTorqueBalance(scene, stage);
+  judgeStretch(scene, stage);
   judgeStability(scene, stage);
   return stage;
 }

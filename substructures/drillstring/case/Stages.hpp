@@ -50,6 +50,8 @@ StaticStage findEquilibrium(const Scene& scene);
 /// torque", or sections that are not round, always a warning: there the model itself resists a spin
 /// about the curved axis.
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
+/// Where the string has moved along a well that turns: a warning above 0.02 rad of turn.
+void judgeStretch(const Scene& scene, const StaticStage& stage);
 /// In turn, with judgeStability().
 StaticStage solveStatic(const Scene& scene);
 

@@ -85,4 +85,18 @@ TEST(SecondOrderModel, RefusesWhatDoesNotFitTogether) {
   EXPECT_THROW(m.validate(), ModelError);
 }
 
+TEST(SecondOrderModel, LoadsOnDofsThatNothingDeterminesAreFound) {
+  auto m = sample();
+  EXPECT_TRUE(m.loadsOnNothing().empty());
+  m.mass = Sparse(2, 2);
+  m.damping.clear(), m.stiffness.clear();
+  EXPECT_TRUE(m.loadsOnNothing().empty()) << "the spring acts on both";
+  m.points.clear();
+  EXPECT_EQ(m.loadsOnNothing(), (std::vector<int>{0, 1}));
+  m.loads = {{"second", Vector::Unit(2, 1), 0}};
+  EXPECT_EQ(m.loadsOnNothing(), std::vector<int>{1});
+  m.damping.push_back({"couples both", (Matrix(2, 2) << 0, 1, 0, 0).finished().sparseView(), 0});
+  EXPECT_TRUE(m.loadsOnNothing().empty());
+}
+
 }  // namespace

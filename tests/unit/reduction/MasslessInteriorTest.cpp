@@ -132,4 +132,27 @@ INSTANTIATE_TEST_SUITE_P(Reduction, MasslessInterior,
                            return name;
                          });
 
+TEST(MasslessInteriorLoad, ALoadThatNoBasisFollowsIsRefused) {
+  for (bool damped : {false, true}) {
+    auto parts = chain();
+    auto& m = parts[1].model;
+    const int size = m.size();
+    Matrix M = m.mass, K = m.stiffnessAt(0), C = Matrix::Zero(size, size);
+    K.row(4).setZero(), K.col(4).setZero();
+    if (damped) C(4, 4) = 7.0;
+    m.mass = Sparse(M.sparseView());
+    m.stiffness = {{"elastic", Sparse(K.sparseView()), 0}};
+    m.damping = {{"dampers", Sparse(C.sparseView()), 0}};
+    m.loads = {{"push", Vector::Unit(size, 4), 0}};
+    try {
+      checks::synthesise(parts, "Craig-Bampton", 2);
+      ADD_FAILURE() << "the load is lost";
+    } catch (const ModelError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find("middle"), std::string::npos) << said;
+      EXPECT_NE(said.find("neither mass nor stiffness"), std::string::npos) << said;
+    }
+  }
+}
+
 }  // namespace

@@ -217,5 +217,31 @@ TEST(LinearMotion, fallingBodyIsExact) {
   }
 }
 
+/// A dof that has damping alone moves at F / c, in every spectral radius, beside a mass on a spring
+/// that it has no part in; one that has nothing is refused.
+TEST(LinearMotion, aDofOfDampingAloneFollowsItsLoad) {
+  Matrix M = Matrix::Zero(2, 2), C = M, K = M;
+  M(0, 0) = 2.0, K(0, 0) = 800.0, C(1, 1) = 4.0;
+  for (double radius : {0.0, 0.5, 0.8, 1.0}) {
+    auto model = denseModel(M, C, K);
+    model.loads.push_back({"pull", (Vector(2) << 8.0, 10.0).finished(), 0});
+    auto o = options("Generalized-alpha", 0.1, 1e-3, 0.01);
+    o.own.set("Spectral Radius", radius);
+    Keep samples;
+    integrate(model, o, samples);
+    // v = 2.5 m/s from the first step on; the first one starts from rest
+    EXPECT_NEAR(samples.v.back()[1], 2.5, 1e-6) << radius;
+    EXPECT_NEAR(samples.q.back()[1], 2.5 * 0.1, 2.5 * 1e-3) << radius;
+    EXPECT_NEAR(samples.q.back()[0], 0.01 * (1 - std::cos(20.0 * 0.1)), 1e-6) << radius;
+    model.damping.clear();
+    try {
+      integrate(model, o, samples);
+      ADD_FAILURE() << "a load on nothing was accepted";
+    } catch (const ModelError& error) {
+      EXPECT_NE(std::string(error.what()).find("u of node 2"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tooljoint::transient::testing
