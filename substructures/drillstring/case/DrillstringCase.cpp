@@ -27,8 +27,7 @@ class RestingString : public cases::RestingCase {
         stage_(*sharedStage_) {}
 
   void judge() const override {
-    judgeTorqueBalance(scene_, stage_);
-    judgeStability(scene_, stage_);
+    judgeStatic(scene_, stage_);
   }
 
   coupling::Coupling full() const override {

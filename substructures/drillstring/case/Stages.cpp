@@ -266,11 +266,15 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
             "does not have this error.");
 }
 
-StaticStage solveStatic(const Scene& scene) {
-  auto stage = findEquilibrium(scene);
+void judgeStatic(const Scene& scene, const StaticStage& stage) {
   judgeTorqueBalance(scene, stage);
   judgeStretch(scene, stage);
   judgeStability(scene, stage);
+}
+
+StaticStage solveStatic(const Scene& scene) {
+  auto stage = findEquilibrium(scene);
+  judgeStatic(scene, stage);
   return stage;
 }
 

@@ -52,7 +52,9 @@ StaticStage findEquilibrium(const Scene& scene);
 void judgeTorqueBalance(const Scene& scene, const StaticStage& stage);
 /// Where the string has moved along a well that turns: a warning above 0.02 rad of turn.
 void judgeStretch(const Scene& scene, const StaticStage& stage);
-/// In turn, with judgeStability().
+/// These two and judgeStability().
+void judgeStatic(const Scene& scene, const StaticStage& stage);
+/// findEquilibrium(), judged.
 StaticStage solveStatic(const Scene& scene);
 
 /// A sentence when the deck takes the pre-stress "Axial and torque" in a well that bends; else "".
