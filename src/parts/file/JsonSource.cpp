@@ -8,6 +8,7 @@
 #include "common/Text.hpp"
 #include "io/MatrixMarket.hpp"
 #include "parts/file/PartSource.hpp"
+#include "parts/foreign/PartFormat.hpp"
 
 namespace tooljoint::parts {
 
@@ -223,7 +224,9 @@ std::unique_ptr<PartSource> openPart(const std::string& path) {
   std::error_code ignored;
   const bool json = std::filesystem::is_directory(path, ignored) ||
                     std::filesystem::path(path).extension() == ".json";
-  return json ? openJsonPart(path) : openHdf5Part(path);
+  if (json) return withForeignMatrices(openJsonPart(path));
+  const auto format = partFormatOf(path);
+  return format != nullptr ? openForeignPart(*format, {path, {}}) : openHdf5Part(path);
 }
 
 }  // namespace tooljoint::parts

@@ -63,11 +63,18 @@ PartContent readPartEverywhere(const std::string& path, const std::string& name)
 /// diagonal) or has a direction of negative mass.
 void checkMass(const PartContent& content);
 
-enum class FileKind { Hdf5, MatrixMarket };
+enum class FileKind { Hdf5, MatrixMarket, NastranDmig, ExtPtfm };
 
-/// Writes a part on rank 0: one HDF5 file `path`, or a folder `path` with part.json and matrices in
-/// it. What was there is replaced when all is written. FileError when that fails. Point laws are no
+/// When loads that vary in time are written, for files that hold them as numbers [s].
+struct LoadTimes {
+  double begin = 0.0, end = 0.0, step = 0.0;
+};
+
+/// Writes a part on rank 0: one file `path`, or a folder `path` with part.json and Matrix Market
+/// files in it. ModelError for what a file of another code cannot hold (parts/foreign/). What was
+/// there is replaced when all is written. FileError when that fails. Point laws are no
 /// part of the format: name them in `omitted`.
-void writePart(const PartContent& content, const std::string& path, FileKind kind);
+void writePart(const PartContent& content, const std::string& path, FileKind kind,
+               const LoadTimes& times = {});
 
 }  // namespace tooljoint::parts

@@ -19,7 +19,7 @@ using model::DofLabel;
 const std::vector<std::string> knownNames{
     "format",           "name",      "components", "dofs",     "mass",      "damping",
     "stiffness",        "loads",     "interfaces", "retained", "reference", "initial_displacement",
-    "initial_velocity", "positions", "basis",      "omitted"};
+    "initial_velocity", "positions", "basis",      "omitted",  "matrices"};
 
 std::string shapeText(Eigen::Index rows, Eigen::Index columns) {
   return std::to_string(rows) + " x " + std::to_string(columns);

@@ -49,7 +49,7 @@ class PartSource {
   virtual std::vector<NamedTerm> terms(const std::string& path) const = 0;
 };
 
-/// By the kind of file: a folder or *.json, else HDF5.
+/// By the kind of file: a folder or *.json, a format of parts/foreign/, else HDF5.
 std::unique_ptr<PartSource> openPart(const std::string& path);
 std::unique_ptr<PartSource> openJsonPart(const std::string& path);
 std::unique_ptr<PartSource> openHdf5Part(const std::string& path);

@@ -8,6 +8,7 @@
 #include "io/ResultsFile.hpp"
 #include "io/TextFile.hpp"
 #include "parts/file/PartFile.hpp"
+#include "parts/foreign/ForeignWriters.hpp"
 
 namespace tooljoint::parts {
 
@@ -221,12 +222,23 @@ class Hdf5Writer {
 
 }  // namespace
 
-void writePart(const PartContent& content, const std::string& path, FileKind kind) {
+void writePart(const PartContent& content, const std::string& path, FileKind kind,
+               const LoadTimes& times) {
   if (parallel::rank() != 0) return;
-  if (kind == FileKind::MatrixMarket)
-    FolderWriter(content, path).write();
-  else
-    Hdf5Writer(content, path).write();
+  switch (kind) {
+    case FileKind::MatrixMarket:
+      FolderWriter(content, path).write();
+      break;
+    case FileKind::Hdf5:
+      Hdf5Writer(content, path).write();
+      break;
+    case FileKind::NastranDmig:
+      io::writeText(path, dmigText(content));
+      break;
+    case FileKind::ExtPtfm:
+      io::writeText(path, extPtfmText(content, times));
+      break;
+  }
 }
 
 }  // namespace tooljoint::parts

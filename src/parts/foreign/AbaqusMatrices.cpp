@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Matrices as Abaqus writes them with *MATRIX GENERATE and *MATRIX OUTPUT, FORMAT=MATRIX INPUT (or
+/// LABELS): JOB_STIFn.mtx, JOB_MASSn.mtx, JOB_DMPVn.mtx and JOB_LOADn.mtx with lines "node, dof,
+/// node, dof, value" (Abaqus Analysis User's Guide, "Generating structural matrices", and Keywords
+/// Reference Guide, *MATRIX OUTPUT and *MATRIX INPUT).
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "common/InputFile.hpp"
+#include "common/Text.hpp"
+#include "parts/foreign/PartFormat.hpp"
+
+namespace tooljoint::parts {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t longestLine = 1024;
+/// On the diagonal of the stiffness: a dof with a boundary condition.
+constexpr double boundaryCondition = 1e36;
+
+struct Tag {
+  const char* name;  ///< in JOB_NAMEn.mtx
+  const char* key;   ///< in part.json
+};
+constexpr Tag tags[] = {
+    {"STIF", "stiffness"}, {"MASS", "mass"}, {"DMPV", "damping"}, {"LOAD", "loads"}};
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// One file of lines with numbers.
+class MtxFile {
+ public:
+  explicit MtxFile(const std::string& path) : path_(path), in_(path) {}
+
+  LabelledMatrix matrix(Quantity quantity, const std::string& name) {
+    std::map<std::pair<PointDof, PointDof>, double> given;
+    bool symmetric = true;
+    while (next()) {
+      if (text_[0] == '*') {
+        const auto words = upper(text_);
+        if (words.rfind("*MATRIX INPUT", 0) != 0 && words.rfind("*MATRIXINPUT", 0) != 0)
+          fail("is the keyword " + inQuotes(text_) +
+               ". Expected the output of *MATRIX GENERATE and *MATRIX OUTPUT, lines \"node, dof, "
+               "node, dof, value\"");
+        continue;
+      }
+      const auto fields = split();
+      if (fields.size() == 3)
+        fail(
+            "has 3 numbers: FORMAT=COORDINATE has no labels of dofs. Write the matrices with "
+            "FORMAT=MATRIX INPUT, lines \"node, dof, node, dof, value\"");
+      if (fields.size() != 5)
+        fail("has " + std::to_string(fields.size()) +
+             " numbers, expected 5: \"node, dof, node, dof, value\"");
+      const PointDof row = dof(fields, 0), column = dof(fields, 2);
+      const auto place = std::make_pair(row, column);
+      if (!given.emplace(place, value(fields, 4)).second)
+        fail("gives the entry of " + describe(place.first) + " and " + describe(place.second) +
+             " twice");
+      if (!(place.first == place.second) && given.count({place.second, place.first}) > 0)
+        symmetric = false;  // both triangles are there
+    }
+    LabelledMatrix out{quantity, name, path_, {}};
+    for (const auto& [place, number] : given) {
+      out.entries.push_back({place.first, place.second, number});
+      if (symmetric && !(place.first == place.second))
+        out.entries.push_back({place.second, place.first, number});
+    }
+    return out;
+  }
+
+  LabelledLoad load() {
+    LabelledLoad out{"loads", "1", path_, {}};
+    while (next()) {
+      if (text_[0] == '*') {
+        const auto words = upper(text_);
+        if (words.rfind("*CLOAD", 0) != 0 || words.find("IMAGINARY") != std::string::npos)
+          fail("is the keyword " + inQuotes(text_) + ", expected *CLOAD with real loads");
+        continue;
+      }
+      const auto fields = split();
+      if (fields.size() != 3)
+        fail("has " + std::to_string(fields.size()) + " numbers, expected 3: \"node, dof, force\"");
+      out.forces[dof(fields, 0)] += value(fields, 2);
+    }
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw DeckError(path_ + ":" + std::to_string(line_) + " " + what + ".");
+  }
+  [[noreturn]] void failAt(std::size_t field, const std::string& text,
+                           const std::string& expected) const {
+    throw DeckError(path_ + ":" + std::to_string(line_) + ": field " + std::to_string(field + 1) +
+                    " is " + inQuotes(text) + ", expected " + expected + ".");
+  }
+
+  /// The next line that is no comment and not empty.
+  bool next() {
+    while (in_.line(text_, longestLine)) {
+      ++line_;
+      text_ = trim(text_);
+      if (text_.rfind("%%MatrixMarket", 0) == 0)
+        fail(
+            "is a Matrix Market file, which has no labels of dofs. Name it in a part.json as "
+            "\"stiffness\" or \"mass\", beside \"dofs\"");
+      if (!text_.empty() && text_.rfind("**", 0) != 0) return true;
+    }
+    return false;
+  }
+
+  /// Fields between commas or blanks.
+  std::vector<std::string> split() const {
+    std::vector<std::string> out;
+    std::string field;
+    bool comma = false;
+    for (const char c : text_ + ",") {
+      const bool blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+      if (c != ',' && !blank) {
+        field += c;
+        comma = false;
+      } else if (!field.empty()) {
+        out.push_back(field);
+        field.clear();
+        comma = c == ',';
+      } else if (c == ',') {
+        if (comma) out.emplace_back();
+        comma = true;
+      }
+    }
+    return out;
+  }
+
+  PointDof dof(const std::vector<std::string>& fields, std::size_t at) const {
+    const auto node = wholeNumber(fields[at]), number = wholeNumber(fields[at + 1]);
+    if (!fields[at].empty() && fields[at][0] == '-')
+      failAt(at, fields[at],
+             "a node from 1. Negative ones are internal to Abaqus (hybrid elements, Lagrange "
+             "multipliers) and cannot be joined or held");
+    if (node < 1) failAt(at, fields[at], "a node from 1");
+    if (number < 1 || number > 6)
+      failAt(at + 1, fields[at + 1],
+             "a displacement or rotation, 1 to 6. Temperatures, pressures and warping are no dofs "
+             "of a part");
+    return {node, static_cast<int>(number)};
+  }
+
+  double value(const std::vector<std::string>& fields, std::size_t at) const {
+    double out = 0.0;
+    if (!fortranNumber(fields[at], false, out)) failAt(at, fields[at], "a finite number");
+    return out;
+  }
+
+  std::string path_;
+  InputFile in_;
+  std::string text_;
+  long line_ = 0;
+};
+
+class AbaqusMatrices : public PartFormat {
+ public:
+  std::vector<std::string> extensions() const override { return {".mtx"}; }
+  bool recognises(const std::string&) const override { return false; }
+
+  LabelledPart read(const PartFiles& given) const override {
+    const auto files = given.whole.empty() ? given.named : beside(given.whole);
+    LabelledPart part;
+    part.file = given.main();
+    for (const auto& [key, file] : files) {
+      if (key == "loads")
+        part.loads.push_back(MtxFile(file).load());
+      else if (key == "mapping")
+        throw DeckError(file +
+                        " is named as \"mapping\", but the matrices of Abaqus carry their "
+                        "labels themselves. Remove it.");
+      else
+        part.matrices.push_back(MtxFile(file).matrix(key == "stiffness" ? Quantity::Stiffness
+                                                     : key == "mass"    ? Quantity::Mass
+                                                                        : Quantity::Damping,
+                                                     key));
+    }
+    for (const auto& one : part.matrices)
+      if (one.quantity == Quantity::Stiffness)
+        for (const auto& entry : one.entries)
+          if (entry.row == entry.column && entry.value >= boundaryCondition)
+            part.held.insert(entry.row);
+    return part;
+  }
+
+ private:
+  /// The files that Abaqus wrote together with this one: JOB_STIFn.mtx, JOB_MASSn.mtx ...
+  static std::map<std::string, std::string> beside(const std::string& path) {
+    const fs::path file(path);
+    const auto stem = file.stem().string();
+    std::map<std::string, std::string> out;
+    for (const auto& tag : tags) {
+      const auto at = upper(stem).rfind(std::string("_") + tag.name);
+      if (at == std::string::npos || at + 5 > stem.size()) continue;
+      const auto sibling = [&](const std::string& name) {
+        return (file.parent_path() /
+                (stem.substr(0, at + 1) + name + stem.substr(at + 5) + file.extension().string()))
+            .string();
+      };
+      std::error_code ignored;
+      if (const auto structural = sibling("DMPS"); fs::exists(structural, ignored))
+        throw DeckError(structural +
+                        " is structural damping, a complex stiffness without meaning in time. "
+                        "Remove it, or give viscous damping.");
+      for (const auto& other : tags)
+        if (const auto name = sibling(other.name); fs::exists(name, ignored)) out[other.key] = name;
+      for (const auto& needed : {tags[0], tags[1]})
+        if (out.count(needed.key) == 0)
+          throw DeckError(path + " has no " + needed.key + " beside it: expected the file " +
+                          sibling(needed.name) +
+                          ". Ask for STIFFNESS and MASS in *MATRIX OUTPUT, or name the files in a "
+                          "part.json as \"matrices\".");
+      return out;
+    }
+    if (const std::string reason = whyUnreadable(path); !reason.empty())
+      throw DeckError(path + " cannot be read: " + reason + ".");
+    MtxFile(path).matrix(Quantity::Stiffness, "");  // says what else is wrong with it
+    throw DeckError(path +
+                    " is one matrix of a part. Name JOB_STIFn.mtx, beside which JOB_MASSn.mtx is, "
+                    "or a part.json with \"matrices\": {\"stiffness\": ..., \"mass\": ...}.");
+  }
+};
+
+const bool registered = PartFormats::instance().add(
+    "Abaqus matrices", {"Files of *MATRIX OUTPUT, FORMAT=MATRIX INPUT.", {}, [] {
+                          return std::make_unique<AbaqusMatrices>();
+                        }});
+
+}  // namespace
+
+}  // namespace tooljoint::parts

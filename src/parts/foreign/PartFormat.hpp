@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Matrices of finite-element codes as parts: every format is a file of its own that registers
+/// itself. Rows and columns are ordered by their labels (point, component), never by position.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/Types.hpp"
+#include "deck/Registry.hpp"
+#include "parts/file/PartSource.hpp"
+
+namespace tooljoint::parts {
+
+/// What a square matrix of a part is.
+enum class Quantity { Stiffness, Mass, Damping };
+
+/// A dof as finite-element codes label it.
+struct PointDof {
+  std::int64_t point = 0;  ///< grid point or scalar point, from 1
+  int component = 0;       ///< 1 to 6 of a grid point, 0 of a scalar point
+  bool operator<(const PointDof& o) const {
+    return std::tie(point, component) < std::tie(o.point, o.component);
+  }
+  bool operator==(const PointDof& o) const { return point == o.point && component == o.component; }
+};
+
+/// "component 2 of point 7", "scalar point 7".
+std::string describe(const PointDof& dof);
+
+struct LabelledEntry {
+  PointDof row, column;
+  double value = 0.0;
+};
+
+/// A square matrix with both triangles.
+struct LabelledMatrix {
+  Quantity quantity = Quantity::Stiffness;
+  std::string name;   ///< name of the term in the part
+  std::string where;  ///< file, and line or name in it, for messages
+  std::vector<LabelledEntry> entries;
+};
+
+struct LabelledLoad {
+  std::string name;
+  std::string law = "1";
+  std::string where;
+  std::map<PointDof, double> forces;
+};
+
+/// What the files of another code hold.
+struct LabelledPart {
+  std::string file;  ///< for messages
+  std::vector<LabelledMatrix> matrices;
+  std::vector<LabelledLoad> loads;
+  std::set<PointDof> held;                    ///< dofs the other code holds: left out of the part
+  std::map<std::int64_t, Vector3> positions;  ///< of points, where the files give them [m]
+};
+
+/// The files of a part: one that is named alone, or each by what it holds.
+struct PartFiles {
+  std::string whole;  ///< "" when the files are named one by one
+  std::map<std::string, std::string>
+      named;  ///< "stiffness", "mass", "damping", "loads", "mapping": file
+  std::string main() const;
+};
+
+/// One format. Readers throw DeckError naming file, line, field, what was found and what is
+/// expected.
+class PartFormat {
+ public:
+  virtual ~PartFormat() = default;
+  /// Lower case, with the dot.
+  virtual std::vector<std::string> extensions() const = 0;
+  /// By the first bytes of a file whose extension says nothing.
+  virtual bool recognises(const std::string& opening) const = 0;
+  virtual LabelledPart read(const PartFiles& files) const = 0;
+};
+
+/// Formats by name.
+using PartFormats = deck::Registry<PartFormat>;
+
+/// The format of a file by its extension, else by its first bytes; nullptr when it is of none.
+std::unique_ptr<PartFormat> partFormatOf(const std::string& path);
+
+/// Files of a format as a source of part values: components, dofs, mass, stiffness, damping, loads
+/// and positions. Components are u, v, w, theta_x, theta_y, theta_z (1 to 6) up to the largest that
+/// occurs, and s (of scalar points) where there are some. DeckError for a part without mass or
+/// stiffness, a load on a dof without either, and a point that is a grid point and a scalar point.
+std::unique_ptr<PartSource> openForeignPart(const PartFormat& format, const PartFiles& files);
+
+/// A part.json whose entry "matrices" names files of another code: their values together with
+/// those of the JSON file, which may not give them as well. `json` itself without that entry.
+std::unique_ptr<PartSource> withForeignMatrices(std::unique_ptr<PartSource> json);
+
+/// Names of the components 1 to 6 of a grid point.
+const std::vector<std::string>& gridComponents();
+/// Name of the one component of a scalar point.
+constexpr const char* scalarComponent = "s";
+
+/// A whole number without sign and blanks; -1 for any other text or one above 2^31 - 1.
+std::int64_t wholeNumber(const std::string& text);
+/// A finite number as Fortran writes it: exponents E, D, or a sign alone (1.5+3). With `point` a
+/// text without a decimal point is refused. False when the text is none.
+bool fortranNumber(const std::string& text, bool point, double& value);
+
+}  // namespace tooljoint::parts
