@@ -12,6 +12,12 @@ void Counters::accept(double h) {
   ++steps;
 }
 
+void Integrator::prepareRetaking(const Integrator&, CompiledModel& model, const Window& window,
+                                 const State& start) {
+  State state = start;
+  prepare(model, window, state);
+}
+
 double fittedStep(const Window& window, double asked) {
   const double duration = window.end - window.begin;
   const double unit =

@@ -54,13 +54,6 @@ struct Window {
   double step = 0;      ///< step asked for by the deck; 0 = the integrator's own default
 };
 
-/// Accuracy of fixed steps, as parts of 1 (StepAccuracy.hpp); 0 where it is not
-/// known.
-struct StepErrors {
-  double local = 0;         ///< local error ratio R
-  double stepDoubling = 0;  ///< step-doubling ratio D
-};
-
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -78,8 +71,8 @@ class Integrator {
   /// What to change when a motion is wrong: "Reduce ...", without a full stop.
   virtual std::string advice() const = 0;
 
-  /// True when the deck accepts a motion that the steps follow badly.
-  virtual bool acceptsInaccuracy() const { return false; }
+  /// The same when the step error is large, and what adds to it; whole sentences.
+  virtual std::string stepAdvice() const { return advice() + "."; }
 
   /// What can be said without a model about the parameters together and with Transient/Step (0 when
   /// the deck gives none). Throws DeckError.
@@ -94,20 +87,22 @@ class Integrator {
   /// ConvergenceError.
   virtual void advance(const State& from, State& to) = 0;
 
-  // Accuracy of the steps. An integrator judges its steps itself, or lets the run measure them by
-  // taking some a second time as two halves (accuracy/RepeatedSteps.hpp); of others the run says
+  // Accuracy of the steps. An integrator bounds its errors itself, or lets the run measure those of
+  // equal steps by taking some again in halves (accuracy/StepError.hpp); of others the run says
   // that their accuracy is not known.
-  /// By error control, by the limit of stability, or in finish() and stepErrors().
+  /// By error control or by the limit of stability.
   virtual bool judgesSteps() const { return false; }
-  /// After the last step: throws ConvergenceError when the steps, taken together, are too large.
-  virtual void finish() const {}
-  /// Of the steps done so far.
-  virtual StepErrors stepErrors() const { return {}; }
-  /// Length of equal steps that repeat() can take again [s], known after prepare(); 0: none.
-  virtual double repeatedStep() const { return 0; }
-  /// Called on a second object, prepared with half the step: the step from `from`, any state of the
-  /// run, to to.t. False when its equations have no solution.
-  virtual bool repeat(const State& /*from*/, State& /*to*/) { return false; }
+  /// Length of equal steps that a second object can take again [s], known after prepare(); 0: none.
+  virtual double equalStep() const { return 0; }
+  /// Append what the motion of the next steps depends on beyond State: no factors.
+  virtual void saveHistory(std::vector<double>& /*history*/) const {}
+  /// prepare() of a second object with half the step; `run` is an object of the same class made
+  /// from the same parameters, and prepared.
+  virtual void prepareRetaking(const Integrator& run, CompiledModel& model, const Window& window,
+                               const State& start);
+  /// Called on a second object: its next step starts at `from`, a state of the run, whose velocity
+  /// and acceleration it may change, with what saveHistory() of the run appended there.
+  virtual void startAgain(const double* /*history*/, State& /*from*/) {}
 
   /// Append / take back everything beyond State that the next steps depend on, so that a run goes
   /// on with the same numbers.

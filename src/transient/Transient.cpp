@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <iomanip>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -18,7 +19,7 @@
 #include "common/report/Log.hpp"
 #include "common/report/Progress.hpp"
 #include "transient/ModelIdentity.hpp"
-#include "transient/accuracy/RepeatedSteps.hpp"
+#include "transient/accuracy/StepError.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -27,6 +28,13 @@ namespace {
 constexpr double blowUp = 1e6;
 /// Samples in a row with an energy balance that is wrong after which a run is refused.
 constexpr int sustained = 10;
+
+/// A part of 1 in per cent, with two digits.
+double percent(double part) {
+  std::ostringstream text;
+  text << std::setprecision(2) << 100 * part;
+  return std::stod(text.str());
+}
 
 double cpuSeconds() {
   timespec time{};
@@ -171,7 +179,7 @@ class Run {
     report.end = state_.t;
     report.interrupted = interrupted;
     report.counters = integrator_->counters();
-    report.stepErrors = repeated_ ? repeated_->errors() : integrator_->stepErrors();
+    if (stepError_) report.stepError = stepError_->value();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
     report.hasEnergy = options_.ledger;
@@ -203,8 +211,8 @@ class Run {
     if (model_.stateSize() > 0) startStates();
     const Window window{options_.start, options_.end, options_.sampling, options_.step};
     integrator_->prepare(model_, window, state_);
-    if (const double h = integrator_->repeatedStep(); h > 0)
-      repeated_.emplace(model_, make(), window, state_, h);
+    if (integrator_->equalStep() > 0)
+      stepError_.emplace(model_, *integrator_, make(), window, state_);
     if (hooks_.resume != nullptr) {
       resume(*hooks_.resume);
       return;
@@ -246,7 +254,7 @@ class Run {
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
-    if (repeated_) repeated_->restore(memory);
+    if (stepError_) stepError_->restore(memory);
     if (memory != point.memory.data() + point.memory.size())
       throw FileError(
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
@@ -277,7 +285,7 @@ class Run {
     for (const auto& batch : model_.points()) batch.save(point.memory);
     integrator_->save(point.memory);
     if (options_.ledger) ledger_.save(point.memory);
-    if (repeated_) repeated_->save(point.memory);
+    if (stepError_) stepError_->save(point.memory);
     return point;
   }
 
@@ -292,10 +300,10 @@ class Run {
         if (hooks_.keep && integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
         return true;
       }
-      const long steps = integrator_->counters().steps;
+      if (stepError_) stepError_->before(*integrator_, state_);
       integrator_->advance(state_, next_);
       checkFinite(model_, *integrator_, state_, next_);
-      if (repeated_) repeated_->look(steps, state_, next_);
+      if (stepError_) stepError_->after(state_, next_);
       if (options_.ledger) ledger_.book(model_, next_);
       const long before = sampler_.count();
       sampler_.step(state_, next_);
@@ -310,7 +318,6 @@ class Run {
     }
     if (bar) bar->finish();
     if (options_.ledger) judgeEnergy();
-    integrator_->finish();
     judgeSteps();
     warnOfLaws();
     return false;
@@ -319,16 +326,20 @@ class Run {
   /// Of an integrator that does not judge its steps itself.
   void judgeSteps() const {
     if (integrator_->judgesSteps()) return;
-    if (!repeated_) {
+    if (!stepError_) {
       log::info("accuracy    not known: the integrator \"" + options_.integrator +
                 "\" does not measure its steps. Compare with a run of half the step.");
       return;
     }
-    const auto errors = repeated_->errors();
-    const auto verdict = assess(errors);
-    if (verdict != StepVerdict::Good)
-      log::warn(describe(verdict, errors, integrator_->counters().maxStep) + " " +
-                integrator_->advice() + ".");
+    const double error = stepError_->value();
+    if (error <= options_.stepErrorWarning) return;
+    const bool tooLarge = error > options_.stepErrorLimit;
+    std::ostringstream text;
+    text << "The time step (" << integrator_->counters().maxStep << " s) is "
+         << (tooLarge ? "too large" : "coarse") << ": step error " << percent(error) << " %. "
+         << integrator_->stepAdvice();
+    if (tooLarge) throw ConvergenceError(text.str());
+    log::warn(text.str());
   }
 
   /// Whole checkpoint intervals up to t: the same for a run and for the one that goes on from its
@@ -341,8 +352,7 @@ class Run {
 
   /// More energy made than given, or a balance that is open by more than the deck may accept.
   bool isWrong(const EnergyAccount& account) const {
-    return account.runaway() || (std::abs(account.residual()) > EnergyAccount::wrong &&
-                                 !integrator_->acceptsInaccuracy());
+    return account.runaway() || std::abs(account.residual()) > options_.energyResidualLimit;
   }
 
   /// A start far from equilibrium may overshoot and is damped again, so that an open balance counts
@@ -358,7 +368,8 @@ class Run {
   void judgeEnergy() {
     const auto account = ledger_.account(model_, state_);
     if (isWrong(account)) throw ConvergenceError(describeBalance(account));
-    if (std::abs(account.residual()) > EnergyAccount::doubtful) log::warn(describeBalance(account));
+    if (std::abs(account.residual()) > options_.energyResidualWarning)
+      log::warn(describeBalance(account));
   }
 
   /// Laws of time that change faster than steps of one length follow.
@@ -404,7 +415,7 @@ class Run {
   std::unique_ptr<Integrator> integrator_;
   Sampler sampler_;
   EnergyLedger ledger_;
-  std::optional<RepeatedSteps> repeated_;  ///< accuracy of the steps, where the run measures it
+  std::optional<StepError> stepError_;  ///< of equal steps
   State state_, next_;
   long evaluationsBefore_ = 0;
   int runawaySamples_ = 0;

@@ -44,7 +44,7 @@ struct TransientReport {
   double wall = 0;            ///< [s]
   double cpu = 0;             ///< [s]
   double realTimeFactor = 0;  ///< simulated seconds per second of wall time
-  StepErrors stepErrors;      ///< of equal steps whose accuracy is measured
+  double stepError = 0;       ///< S of equal steps (StepError.hpp), 0 where it is not known
   bool hasEnergy = false;
   EnergyAccount energy;
 };

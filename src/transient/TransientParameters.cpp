@@ -36,6 +36,23 @@ deck::ListSpec parameters() {
             "is interrupted. The integrators of SUNDIALS begin "
             "anew at each of them and go on only from there.")
       .expert();
+  const TransientOptions usual;
+  spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
+            "Of equal steps: a step error above this is a warning. The step error is an estimate "
+            "of the error of the vibration after 3 s or the whole motion, whichever is shorter.")
+      .expert()
+      .real("Step Error Limit", "", usual.stepErrorLimit, deck::Range::positive(),
+            "Of equal steps: a run with a larger step error fails.")
+      .formerly("Generalized-alpha/Accept Coarse Steps")
+      .expert()
+      .real("Energy Residual Warning", "", usual.energyResidualWarning, deck::Range::positive(),
+            "With the energy ledger: an energy residual of larger size at the end of the motion is "
+            "a warning.")
+      .expert()
+      .real("Energy Residual Limit", "", usual.energyResidualLimit, deck::Range::positive(),
+            "With the energy ledger: a run fails when the energy residual is larger in size at the "
+            "end of the motion, or for ten samples in a row.")
+      .expert();
   for (const auto& [name, entry] : registry.entries()) {
     deck::ListSpec own(name, entry.doc);
     own.merge(entry.parameters);
@@ -88,6 +105,10 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   options.progress = list.get<bool>("Progress");
   options.ledger = list.get<bool>("Energy Ledger");
   options.checkpointInterval = list.get<double>("Checkpoint Interval");
+  options.stepErrorWarning = list.get<double>("Step Error Warning");
+  options.stepErrorLimit = list.get<double>("Step Error Limit");
+  options.energyResidualWarning = list.get<double>("Energy Residual Warning");
+  options.energyResidualLimit = list.get<double>("Energy Residual Limit");
   if (list.isSublist(options.integrator)) options.own = list.sublist(options.integrator);
   if (!(options.end > options.start))
     throw DeckError("Transient/End Time (" + formatNumber(options.end) +

@@ -82,10 +82,10 @@ def load(*names):
     return pathlib.Path(source)
 
 
-def output(deck, folder, *arguments, ranks=1, command="run"):
+def output(deck, folder, *arguments, ranks=1, command="run", code=0):
     """What a command prints."""
     done = tooljoint(command, str(deck), "--output", folder, *arguments, ranks=ranks)
-    expect(f"{folder} ends with 0", done.returncode == 0, done.stdout + done.stderr)
+    expect(f"{folder} ends with {code}", done.returncode == code, done.stdout + done.stderr)
     return done.stdout + done.stderr
 
 

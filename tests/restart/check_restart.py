@@ -130,7 +130,7 @@ def settings(integrator, end, interval):
     if integrator == "RK4":
         out += ["--set", "Transient/Step=1e-5"]
     if integrator == "Generalized-alpha":
-        out += ["--set", "Transient/Step=0.001", "--set", "Transient/Generalized-alpha/Accept Coarse Steps=true"]
+        out += ["--set", "Transient/Step=0.001", "--set", "Transient/Step Error Limit=1000"]
     return out
 
 

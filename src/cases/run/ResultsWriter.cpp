@@ -116,9 +116,7 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
   summary.set("transient.wall_s", report.wall);
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);
-  if (report.stepErrors.local > 0) summary.set("transient.local_error", report.stepErrors.local);
-  if (report.stepErrors.stepDoubling > 0)
-    summary.set("transient.halving_error", report.stepErrors.stepDoubling);
+  if (report.stepError > 0) summary.set("transient.step_error", report.stepError);
   if (report.hasEnergy) summary.set("transient.energy_residual", report.energy.residual());
 }
 

@@ -80,6 +80,19 @@ std::string nowCalled(const std::string& path, const std::string& name, const st
   return path + "/" + name + " is now called \"" + now + "\". " + introduce(parameter);
 }
 
+/// The list that holds the one of this path; null where that is none of declared names.
+const ListSpec* parentOf(const ListSpec& root, const std::string& path) {
+  const auto names = split(path.substr(1), '/');
+  const ListSpec* list = &root;
+  for (std::size_t i = 1; i + 1 < names.size() && list != nullptr; ++i) {
+    const ListSpec* next = nullptr;
+    for (const ListSpec& sublist : list->lists())
+      if (sublist.name() == names[i]) next = &sublist;
+    list = next;
+  }
+  return names.size() > 1 ? list : nullptr;
+}
+
 }  // namespace
 
 std::string unknownParameter(const ListSpec& root, const ListSpec& list, const std::string& path,
@@ -89,6 +102,9 @@ std::string unknownParameter(const ListSpec& root, const ListSpec& list, const s
   for (const ListSpec& sublist : list.lists())
     if (const ParameterSpec* moved = sublist.findFormer("../" + name))
       return nowCalled(path, name, sublist.name() + "/" + moved->name, *moved);
+  if (const ListSpec* parent = parentOf(root, path))
+    if (const ParameterSpec* moved = parent->findFormer(list.name() + "/" + name))
+      return nowCalled(path, name, parent->name() + "/" + moved->name, *moved);
   std::string text = path + "/" + name + " is not a parameter.";
   if (declares(list, name))
     return text + " It is a list: write <ParameterList name=\"" + name + "\">.";

@@ -40,8 +40,6 @@ struct EnergyAccount {
   double numerical() const;
   /// numerical() relative to the energy exchanged or stored, whichever is larger.
   double residual() const;
-  /// Sizes of residual() beyond which a motion is doubtful, and no result.
-  static constexpr double doubtful = 0.05, wrong = 0.2;
   /// The integrator has made more energy than the model was ever given.
   bool runaway() const { return -numerical() > supplied; }
 };

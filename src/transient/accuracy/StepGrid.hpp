@@ -21,6 +21,12 @@ class StepGrid {
     deepest_ = deepest;
   }
 
+  /// The next step starts at t, a multiple of the longest.
+  void startAt(double t) {
+    index_ = std::lround((t - begin_) / longest_);
+    done_ = 0;
+  }
+
   int deepest() const { return deepest_; }
   /// Halvings in force.
   int level() const { return level_; }

@@ -107,12 +107,6 @@ void AlphaStep::addImpacts(double factor, const Impacts& impacts, Vector& y) con
         factor * impacts.a.segment(pattern.start(b), pattern.width(b));
 }
 
-void AlphaStep::startWhere(const AlphaStep& other) {
-  A_ = other.A_;
-  X_ = other.X_;
-  lastImpacts_ = other.lastImpacts_;
-}
-
 /// v from constant algorithmic acceleration; q and a where v is 0. What impacts have added to q''
 /// is no part of it.
 void AlphaStep::predict(const State& from, State& to, double h) {
@@ -181,9 +175,22 @@ void AlphaStep::keep() {
   std::swap(impacts_, lastImpacts_);
 }
 
-void AlphaStep::addImpactVelocity(double factor, double h, bool before, Vector& v) const {
-  addImpacts(factor * 0.5 * (gamma_ / (2 * beta_) - 1) * h / scheme(h).impact,
-             before ? lastImpacts_ : impacts_, v);
+void AlphaStep::saveHistory(std::vector<double>& history) const {
+  for (const Vector* x : {&A_, &X_, &lastImpacts_.a})
+    history.insert(history.end(), x->begin(), x->end());
+}
+
+/// A is q'' at another time, which is off by a part of the step. While q rests on a wall, impacts
+/// left out of A, the scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
+void AlphaStep::startAgain(const double*& history, double h, State& from) {
+  for (Vector* vector : {&A_, &X_, &lastImpacts_.a})
+    for (double& x : *vector) x = *history++;
+  listBlocks(lastImpacts_);
+  const double s = scheme(h).impact;
+  A_ = 0.5 * (A_ + from.a);
+  addImpacts(-0.5 / s, lastImpacts_, A_);
+  X_ = 0.5 * (X_ + from.xDot);
+  addImpacts(-0.5 * (gamma_ / (2 * beta_) - 1) * h / s, lastImpacts_, from.v);
 }
 
 const Vector& AlphaStep::localError(double h, bool impacts) {
@@ -194,20 +201,23 @@ const Vector& AlphaStep::localError(double h, bool impacts) {
 }
 
 void AlphaStep::save(std::vector<double>& memory) const {
-  for (const Vector* x : {&A_, &X_, &lastImpacts_.a})
-    memory.insert(memory.end(), x->begin(), x->end());
+  saveHistory(memory);
   equation_.save(memory);
 }
 
 void AlphaStep::restore(const double*& memory) {
   for (Vector* vector : {&A_, &X_, &lastImpacts_.a})
     for (double& x : *vector) x = *memory++;
-  lastImpacts_.blocks.clear();
+  listBlocks(lastImpacts_);
+  equation_.restore(memory);
+}
+
+void AlphaStep::listBlocks(Impacts& impacts) const {
+  impacts.blocks.clear();
   const auto& pattern = model_->pattern();
   for (int b = 0; b < pattern.blocks(); ++b)
-    if (!lastImpacts_.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0))
-      lastImpacts_.blocks.push_back(b);
-  equation_.restore(memory);
+    if (!impacts.a.segment(pattern.start(b), pattern.width(b)).isZero(0.0))
+      impacts.blocks.push_back(b);
 }
 
 }  // namespace tooljoint::transient

@@ -2,7 +2,7 @@
 /// \file
 /// One step of the generalized-alpha scheme (its equations stand in GeneralizedAlpha.cpp) from a
 /// state and what the scheme remembers of the steps before. It chooses nothing: GeneralizedAlpha
-/// does, and StepDoublingError takes steps a second time with one of its own.
+/// does, once for the steps of a run and once for those that StepError takes again.
 #pragma once
 
 #include <memory>
@@ -36,13 +36,12 @@ class AlphaStep {
   bool take(const State& from, State& to, double h, bool anyway, Counters& counters);
   /// The step just taken counts: the next one starts where it ends.
   void keep();
-  /// Start the next step where another has started the one it has just taken and not kept.
-  void startWhere(const AlphaStep& other);
-
-  /// What contact that lasts as an impact leaves in the velocity of a step of length h, where the
-  /// step just taken starts (`before`) or ends, is added to v `factor` times. While q rests the
-  /// scheme has v = (g/(2 b) - 1)/2 h M^-1 R'f, which vanishes for r = 1.
-  void addImpactVelocity(double factor, double h, bool before, Vector& v) const;
+  /// Append what the next step depends on beyond its state.
+  void saveHistory(std::vector<double>& history) const;
+  /// Start the next step, one of length h, at a state of another object whose steps are twice as
+  /// long, with its history: A and what contact that lasts as an impact leaves in v are halved as
+  /// far as they are of the order of the step.
+  void startAgain(const double*& history, double h, State& from);
 
   /// Local error of the displacement in the step just taken, with or without what impacts have
   /// moved.
@@ -70,6 +69,7 @@ class AlphaStep {
   };
   void complete(const State& from, State& to, double h);
   void findImpacts();
+  void listBlocks(Impacts& impacts) const;
   void clear(Impacts& impacts) const;
   /// y += factor a where a is not zero.
   void addImpacts(double factor, const Impacts& impacts, Vector& y) const;

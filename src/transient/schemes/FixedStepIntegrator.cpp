@@ -2,9 +2,8 @@
 #include "transient/schemes/FixedStepIntegrator.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
-
-#include "common/Error.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -32,13 +31,8 @@ void FixedStepIntegrator::advance(const State& from, State& to) {
   counters_.accept(to.t - from.t);
 }
 
-bool FixedStepIntegrator::repeat(const State& from, State& to) {
-  try {
-    step(from, to);
-    return true;
-  } catch (const ConvergenceError&) {
-    return false;
-  }
+void FixedStepIntegrator::startAgain(const double*, State& from) {
+  index_ = std::lround((from.t - window_.begin) / step_);
 }
 
 void FixedStepIntegrator::save(std::vector<double>& memory) const {

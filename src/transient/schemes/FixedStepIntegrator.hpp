@@ -16,8 +16,9 @@ class FixedStepIntegrator : public Integrator {
   std::string advice() const override { return "Reduce Transient/Step"; }
   void prepare(CompiledModel& model, const Window& window, State& state) final;
   void advance(const State& from, State& to) final;
-  double repeatedStep() const override { return step_; }
-  bool repeat(const State& from, State& to) final;
+  double equalStep() const override { return step_; }
+  /// A scheme that remembers more than its state overrides this and saveHistory(), and calls this.
+  void startAgain(const double* history, State& from) override;
   /// A scheme that remembers more than its factors overrides both and calls these.
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;

@@ -45,14 +45,11 @@
 #include <string>
 
 #include "common/Error.hpp"
-#include "common/report/Log.hpp"
 #include "transient/Integrator.hpp"
-#include "transient/accuracy/StepAccuracy.hpp"
 #include "transient/accuracy/StepControl.hpp"
-#include "transient/accuracy/StepDoublingError.hpp"
 #include "transient/accuracy/StepGrid.hpp"
 #include "transient/contact/ImpactResolution.hpp"
-#include "transient/schemes/AlphaHalves.hpp"
+#include "transient/schemes/AlphaStep.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -92,10 +89,6 @@ deck::ListSpec specification() {
           "of the wall. Without, impacts on walls too stiff for the step have no rebound. Steps "
           "with a Step Tolerance resolve impacts by their error.")
       .expert()
-      .boolean("Accept Coarse Steps", false,
-               "Accept a motion although the fixed time step is too large (its local error "
-               "exceeds 2.5 % per step, or the step-doubling difference 2 to 4 %).")
-      .expert()
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps "
                "are counted and reported.")
@@ -104,18 +97,19 @@ deck::ListSpec specification() {
 
 /// Largest step of the default when the deck gives none.
 constexpr double defaultStep = 1e-3;
+/// Halves are solved better than the steps of a run, so that what its iterations leave is seen.
+constexpr double strictness = 0.1;
 
 class GeneralizedAlpha final : public Integrator {
  public:
   explicit GeneralizedAlpha(const Teuchos::ParameterList& given) {
     const auto own = withDefaults(given, specification());
     tolerance_ = own.get<double>("Tolerance");
-    scheme_.emplace(AlphaStep::Parameters{own.get<double>("Spectral Radius"),
-                                          own.get<bool>("Phase Correction"),
-                                          {tolerance_, own.get<int>("Max Iterations")}});
+    parameters_ = {own.get<double>("Spectral Radius"),
+                   own.get<bool>("Phase Correction"),
+                   {tolerance_, own.get<int>("Max Iterations")}};
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
-    acceptCoarse_ = own.get<bool>("Accept Coarse Steps");
     resolveImpacts_ = own.get<bool>("Resolve Impacts");
     controlled_ = own.isParameter("Step Tolerance");
     if (controlled_) stepTolerance_ = own.get<double>("Step Tolerance");
@@ -130,18 +124,21 @@ class GeneralizedAlpha final : public Integrator {
            (controlled_ ? "Transient/Generalized-alpha/Step Tolerance" : "Transient/Step") +
            " or Transient/Generalized-alpha/Spectral Radius";
   }
-  bool acceptsInaccuracy() const override { return acceptCoarse_; }
+  std::string stepAdvice() const override;
   void checkParameters(double step) const override;
   void prepare(CompiledModel& model, const Window& window, State& state) override;
   void advance(const State& from, State& to) override;
-  bool judgesSteps() const override { return true; }
-  void finish() const override;
-  StepErrors stepErrors() const override;
+  bool judgesSteps() const override { return controlled_; }
+  double equalStep() const override { return controlled_ ? 0.0 : grid_.length(0); }
+  void saveHistory(std::vector<double>& history) const override;
+  void prepareRetaking(const Integrator& run, CompiledModel& model, const Window& window,
+                       const State& start) override;
+  void startAgain(const double* history, State& from) override;
   void save(std::vector<double>& memory) const override;
   void restore(const double*& memory) override;
 
  private:
-  void look(const State& from, const State& to, double h);
+  void bind(CompiledModel& model, const Window& window, double t);
   bool isAccurate(const State& from, double h);
   bool resolvesImpacts(const State& from, const State& to, double h);
   int deepestLevel(double longest) const;
@@ -150,10 +147,11 @@ class GeneralizedAlpha final : public Integrator {
   [[noreturn]] void giveUpImpacts(const State& from, double h) const;
   std::string describeFailure(double t, double h) const;
 
+  AlphaStep::Parameters parameters_;
   std::optional<AlphaStep> scheme_;
   double tolerance_;
   int maxHalvings_;
-  bool acceptUnconverged_, acceptCoarse_, resolveImpacts_;
+  bool acceptUnconverged_, resolveImpacts_;
   bool controlled_ = false;  ///< steps follow their error
   double stepTolerance_ = 0, smallest_ = 0;
 
@@ -161,19 +159,30 @@ class GeneralizedAlpha final : public Integrator {
   StepGrid grid_;
   StepControl control_;
   ImpactResolution impacts_;
-  StepAccuracy accuracy_;
-  StepDoublingError doubling_;
   MassNorm length_;
   double error_ = 0;  ///< of the step under way [m]
-  Vector change_;
 };
 
 void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State& state) {
   checkParameters(window.step);
+  scheme_.emplace(parameters_);
+  scheme_->start(model, state, counters_);
+  bind(model, window, state.t);
+}
+
+/// Of fixed steps. The mass is that of the run.
+void GeneralizedAlpha::prepareRetaking(const Integrator& run, CompiledModel& model,
+                                       const Window& window, const State& start) {
+  parameters_.equations.tolerance *= strictness;
+  scheme_.emplace(parameters_);
+  scheme_->startLike(*static_cast<const GeneralizedAlpha&>(run).scheme_);
+  bind(model, window, start.t);
+}
+
+void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t) {
   model_ = &model;
   const double step = fittedStep(window, window.step > 0 ? window.step : defaultStep);
-  scheme_->start(model, state, counters_);
-  scheme_->prepare(step, state.t);
+  scheme_->prepare(step, t);
   resolveImpacts_ =
       resolveImpacts_ && !controlled_ && !model.points().empty() && scheme_->mass().regular();
   grid_.set(window, step,
@@ -182,11 +191,20 @@ void GeneralizedAlpha::prepare(CompiledModel& model, const Window& window, State
                               : maxHalvings_);
   if (controlled_) control_.set(stepTolerance_, grid_.deepest());
   length_.bind(model);
-  change_ = state.q;
   if (resolveImpacts_) impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
-  if (!controlled_)
-    doubling_.bind(model, std::make_unique<AlphaHalves>(*scheme_), state, step,
-                   std::lround((window.end - window.begin) / step));
+}
+
+void GeneralizedAlpha::saveHistory(std::vector<double>& history) const {
+  history.push_back(grid_.level());
+  scheme_->saveHistory(history);
+  if (resolveImpacts_) impacts_.save(history);
+}
+
+void GeneralizedAlpha::startAgain(const double* history, State& from) {
+  grid_.startAt(from.t);
+  grid_.setLevel(static_cast<int>(*history++));
+  scheme_->startAgain(history, grid_.length(grid_.level()), from);
+  if (resolveImpacts_) impacts_.restore(history);
 }
 
 void GeneralizedAlpha::checkParameters(double step) const {
@@ -228,7 +246,6 @@ void GeneralizedAlpha::advance(const State& from, State& to) {
     ++counters_.halved;
     control_.forget();
   }
-  if (!controlled_) look(from, to, h);
   scheme_->keep();
   counters_.accept(h);
   grid_.advance();
@@ -257,27 +274,9 @@ bool GeneralizedAlpha::resolvesImpacts(const State& from, const State& to, doubl
   return false;
 }
 
-/// Collects the measures of the step's accuracy.
-void GeneralizedAlpha::look(const State& from, const State& to, double h) {
-  if (counters_.steps % StepAccuracy::stride == 0) {
-    change_ = to.q - from.q;
-    accuracy_.add(length_(scheme_->localError(h, false)), length_(change_), length_(to.q));
-  }
-  if (h == grid_.length(0) && doubling_.isDue(grid_.index())) doubling_.look(from, to);
-}
-
-StepErrors GeneralizedAlpha::stepErrors() const {
-  if (controlled_) return {};
-  return {accuracy_.ratio(), doubling_.ratio(accuracy_.change() / grid_.length(0))};
-}
-
-void GeneralizedAlpha::finish() const {
-  const auto errors = stepErrors();
-  const auto verdict = assess(errors);
-  if (verdict == StepVerdict::Good) return;
+std::string GeneralizedAlpha::stepAdvice() const {
   std::ostringstream text;
-  text << describe(verdict, errors, counters_.maxStep)
-       << " Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
+  text << "Reduce Transient/Step or set Transient/Generalized-alpha/Step Tolerance.";
   if (tolerance_ > defaultTolerance)
     text << " The iteration tolerance (Transient/Generalized-alpha/Tolerance = " << tolerance_
          << ") adds to the error.";
@@ -287,8 +286,7 @@ void GeneralizedAlpha::finish() const {
   if (hits && !resolveImpacts_)
     text << " Contact is too stiff for this step and has no rebound. Leave "
             "Transient/Generalized-alpha/Resolve Impacts switched on.";
-  if (verdict != StepVerdict::TooLarge || acceptCoarse_) return log::warn(text.str());
-  throw ConvergenceError(text.str());
+  return text.str();
 }
 
 std::string GeneralizedAlpha::describeFailure(double t, double h) const {
@@ -331,8 +329,6 @@ void GeneralizedAlpha::save(std::vector<double>& memory) const {
   scheme_->save(memory);
   if (resolveImpacts_) impacts_.save(memory);
   control_.save(memory);
-  accuracy_.save(memory);
-  if (!controlled_) doubling_.save(memory);
 }
 
 void GeneralizedAlpha::restore(const double*& memory) {
@@ -340,8 +336,6 @@ void GeneralizedAlpha::restore(const double*& memory) {
   scheme_->restore(memory);
   if (resolveImpacts_) impacts_.restore(memory);
   control_.restore(memory);
-  accuracy_.restore(memory);
-  if (!controlled_) doubling_.restore(memory);
 }
 
 const bool registered = IntegratorRegistry::instance().add(

@@ -43,7 +43,7 @@ TEST(AlphaStep, EndsInBalanceWhereWallsAreMetAsImpacts) {
   o.own.set("Tolerance", 1e-11);
   o.own.set("Spectral Radius", 0.2);
   o.own.set("Phase Correction", false);
-  o.own.set("Accept Coarse Steps", true);
+  acceptCoarseSteps(o);
   integrate(model, o, samples);
   ASSERT_EQ(samples.q.size(), 51u);
   int hit[2] = {0, 0};

@@ -98,10 +98,10 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
   EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
                         std::string(200, '\0')),
-                   "has the layout 5 of another version of the program; this one reads layout 9"));
+                   "has the layout 5 of another version of the program; this one reads layout 10"));
   auto changed = bytes;
-  changed[20] = 10;  // the layout follows the magic
-  EXPECT_TRUE(says(said(changed), "has the layout 10 of another version")) << said(changed);
+  changed[20] = 11;  // the layout follows the magic
+  EXPECT_TRUE(says(said(changed), "has the layout 11 of another version")) << said(changed);
   EXPECT_TRUE(says(said(bytes.substr(0, bytes.size() - 5)), "is damaged: its header promises"))
       << said(bytes.substr(0, bytes.size() - 5));
   changed = bytes;

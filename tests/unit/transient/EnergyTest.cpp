@@ -50,7 +50,7 @@ TEST(Energy, numericalDissipationShowsAsResidual) {
     auto o = options("Generalized-alpha", 0.1, 1e-3, 0.1);
     o.own.set("Spectral Radius", radius);
     o.own.set("Phase Correction", false);  // it changes the inertia of such frequencies
-    o.own.set("Accept Coarse Steps", true);
+    acceptCoarseSteps(o);
     const auto energy = integrate(model, o, samples).energy;
     return energy.numerical() / energy.initial;
   };
@@ -176,14 +176,15 @@ TEST(Energy, aBalanceThatIsOpenIsWarnedOf) {
   for (const double step : {0.05, 0.1}) {
     log::clearWarnings();
     Keep samples;
-    const auto report = integrate(model, options("RK4", 2.0, step, 1.0), samples);
+    const auto o = options("RK4", 2.0, step, 1.0);
+    const auto report = integrate(model, o, samples);
     const double open = std::abs(report.energy.residual());
     const auto& warnings = log::warnings();
     const bool warned = std::any_of(warnings.begin(), warnings.end(), [](const auto& one) {
       return one.find("% of the energy exchanged") != std::string::npos;
     });
-    EXPECT_LT(open, EnergyAccount::wrong) << step;
-    EXPECT_EQ(open > EnergyAccount::doubtful, step > 0.06) << step << ' ' << open;
+    EXPECT_LT(open, o.energyResidualLimit) << step;
+    EXPECT_EQ(open > o.energyResidualWarning, step > 0.06) << step << ' ' << open;
     EXPECT_EQ(warned, step > 0.06) << step << ' ' << open;
   }
 }
@@ -198,7 +199,7 @@ TEST(Energy, impactsOnAWallTooStiffForTheStepMakeNone) {
       Keep samples;
       auto o = options("Generalized-alpha", 2.0, 2e-3, 0.01);
       o.own.set("Spectral Radius", radius);
-      o.own.set("Accept Coarse Steps", true);  // where the balls are after the first bounce is lost
+      acceptCoarseSteps(o);  // where the balls are after the first bounce is lost
       const auto report = integrate(model, o, samples);
       EXPECT_EQ(report.counters.unconvergedSteps, 0);
       EXPECT_GT(report.energy.numerical(), -0.01 * report.energy.supplied)

@@ -75,7 +75,7 @@ TEST(Impacts, UnresolvedReboundsLoseWhatTheFitSays) {
       auto o = options("Generalized-alpha", 0.08, h, 0.08);
       o.own.set("Spectral Radius", radius);
       o.own.set("Resolve Impacts", false);
-      o.own.set("Accept Coarse Steps", true);
+      acceptCoarseSteps(o);
       o.ledger = false;
       double lost = 0;
       for (int i = 0; i < phases; ++i)
@@ -185,7 +185,7 @@ TEST(Impacts, ABarRebounds) {
     for (double h : {0.5 * perSpring, perSpring}) {
       auto o = options("Generalized-alpha", end, h, interval);
       o.own.set("Spectral Radius", radius);
-      o.own.set("Accept Coarse Steps", true);  // of the front of the wave, which is a jump
+      acceptCoarseSteps(o);  // of the front of the wave, which is a jump
       const auto found = centre(bar, o);
       for (std::size_t i = 0; i < truth.size(); ++i)
         EXPECT_NEAR(found[i], truth[i], 0.02) << radius << " " << h << " " << i;

@@ -39,7 +39,8 @@ TransientReport runFor(const model::SecondOrderModel& model, const std::string& 
   Keep samples;
   auto o = options(integrator, end, step, end / 10);
   o.own = own;
-  o.ledger = false;  // steps are counted, also those that lose the motion
+  o.ledger = false;
+  acceptCoarseSteps(o);  // steps are counted, also those that lose the motion
   return integrate(model, o, samples);
 }
 
@@ -107,7 +108,7 @@ TEST(Integrators, phaseCorrectionIsUnconditionallyStable) {
     Keep samples;
     auto o = options("Generalized-alpha", 4.0, 1e-3, 0.5);
     o.own = with("Spectral Radius", radius);
-    o.own.set("Accept Coarse Steps", true);
+    acceptCoarseSteps(o);
     o.ledger = false;
     integrate(model, o, samples);
     for (int i = 0; i < 40; ++i)
@@ -227,6 +228,7 @@ TEST(Integrators, spectralRadiusDampsOnlyHighFrequencies) {
     o.own = with("Spectral Radius", radius);
     o.own.set("Phase Correction", false);  // it changes the inertia of such frequencies
     o.ledger = false;                      // what is damped away would end the run
+    acceptCoarseSteps(o);
     integrate(oscillator(1, 0, omega * omega, 1.0, 0), o, samples);
     double largest = 0;
     for (std::size_t i = samples.q.size() - 20; i < samples.q.size(); ++i)
@@ -259,8 +261,7 @@ TEST(Integrators, tighterNewtonToleranceCostsIterationsAndBuysAccuracy) {
 
 TEST(Integrators, fewIterationsLeadToHalving) {
   const auto model = droppedBalls(10, 1e7, 1e4, 7e11, 2e5);
-  auto own = with("Accept Coarse Steps", true);
-  own.set("Resolve Impacts", false);
+  auto own = with("Resolve Impacts", false);
   const auto full = runFor(model, "Generalized-alpha", 0.2, 1e-3, own);
   own.set("Max Iterations", 2);
   own.set("Max Halvings", 12);
@@ -294,7 +295,6 @@ TEST(Integrators, unconvergedStepsAreKeptOnlyOnRequestAndCounted) {
   auto own = with("Max Iterations", 1);
   own.set("Max Halvings", 0);
   own.set("Accept Unconverged", true);
-  own.set("Accept Coarse Steps", true);
   own.set("Resolve Impacts", false);
   const auto report = runFor(model, "Generalized-alpha", 0.2, 1e-3, own);
   EXPECT_GT(report.counters.unconvergedSteps, 0);

@@ -114,10 +114,8 @@ TEST(StepFormula, GeneralizedAlphaHasTheCoefficientsOfItsSpectralRadius) {
   const double h = 0.05;
   for (const double radius : {0.0, 0.3, 0.8, 1.0}) {
     auto o = options("Generalized-alpha", 5 * h, h, h);
-    o.own.set("Spectral Radius", radius)
-        .set("Phase Correction", false)
-        .set("Tolerance", 1e-13)
-        .set("Accept Coarse Steps", true);
+    o.own.set("Spectral Radius", radius).set("Phase Correction", false).set("Tolerance", 1e-13);
+    acceptCoarseSteps(o);
     Keep samples;
     integrate(body(), o, samples);
     ASSERT_EQ(samples.q.size(), 6u);
@@ -135,10 +133,8 @@ TEST(StepFormula, GeneralizedAlphaHasTheCoefficientsOfItsSpectralRadius) {
 TEST(StepFormula, GeneralizedAlphaHasItsSpectralRadiusAtInfinity) {
   for (const double radius : {0.2, 0.5, 0.8}) {
     auto o = options("Generalized-alpha", 0.041, 1e-3, 1e-3);
-    o.own.set("Spectral Radius", radius)
-        .set("Phase Correction", false)
-        .set("Tolerance", 1e-13)
-        .set("Accept Coarse Steps", true);
+    o.own.set("Spectral Radius", radius).set("Phase Correction", false).set("Tolerance", 1e-13);
+    acceptCoarseSteps(o);
     Keep samples;
     integrate(oscillator(1.0, 0.0, 1e14, 1e-3, 0.0), o, samples);
     // a double eigenvalue -radius: |q_n| is of order n radius^n

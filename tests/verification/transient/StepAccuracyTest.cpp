@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// A time step that is too large ends a run; smaller ones, and models at rest, pass.
-#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
 #include <string>
-#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -46,11 +45,11 @@ TEST(StepAccuracy, refusesStepsThatLoseTheVibration) {
     EXPECT_NE(std::string(error.what()).find("is too large"), std::string::npos) << error.what();
   }
   auto anyway = steps(5e-2, 20.0);
-  anyway.own.set("Accept Coarse Steps", true);
+  anyway.stepErrorLimit = 1e6;
   EXPECT_NO_THROW(integrate(model, anyway, sink));
 }
 
-/// Sixty steps are enough for both measures.
+/// Sixty steps are enough.
 TEST(StepAccuracy, refusesShortRuns) {
   const double w = 2 * constants::pi * 10;
   NoSamples sink;
@@ -59,8 +58,7 @@ TEST(StepAccuracy, refusesShortRuns) {
     ADD_FAILURE() << "two steps a period were taken for a result";
   } catch (const ConvergenceError& error) {
     const std::string said = error.what();
-    EXPECT_NE(said.find("is too large"), std::string::npos) << said;
-    EXPECT_NE(said.find("step-doubling"), std::string::npos) << said;
+    EXPECT_NE(said.find("is too large: step error"), std::string::npos) << said;
   }
 }
 
@@ -73,13 +71,11 @@ TEST(StepAccuracy, passesWhatStandsStillOrCreeps) {
 }
 
 /// What a run with these steps says of them: the error it ends with, or else its warning.
-std::string saidOf(const model::SecondOrderModel& model, const TransientOptions& options,
-                   StepErrors* errors = nullptr) {
+std::string saidOf(const model::SecondOrderModel& model, const TransientOptions& options) {
   NoSamples sink;
   log::clearWarnings();
   try {
-    const auto report = integrate(model, options, sink);
-    if (errors != nullptr) *errors = report.stepErrors;
+    integrate(model, options, sink);
   } catch (const ConvergenceError& error) {
     return error.what();
   }
@@ -88,34 +84,30 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
   return "";
 }
 
-/// With r = 1 the scheme has d = 0 and b = 1/4, and A is the acceleration -w^2 q: e = h^2/12
-/// (A_{n+1} - A_n), so R = (w h)^2 / 12. Runs of 300 periods; the bounds of R are 1 % and 2.5 %.
-TEST(StepAccuracy, judgesVibrationByTheStepsOfAPeriod) {
-  const double w = 10;
+/// With r = 1 the scheme loses a phase of (w h)^2 / 12 per radian. Its vibration error in a run of
+/// 3 s at 5 Hz is 1/3 of the phase at the end, S 1/3 to 3/5 of it (the formulas of the scheme,
+/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. Bounds of 5 and 50 %.
+TEST(StepAccuracy, judgesVibrationByItsPhaseAtTheEnd) {
+  const double w = 2 * constants::pi * 5, end = 3;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
-  const auto said = [&](double r, bool accept, StepErrors* errors) {
-    const double h = std::sqrt(12 * r) / w;
-    auto o = steps(h, 300 * 2 * constants::pi / w);
+  for (const double phase : {0.01, 0.03, 0.1, 0.3, 0.5, 1.0, 1.5}) {
+    const double h = end / std::round(end * w / std::sqrt(12 * phase / (w * end)));
+    auto o = steps(h, end);
     o.own.set("Spectral Radius", 1.0);
     o.own.set("Phase Correction", false);
-    o.own.set("Accept Coarse Steps", accept);
-    return saidOf(model, o, errors);
-  };
-  for (const double r : {0.004, 0.008, 0.0125, 0.02, 0.03, 0.05}) {
-    StepErrors errors;
-    const auto warning = said(r, true, &errors);
-    EXPECT_NEAR(errors.local, r, 0.02 * r);
-    EXPECT_EQ(warning.empty(), r < 0.01) << r << ": " << warning;
-    EXPECT_EQ(warning.find("is too large") != std::string::npos, r > 0.025) << r << ": " << warning;
-    EXPECT_EQ(warning.find("is coarse") != std::string::npos, r > 0.01 && r < 0.025)
-        << r << ": " << warning;
-    EXPECT_EQ(said(r, false, nullptr),
-              warning);  // the same sentence, as an error where steps are lost
+    const auto said = saidOf(model, o);
+    EXPECT_EQ(said.empty(), phase < 0.2) << phase << ": " << said;
+    EXPECT_EQ(said.find("is too large: step error") != std::string::npos, phase > 0.9)
+        << phase << ": " << said;
+    EXPECT_EQ(said.find("is coarse: step error") != std::string::npos, phase > 0.2 && phase < 0.9)
+        << phase << ": " << said;
+    o.stepErrorWarning = 10;
+    o.stepErrorLimit = 10;
+    EXPECT_EQ(saidOf(model, o), "") << phase;
   }
 }
 
-/// A mass on a spring of 5 Hz in steps of 14 ms, beside a wall: 1.7 % of what moves in a step, a
-/// warning (2.7 % with r = 0.2, an error).
+/// A mass on a spring of 5 Hz in steps of 14 ms, beside a wall.
 TEST(StepAccuracy, saysWhatMakesItWorse) {
   const std::string loose = "(Transient/Generalized-alpha/Tolerance = 0.01) adds to the error";
   const std::string impacts = "Resolve Impacts switched on";
@@ -126,6 +118,7 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
     o.own.set("Tolerance", tolerance);
     o.own.set("Spectral Radius", radius);
     o.own.set("Resolve Impacts", false);
+    o.stepErrorWarning = 1e-4;
     return saidOf(model, o);
   };
   for (const double tolerance : {1e-5, 1e-2})
@@ -139,9 +132,8 @@ TEST(StepAccuracy, saysWhatMakesItWorse) {
       }
 }
 
-/// D of a kilometre hanging, its first two seconds, which is measured in contact: vibration error
-/// beside 0.125 ms and 1e-8 is 6 % with steps of 10 ms and 0.1 % with steps of 1 ms. Other gravity
-/// (9.80 to 9.83 m/s2) changes neither D (0.67 % and 0.02 %) in its second digit.
+/// A kilometre hanging, its first two seconds: the vibration error beside 0.125 ms and 1e-8 is 6 %
+/// with steps of 10 ms and 0.1 % with steps of 1 ms.
 TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
   const auto hang = [](const std::string& step) {
     const auto scene = drillstring::readScene(
@@ -149,21 +141,13 @@ TEST(StepAccuracy, warnsOfAStringThatIsHardlyFollowed) {
         {"Transient/End Time=2", "Transient/Step=" + step, "Transient/Progress=false", "!Study"});
     const auto model = drillstring::fullModel(drillstring::solveStatic(scene));
     NoSamples sink;
-    log::clearWarnings();
-    return integrate(model, scene.list().sublist("Transient"), sink).stepErrors;
+    return integrate(model, scene.list().sublist("Transient"), sink).stepError;
   };
-  const auto warned = [] {
-    const auto& lines = log::warnings();
-    return std::any_of(lines.begin(), lines.end(), [](const auto& line) {
-      return line.find("is coarse") != std::string::npos;
-    });
-  };
-  const auto coarse = hang("10 ms");
-  EXPECT_TRUE(warned());
-  EXPECT_LT(coarse.local, 0.01);  // which alone would have said nothing
-  const auto fine = hang("1 ms");
-  EXPECT_FALSE(warned());
-  EXPECT_LT(10 * fine.stepDoubling, coarse.stepDoubling);
+  const double coarse = hang("10 ms"), fine = hang("1 ms");
+  std::printf("step error %g and %g\n", coarse, fine);
+  EXPECT_GT(coarse, 0.02);
+  EXPECT_LT(coarse, 0.5);
+  EXPECT_LT(fine, 0.02);
 }
 
 }  // namespace

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/accuracy/StepError.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "coupling/input/ComponentAxes.hpp"
+
+namespace tooljoint::transient {
+namespace {
+
+/// Steps in a window.
+constexpr long inWindow = 8;
+/// Steps from one window to the next: a window costs about as much as 20 steps. Short runs still
+/// have `fewest` windows if they can, long ones no more than `most`.
+constexpr long usualStride = 400, fewest = 8, most = 128;
+/// Fewer windows say nothing.
+constexpr long fewestSaying = 2;
+/// Corrections of the velocity at the start of a window.
+constexpr int corrections = 2;
+/// Motion in windows that is less than this part of the displacement since the start is rest: what
+/// iterations leave is a part of the displacement, too, of the order of their tolerance.
+constexpr double negligible = 1e-3;
+/// Over longer times [s] contact parts any two motions.
+constexpr double longest = 3.0;
+
+/// Rows of the recovery that are translations, in positions; none for a model without output.
+Sparse translationsOf(const CompiledModel& model) {
+  const auto& source = model.source();
+  const auto n = static_cast<Eigen::Index>(model.size());
+  Vector positionOf(n), dofs = Vector::LinSpaced(n, 0.0, static_cast<double>(n - 1)), dofAt(n);
+  model.toPositions(dofs, dofAt);
+  for (Eigen::Index p = 0; p < n; ++p) positionOf[std::lround(dofAt[p])] = static_cast<double>(p);
+  const auto components = static_cast<Eigen::Index>(source.componentNames.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
+    const auto& name = source.componentNames[static_cast<std::size_t>(row % components)];
+    if (coupling::kindOf(name) != coupling::ComponentKind::Translation) continue;
+    for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
+      entries.emplace_back(static_cast<int>(row),
+                           static_cast<int>(std::lround(positionOf[it.col()])), it.value());
+  }
+  if (entries.empty()) return {};
+  Sparse result(source.recovery.rows(), n);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+void save(const State& state, std::vector<double>& memory) {
+  memory.push_back(state.t);
+  for (const Vector* x : {&state.q, &state.v, &state.a, &state.x, &state.xDot})
+    memory.insert(memory.end(), x->begin(), x->end());
+}
+
+void restore(State& state, const double*& memory) {
+  state.t = *memory++;
+  for (Vector* vector : {&state.q, &state.v, &state.a, &state.x, &state.xDot})
+    for (double& x : *vector) x = *memory++;
+}
+
+}  // namespace
+
+StepError::StepError(CompiledModel& model, const Integrator& run,
+                     std::unique_ptr<Integrator> second, const Window& window, const State& start)
+    : model_(&model),
+      second_(std::move(second)),
+      translations_(translationsOf(model)),
+      begin_(window.begin),
+      h_(run.equalStep()),
+      turning_(std::min(longest, window.end - window.begin)),
+      start_(start.q),
+      steps_(static_cast<long>(std::floor((window.end - window.begin) / h_ + 1e-6))),
+      stride_(std::max(std::clamp(steps_ / fewest, inWindow, usualStride), steps_ / most)),
+      from_(start),
+      first_(start.q),
+      state_(start),
+      to_(start),
+      difference_(start.q) {
+  product_.setZero(translations_.rows());
+  run.saveHistory(history_);  // nothing is allocated in the step loop
+  for (const auto& set : model.source().points) points_.emplace_back(set, model.pattern());
+  for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
+  Window halves = window;
+  halves.step = 0.5 * h_;
+  withModel([&] { second_->prepareRetaking(run, model, halves, start); });
+  plan();
+}
+
+/// What is done with the model while the points are those of the second object; then it is as it
+/// was.
+template <class Work>
+void StepError::withModel(const Work& work) {
+  model_->remember(snapshot_);
+  points_.swap(model_->points());
+  work();
+  points_.swap(model_->points());
+  model_->comeBack(snapshot_);
+}
+
+/// next = s (i + frac(g i)), g the golden ratio: no vibration is always met in the same phase.
+void StepError::plan() {
+  constexpr double golden = 0.6180339887498949;
+  const double i = static_cast<double>(seen_), spread = golden * (i + 1);
+  next_ = static_cast<long>(static_cast<double>(stride_) * (i + spread - std::floor(spread)));
+  if (stride_ == inWindow) next_ = stride_ * seen_;  // one after the other
+}
+
+double StepError::square(const Vector& q) const {
+  if (translations_.rows() == 0) return q.squaredNorm();
+  product_.noalias() = translations_ * q;
+  return product_.squaredNorm();
+}
+
+void StepError::before(const Integrator& run, const State& from) {
+  if (end_ >= 0) return;
+  const double passed = (from.t - begin_) / h_;
+  const long step = std::lround(passed);
+  if (step < next_ || std::abs(passed - static_cast<double>(step)) > 1e-6) return;
+  if (step + inWindow > steps_) return;
+  ++seen_;
+  plan();
+  end_ = step + inWindow;
+  from_ = from;
+  most_ = 0;
+  history_.clear();
+  run.saveHistory(history_);
+  scales_.clear();
+  for (const auto& batch : model_->points())
+    for (int p = 0; p < batch.points(); ++p) scales_.push_back(batch.scale(p));
+}
+
+void StepError::after(const State& from, const State& to) {
+  if (end_ < 0) return;
+  const double dt = to.t - from.t;
+  difference_ = to.q - from.q;
+  speeds_ += square(difference_) / dt;
+  difference_ = to.q - start_;
+  offsets_ += square(difference_) * dt;
+  looked_ += dt;
+  difference_ = to.q - from_.q;
+  most_ = std::max(most_, square(difference_));
+  if (to.t < time(end_ - inWindow + 1) + 1e-6 * h_) first_ = to.q;
+  if (to.t < time(end_) - 1e-6 * h_) return;
+  if (retake()) {
+    difference_ = to.q - state_.q;
+    errors_ += square(difference_);
+    moved_ += most_;
+    sizes_ += square(to.q);
+    ++count_;
+  }
+  end_ = -1;
+}
+
+/// The window just done, in halves, to state_; false when their equations have no solution. What
+/// meets a wall as an impact where it begins does so in the halves too.
+bool StepError::retake() {
+  bool solved = false;
+  withModel([&] {
+    try {
+      for (int i = 0;; ++i) {
+        auto scale = scales_.begin();
+        for (auto& batch : model_->points())
+          for (int p = 0; p < batch.points(); ++p) batch.setScale(p, *scale++);
+        state_ = from_;
+        second_->startAgain(history_.data(), state_);
+        retakeUntil(time(end_ - inWindow + 1));
+        if (i == corrections) break;
+        from_.v += (first_ - state_.q) / h_;
+      }
+      retakeUntil(time(end_));
+      solved = true;
+    } catch (const ConvergenceError&) {
+    }
+  });
+  return solved && state_.q.allFinite();
+}
+
+void StepError::retakeUntil(double t) {
+  while (state_.t < t - 1e-6 * h_) {
+    second_->advance(state_, to_);
+    std::swap(state_, to_);
+  }
+}
+
+double StepError::value() const {
+  if (count_ < fewestSaying || !(moved_ > 0)) return 0.0;
+  const double noise = 1e-12 * std::sqrt(static_cast<double>(count_)) + 1e-9 * std::sqrt(sizes_);
+  if (std::sqrt(errors_) <= noise) return 0.0;
+  const double offset = looked_ > 0 ? offsets_ / looked_ : 0.0;
+  const double least = negligible * negligible * offset * static_cast<double>(count_);
+  const double turns = offsets_ > 0 ? turning_ * std::sqrt(speeds_ / offsets_) : 1.0;
+  return std::max(1.0, turns) * std::sqrt(errors_ / std::max(moved_, least));
+}
+
+void StepError::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(),
+                {static_cast<double>(seen_), static_cast<double>(end_), most_,
+                 static_cast<double>(count_), errors_, moved_, sizes_, speeds_, offsets_, looked_});
+  if (end_ >= 0) {
+    transient::save(from_, memory);
+    memory.insert(memory.end(), first_.begin(), first_.end());
+    memory.push_back(static_cast<double>(history_.size()));
+    memory.insert(memory.end(), history_.begin(), history_.end());
+    memory.insert(memory.end(), scales_.begin(), scales_.end());
+  }
+  for (const auto& batch : points_) batch.save(memory);
+  second_->save(memory);
+}
+
+void StepError::restore(const double*& memory) {
+  seen_ = static_cast<long>(*memory++);
+  end_ = static_cast<long>(*memory++);
+  most_ = *memory++;
+  count_ = static_cast<long>(*memory++);
+  for (double* sum : {&errors_, &moved_, &sizes_, &speeds_, &offsets_, &looked_}) *sum = *memory++;
+  plan();
+  if (end_ >= 0) {
+    transient::restore(from_, memory);
+    for (double& x : first_) x = *memory++;
+    history_.resize(static_cast<std::size_t>(*memory++));
+    for (double& x : history_) x = *memory++;
+    scales_.clear();
+    for (const auto& batch : points_)
+      for (int p = 0; p < batch.points(); ++p) scales_.push_back(*memory++);
+  }
+  const double* points = memory;
+  for (auto& batch : points_) batch.restore(memory);
+  withModel([&] { second_->restore(memory); });
+  for (auto& batch : points_) batch.restore(points);  // the scheme has set scales of its own
+}
+
+}  // namespace tooljoint::transient

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Accuracy of fixed steps, measured: windows of some steps of a run are taken again in steps of
+/// half the length by a second object of the integrator. With e the difference of the displacements
+/// at the end of a window that begins at q_0, the step error is
+///
+///     S = N sqrt(<|e|^2> / <max_k |q_k - q_0|^2>)
+///
+/// Means are over the windows, |.| is the norm over the translations of the nodes. A phase error
+/// grows with the time: N = T sqrt(<|v|^2> / <|q - q(0)|^2>), but at least 1, is about how many
+/// radians the motion turns through in T, the duration of the run but at most 3 s.
+///
+/// A scheme has a velocity of its own for a motion, which depends on the step: a window taken again
+/// with the velocity of the run would begin with an error of the scheme's order that the run does
+/// not have. The velocity is corrected until the first step ends where that of the run does.
+///
+/// The second object has points, factor, counters and memory of its own and leaves the model as it
+/// was: the run does not notice it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "transient/Integrator.hpp"
+
+namespace tooljoint::transient {
+
+class StepError {
+ public:
+  /// \param run     prepared, with equal steps (Integrator::equalStep() > 0)
+  /// \param second  made from the same parameters
+  /// \param start   state at the start of the run
+  StepError(CompiledModel& model, const Integrator& run, std::unique_ptr<Integrator> second,
+            const Window& window, const State& start);
+  /// Before the step of `run` from `from`.
+  void before(const Integrator& run, const State& from);
+  /// After it.
+  void after(const State& from, const State& to);
+  /// S; 0 where nothing moves, and for a run too short to say.
+  double value() const;
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  template <class Work>
+  void withModel(const Work& work);
+  void plan();
+  double time(long step) const { return begin_ + static_cast<double>(step) * h_; }
+  double square(const Vector& q) const;
+  bool retake();
+  void retakeUntil(double t);
+
+  CompiledModel* model_;
+  std::unique_ptr<Integrator> second_;
+  std::vector<PointBatch> points_;    ///< of the second object
+  CompiledModel::Snapshot snapshot_;  ///< of the run
+  Sparse translations_;               ///< of the nodes; empty: coordinates are taken as lengths
+  mutable Vector product_;
+  double begin_, h_, turning_;  ///< start of the run, step, T [s]
+  Vector start_;                ///< q(0)
+  long steps_;                  ///< in the run
+  long stride_;                 ///< mean distance of windows in steps
+
+  long seen_ = 0;  ///< windows begun
+  long next_ = 0;  ///< first step of the next one
+  long end_ = -1;  ///< last step of the one under way, -1 for none
+  // the window under way
+  State from_;                   ///< where it began
+  Vector first_;                 ///< displacement at the end of its first step
+  std::vector<double> history_;  ///< of the integrator where it began
+  std::vector<double> scales_;   ///< of all points there
+  double most_ = 0;              ///< max_k |q_k - q_0|^2
+  State state_, to_;
+  Vector difference_;
+  // sums over windows
+  long count_ = 0;
+  double errors_ = 0, moved_ = 0;                 ///< |e|^2, max_k |q_k - q_0|^2
+  double sizes_ = 0;                              ///< |q|^2 at their ends
+  double speeds_ = 0, offsets_ = 0, looked_ = 0;  ///< integrals of |v|^2, |q - q(0)|^2 and 1
+};
+
+}  // namespace tooljoint::transient
