@@ -84,6 +84,7 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
   for (const auto& set : model.source().points) points_.emplace_back(set, model.pattern());
   for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
   Window halves = window;
+  halves.sampling = h_;  // of which steps of a half are a whole part
   halves.step = 0.5 * h_;
   withModel([&] { second_->prepareRetaking(run, model, halves, start); });
   plan();
