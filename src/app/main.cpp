@@ -186,8 +186,9 @@ int run(int argc, char** argv) {
   addDeckOptions(*exportCommand, options, Output::Always);
   exportCommand
       ->add_option("--format", options.format,
-                   "hdf5 (one file a part) or mtx (a folder of Matrix Market files a part)")
-      ->check(CLI::IsMember({"hdf5", "mtx"}));
+                   "hdf5 (one file a part), mtx (a folder of Matrix Market files a part), dmig "
+                   "(Nastran punch file) or extptfm (superelement of OpenFAST)")
+      ->check(CLI::IsMember(app::exportFormats()));
   exportCommand->callback([&] { command = [&] { app::exportReduced(options); }; });
 
   app::CompareOptions comparison;

@@ -12,6 +12,7 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "parts/ReducedPart.hpp"
+#include "transient/TransientParameters.hpp"
 
 namespace tooljoint::cases {
 
@@ -24,7 +25,32 @@ std::string fileName(std::string name) {
   return name;
 }
 
+struct ExportKind {
+  parts::FileKind kind;
+  const char* ending;
+  bool whole;  ///< the file holds all of a part
+};
+
+ExportKind kindOf(io::ExportFormat format) {
+  switch (format) {
+    case io::ExportFormat::MatrixMarket:
+      return {parts::FileKind::MatrixMarket, "/", true};
+    case io::ExportFormat::NastranDmig:
+      return {parts::FileKind::NastranDmig, ".pch", false};
+    case io::ExportFormat::ExtPtfm:
+      return {parts::FileKind::ExtPtfm, ".dat", false};
+    default:
+      return {parts::FileKind::Hdf5, ".h5", true};
+  }
+}
+
 }  // namespace
+
+parts::LoadTimes loadTimes(const Case& one) {
+  if (!one.moves()) return {};
+  const auto options = transient::readOptions(one.transient());
+  return {options.start, options.end, options.step > 0.0 ? options.step : options.sampling};
+}
 
 std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
                                        io::ExportFormat format) {
@@ -36,14 +62,15 @@ std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
       throw DeckError(
           "Two parts would be exported into the file " + inQuotes(name) +
           ": their names differ only in characters that file names cannot hold. Rename one.");
-    files.push_back(name + (format == io::ExportFormat::Hdf5 ? ".h5" : "/"));
+    files.push_back(name + kindOf(format).ending);
   }
   return files;
 }
 
 void exportParts(const std::vector<parts::PartContent>& originals,
                  const std::vector<reduction::ReducedSubstructure>& reduced,
-                 io::ExportFormat format, const std::string& folder) {
+                 io::ExportFormat format, const std::string& folder,
+                 const parts::LoadTimes& times) {
   if (format == io::ExportFormat::None) return;
   std::vector<std::string> names;
   for (const auto& part : reduced) names.push_back(part.name);
@@ -61,12 +88,15 @@ void exportParts(const std::vector<parts::PartContent>& originals,
       for (const auto& law : content.omitted)
         log::warn("Part \"" + reduced[p].name + "\" is exported without its point law \"" + law +
                   "\", which a part file cannot hold.");
-      parts::writePart(
-          content, (std::filesystem::path(folder) / written[p]).string(),
-          format == io::ExportFormat::Hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+      parts::writePart(content, (std::filesystem::path(folder) / written[p]).string(),
+                       kindOf(format).kind, times);
     }
   });
   log::info("exported    " + folder + ": " + join(written, ", "));
+  if (!kindOf(format).whole)
+    log::info(
+        "            matrices and loads alone: basis, interface sets and initial state are not "
+        "part of this format");
 }
 
 void exportCase(const Case& one, io::ExportFormat format, const std::string& folder) {
@@ -84,7 +114,8 @@ void exportCase(const Case& one, io::ExportFormat format, const std::string& fol
   exportParts(rest->contents(reduced.unreduced.parts), reduced.parts(), format,
               folder.empty()
                   ? (fs::path("results") / fs::path(deck.file()).stem() / "parts").string()
-                  : folder);
+                  : folder,
+              loadTimes(one));
 }
 
 }  // namespace tooljoint::cases

@@ -18,12 +18,17 @@ namespace tooljoint::cases {
 std::vector<std::string> exportedFiles(const std::vector<std::string>& parts,
                                        io::ExportFormat format);
 
-/// Writes every reduced part into `folder`: NAME.h5, or a folder NAME; nothing for
+/// Start, end and step of the motion of a case (the sampling interval where the integrator chooses
+/// its steps); all zero for a case without one.
+parts::LoadTimes loadTimes(const Case& one);
+
+/// Writes every reduced part into `folder`: NAME.h5, a folder NAME, NAME.pch (DMIG) or NAME.dat
+/// (ExtPtfm, loads at `times`); nothing for
 /// ExportFormat::None. Says what was written, and warns of point laws that a file cannot hold.
 /// FileError, ModelError. Collective.
 void exportParts(const std::vector<parts::PartContent>& originals,
                  const std::vector<reduction::ReducedSubstructure>& reduced,
-                 io::ExportFormat format, const std::string& folder);
+                 io::ExportFormat format, const std::string& folder, const parts::LoadTimes& times);
 
 /// `tooljoint export`: reduces the parts of a case and writes each with its basis as a part file.
 /// \param folder "" for results/<name of the deck>/parts. DeckError without the list Reduction;

@@ -33,10 +33,13 @@ deck::ListSpec parameters() {
       .boolean("Reduced Bases", defaults.reducedBases,
                "Store the basis of every reduced part in results.h5.")
       .expert()
-      .choice("Export Parts", std::string("None"), {"None", "HDF5", "Matrix Market"},
-              "Write every reduced part with its basis into the folder parts of the results, to be "
-              "used again as an imported part: one HDF5 file, or a "
-              "folder of Matrix Market files each.")
+      .choice(
+          "Export Parts", std::string("None"),
+          {"None", "HDF5", "Matrix Market", "Nastran DMIG", "ExtPtfm"},
+          "Write every reduced part into the folder parts of the results: with its basis as one "
+          "HDF5 file or a folder of Matrix Market files, to be used again as an imported part; "
+          "or its matrices for another code, as DMIG entries of a Nastran punch file or as a "
+          "superelement of the OpenFAST module ExtPtfm.")
       .integer("Compression", defaults.compression, Range::between(0, 9),
                "Deflate level of the time series in results.h5; 0 is off and fastest.")
       .expert();
@@ -57,6 +60,8 @@ OutputSettings readOutput(const Teuchos::ParameterList& list) {
   const auto& kind = list.get<std::string>("Export Parts");
   s.exportFormat = kind == "HDF5"            ? ExportFormat::Hdf5
                    : kind == "Matrix Market" ? ExportFormat::MatrixMarket
+                   : kind == "Nastran DMIG"  ? ExportFormat::NastranDmig
+                   : kind == "ExtPtfm"       ? ExportFormat::ExtPtfm
                                              : ExportFormat::None;
   s.compression = list.get<int>("Compression");
   return s;

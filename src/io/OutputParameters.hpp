@@ -12,7 +12,7 @@
 namespace tooljoint::io {
 
 /// How reduced parts are written.
-enum class ExportFormat { None, Hdf5, MatrixMarket };
+enum class ExportFormat { None, Hdf5, MatrixMarket, NastranDmig, ExtPtfm };
 
 struct OutputSettings {
   std::string folder;  ///< "" when the deck names none; the command line goes first

@@ -4,9 +4,12 @@
 /// code.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "io/OutputParameters.hpp"
 
 namespace tooljoint::app {
 
@@ -26,7 +29,7 @@ struct RunOptions {
   std::string row;               ///< the only one that `study` runs
   std::string restart;           ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;            ///< frequencies listed by `modes`
-  std::string format = "hdf5";   ///< files of `export`: "hdf5" or "mtx"
+  std::string format = "hdf5";   ///< files of `export`: a name of exportFormats()
   std::optional<double>
       modeTime;  ///< when `modes` looks at the laws of time [s]; the end of the motion
 };
@@ -62,6 +65,8 @@ void torqueDrag(const RunOptions& options);
 /// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file,
 /// to be imported elsewhere.
 void exportReduced(const RunOptions& options);
+/// Values of `export --format`.
+const std::map<std::string, io::ExportFormat>& exportFormats();
 /// `tooljoint compare`: eps_t, eps_n ((45) and (46) of Nguyen et al. 2020) and the vibration error
 /// of one run against another, and the window of the samples that were compared. FileError;
 /// UsageError: the folders hold different scenes or different times in the window, or the reference

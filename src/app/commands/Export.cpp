@@ -5,11 +5,18 @@
 
 namespace tooljoint::app {
 
+const std::map<std::string, io::ExportFormat>& exportFormats() {
+  static const std::map<std::string, io::ExportFormat> formats{
+      {"hdf5", io::ExportFormat::Hdf5},
+      {"mtx", io::ExportFormat::MatrixMarket},
+      {"dmig", io::ExportFormat::NastranDmig},
+      {"extptfm", io::ExportFormat::ExtPtfm}};
+  return formats;
+}
+
 void exportReduced(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
-  cases::exportCase(
-      *one, options.format == "mtx" ? io::ExportFormat::MatrixMarket : io::ExportFormat::Hdf5,
-      options.output);
+  cases::exportCase(*one, exportFormats().at(options.format), options.output);
 }
 
 }  // namespace tooljoint::app

@@ -119,7 +119,8 @@ class Run {
     summarise(outcome, parts, summary);
     if (case_.output().exportFormat != io::ExportFormat::None)
       exportParts(rest_->contents(parts), reduced_.parts(), case_.output().exportFormat,
-                  (std::filesystem::path(files_.folder().folder()) / "parts").string());
+                  (std::filesystem::path(files_.folder().folder()) / "parts").string(),
+                  loadTimes(case_));
     estimates_ = estimatesMotion(case_);
     if (!estimates_) reduced_.unreduced.parts.clear();
     parallel::agree([&] {
