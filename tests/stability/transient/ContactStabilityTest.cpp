@@ -4,7 +4,6 @@
 /// clearance, everything at once. A step is never kept unconverged in silence; what ends as a
 /// result is right.
 #include <gtest/gtest.h>
-#include <utility>
 
 #include "../../unit/transient/Models.hpp"
 #include "common/Constants.hpp"
@@ -71,9 +70,7 @@ model::SecondOrderModel rotors(const Bores& data) {
 
 /// Runs 0.5 s at 1 ms; a step that is left unconverged throws.
 TransientReport run(const Bores& data, Keep& samples, double step = 1e-3, double end = 0.5) {
-  auto o = options("Generalized-alpha", end, step, 0.005);
-  o.stepErrorLimit = 2;  // rubbing rotors part from their neighbours; this is about their energy
-  return integrate(rotors(data), o, samples);
+  return integrate(rotors(data), options("Generalized-alpha", end, step, 0.005), samples);
 }
 
 /// No node deeper in the wall than this.
@@ -148,16 +145,15 @@ TEST(ContactStability, stiffWalls) {
 }
 
 /// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall
-/// and the start. Steps of 1 ms are refused with 1e10 N/m (D 2.3 %, lateral speed off by up to 10
-/// %).
+/// and the start.
 TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
-  for (const auto& [stiffness, step] : {std::pair{1e8, 1e-3}, {1e9, 1e-3}, {1e10, 5e-4}})
+  for (double stiffness : {1e8, 1e9, 1e10})
     for (double lift : lifts) {
       Bores data;
       data.stiffness = stiffness;
       data.lift = lift;
       Keep samples;
-      const auto report = run(data, samples, step);
+      const auto report = run(data, samples);
       EXPECT_GT(report.energy.residual(), -0.02) << stiffness << " " << lift;
       EXPECT_LT(report.energy.residual(), 0.1) << stiffness << " " << lift;
       EXPECT_EQ(report.counters.unconvergedSteps, 0) << stiffness << " " << lift;

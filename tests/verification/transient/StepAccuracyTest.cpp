@@ -86,20 +86,21 @@ std::string saidOf(const model::SecondOrderModel& model, const TransientOptions&
 
 /// With r = 1 the scheme loses a phase of (w h)^2 / 12 per radian. Its vibration error in a run of
 /// 3 s at 5 Hz is 1/3 of the phase at the end, S 1/3 to 3/5 of it (the formulas of the scheme,
-/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. Bounds of 5 and 50 %.
+/// evaluated apart): 3 % at 0.1 rad, 15 and 29 % at 0.3 and 0.5, 61 % at 1. Bounds of 5 and 100 %,
+/// so that an error of half the motion is refused.
 TEST(StepAccuracy, judgesVibrationByItsPhaseAtTheEnd) {
   const double w = 2 * constants::pi * 5, end = 3;
   const auto model = oscillator(1.0, 0.0, w * w, 1e-3, 0.0);
-  for (const double phase : {0.01, 0.03, 0.1, 0.3, 0.5, 1.0, 1.5}) {
+  for (const double phase : {0.01, 0.03, 0.1, 0.3, 0.5, 1.0, 2.0}) {
     const double h = end / std::round(end * w / std::sqrt(12 * phase / (w * end)));
     auto o = steps(h, end);
     o.own.set("Spectral Radius", 1.0);
     o.own.set("Phase Correction", false);
     const auto said = saidOf(model, o);
     EXPECT_EQ(said.empty(), phase < 0.2) << phase << ": " << said;
-    EXPECT_EQ(said.find("is too large: step error") != std::string::npos, phase > 0.9)
+    EXPECT_EQ(said.find("is too large: step error") != std::string::npos, phase > 1.5)
         << phase << ": " << said;
-    EXPECT_EQ(said.find("is coarse: step error") != std::string::npos, phase > 0.2 && phase < 0.9)
+    EXPECT_EQ(said.find("is coarse: step error") != std::string::npos, phase > 0.2 && phase < 1.5)
         << phase << ": " << said;
     o.stepErrorWarning = 10;
     o.stepErrorLimit = 10;
