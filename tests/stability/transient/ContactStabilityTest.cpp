@@ -229,9 +229,8 @@ TEST(ContactStability, everyLaw) {
 /// Ten times the usual step, of a motion with a dozen impacts in each: most of what moves in a step
 /// is wrong, and no run is taken for a result; one that is asked to go on solves all its steps.
 TEST(ContactStability, stepTenTimesTooLarge) {
-  constexpr double
-      step = 1e-2,
-      end = 0.8;  // long enough for the local error to be measured however the steps fall
+  constexpr double step = 1e-2;
+  constexpr double end = 0.8;  // long enough for the step error to be measured however steps fall
   for (double vr : {0.1, 1e-4})
     for (double lift : lifts) {
       Bores data;
@@ -248,11 +247,11 @@ TEST(ContactStability, stepTenTimesTooLarge) {
             << error.what();
       }
       if (lift != lifts[0]) continue;
-      o.own.set("Accept Coarse Steps", true);
+      acceptCoarseSteps(o);
       Keep accepted;
       const auto report = integrate(rotors(data), o, accepted);
       EXPECT_EQ(report.counters.unconvergedSteps, 0);
-      EXPECT_GT(report.stepErrors.local, 0.1) << vr << " " << lift;
+      EXPECT_GT(report.stepError, 0.5) << vr << " " << lift;
       expectInside(accepted, 0.03);
     }
 }
