@@ -145,7 +145,7 @@ TEST(ContactStability, stiffWalls) {
 }
 
 /// With the default damping 3 to 4 % of the energy exchanged are lost in impacts, whatever the wall
-/// and the start.
+/// and the start. Steps of 1 ms are refused where the wall is stiff: step error 150 %.
 TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
   for (double stiffness : {1e8, 1e9, 1e10})
     for (double lift : lifts) {
@@ -153,7 +153,7 @@ TEST(ContactStability, wallsTooStiffForTheStepAreBalanced) {
       data.stiffness = stiffness;
       data.lift = lift;
       Keep samples;
-      const auto report = run(data, samples);
+      const auto report = run(data, samples, 5e-4);
       EXPECT_GT(report.energy.residual(), -0.02) << stiffness << " " << lift;
       EXPECT_LT(report.energy.residual(), 0.1) << stiffness << " " << lift;
       EXPECT_EQ(report.counters.unconvergedSteps, 0) << stiffness << " " << lift;
