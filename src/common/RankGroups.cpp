@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/Communicator.hpp"
 #include "common/Error.hpp"

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <utility>
 
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"

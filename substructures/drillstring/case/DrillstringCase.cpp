@@ -26,9 +26,7 @@ class RestingString : public cases::RestingCase {
         scene_(*sharedScene_),
         stage_(*sharedStage_) {}
 
-  void judge() const override {
-    judgeStatic(scene_, stage_);
-  }
+  void judge() const override { judgeStatic(scene_, stage_); }
 
   coupling::Coupling full() const override {
     if (scene_.coupling) return joinUnreduced(resolvedParts(scene_, stage_));

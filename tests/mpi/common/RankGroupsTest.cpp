@@ -2,6 +2,8 @@
 /// \file
 /// Groups of ranks: who is in which, that each number goes to one group, and that an error of one
 /// is that of all.
+#include "common/RankGroups.hpp"
+
 #include <gtest/gtest.h>
 #include <numeric>
 #include <string>
@@ -9,7 +11,6 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "common/RankGroups.hpp"
 
 namespace {
 
