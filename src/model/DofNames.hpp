@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "model/SecondOrderModel.hpp"
 
 namespace tooljoint::model {

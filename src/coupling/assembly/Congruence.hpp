@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "model/SecondOrderModel.hpp"
 
 namespace tooljoint::coupling {

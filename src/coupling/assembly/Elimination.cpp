@@ -8,7 +8,6 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "common/Indexing.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::coupling {

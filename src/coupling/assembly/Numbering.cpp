@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "common/Index.hpp"
-#include "common/Indexing.hpp"
 
 namespace tooljoint::coupling {
 

@@ -2,7 +2,7 @@
 #include "coupling/input/DofLookup.hpp"
 
 #include "common/Error.hpp"
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::coupling {

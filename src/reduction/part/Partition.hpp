@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "model/Substructure.hpp"
 
 namespace tooljoint::reduction {

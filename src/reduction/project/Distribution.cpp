@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "common/Message.hpp"
 
 namespace tooljoint::model {

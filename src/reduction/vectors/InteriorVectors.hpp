@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 #include "reduction/selection/ModeChoice.hpp"
 
 namespace tooljoint::reduction {

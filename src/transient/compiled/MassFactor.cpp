@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/Indexing.hpp"
+#include "common/Index.hpp"
 
 namespace tooljoint::transient {
 
