@@ -28,6 +28,7 @@ std::string countText(double count);
 /// Without leading and trailing white space.
 std::string trim(std::string_view text);
 std::string lower(std::string_view text);
+std::string upper(std::string_view text);
 std::vector<std::string> split(std::string_view text, char separator);
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
 

@@ -14,6 +14,7 @@
 #include "common/Text.hpp"
 #include "io/OutputParameters.hpp"
 #include "io/TextFile.hpp"
+#include "parts/file/PartFile.hpp"
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::cases {
@@ -24,11 +25,6 @@ namespace fs = std::filesystem;
 
 /// Parameters that name a file or folder.
 const std::set<std::string> fileParameters{"File", "Library"};
-/// Files beside a part.json that may belong to it.
-const std::set<std::string> matrixFiles{".mtx", ".pch", ".dmig", ".bdf",    ".nas",
-                                        ".hb",  ".rsa", ".rua",  ".matrix", ".mapping"};
-/// Endings of the names of matrices that Abaqus wrote together.
-const std::set<std::string> abaqusTags{"STIF", "MASS", "DMPV", "LOAD"};
 /// Parameters of Output that decide what is recorded.
 const std::set<std::string> recorded{"Output/Fields", "Output/XDMF", "Output/XDMF Interval"};
 
@@ -82,40 +78,25 @@ class Describer {
     }
   }
 
-  /// A file; all files of a folder; the matrices beside a part in JSON, which may name them, and
-  /// those Abaqus wrote together with one; all that match a pattern with "%".
+  /// A file and those read with it; all files of a folder; all that match a pattern with "%".
   void addContent(const std::string& path, const std::string& name) {
     const fs::path file(deck_.resolve(name));
     std::error_code ignored;
     const bool folder = fs::is_directory(file, ignored);
-    const auto mark = file.filename().string().find('%');
-    const auto job = jobOf(file);
-    if (!folder && mark == std::string::npos && file.extension() != ".json" && job.empty())
-      return addFile(path, file);
-    const auto wanted = [&](const fs::path& found) {
-      if (mark != std::string::npos)
-        return matches(found.filename().string(), file.filename().string());
-      if (!job.empty()) return jobOf(found) == job;
-      return found == file || matrixFiles.count(found.extension().string()) > 0;
-    };
-    std::set<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder                   ? file
-                                                    : file.has_parent_path() ? file.parent_path()
-                                                                             : fs::path("."),
-                                                    ignored)) {
-      const auto found = entry.path();
-      if (folder || wanted(found)) files.insert(found);
+    const auto beside = folder ? file : file.has_parent_path() ? file.parent_path() : fs::path(".");
+    std::set<std::string> files;
+    if (folder || file.filename().string().find('%') != std::string::npos) {
+      for (const auto& entry : fs::directory_iterator(beside, ignored)) {
+        const auto& found = entry.path();
+        if (folder || matches(found.filename().string(), file.filename().string()))
+          files.insert(found.string());
+      }
+    } else if (fs::is_regular_file(file, ignored)) {
+      files = parts::filesOfPart(file.string());
     }
-    for (const auto& each : files) addFile(path + "/" + each.filename().string(), each);
-  }
-
-  /// JOB of JOB_STIFn.mtx and its like; "" for other files.
-  static std::string jobOf(const fs::path& file) {
-    const auto stem = file.stem().string();
-    const auto at = stem.rfind('_');
-    const bool tagged = file.extension() == ".mtx" && at != std::string::npos &&
-                        abaqusTags.count(stem.substr(at + 1, 4)) > 0;
-    return tagged ? stem.substr(0, at) : "";
+    const bool alone = files == std::set<std::string>{file.string()};
+    for (const auto& each : files)
+      addFile(alone ? path : path + "/" + fs::path(each).lexically_relative(beside).string(), each);
   }
 
   static bool matches(const std::string& name, const std::string& pattern) {

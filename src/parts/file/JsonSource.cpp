@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
@@ -214,7 +215,29 @@ class JsonSource : public PartSource {
   Json root_;
 };
 
+/// `path` and what its format reads with it.
+void addWithCompanions(const std::string& path, std::set<std::string>& files) {
+  files.insert(path);
+  if (const auto format = partFormatByExtension(path))
+    for (const auto& companion : format->companions(path)) files.insert(companion);
+}
+
 }  // namespace
+
+std::set<std::string> filesOfPart(const std::string& path) {
+  std::set<std::string> files;
+  addWithCompanions(path, files);
+  if (std::filesystem::path(path).extension() != ".json") return files;
+  const Json root = Json::parse(readInput(path, largestJson), nullptr, false);
+  if (root.is_discarded()) return files;  // no JSON: its reader says so
+  for (const auto& [key, value] : root.flatten().items()) {
+    if (!value.is_string()) continue;
+    const auto named = std::filesystem::path(path).parent_path() / value.get<std::string>();
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(named, ignored)) addWithCompanions(named.string(), files);
+  }
+  return files;
+}
 
 std::unique_ptr<PartSource> openJsonPart(const std::string& path) {
   return std::make_unique<JsonSource>(path);

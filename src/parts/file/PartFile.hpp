@@ -56,7 +56,11 @@ std::set<std::int64_t> nodesOf(const PartContent& content);
 /// that is not symmetric or indefinite. Not collective: see readPartEverywhere.
 PartContent readPart(const std::string& path, const std::string& name);
 
-/// The same on every rank; all ranks end alike. Collective.
+/// The files that readPart(path) reads, `path` itself first of all: those a JSON file names, and
+/// those a format of another code reads with one. FileError when a JSON file cannot be read.
+std::set<std::string> filesOfPart(const std::string& path);
+
+/// The same as readPart on every rank; all ranks end alike. Collective.
 PartContent readPartEverywhere(const std::string& path, const std::string& name);
 
 /// Throws ModelError naming part, file and dof when the mass is not symmetric (1e-10 of the

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
@@ -18,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longestLine = 1024;
 /// On the diagonal of the stiffness: a dof with a boundary condition.
 constexpr double boundaryCondition = 1e36;
 
@@ -28,11 +29,6 @@ struct Tag {
 };
 constexpr Tag tags[] = {
     {"STIF", "stiffness"}, {"MASS", "mass"}, {"DMPV", "damping"}, {"LOAD", "loads"}};
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// One file of lines with numbers.
 class MtxFile {
@@ -165,6 +161,41 @@ class MtxFile {
   long line_ = 0;
 };
 
+/// The files that Abaqus wrote together: JOB_STIFn.mtx, JOB_MASSn.mtx ...
+class Job {
+ public:
+  /// The job of one of its files; none for a file of another name.
+  static std::optional<Job> of(const std::string& path) {
+    const auto stem = fs::path(path).stem().string();
+    for (const auto& tag : tags)
+      if (const auto mark = upper(stem).rfind(std::string("_") + tag.name);
+          mark != std::string::npos)
+        return Job(path, mark + 1);
+    return std::nullopt;
+  }
+
+  /// The file with this tag, be it there or not.
+  std::string file(const std::string& tag) const {
+    const auto stem = path_.stem().string();
+    const auto name = stem.substr(0, mark_) + tag + stem.substr(mark_ + tag.size());
+    return (path_.parent_path() / (name + path_.extension().string())).string();
+  }
+
+  /// Those that are there, by what they hold.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> out;
+    std::error_code ignored;
+    for (const auto& tag : tags)
+      if (const auto name = file(tag.name); fs::exists(name, ignored)) out[tag.key] = name;
+    return out;
+  }
+
+ private:
+  Job(fs::path path, std::size_t mark) : path_(std::move(path)), mark_(mark) {}
+  fs::path path_;
+  std::size_t mark_;  ///< where the tag begins in the stem
+};
+
 class AbaqusMatrices : public PartFormat {
  public:
   std::vector<std::string> extensions() const override { return {".mtx"}; }
@@ -195,35 +226,35 @@ class AbaqusMatrices : public PartFormat {
     return part;
   }
 
+  std::vector<std::string> companions(const std::string& path) const override {
+    std::vector<std::string> out;
+    if (const auto job = Job::of(path))
+      for (const auto& [key, file] : job->files()) out.push_back(file);
+    return out;
+  }
+
  private:
-  /// The files that Abaqus wrote together with this one: JOB_STIFn.mtx, JOB_MASSn.mtx ...
+  /// Every file of the job by what it holds.
   static std::map<std::string, std::string> beside(const std::string& path) {
-    const fs::path file(path);
-    const auto stem = file.stem().string();
-    std::map<std::string, std::string> out;
-    for (const auto& tag : tags) {
-      const auto at = upper(stem).rfind(std::string("_") + tag.name);
-      if (at == std::string::npos || at + 5 > stem.size()) continue;
-      const auto sibling = [&](const std::string& name) {
-        return (file.parent_path() /
-                (stem.substr(0, at + 1) + name + stem.substr(at + 5) + file.extension().string()))
-            .string();
-      };
-      std::error_code ignored;
-      if (const auto structural = sibling("DMPS"); fs::exists(structural, ignored))
-        throw DeckError(structural +
-                        " is structural damping, a complex stiffness without meaning in time. "
-                        "Remove it, or give viscous damping.");
-      for (const auto& other : tags)
-        if (const auto name = sibling(other.name); fs::exists(name, ignored)) out[other.key] = name;
-      for (const auto& needed : {tags[0], tags[1]})
-        if (out.count(needed.key) == 0)
-          throw DeckError(path + " has no " + needed.key + " beside it: expected the file " +
-                          sibling(needed.name) +
-                          ". Ask for STIFFNESS and MASS in *MATRIX OUTPUT, or name the files in a "
-                          "part.json as \"matrices\".");
-      return out;
-    }
+    const auto job = Job::of(path);
+    if (!job) return alone(path);
+    std::error_code ignored;
+    if (const auto structural = job->file("DMPS"); fs::exists(structural, ignored))
+      throw DeckError(structural +
+                      " is structural damping, a complex stiffness without meaning in time. "
+                      "Remove it, or give viscous damping.");
+    auto files = job->files();
+    for (const auto& needed : {tags[0], tags[1]})
+      if (files.count(needed.key) == 0)
+        throw DeckError(path + " has no " + needed.key + " beside it: expected the file " +
+                        job->file(needed.name) +
+                        ". Ask for STIFFNESS and MASS in *MATRIX OUTPUT, or name the files in a "
+                        "part.json as \"matrices\".");
+    return files;
+  }
+
+  /// Says why this file is no part.
+  [[noreturn]] static std::map<std::string, std::string> alone(const std::string& path) {
     if (const std::string reason = whyUnreadable(path); !reason.empty())
       throw DeckError(path + " cannot be read: " + reason + ".");
     MtxFile(path).matrix(Quantity::Stiffness, "");  // says what else is wrong with it

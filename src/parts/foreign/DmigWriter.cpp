@@ -7,6 +7,7 @@
 #include "common/Text.hpp"
 #include "parts/foreign/ForeignWriters.hpp"
 #include "parts/foreign/PartFormat.hpp"
+#include "reduction/part/Partition.hpp"
 
 namespace tooljoint::parts {
 
@@ -112,20 +113,10 @@ class Writer {
     text_ += "*       " + whole(at.point) + whole(at.component) + largeNumber(value) + "\n";
   }
 
-  static bool isSymmetric(const Sparse& A) {
-    const Sparse difference = A - Sparse(A.transpose());
-    const Vector diagonal = A.diagonal().cwiseAbs();
-    for (int i = 0; i < difference.outerSize(); ++i)
-      for (Sparse::InnerIterator it(difference, i); it; ++it)
-        if (std::abs(it.value()) > rounding * std::sqrt(diagonal[i] * diagonal[it.col()]))
-          return false;
-    return true;
-  }
-
   /// Columns one after the other; with `all` every dof is named, be its diagonal zero.
   void matrix(const std::string& name, const Sparse& A, bool all) {
     if (!all && A.nonZeros() == 0) return;
-    const bool half = isSymmetric(A);
+    const bool half = reduction::nearlySymmetric(A, rounding);
     header(name, half ? symmetric : square, 0);
     const Sparse columns = A.transpose();
     for (int j = 0; j < columns.outerSize(); ++j) {

@@ -12,7 +12,7 @@ namespace tooljoint::parts {
 namespace {
 
 constexpr int interfaceDofs = 6;
-constexpr std::size_t longestLine = 4096;  // character(4096) :: Line in ReadReducedFile
+constexpr std::size_t longestLineRead = 4096;  // character(4096) :: Line in ReadReducedFile
 constexpr double mostSteps = 1e7;
 
 class Writer {
@@ -101,7 +101,7 @@ class Writer {
 
   void loads(double step, long count) {
     const auto n = order_.size();
-    if ((n + 2) * 24 > longestLine)
+    if ((n + 2) * 24 > longestLineRead)
       fail("a line of its loads has " + std::to_string(n + 2) +
            " numbers, which OpenFAST cannot read. Keep fewer modes");
     text_ += "!Loading and Wave Elevation (Units (N,m))\n!Dimension: 1 time column - " +

@@ -19,15 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t longestLine = 1024;
-
 /// Dofs of Ansys in the order of the components 1 to 6.
 const std::vector<std::string> ansysDofs{"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
-
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
 
 std::vector<std::string> wordsOf(const std::string& text) {
   std::vector<std::string> out;
@@ -282,6 +275,11 @@ class HarwellBoeing : public PartFormat {
     return part;
   }
 
+  std::vector<std::string> companions(const std::string& path) const override {
+    if (auto mapping = mappingBeside(path); !mapping.empty()) return {mapping};
+    return {};
+  }
+
  private:
   static void readMatrix(const PartFiles& files, const std::string& key, const std::string& file,
                          LabelledPart& part) {
@@ -317,13 +315,18 @@ class HarwellBoeing : public PartFormat {
     if (!load.forces.empty()) part.loads.push_back(std::move(load));
   }
 
+  /// The mapping beside a matrix; "" without one.
+  static std::string mappingBeside(const std::string& file) {
+    std::error_code ignored;
+    for (const char* extension : {".mapping", ".MAPPING"})
+      if (const auto path = fs::path(file).replace_extension(extension); fs::exists(path, ignored))
+        return path.string();
+    return "";
+  }
+
   static std::string mappingOf(const PartFiles& files, const std::string& file) {
     if (const auto it = files.named.find("mapping"); it != files.named.end()) return it->second;
-    for (const char* extension : {".mapping", ".MAPPING"}) {
-      const auto path = fs::path(file).replace_extension(extension).string();
-      std::error_code ignored;
-      if (fs::exists(path, ignored)) return path;
-    }
+    if (auto mapping = mappingBeside(file); !mapping.empty()) return mapping;
     throw DeckError(file + " has no mapping file " +
                     fs::path(file).replace_extension(".mapping").string() +
                     " beside it, so the dofs of its rows are not known. Write it with Mapping = "

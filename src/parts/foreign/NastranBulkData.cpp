@@ -11,14 +11,7 @@ namespace tooljoint::parts {
 
 namespace {
 
-constexpr std::size_t longestLine = 1024;
 constexpr std::size_t smallField = 8, largeField = 16, lastColumn = 80, dataColumns = 72;
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 /// Without comment, with tabs as blanks up to the next column of a small field.
 std::string plainLine(const std::string& text) {

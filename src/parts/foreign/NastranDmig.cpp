@@ -168,20 +168,19 @@ class DmigReader {
   void finish(const std::string& name, const Dmig& matrix) {
     const std::string where =
         path_ + ":" + std::to_string(matrix.line) + ": the matrix " + inQuotes(name);
-    std::string upper = name;
-    for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (upper.front() == 'P') return addLoads(name, where, matrix);
-    if (upper.rfind("K4", 0) == 0)
+    const auto title = upper(name);
+    if (title.front() == 'P') return addLoads(name, where, matrix);
+    if (title.rfind("K4", 0) == 0)
       throw DeckError(where +
                       " is structural damping, a complex stiffness without meaning in time. Remove "
                       "it, or give viscous damping (BAAX, B2GG)");
-    const bool stiffness = upper.front() == 'K' || upper.rfind("STIF", 0) == 0;
-    const bool damping = upper.front() == 'B' || upper.rfind("DAMP", 0) == 0;
-    if (!stiffness && !damping && upper.front() != 'M')
+    const bool stiffness = title.front() == 'K' || title.rfind("STIF", 0) == 0;
+    const bool damping = title.front() == 'B' || title.rfind("DAMP", 0) == 0;
+    if (!stiffness && !damping && title.front() != 'M')
       throw DeckError(where +
                       " has a name that does not say what it is. Expected K... (stiffness), M... "
                       "(mass), B... (viscous damping) or P... (loads).");
-    if (matrix.form == rectangular && upper.front() == 'M')
+    if (matrix.form == rectangular && title.front() == 'M')
       throw DeckError(where +
                       " is rectangular (IFO 2) and no mass. Remove it if it is one of the "
                       "recovery matrices of EXTSEOUT.");

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "common/Index.hpp"
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 
@@ -17,13 +18,12 @@ namespace tooljoint::parts {
 namespace {
 
 constexpr std::int64_t largestNumber = 2147483647;
-constexpr std::size_t longestOpening = 1024;
 
 /// The first line that is not empty, cut where it is too long for a line of text.
 std::string openingOf(const std::string& path) {
   try {
     InputFile in(path);
-    for (std::string text; in.line(text, longestOpening);)
+    for (std::string text; in.line(text, longestLine);)
       if (!trim(text).empty()) return text;
   } catch (const FileError&) {
     // no text: the message comes from the reader that is chosen
@@ -47,10 +47,7 @@ class ForeignSource : public PartSource {
 
   std::string file() const override { return part_.file; }
 
-  bool has(const std::string& path) const override {
-    const auto all = names("");
-    return std::find(all.begin(), all.end(), path) != all.end();
-  }
+  bool has(const std::string& path) const override { return contains(names(""), path); }
 
   std::vector<std::string> names(const std::string& group) const override {
     if (!group.empty()) fail(group, "is no group");
@@ -162,8 +159,7 @@ class ForeignSource : public PartSource {
   }
 
   static std::string componentName(const PointDof& dof) {
-    return dof.component == 0 ? scalarComponent
-                              : gridComponents()[static_cast<std::size_t>(dof.component - 1)];
+    return dof.component == 0 ? scalarComponent : gridComponents()[at(dof.component - 1)];
   }
 
   std::map<std::int64_t, Vector3> knownPositions() const {
@@ -182,20 +178,15 @@ class ForeignSource : public PartSource {
         if (row != positions_.end() && column != positions_.end())
           entries.emplace_back(row->second, column->second, entry.value);
       }
-    const auto n = static_cast<Eigen::Index>(positions_.size());
-    Sparse out(n, n);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
+    return sparse(sizeOf(positions_), sizeOf(positions_), entries);
   }
 
   Sparse vector(const LabelledLoad& load) const {
     Triplets entries;
     for (const auto& [dof, force] : load.forces)
-      if (const auto at = positions_.find(dof); at != positions_.end())
-        entries.emplace_back(at->second, 0, force);
-    Sparse out(static_cast<Eigen::Index>(positions_.size()), 1);
-    out.setFromTriplets(entries.begin(), entries.end());
-    return out;
+      if (const auto row = positions_.find(dof); row != positions_.end())
+        entries.emplace_back(row->second, 0, force);
+    return sparse(sizeOf(positions_), 1, entries);
   }
 
   LabelledPart part_;
@@ -217,13 +208,17 @@ std::string PartFiles::main() const {
   return it == named.end() ? "" : it->second;
 }
 
-std::unique_ptr<PartFormat> partFormatOf(const std::string& path) {
+std::vector<std::string> PartFormat::companions(const std::string&) const { return {}; }
+
+std::unique_ptr<PartFormat> partFormatByExtension(const std::string& path) {
   const auto extension = lower(std::filesystem::path(path).extension().string());
-  for (const auto& [name, entry] : PartFormats::instance().entries()) {
-    auto format = entry.make();
-    const auto all = format->extensions();
-    if (std::find(all.begin(), all.end(), extension) != all.end()) return format;
-  }
+  for (const auto& [name, entry] : PartFormats::instance().entries())
+    if (auto format = entry.make(); contains(format->extensions(), extension)) return format;
+  return nullptr;
+}
+
+std::unique_ptr<PartFormat> partFormatOf(const std::string& path) {
+  if (auto format = partFormatByExtension(path)) return format;
   const auto opening = openingOf(path);
   if (opening.empty()) return nullptr;
   for (const auto& [name, entry] : PartFormats::instance().entries())

@@ -4,6 +4,7 @@
 /// itself. Rows and columns are ordered by their labels (point, component), never by position.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -81,11 +82,16 @@ class PartFormat {
   /// By the first bytes of a file whose extension says nothing.
   virtual bool recognises(const std::string& opening) const = 0;
   virtual LabelledPart read(const PartFiles& files) const = 0;
+  /// The files beside this one that are read with it unless a part.json names others: what the
+  /// part is depends on their content too. None by default.
+  virtual std::vector<std::string> companions(const std::string& path) const;
 };
 
 /// Formats by name.
 using PartFormats = deck::Registry<PartFormat>;
 
+/// The format whose extension the name of this file has; nullptr when none has.
+std::unique_ptr<PartFormat> partFormatByExtension(const std::string& path);
 /// The format of a file by its extension, else by its first bytes; nullptr when it is of none.
 std::unique_ptr<PartFormat> partFormatOf(const std::string& path);
 
@@ -99,6 +105,8 @@ std::unique_ptr<PartSource> openForeignPart(const PartFormat& format, const Part
 /// those of the JSON file, which may not give them as well. `json` itself without that entry.
 std::unique_ptr<PartSource> withForeignMatrices(std::unique_ptr<PartSource> json);
 
+/// Longest line [bytes] that readers take for one of a text file.
+constexpr std::size_t longestLine = 1024;
 /// Names of the components 1 to 6 of a grid point.
 const std::vector<std::string>& gridComponents();
 /// Name of the one component of a scalar point.

@@ -4,6 +4,7 @@
 /// run, nothing else is.
 #include "cases/run/RunIdentity.hpp"
 
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
 #include <string>
@@ -116,6 +117,35 @@ TEST(RunIdentity, hasTheContentOfFiles) {
   EXPECT_EQ(now(user), before);
   change("vectors of arm.mtx");
   EXPECT_NE(now(user), before);
+}
+
+/// What a format reads beside its file counts too: the other matrices of an Abaqus job, the mapping
+/// of a Harwell-Boeing matrix, and what a JSON file names in another folder; other files do not.
+TEST(RunIdentity, hasWhatAFormatReadsBesideItsFile) {
+  const test::Scratch scratch;
+  namespace fs = std::filesystem;
+  fs::copy(source + "/xml/frame", scratch / "frame", fs::copy_options::recursive);
+  fs::copy(source + "/xml/frame.xml", scratch / "frame.xml");
+  fs::create_directory(scratch / "other");
+  for (const char* name : {"job_STIF1.mtx", "job_MASS1.mtx", "job_DMPV1.mtx", "job_STIF2.mtx",
+                           "other/K.hb", "other/K.mapping", "other/M.mapping"})
+    io::writeText(scratch / name, "1");
+  io::writeText(scratch / "part.json", R"({"matrices": {"stiffness": "other/K.hb"}})");
+  const auto changes = [&](const std::string& part, const std::string& name) {
+    const auto now = [&] {
+      return cases::runIdentity(deck::Deck::read(scratch / "frame.xml", cases::importedSpec(),
+                                                 {"Parts/Imported/arm/File=" + part}));
+    };
+    const auto before = now();
+    io::writeText(scratch / name, io::readText(scratch / name) + "\n");
+    return now() != before;
+  };
+  for (const char* read : {"job_STIF1.mtx", "job_MASS1.mtx", "job_DMPV1.mtx"})
+    EXPECT_TRUE(changes("job_STIF1.mtx", read)) << read;
+  EXPECT_FALSE(changes("job_STIF1.mtx", "job_STIF2.mtx"));
+  for (const char* read : {"part.json", "other/K.hb", "other/K.mapping"})
+    EXPECT_TRUE(changes("part.json", read)) << read;
+  EXPECT_FALSE(changes("part.json", "other/M.mapping"));
 }
 
 }  // namespace
