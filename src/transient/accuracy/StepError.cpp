@@ -31,17 +31,14 @@ constexpr double longest = 3.0;
 Sparse translationsOf(const CompiledModel& model) {
   const auto& source = model.source();
   const auto n = static_cast<Eigen::Index>(model.size());
-  Vector positionOf(n), dofs = Vector::LinSpaced(n, 0.0, static_cast<double>(n - 1)), dofAt(n);
-  model.toPositions(dofs, dofAt);
-  for (Eigen::Index p = 0; p < n; ++p) positionOf[std::lround(dofAt[p])] = static_cast<double>(p);
+  const auto& position = model.pattern().partition().position;
   const auto components = static_cast<Eigen::Index>(source.componentNames.size());
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < source.recovery.rows(); ++row) {
     const auto& name = source.componentNames[static_cast<std::size_t>(row % components)];
     if (coupling::kindOf(name) != coupling::ComponentKind::Translation) continue;
     for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
-      entries.emplace_back(static_cast<int>(row),
-                           static_cast<int>(std::lround(positionOf[it.col()])), it.value());
+      entries.emplace_back(static_cast<int>(row), position[at(it.col())], it.value());
   }
   if (entries.empty()) return {};
   Sparse result(source.recovery.rows(), n);
