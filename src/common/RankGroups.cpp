@@ -58,19 +58,17 @@ RankGroups::~RankGroups() {
   MPI_Comm_free(&group_);
 }
 
-void RankGroups::count(int word, int value, MPI_Op operation, int& before) const {
+int RankGroups::fetch(int word, int value, MPI_Op operation) const {
+  int before = 0;
   MPI_Fetch_and_op(&value, &before, MPI_INT, 0, word, operation, shared_);
   MPI_Win_flush(0, shared_);
+  return before;
 }
 
 int RankGroups::next() {
   if (group_ == MPI_COMM_NULL) return dealt_++;
-  int number = 0, lost = 0;
-  if (rank() == 0) {
-    count(failed, 0, MPI_NO_OP, lost);
-    if (lost == 0) count(dealt, 1, MPI_SUM, number);
-    if (lost != 0) number = -1;
-  }
+  int number = -1;
+  if (rank() == 0 && fetch(failed, 0, MPI_NO_OP) == 0) number = fetch(dealt, 1, MPI_SUM);
   broadcast(number);
   return number;
 }
@@ -84,8 +82,7 @@ void RankGroups::apart(const std::function<void()>& work) {
       work();
     } catch (...) {
       error = std::current_exception();
-      int before = 0;
-      count(failed, 1, MPI_SUM, before);
+      fetch(failed, 1, MPI_SUM);
     }
   }
   agree([&] {

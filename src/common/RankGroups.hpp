@@ -31,7 +31,8 @@ class RankGroups {
   int next();
 
  private:
-  void count(int word, int value, MPI_Op operation, int& before) const;
+  /// The value of this word of the window before the operation. Not collective.
+  int fetch(int word, int value, MPI_Op operation) const;
 
   int count_ = 1, mine_ = 0, beside_ = 0;
   int dealt_ = 0;  ///< of a group without others
