@@ -107,6 +107,38 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   return std::nullopt;
 }
 
+/// The command `study` with its options; they exclude each other where one has no effect beside
+/// another.
+void addStudy(CLI::App& program, tooljoint::app::RunOptions& options,
+              std::function<void()>& command) {
+  auto* study = program.add_subcommand(
+      "study", "speed against error: the runs of the deck's Study list against its reference run");
+  addDeckOptions(*study, options, Output::Always);
+  auto* fresh = study->add_flag("--fresh", options.fresh,
+                                "forget the runs an earlier study left in the folder");
+  auto* width = study
+                    ->add_option("--ranks-per-row", options.ranksPerRow,
+                                 "ranks that work on a row together; the others take other rows")
+                    ->check(CLI::PositiveNumber);
+  study
+      ->add_option(
+          "--timing", options.timing,
+          "alone: refuse to time rows that share a machine; shared: time them all the same")
+      ->check(CLI::IsMember({"alone", "shared"}));
+  auto* output = study->get_option("--output");
+  auto* plan = study->add_option("--plan", options.plan,
+                                 "run nothing: write one command for each row into this folder");
+  auto* collect = study->add_option("--collect", options.collect,
+                                    "run nothing: tables and plots of the rows in this folder");
+  auto* row =
+      study->add_option("--row", options.row,
+                        "run this row only: \"reference\", or its number (the commands of --plan)");
+  plan->excludes(collect)->excludes(row)->excludes(fresh)->excludes(output);
+  collect->excludes(row)->excludes(fresh)->excludes(output);
+  row->excludes(fresh)->excludes(width);
+  study->callback([&] { command = [&] { tooljoint::app::study(options); }; });
+}
+
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -129,31 +161,7 @@ int run(int argc, char** argv) {
                          "folder of an interrupted run to go on from");
   runCommand->callback([&] { command = [&] { app::run(options); }; });
 
-  auto* studyCommand = program.add_subcommand(
-      "study", "speed against error: the runs of the deck's Study list against its reference run");
-  addDeckOptions(*studyCommand, options, Output::Always);
-  studyCommand->add_flag("--fresh", options.fresh,
-                         "forget the runs an earlier study left in the folder");
-  studyCommand
-      ->add_option("--ranks-per-row", options.ranksPerRow,
-                   "ranks that work on a row together; the others take other rows")
-      ->check(CLI::PositiveNumber);
-  studyCommand
-      ->add_option(
-          "--timing", options.timing,
-          "alone: refuse to time rows that share a machine; shared: time them all the same")
-      ->check(CLI::IsMember({"alone", "shared"}));
-  auto* plan = studyCommand->add_option(
-      "--plan", options.plan, "run nothing: write one command for each row into this folder");
-  auto* collect = studyCommand->add_option(
-      "--collect", options.collect, "run nothing: tables and plots of the rows in this folder");
-  studyCommand
-      ->add_option("--row", options.row,
-                   "run this row only: \"reference\", or its number (the commands of --plan)")
-      ->excludes(plan)
-      ->excludes(collect);
-  plan->excludes(collect);
-  studyCommand->callback([&] { command = [&] { app::study(options); }; });
+  addStudy(program, options, command);
 
   auto* checkCommand =
       program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");

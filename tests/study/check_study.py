@@ -5,8 +5,6 @@
 Runs a study of a few seconds and looks at its rows; compares an error with that of two separate runs; interrupts it and goes on; lets a
 method, and the reference, fail; changes one method and sees that the others are not run again; repeats it on two ranks.
 """
-import csv
-import json
 import math
 import pathlib
 import re
@@ -23,27 +21,9 @@ import documented
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from results import known, rows, summary, table
 
 PROGRAM, MPIEXEC, DECK = sys.argv[1:4]
-
-
-def summary(folder):
-    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
-
-
-def rows(folder):
-    return {row["label"]: row for row in summary(folder)["study"]}
-
-
-def table(folder):
-    with open(pathlib.Path(folder, "study.csv"), newline="", encoding="utf-8") as text:
-        return {row["label"]: row for row in csv.DictReader(text)}
-
-
-def known(done):
-    """How many runs a study says it has from before."""
-    match = re.search(r"(\d+) of (\d+) runs are known", done.stdout)
-    return int(match.group(1)) if match else 0
 
 
 def whole_study():

@@ -5,34 +5,16 @@
 Groups of ranks that take rows, and a plan of one command per row, run by GNU parallel and collected, leave the table of a study that runs
 row after row.
 """
-import csv
-import json
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
+from results import known, rows, table
 
 DECK = sys.argv[3]
-
-
-def rows(folder):
-    summary = json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
-    return {row["label"]: row for row in summary["study"]}
-
-
-def table(folder):
-    with open(pathlib.Path(folder, "study.csv"), newline="", encoding="utf-8") as text:
-        return {row["label"]: row for row in csv.DictReader(text)}
-
-
-def known(done):
-    """How many runs a study says it has from before."""
-    match = re.search(r"(\d+) of (\d+) runs are known", done.stdout)
-    return int(match.group(1)) if match else 0
 
 
 def one_row_at_a_time():
@@ -96,10 +78,23 @@ def planned():
         expect(f"there is no row {row}", done.returncode == 1 and "rows 1 to 13" in done.stderr, done.stderr[-200:])
 
 
+def excluded():
+    """Options without effect beside others are refused; above all --fresh, which would forget the rows to collect."""
+    before = table("plan")
+    for first, second in ((("--collect", "plan"), ("--fresh",)), (("--plan", "plan"), ("--fresh",)), (("--row", "4"), ("--fresh",)),
+                          (("--row", "4"), ("--ranks-per-row", "1")), (("--row", "4"), ("--plan", "plan")), (("--row", "4"), ("--collect", "plan")),
+                          (("--plan", "plan"), ("--collect", "plan")), (("--plan", "plan"), ("--output", "one")), (("--collect", "plan"), ("--output", "one"))):
+        done = tooljoint("study", DECK, *first, *second)
+        expect(f"{first[0]} and {second[0]} exclude each other", done.returncode == 1 and first[0] in done.stderr and second[0] in done.stderr,
+               f"({done.returncode}) {done.stderr[-200:]}")
+    done = tooljoint("study", DECK, "--collect", "plan", "--set", "Study/Repeats=1")
+    expect("and the rows are still there", done.returncode == 0 and table("plan") == before)
+
+
 def main():
     for left in ("one", "groups", "lost_groups", "plan"):  # of an earlier run of this test
         shutil.rmtree(left, ignore_errors=True)
-    for check in (one_row_at_a_time, groups_of_ranks, planned):
+    for check in (one_row_at_a_time, groups_of_ranks, planned, excluded):
         check()
     return finish()
 
