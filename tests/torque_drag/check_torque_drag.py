@@ -128,8 +128,8 @@ alone = stiff("vertical_5000m", 0.01, 0.03)
 together = static_state("vertical_5000m", ranks=2)
 for key in ("top_axial_force", "top_torque_equilibrium"):
     near(f"vertical_5000m: {key} on two ranks", together[key], alone[key], 1e-10)
-# 10 km stretch by 16 m and move along the build above the collars, where the displacements of the static state are too large for
-# a linear model: 0.5 kN m of torque (docs/drilling.md), and the program says so.
+# 10 km of string move along the build above the collars so far that the displacements of the static state are too large for a linear
+# model (docs/drilling.md): the torque is less exact, and the program says so.
 long = stiff("vertical_10000m", 0.01, 0.15)
 expect("vertical_10000m: it is said that the string moves along a well that turns", any("along the well" in w for w in long["warnings"]), long["warnings"])
 expect("vertical_5000m: it need not be said", not any("along the well" in w for w in alone["warnings"]), alone["warnings"])
