@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "parts/foreign/PartFormat.hpp"
 
 namespace tooljoint::parts {
 
