@@ -11,6 +11,7 @@
 
 #include "linalg/trilinos/EigenChecks.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
+#include "linalg/trilinos/SemidefiniteModes.hpp"
 
 namespace tooljoint::linalg {
 
@@ -22,6 +23,7 @@ using ComplexVector = Eigen::VectorXcd;
 struct ScaledPencil {
   Sparse M, C, K;
   Vector scale;
+  bool singularMass = false;
   EnergyRounding rounding;  ///< of shapes in scaled coordinates
 
   ScaledPencil(const Sparse& m, const Sparse& c, const Sparse& k, const EnergyRounding& given) {
@@ -32,6 +34,7 @@ struct ScaledPencil {
     M = scaled(m);
     C = scaled(c);
     K = scaled(k);
+    singularMass = hasSingularMass(m);
     rounding = [this, given, absolute = Sparse(K.cwiseAbs()),
                 fraction = roundingOf(K)](const ComplexVector& phi) {
       if (given) return given(scale.cast<Complex>().cwiseProduct(phi));

@@ -11,7 +11,6 @@
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/ProportionalModes.hpp"
-#include "linalg/trilinos/SemidefiniteModes.hpp"
 
 namespace tooljoint::linalg {
 
@@ -32,6 +31,12 @@ constexpr int largestSpace = 1500;
 constexpr int block = 8;
 /// Block steps after a second start, which finds what the first one missed.
 constexpr int controlSteps = 5;
+/// Values s -> infinity, nu = 1 / (s - sigma) -> 0, stand in Jordan chains where neither mass nor
+/// damping acts: rounding leaves their nu at the root of rounding, and an answer to the residual
+/// that has nothing of the vector. Below this part of the largest nu that is what they are.
+constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
+/// Others have a nu of rounding.
+constexpr double noDigitsOfNu = 1e-13;
 /// Up to this size the inverse is formed whole.
 constexpr int denseBelow = 80;
 
@@ -92,18 +97,29 @@ std::unique_ptr<ShiftedInverse> inverseNear(const ScaledPencil& pencil, double s
     }
 }
 
+double largestNu(const RitzPairs& ritz) {
+  return ritz.values.size() > 0 ? ritz.values.cwiseAbs().maxCoeff() : 0.0;
+}
+
+/// nu below which a value may be infinite; (L - sigma)^-1 is at least of the size 1 / sigma.
+double infiniteNu(const RitzPairs& ritz, double shift) {
+  return noFiniteValue * std::max(largestNu(ritz), 1.0 / shift);
+}
+
 /// Values with Im s >= 0 by |s|, and their columns of the Ritz vectors.
 struct Upper {
   std::vector<Complex> s;
   std::vector<Eigen::Index> column;
   std::vector<double> residual;
 
-  Upper(const RitzPairs& ritz, double shift) {
-    const double largest = ritz.values.size() > 0 ? ritz.values.cwiseAbs().maxCoeff() : 0.0;
+  /// Without those whose nu is rounding, or below `infinite`.
+  Upper(const RitzPairs& ritz, double shift, double infinite = 0.0) {
+    const double largest = largestNu(ritz);
     std::vector<Eigen::Index> order;
     for (Eigen::Index j = 0; j < ritz.values.size();
          ++j)  // nu of rounding: no finite s; Im nu < 0: Im s > 0
-      if (std::abs(ritz.values[j]) > 1e-13 * largest && ritz.values[j].imag() <= 0.0)
+      if (std::abs(ritz.values[j]) > std::max(noDigitsOfNu * largest, infinite) &&
+          ritz.values[j].imag() <= 0.0)
         order.push_back(j);
     const auto value = [&](Eigen::Index j) { return shift + 1.0 / ritz.values[j]; };
     std::stable_sort(order.begin(), order.end(),
@@ -139,7 +155,9 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
     GrowingKrylov space([&](const Matrix& z) { return (*inverse)(z); }, 2 * pencil.size());
     space.start(block, 11);
     space.grow(static_cast<int>(wanted) + 4 * block);
-    const Upper found(space.ritz(), inverse->shift());
+    const RitzPairs ritz = space.ritz();
+    const Upper found(ritz, inverse->shift(),
+                      pencil.singularMass ? infiniteNu(ritz, inverse->shift()) : 0.0);
     if (found.s.empty()) return shift;
     const double far = std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
     double near = far;
@@ -187,15 +205,20 @@ void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>&
   vectors = std::move(keptVectors);
 }
 
+/// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
+/// where a finite one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
                          const Upper& found, const RitzPairs& ritz, std::size_t wanted) {
   DampedModes out;
   std::size_t zeros = 0;
+  const double farthest = 1.0 / infiniteNu(ritz, inverse.shift());
   for (std::size_t j = 0; j < std::min(wanted, found.s.size()); ++j) {
     const ComplexVector phi = ritz.vectors.col(found.column[j]).head(pencil.size());
     Complex s = found.s[j];
     ComplexVector better = inverse.again(s, phi);
     const double error = (better - phi).norm() / better.norm();
+    if (pencil.singularMass && std::abs(s - inverse.shift()) >= farthest && !(error <= noDigits))
+      continue;
     const Vector size = better.cwiseAbs();
     const double rounding =
         pencil.rounding(better) /
@@ -208,7 +231,7 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
                              scientific(acceptedError + rounding) + " is allowed.");
     if (isZero(pencil, s, better)) {
       s = 0;
-      zeros = j + 1;
+      zeros = out.values.size() + 1;
     }
     out.values.push_back(s);
     out.vectors.push_back(std::move(better));
@@ -298,7 +321,7 @@ QuadraticModes lowestDampedModes(const Sparse& M, const Sparse& C, const Sparse&
   }
   const Stage stage("damped modes");
   const ScaledPencil pencil(M, C, K, rounding);
-  const auto simple = hasSingularMass(M) ? std::nullopt : proportionalModes(pencil, count, name);
+  const auto simple = pencil.singularMass ? std::nullopt : proportionalModes(pencil, count, name);
   const DampedModes found = simple ? *simple : generalModes(pencil, count, name);
   std::vector<std::size_t> order(found.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

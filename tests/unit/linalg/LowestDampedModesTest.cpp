@@ -257,6 +257,30 @@ TEST(LowestDampedModes, DofsWithoutMassAreCondensed) {
   }
 }
 
+// Where neither mass nor damping acts the values are infinite: who asks for more modes than are
+// finite gets the finite ones, be the massless directions dofs or combinations of them.
+TEST(LowestDampedModes, InfiniteValuesAreNoModes) {
+  const int n = 6;
+  for (double g : {0.0, 0.4, 60.0})
+    for (bool turned : {false, true}) {
+      Shaft s = shaft(n, g, 0.05, false);
+      Matrix M = s.M, C = s.C, K = s.K;
+      for (const int i : {2, 3, 8, 9}) M(i, i) = 0, C.row(i).setZero(), C.col(i).setZero();
+      if (turned) {
+        const Matrix T = Matrix::Identity(2 * n, 2 * n) +
+                         0.1 * Vector::LinSpaced(2 * n, -1, 1) * Vector::Ones(2 * n).transpose();
+        for (Matrix* A : {&M, &C, &K}) *A = T.transpose() * *A * T;
+      }
+      const auto modes = lowestDampedModes(sparse(M), sparse(C), sparse(K), 2 * n);
+      ASSERT_EQ(modes.values.size(), 8) << g << turned;
+      for (Eigen::Index j = 0; j < 8; ++j) {
+        EXPECT_LT(modes.values[j].real(), 0.0) << g << turned << j;
+        EXPECT_LT(std::abs(modes.values[j]), 100.0) << g << turned << j;
+        EXPECT_LT(modes.residuals[j], 1e-10) << g << turned << j;
+      }
+    }
+}
+
 // Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and
 // +-sqrt(-omega^2) where omega^2 < 0.
 TEST(LowestDampedModes, WithoutDampingTheyAreTheSymmetricModes) {
