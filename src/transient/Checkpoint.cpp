@@ -21,12 +21,15 @@ void serialize(Archive& archive, State& state) {
 template <class Archive>
 void serialize(Archive& archive, Counters& c) {
   // long has another size on other machines
+  const auto portable = [&archive](long& count) {
+    auto number = static_cast<std::int64_t>(count);
+    archive(number);
+    count = static_cast<long>(number);
+  };
   for (long* count : {&c.steps, &c.rejected, &c.halved, &c.newtonIterations, &c.unconvergedSteps,
-                      &c.factorisations, &c.rightHandSides}) {
-    auto portable = static_cast<std::int64_t>(*count);
-    archive(portable);
-    *count = static_cast<long>(portable);
-  }
+                      &c.factorisations, &c.rightHandSides})
+    portable(*count);
+  for (long& count : c.strategies) portable(count);
   archive(c.minStep, c.maxStep);
 }
 
@@ -36,7 +39,7 @@ constexpr char magic[] = "Tooljoint checkpoint";
 constexpr std::size_t magicLength = sizeof magic - 1;
 /// Counts up whenever the body or anything that an integrator, a point batch or a ledger saves
 /// changes.
-constexpr std::uint32_t layout = 10;
+constexpr std::uint32_t layout = 11;
 constexpr std::size_t digestLength = 64;  ///< hexadecimal digits
 constexpr std::size_t headerLength =
     magicLength + sizeof layout + sizeof(std::uint64_t) + digestLength;

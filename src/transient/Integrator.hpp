@@ -12,6 +12,7 @@
 
 #include "common/Types.hpp"
 #include "deck/Registry.hpp"
+#include "transient/Strategies.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::transient {
@@ -41,6 +42,7 @@ struct Counters {
   long factorisations = 0;  ///< of the mass matrix or the effective matrix
   long rightHandSides =
       0;  ///< evaluations of q'' = M^-1 (all forces); 0 for an integrator that makes none
+  StrategyCounts strategies{};  ///< uses of each in implicit steps
   double minStep = 0;
   double maxStep = 0;
   void accept(double h);

@@ -113,6 +113,10 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
   summary.set("transient.unconverged_steps", c.unconvergedSteps);
   summary.set("transient.factorisations", c.factorisations);
   summary.set("transient.right_hand_sides", c.rightHandSides);
+  if (c.strategies != transient::StrategyCounts{})
+    for (std::size_t i = 0; i < transient::strategyCount; ++i)
+      summary.set(std::string("transient.strategies.") + transient::strategyNames[i].summary,
+                  c.strategies[i]);
   summary.set("transient.wall_s", report.wall);
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);

@@ -56,8 +56,9 @@ double yielding(int n, const double* J, const double* G) {
 
 }  // namespace
 
-void ContactForceIteration::bind(CompiledModel& model) {
+void ContactForceIteration::bind(CompiledModel& model, Strategies& strategies) {
   model_ = &model;
+  strategies_ = problem_.strategies = &strategies;
   sets_.clear();
   blocks_.assign(at(model.pattern().blocks()), 0);
   for (const auto& batch : model.points()) {
@@ -129,6 +130,7 @@ void ContactForceIteration::findImpacts(Set& set, PointBatch& batch, double t) {
     if (batch.scale(p) == 1.0 && set.stiffness[at(p)] * h_ * h_ > 1.0) {
       batch.setScale(p, impact_);
       batch.rescale(p);
+      strategies_->count(Strategy::RestingImpacts);
     }
   }
 }
@@ -276,8 +278,9 @@ void ContactForceIteration::measure(Set& set, PointBatch& batch, double small, d
         if (!(size <= wrong)) wrong = size;  // keeps a NaN
         largest = std::max(largest, weight[r] * std::abs(f[r]));
       }
-      if (set.moved[at(p)] && wrong > small && wrong > slowestRate * set.error[at(p)])
-        set.exact[at(p)] = 1;
+      if (set.moved[at(p)] && wrong > small && wrong > slowestRate * set.error[at(p)] &&
+          !set.exact[at(p)])
+        set.exact[at(p)] = strategies_->use(Strategy::PointsAlone);
       set.error[at(p)] = wrong;
     }
   });
@@ -437,7 +440,7 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
   long wrong = 0;
   for (const Set& set : sets_)  // what was not evaluated is not wrong
     for (int p : set.points) wrong += isWrong(set, p, small) ? 1 : 0;
-  const bool few = !all && isFew(wrong);
+  const bool few = !all && isFew(wrong) && strategies_->has(Strategy::NearSolves);
   allMoved_ = true;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
@@ -464,13 +467,13 @@ bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, i
     for (int p : model_->points()[b].active()) {
       set.moved[at(p)] = place++ % colours == colour && isWrong(set, p, small);
       if (!set.moved[at(p)]) continue;
-      set.exact[at(p)] = 1;
+      set.exact[at(p)] = strategies_->has(Strategy::PointsAlone);
       set.points.push_back(p);
       move(set, model_->points()[b], p, t, c);
       ++moved;
     }
   }
-  return isFew(moved);
+  return isFew(moved) && strategies_->has(Strategy::NearSolves);
 }
 
 }  // namespace tooljoint::transient

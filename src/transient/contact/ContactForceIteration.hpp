@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "linalg/blocks/BlockFactor.hpp"
+#include "transient/Strategies.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 #include "transient/contact/PointSolve.hpp"
 
@@ -32,7 +33,8 @@ class ContactForceIteration {
  public:
   static constexpr int widest = PointSolve::widest;
 
-  void bind(CompiledModel& model);
+  /// The strategies, which must outlive this, say what may be used.
+  void bind(CompiledModel& model, Strategies& strategies);
   /// Scale of each dof's force.
   void setWeights(const Vector& weight);
 
@@ -118,6 +120,7 @@ class ContactForceIteration {
   bool isFew(long points) const;
 
   CompiledModel* model_ = nullptr;
+  Strategies* strategies_ = nullptr;
   std::vector<Set> sets_;
   std::vector<char> blocks_;
   double h_ = 0, impact_ = 1;

@@ -16,7 +16,8 @@ constexpr int mostSweeps = 30;
 
 }  // namespace
 
-void CoupledPointSolve::bind(CompiledModel& model) {
+void CoupledPointSolve::bind(CompiledModel& model, Strategies& strategies) {
+  strategies_ = &strategies;
   model_ = &model;
   int coordinates = 0;
   for (const auto& batch : model.points()) {
@@ -77,6 +78,7 @@ bool CoupledPointSolve::addTroubled(const double* delta, const double* weight) {
       if (points_.size() == mostPoints || first + batch.width() > columns_.cols()) return any;
       const int w = batch.width();
       Point added{static_cast<int>(b), first, {}, Local::Zero(w), Local::Zero(w)};
+      added.problem.strategies = strategies_;
       added.problem.point = p;
       added.problem.P = PointSolve::LocalMatrix::Zero(w, w);
       added.problem.d = Eigen::Map<const Eigen::VectorXd>(&d_[b][at(p * w)], w);

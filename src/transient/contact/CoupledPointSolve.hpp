@@ -22,7 +22,7 @@ namespace tooljoint::transient {
 
 class CoupledPointSolve {
  public:
-  void bind(CompiledModel& model);
+  void bind(CompiledModel& model, Strategies& strategies);
 
   /// Remember positions, velocities and forces of the active points at the iterate to start from
   /// (just evaluated).
@@ -49,6 +49,7 @@ class CoupledPointSolve {
                const double* weight) const;
 
   CompiledModel* model_ = nullptr;
+  Strategies* strategies_ = nullptr;
   std::vector<std::vector<double>> d_, v_, f_;  ///< per batch, at begin()
   std::vector<Point> points_;
   Matrix columns_;     ///< S^-1 R_i', one column per coordinate

@@ -202,13 +202,15 @@ bool PointSolve::solve(PointBatch& batch, double t, double c, Local& y, Local& p
     y = *start;
     keep(iterate(batch, t, c, scale, y, phi));
   }
+  const bool follows =
+      !balanced() && std::isfinite(bestSize) && strategies->use(Strategy::PointPaths);
   for (const Local* start : {&guess, static_cast<const Local*>(&free)}) {
-    if (balanced() || !std::isfinite(bestSize)) break;
+    if (!follows || balanced()) break;
     y = *start;
     flow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
     keep(measure());
   }
-  if (!balanced() && std::isfinite(bestSize)) {
+  if (follows && !balanced()) {
     y = best;
     follow(batch, t, c, scale, 1e-10 * (size(free) + size(best)), y, phi);
     keep(measure());

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "transient/Strategies.hpp"
 #include "transient/compiled/PointBatch.hpp"
 
 namespace tooljoint::transient {
@@ -19,6 +20,7 @@ struct PointSolve {
   using Local = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, widest, 1>;
   using LocalMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, widest, widest>;
 
+  Strategies* strategies = nullptr;  ///< must outlive the solution
   int point = 0;
   Local d, v, f0;
   LocalMatrix P, G;

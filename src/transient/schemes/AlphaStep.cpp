@@ -46,7 +46,10 @@ void AlphaStep::setPhaseCorrection() {
 
 StepScheme AlphaStep::scheme(double h) const {
   const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
-  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, mass_->regular() ? 0.5 * h * h * ca : 1.0};
+  const bool rests =
+      mass_->regular() &&
+      !parameters_.equations.without[static_cast<std::size_t>(Strategy::RestingImpacts)];
+  return {h, gamma_ / (beta_ * h), ca, filter_, phase_, rests ? 0.5 * h * h * ca : 1.0};
 }
 
 /// M q''_0 = F + R'f - C v - K q; dofs without mass start without acceleration.

@@ -43,8 +43,10 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/accuracy/StepControl.hpp"
 #include "transient/accuracy/StepGrid.hpp"
@@ -55,6 +57,21 @@ namespace tooljoint::transient {
 namespace {
 
 constexpr double defaultTolerance = 1e-5;
+
+std::vector<std::string> strategyTitles() {
+  std::vector<std::string> titles;
+  for (const auto& name : strategyNames) titles.emplace_back(name.deck);
+  return titles;
+}
+
+StrategySet leftOut(const Teuchos::ParameterList& own) {
+  StrategySet set;
+  if (!own.isParameter("Leave Out")) return set;
+  const auto titles = own.get<Teuchos::Array<std::string>>("Leave Out");
+  for (std::size_t i = 0; i < strategyCount; ++i)
+    set[i] = contains(titles, std::string(strategyNames[i].deck));
+  return set;
+}
 
 deck::ListSpec specification() {
   return deck::ListSpec("Generalized-alpha", "Parameters of the generalized-alpha integrator.")
@@ -89,6 +106,9 @@ deck::ListSpec specification() {
           "of the wall. Without, impacts on walls too stiff for the step have no rebound. Steps "
           "with a Step Tolerance resolve impacts by their error.")
       .expert()
+      .textArray("Leave Out", deck::Optional{}, strategyTitles(),
+                 "Strategies of a step that are not used: what each wins is measured so.")
+      .expert()
       .boolean("Accept Unconverged", false,
                "Go on with the last iterate of a step that failed after all halvings; such steps "
                "are counted and reported.")
@@ -107,7 +127,7 @@ class GeneralizedAlpha final : public Integrator {
     tolerance_ = own.get<double>("Tolerance");
     parameters_ = {own.get<double>("Spectral Radius"),
                    own.get<bool>("Phase Correction"),
-                   {tolerance_, own.get<int>("Max Iterations")}};
+                   {tolerance_, own.get<int>("Max Iterations"), leftOut(own)}};
     maxHalvings_ = own.get<int>("Max Halvings");
     acceptUnconverged_ = own.get<bool>("Accept Unconverged");
     resolveImpacts_ = own.get<bool>("Resolve Impacts");

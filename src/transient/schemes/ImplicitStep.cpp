@@ -72,9 +72,10 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
     x->setZero(n);
   predicted_.resize(n, model.stateSize());
   factorLaws_.assign(model.lawValues().size(), 0.0);
-  nodal_.bind(model);
-  relaxation_.bind(model);
-  relaxes_ = true;
+  strategies_.leaveOut(options.without);
+  nodal_.bind(model, strategies_);
+  relaxation_.bind(model, strategies_);
+  relaxes_ = strategies_.has(Strategy::Relaxation);
   for (const auto& batch : model.points())
     relaxes_ = relaxes_ && batch.width() <= ContactForceIteration::widest;
   factor_ = linalg::BlockFactor(model.pattern());
@@ -147,6 +148,7 @@ void ImplicitStep::prepare(const StepScheme& scheme, double t) {
 
 bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters) {
   counters_ = &counters;
+  strategies_.countIn(counters.strategies);
   prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to, From::Rest);
@@ -154,7 +156,7 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
                       (inertia_.array().abs() * to.v.array().abs()).maxCoeff();
   mostForce_ = mostGrowth * std::max(reference_, stop);
   error_ = INFINITY;
-  return (relaxes_ && relax(to)) || finish(to);
+  return (relaxes_ && relax(to)) || (strategies_.use(Strategy::Newton) && finish(to));
 }
 
 /// y += (S(now) - S(then)) delta for what the laws have changed since S was factored.
@@ -180,6 +182,7 @@ double ImplicitStep::driftNorm() const {
 /// Relaxation of the point forces. False, with `to` and linear_ as they were and delta_ where it
 /// stopped, when it does not get there.
 bool ImplicitStep::relax(State& to) {
+  strategies_.count(Strategy::Relaxation);
   if (!factored_ || factorScheme_.h != scheme_.h || wanted_) {
     predicted_ = to;
     predict(predicted_);
@@ -293,7 +296,10 @@ bool ImplicitStep::settle(State& to, bool again) {
     }
     if (!std::isfinite(error_)) return false;
     if (turn < 0 && iteration % 4 == 0) {
-      if (iteration > 4 && error_ > slowestRelaxation * last) turn = 0;
+      if (iteration > 4 && error_ > slowestRelaxation * last) {
+        if (!strategies_.use(Strategy::Turns)) return false;
+        turn = 0;
+      }
       last = error_;
     } else if (turn > 0 && turn % perSweeps == 0) {
       idle = error_ > slowestSweeps * last ? idle + 1 : 0;
@@ -314,6 +320,7 @@ bool ImplicitStep::settle(State& to, bool again) {
 double ImplicitStep::relaxOnce(const State& to, bool near, double norm) {
   double work = 0;
   if (near) {
+    strategies_.count(Strategy::NearSolves);
     relaxation_.solveNear(factor_, tolerance(), delta_);
     work = relaxation_.nearShare() + nearPrice / model_->pattern().blocks();
   } else {

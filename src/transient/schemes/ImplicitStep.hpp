@@ -42,6 +42,7 @@ class ImplicitStep {
   struct Options {
     double tolerance = 1e-8;  ///< on max |w R| over the largest scaled force
     int maxIterations = 25;
+    StrategySet without;  ///< strategies not to use
   };
 
   void bind(CompiledModel& model, const Options& options);
@@ -111,6 +112,7 @@ class ImplicitStep {
   bool fresh_ = false;              ///< the tangent in the factor is that of the current iterate
   bool wanted_ = false;             ///< convergence was slow: factor anew
 
+  Strategies strategies_;
   ContactForceIteration relaxation_;
   bool relaxes_ = false;    ///< points have few enough coordinates for it
   bool compliant_ = false;  ///< its compliance belongs to the factor

@@ -77,8 +77,10 @@ bool ImplicitStep::backtrack(State& to) {
     if (converged() || merit_ <= (1 - 0.1 * fraction) * before) return true;
     if (delta_.dot(residual_) > 0) beyond = fraction;
   }
-  if (fresh_ && rescues_++ < maxRescues && solveTroubledPoints(to, before)) return true;
-  if (fresh_ && beyond > 0) return bracket(to, beyond);
+  if (fresh_ && rescues_++ < maxRescues && strategies_.use(Strategy::TroubledPoints) &&
+      solveTroubledPoints(to, before))
+    return true;
+  if (fresh_ && beyond > 0 && strategies_.use(Strategy::Bracketing)) return bracket(to, beyond);
   place(to, 0);
   return false;
 }

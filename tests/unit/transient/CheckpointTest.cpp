@@ -31,7 +31,7 @@ Checkpoint full() {
   point.state.q = Vector::LinSpaced(3, 0.1, 0.3);
   point.state.v = Vector::LinSpaced(4, 1.1, 1.4);
   point.state.a = Vector::LinSpaced(5, 2.1, 2.5);
-  point.counters = {1, 2, 3, 4, 5, 6, 7, 0.8, 0.9};
+  point.counters = {1, 2, 3, 4, 5, 6, 7, {11, 12, 13, 14, 15, 16, 17, 18, 19}, 0.8, 0.9};
   point.contactEvaluations = 8;
   point.samples = 9;
   point.runawaySamples = 10;
@@ -58,6 +58,7 @@ TEST(Checkpoints, comeBackWhole) {
   EXPECT_EQ((std::vector<long>{c.steps, c.rejected, c.halved, c.newtonIterations,
                                c.unconvergedSteps, c.factorisations, c.rightHandSides}),
             (std::vector<long>{1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(c.strategies, (StrategyCounts{11, 12, 13, 14, 15, 16, 17, 18, 19}));
   EXPECT_EQ(c.minStep, 0.8);
   EXPECT_EQ(c.maxStep, 0.9);
   EXPECT_EQ(after.contactEvaluations, 8);
@@ -98,10 +99,10 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
   EXPECT_TRUE(says(said(""), "is not a checkpoint"));
   EXPECT_TRUE(says(said(std::string("\x16\0\0\0\0\0\0\0", 8) + "Tooljoint checkpoint 5" +
                         std::string(200, '\0')),
-                   "has the layout 5 of another version of the program; this one reads layout 10"));
+                   "has the layout 5 of another version of the program; this one reads layout 11"));
   auto changed = bytes;
-  changed[20] = 11;  // the layout follows the magic
-  EXPECT_TRUE(says(said(changed), "has the layout 11 of another version")) << said(changed);
+  changed[20] = 12;  // the layout follows the magic
+  EXPECT_TRUE(says(said(changed), "has the layout 12 of another version")) << said(changed);
   EXPECT_TRUE(says(said(bytes.substr(0, bytes.size() - 5)), "is damaged: its header promises"))
       << said(bytes.substr(0, bytes.size() - 5));
   changed = bytes;

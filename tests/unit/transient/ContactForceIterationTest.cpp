@@ -41,7 +41,7 @@ struct TwoFloors {
     for (auto& batch : model.points()) batch.look(0.0, 1e-3, q.data());
     model.combine(ca, cv, 1.0, factor.values());
     EXPECT_LT(factor.factor(), 0);
-    relaxation.bind(model);
+    relaxation.bind(model, strategies);
     relaxation.setWeights(Vector::Constant(300, 1 / ca));
     relaxation.setCompliance(factor);
     residual[60] = 1500;
@@ -60,6 +60,7 @@ struct TwoFloors {
   CompiledModel model;
   linalg::BlockFactor factor;
   Vector residual, delta = Vector::Zero(300);
+  Strategies strategies;
   ContactForceIteration relaxation;
 };
 
@@ -121,7 +122,7 @@ struct SoftFloors {
     floors.addMissed(q.data());
     model.combine(ca, cv, 1.0, factor.values());
     EXPECT_LT(factor.factor(), 0);
-    relaxation.bind(model);
+    relaxation.bind(model, strategies);
     relaxation.setWeights(Vector::Constant(300, 1 / ca));
     relaxation.setImpacts(1e-3, 0.5);
     relaxation.setCompliance(factor);
@@ -149,6 +150,7 @@ struct SoftFloors {
   CompiledModel model;
   linalg::BlockFactor factor;
   Vector residual, delta = Vector::Zero(300);
+  Strategies strategies;
   ContactForceIteration relaxation;
   double force = 0;
 };
@@ -198,8 +200,9 @@ bool isImpact(double stiffness, double depth) {
   linalg::BlockFactor factor(model.pattern());
   model.combine(ca, cv, 1.0, factor.values());
   EXPECT_LT(factor.factor(), 0);
+  Strategies strategies;
   ContactForceIteration relaxation;
-  relaxation.bind(model);
+  relaxation.bind(model, strategies);
   relaxation.setWeights(Vector::Constant(1, 1 / ca));
   relaxation.setImpacts(1e-3, 0.5);
   relaxation.setCompliance(factor);

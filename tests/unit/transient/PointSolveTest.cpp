@@ -41,11 +41,14 @@ double imbalance(const PointSolve& problem, const PointSolve::Local& y,
 }
 
 /// Steps of 1 ms from within 0.2 mm of the wall, with speeds from rest to a few v_r and more.
+Strategies strategies;  ///< all of them
+
 PointSolve randomProblem(std::mt19937& random, double velocity) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const double h = 1e-3, angle = 3 * uniform(random), radius = 0.028 + 2e-4 * uniform(random);
   const Eigen::Vector3d mass(100, 100, 0.6);
   PointSolve problem;
+  problem.strategies = &strategies;
   problem.P = PointSolve::LocalMatrix::Zero(3, 3);
   problem.f0 = PointSolve::Local::Zero(3);
   problem.d = Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), 0);
@@ -101,6 +104,7 @@ TEST(PointSolve, takesABalanceKnownToRoundingForOne) {
                  thrown = 1e4 * speed / 4e8;  // c v / (ca m)
     const Eigen::Vector3d outwards(std::cos(angle), std::sin(angle), 0);
     PointSolve problem;
+    problem.strategies = &strategies;
     problem.P = PointSolve::LocalMatrix::Zero(3, 3);
     problem.f0 = PointSolve::Local::Zero(3);
     problem.d = (0.028 - 1e-5) * outwards;

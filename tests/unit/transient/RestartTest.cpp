@@ -65,6 +65,7 @@ void expectSameReport(const TransientReport& whole, const TransientReport& later
   EXPECT_EQ(a.unconvergedSteps, b.unconvergedSteps) << where;
   EXPECT_EQ(a.factorisations, b.factorisations) << where;
   EXPECT_EQ(a.rightHandSides, b.rightHandSides) << where;
+  EXPECT_EQ(a.strategies, b.strategies) << where;
   EXPECT_EQ(a.minStep, b.minStep) << where;
   EXPECT_EQ(a.maxStep, b.maxStep) << where;
   EXPECT_EQ(whole.contactEvaluations, later.contactEvaluations) << where;

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each strategy of an implicit step wins: hard cases and scenes with one left out at a time.
+
+    ablation.py PROGRAM --short                     two cases (CTest)
+    ablation.py PROGRAM --write docs/strategies.md  all of them; writes the table
+
+A strategy earns its place where a case is refused or changed without it, or takes 5 % longer. With
+--short the exit code is 1 when one that is left out is used, or none that is there is.
+"""
+import argparse
+import dataclasses
+import math
+import pathlib
+import platform
+import shutil
+import sys
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
+import contact
+import report
+from program import FULL, ROOT, Program
+from scenes import HELICAL, LYING, STRESS, alpha, parts_deck, times
+
+OWN = "Transient/Generalized-alpha/"
+STRATEGIES = {name: {OWN + "Leave Out": [name]} for name in
+              ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns", "Resting Impacts", "Newton", "Troubled Points", "Bracketing")}
+STRATEGIES |= {"Halving": {OWN + "Max Halvings": 0}, "Impacts resolved": {OWN + "Resolve Impacts": False}, "Phase correction": {OWN + "Phase Correction": False}}
+WINS = 0.05  # of the time, below which a strategy does not earn its place
+SAME = 0.01  # vibration error beside the run with all strategies that counts as the same motion
+HEAD = """# Strategies of a step
+
+A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) says what each does. The
+expert parameter `Leave Out` takes strategies out of a run, and `transient.strategies` of `summary.json`
+counts their uses. This table is written by
+
+    cmake --build --preset release --target strategies
+
+Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of each. A motion
+that differs by more than {same:g} % (vibration error) is given with its difference, *refused* is a run that
+ends without one, and a dash stands where the strategy is not used in that case. Those that are not used in
+any case are not in the table of what they win.
+
+"""
+
+
+@dataclasses.dataclass
+class Case:
+    name: str
+    deck: object
+    settings: dict
+    without: tuple = FULL
+
+
+def friction(slip, speed, share=(0.55, 0.45)):
+    return {"Contact/Friction/Static": share[0], "Contact/Friction/Dynamic": share[1], "Contact/Friction/Regularisation Velocity": slip,
+            "Rotary Speed/Exponential/Final Speed": f"{speed} rpm"}
+
+
+def walls(stiffness):
+    return {"Contact/Law": "Clamped", "Contact/Stiffness": stiffness, "Contact/Damping": 0.0}
+
+
+def balls(program):
+    """The deck of forty linked balls on stops."""
+    count, height = 40, contact.DROP
+    K = 1e4 * (2 * np.eye(count) - np.eye(count, k=1) - np.eye(count, k=-1))
+    K[0, 0] = K[-1, -1] = 1e4
+    file = program.part("balls", ["v"], contact.BALL * np.eye(count), K, loads=[-contact.BALL * contact.GRAVITY] * count)
+    starts = {f"drop {i}": {"Part": "ball", "Node": i, "Component": "v", "Displacement": height} for i in range(1, count + 1)}
+    stops = {f"floor {i}": {"First": f"ball:{i}", "Component": "v", "Stiffness": 1e7, "Damping": 0.0} for i in range(1, count + 1)}
+    return parts_deck(program, "balls", {"ball": file}, {**alpha(1e-3), **times(0.2, 1e-3)}, Parts={"Starts": starts}, Coupling={"Stops": stops})
+
+
+def cases(program, short):
+    reverse = {"Rotary Speed/Law": "Table", "Rotary Speed/Table/Interpolation": "Linear", "Rotary Speed/Table/Times": [0.0, 0.3, 0.5, 1.0, 1.2],
+               "Rotary Speed/Table/Speeds": [6.28, 6.28, 0.0, 0.0, -6.28], "Contact/Friction/Regularisation Velocity": 1e-3, "Damping/Mass Coefficient": 2.0}
+    sharp = {**alpha(1e-3), **times(0.3, 0.005), **friction(3e-5, 0.5)}
+    if short:
+        return [Case("sharp friction, stress_170m, 0.5 rpm", STRESS, {**sharp, **times(0.05, 0.005)}),
+                Case("walls of 3e9 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.05, 0.0025), **walls(3e9)})]
+    return [
+        Case("helical_170m, 1 ms", HELICAL, {**alpha(1e-3), **times(2.0, 0.01)}),
+        Case("helical_170m, 2.5 ms", HELICAL, {**alpha(2.5e-3), **times(3.0, 0.01)}),
+        Case("helical_170m, reduced, 1 ms", HELICAL, {**alpha(1e-3), **times(2.0, 0.01)}, ()),
+        Case("stress_170m, 1 ms", STRESS, {**alpha(1e-3), **times(2.0, 0.01)}),
+        Case("stress_170m, 5 ms", STRESS, {**alpha(5e-3), **times(3.0, 0.01)}),
+        Case("inclined_1000m, 2.5 ms", ROOT / "xml/inclined_1000m.xml", {**alpha(2.5e-3), **times(1.0, 0.01)}),
+        Case("inclined_1000m, reduced, 2.5 ms", ROOT / "xml/inclined_1000m.xml", {**alpha(2.5e-3), **times(1.0, 0.01)}, ()),
+        Case("vertical_1000m, 5 ms", ROOT / "xml/vertical_1000m.xml", {**alpha(5e-3), **times(3.0, 0.01)}),
+        Case("sharp friction, stress_170m, 0.5 rpm", STRESS, sharp),
+        Case("sharp friction, stress_170m, 2 rpm, reduced", STRESS, {**sharp, **friction(1e-5, 2)}, ()),
+        Case("sharp friction, helical_170m, 1 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(3e-5, 1)}),
+        Case("sharp friction, helical_170m, 0.2 rpm", HELICAL, {**sharp, **times(0.6, 0.005), **friction(1e-5, 0.2)}),
+        Case("walls of 1e8 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.3, 0.0025), **walls(1e8)}),
+        Case("walls of 3e9 N/m, stress_170m", STRESS, {**alpha(1e-3), **times(0.15, 0.0025), **walls(3e9)}),
+        Case("walls of 3e9 N/m, stress_170m, reduced", STRESS, {**alpha(1e-3, 0.2), **times(0.15, 0.0025), **walls(3e9)}, ()),
+        Case("forty balls", balls(program), {}, ()),
+        Case("reversal, lying string", LYING, {**alpha(1e-3), **times(1.5, 0.005), **reverse}, (*FULL, "Rotary Speed/Constant")),
+    ]
+
+
+def run(program, case, more):
+    return program.run("ablation", case.deck, {**case.settings, **more}, case.without, seconds=300)
+
+
+def used(one, strategy):
+    """Uses of a strategy in a run, infinite for those that are not counted."""
+    if strategy in ("Impacts resolved", "Halving"):
+        return one.motion.get("rejected" if strategy == "Impacts resolved" else "halved", 0)
+    return (one.motion.get("strategies") or {}).get(strategy.lower().replace(" ", "_"), math.inf)
+
+
+def least(program, case, more, repeats):
+    """The run, with the least CPU time of all repeats; its folder stays until the next one of that name."""
+    found = [run(program, case, more) for _ in range(repeats)]
+    return found[-1], min(one.work() for one in found)
+
+
+def set_aside(one):
+    """Keeps the results of a run from the next one."""
+    aside = one.folder.with_name("ablation_whole")
+    shutil.rmtree(aside, ignore_errors=True)
+    one.folder = one.folder.rename(aside)
+
+
+def compared(program, case, strategy, whole, cost, repeats):
+    """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and the run."""
+    if used(whole, strategy) == 0:
+        return "-", 0.0, None
+    one, own = least(program, case, STRATEGIES[strategy], repeats)
+    if not one.done:
+        return "refused", math.inf, one
+    apart = program.vibration_error(one, whole, case.settings.get("Transient/End Time", 0.2))
+    if apart > SAME:
+        return f"{own / cost:.2f}, differs by {100 * apart:.2g} %", math.inf, one
+    return f"{own / cost:.2f}", own / cost - 1, one
+
+
+def table(program, chosen, repeats):
+    """Lines of the table, {strategy: [(gain, case)]}, and faults."""
+    lines, wins, broken = [], {name: [] for name in STRATEGIES}, []
+    for case in chosen:
+        whole, cost = least(program, case, {}, repeats)
+        if not whole.done:
+            lines.append((case.name, f"refused: {whole.sentence()[:80]}", *[""] * len(STRATEGIES)))
+            continue
+        set_aside(whole)
+        cells = []
+        for name in STRATEGIES:
+            cell, gain, one = compared(program, case, name, whole, cost, repeats)
+            if one is not None:
+                wins[name].append((gain, case.name))
+                if used(one, name) not in (0, math.inf):
+                    broken.append(f"{case.name}: {name} is left out and used {used(one, name)} times")
+            cells.append(cell)
+            print(f"{case.name}: without {name} {cell}", flush=True)
+        lines.append((case.name, f"{1e6 * cost / whole.motion['steps']:.0f}", *cells))
+    return lines, wins, broken
+
+
+def verdicts(wins):
+    for name, found in wins.items():
+        needed = [case for gain, case in found if math.isinf(gain)]
+        faster = [(gain, case) for gain, case in found if WINS <= gain < math.inf]
+        slower = [(gain, case) for gain, case in found if gain <= -WINS]
+        yield (name, "; ".join(needed), "; ".join(f"{case} ({100 * gain:.0f} %)" for gain, case in faster),
+               "; ".join(f"{case} ({-100 * gain:.0f} %)" for gain, case in slower),
+               "earned" if needed or faster else "not used" if not found else "not earned")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--work", default="ablation", help="folder of the runs")
+    parser.add_argument("--repeats", type=int, default=2)
+    parser.add_argument("--short", action="store_true")
+    parser.add_argument("--only", default="", help="cases whose name holds this text")
+    parser.add_argument("--write", help="file of the table")
+    options = parser.parse_args()
+    program = Program(options.program, options.work)
+    chosen = [case for case in cases(program, options.short) if options.only in case.name]
+    repeats = 1 if options.short else options.repeats
+    lines, wins, broken = table(program, chosen, repeats)
+    if options.write:
+        text = HEAD.format(repeats=repeats, same=100 * SAME) + f"Machine: {platform.machine()}, {platform.system()}.\n\n"
+        text += report.table(("left out", "needed by", "time won by", "time lost by", "verdict"), verdicts(wins))
+        text += "\n## Case by case\n\n" + report.table(("case", "step [us]", *STRATEGIES), lines)
+        pathlib.Path(options.write).write_text(text, encoding="utf-8")
+    tried = [name for name, found in wins.items() if found]
+    print(f"{len(chosen)} cases, {len(tried)} strategies left out: {', '.join(tried)}")
+    for fault in broken:
+        print(f"FAILED {fault}")
+    return 1 if broken or len(tried) < 4 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
