@@ -3,8 +3,11 @@
 
 #include <Trilinos_version.h>
 #include <array>
+#include <dlfcn.h>
+#include <filesystem>
 #include <hdf5.h>
 #include <mpi.h>
+#include <system_error>
 
 #include "common/Text.hpp"
 
@@ -43,9 +46,20 @@ std::string hdf5Version() {
          std::to_string(H5_VERS_RELEASE);
 }
 
+std::string blasLibrary() {
+  Dl_info found{};
+  void* product = dlsym(RTLD_DEFAULT, "dgemm_");
+  if (product == nullptr || dladdr(product, &found) == 0 || found.dli_fname == nullptr)
+    return "unknown";
+  std::error_code ignored;
+  const auto file = std::filesystem::canonical(found.dli_fname, ignored);
+  return (file.parent_path().filename() / file.filename()).string();
+}
+
 std::string versionText() {
   return "tooljoint " + programVersion() + " (git " + gitHash() + ")\nTrilinos  " +
-         trilinosVersion() + "\nMPI       " + mpiVersion() + "\nHDF5      " + hdf5Version() + "\n";
+         trilinosVersion() + "\nMPI       " + mpiVersion() + "\nHDF5      " + hdf5Version() +
+         "\nBLAS      " + blasLibrary() + "\n";
 }
 
 }  // namespace tooljoint

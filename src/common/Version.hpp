@@ -13,6 +13,8 @@ std::string gitHash();  ///< of the source this was built from; "unknown" outsid
 std::string trilinosVersion();  ///< "13.2.0"
 std::string mpiVersion();       ///< first line of the MPI library's own version text
 std::string hdf5Version();      ///< "1.10.8"
+/// File of the BLAS in use with its folder, "openblas-serial/libblas.so.3"; "unknown" without one.
+std::string blasLibrary();
 
 /// All of the above, one a line, as `tooljoint --version` prints it.
 std::string versionText();

@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/blocks/ChainFactor.hpp"
 #include "linalg/trilinos/TpetraConversion.hpp"
@@ -55,6 +56,9 @@ struct Equilibration {
 /// Backward error of a chain's refined solution beyond which KLU2 takes over: its blocks needed
 /// pivots from outside.
 constexpr double chainResidual = 1e-13;
+/// Columns solved and checked at a time, so that many right-hand sides of a large matrix need
+/// little memory beside the solution.
+constexpr Eigen::Index blockOfColumns = 64;
 /// Rows from which a chain is factored by blocks. Below it, both take less than a millisecond.
 constexpr int longChain = 600;
 
@@ -101,8 +105,9 @@ class Klu2 {
   Sparse pattern_;
 };
 
-/// The factors of one matrix: by blocks where the matrix is a long chain of nodes, else by KLU2.
-/// Blocks pivot inside blocks only, so KLU2 takes over where that is not enough.
+/// The factors of one matrix: by blocks where it is a long chain of nodes, by MUMPS where it is
+/// large and the factors fill, else by KLU2. Blocks pivot inside blocks only, so KLU2 takes over
+/// where that is not enough.
 class Factors {
  public:
   /// False when a pivot is exactly zero.
@@ -112,29 +117,35 @@ class Factors {
       chain_ = A.rows() >= longChain && ChainFactor::isChain(A) ? ChainFactor(A) : ChainFactor();
     }
     byBlocks_ = !chain_.empty() && chain_.factor(A);
-    return byBlocks_ || sparse_.factor(A);
+    return byBlocks_ || factorWithPivots(A);
   }
 
   bool byBlocks() const { return byBlocks_; }
-  bool factorByKlu2(const Sparse& A) {
+  bool factorWithPivots(const Sparse& A) {
     byBlocks_ = false;
-    return sparse_.factor(A);
+    byMumps_ = suitsMumps(A);
+    if (!byMumps_) return sparse_.factor(A);
+    return filled_.factor(
+        A, isExactlySymmetric(A) ? MumpsFactor::Symmetry::Indefinite : MumpsFactor::Symmetry::None);
   }
 
   Matrix solve(const Matrix& b) const {
-    if (!byBlocks_) return sparse_.solve(b);
+    if (!byBlocks_) return byMumps_ ? filled_.solve(b) : sparse_.solve(b);
     Matrix x = b;
     for (Eigen::Index j = 0; j < x.cols(); ++j) chain_.solve(x.col(j).data());
     return x;
   }
 
-  long entries() const { return byBlocks_ ? chain_.entries() : sparse_.entries(); }
+  long entries() const {
+    return byBlocks_ ? chain_.entries() : byMumps_ ? filled_.entries() : sparse_.entries();
+  }
 
  private:
   Sparse pattern_;
   ChainFactor chain_;
   Klu2 sparse_;
-  bool byBlocks_ = false;
+  MumpsFactor filled_;
+  bool byBlocks_ = false, byMumps_ = false;
 };
 
 /// A motion v that the matrix resists least, seen in equilibrated coordinates y = C^-1 v.
@@ -182,7 +193,7 @@ WeakMotion weakestMotion(const Sparse& A, const Factors& factors, const Equilibr
     diagonal.coeffRef(i, i) = 1.0 / (scale.rows[i] * scale.columns[i]);
   for (const double shift : {1e-10, -1e-10, 1e-7, -1e-7}) {
     Factors shifted;
-    if (!shifted.factorByKlu2(Sparse(A + shift * diagonal))) continue;
+    if (!shifted.factorWithPivots(Sparse(A + shift * diagonal))) continue;
     const WeakMotion weak = weakestMotion(A, shifted, scale, 4);
     throwSingular(nameOf(name, static_cast<int>(largestEntry(weak.shape))), "zero pivot");
   }
@@ -271,9 +282,21 @@ struct DirectSolver::Impl {
                            nameOf(name, static_cast<int>(i)) + ".");
     residual = 0.0;
     if (b.size() == 0) return b;
+    Matrix x(b.rows(), b.cols());
+    double worst = 0.0;
+    for (Eigen::Index j = 0; j < b.cols(); j += blockOfColumns) {
+      const auto count = std::min<Eigen::Index>(blockOfColumns, b.cols() - j);
+      x.middleCols(j, count) = checked(b.middleCols(j, count));
+      worst = std::max(worst, residual);
+    }
+    residual = worst;
+    return x;
+  }
+
+  Matrix checked(const Matrix& b) {
     Matrix x = refined(b);
     if (factors.byBlocks() && !(residual <= std::min(options.tolerance, chainResidual))) {
-      if (!factors.factorByKlu2(matrix)) explainZeroPivot(matrix, name);
+      if (!factors.factorWithPivots(matrix)) explainZeroPivot(matrix, name);
       x = refined(b);
     }
     if (!(residual <= options.tolerance))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Rank-local sparse direct solver for square unsymmetric systems: long chains of nodes by blocks,
-/// all others by KLU2 (through Amesos2, on Teuchos::SerialComm).
+/// others that are large by MUMPS, the rest by KLU2 (through Amesos2, on Teuchos::SerialComm).
 #pragma once
 
 #include <functional>

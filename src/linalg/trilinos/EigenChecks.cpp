@@ -12,6 +12,7 @@
 #include "common/Error.hpp"
 #include "common/report/StageTimes.hpp"
 #include "linalg/Deterministic.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "linalg/Scientific.hpp"
 
 namespace tooljoint::linalg {
@@ -29,7 +30,16 @@ struct Inertia {
   double error = std::numeric_limits<double>::infinity();
 };
 
+/// The same by MUMPS, with pivoting.
+Inertia inertiaByMumps(const Sparse& A) {
+  MumpsFactor factor;
+  if (!factor.factor(A, MumpsFactor::Symmetry::Indefinite)) return {};
+  const Vector b = scatteredNumbers(A.rows(), 1, 7);
+  return {factor.negativePivots(), backwardError(A, factor.solve(b), b)};
+}
+
 Inertia inertiaOf(const Sparse& A) {
+  if (suitsMumps(A)) return inertiaByMumps(A);
   Ldlt ldlt;
   ldlt.compute(ColumnSparse(A));
   if (ldlt.info() != Eigen::Success) return {};
@@ -96,6 +106,9 @@ Sparse symmetricPart(const Sparse& A, const std::string& what, const DofNamer& n
 }
 
 void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
+  constexpr double none = 4.0 * epsilon;  // of the diagonal: a pivot that is rounding
+  const Vector diagonal = M.diagonal();
+  if (suitsMumps(M) && diagonal.minCoeff() > 0.0 && isDefinite(M, none)) return;
   Ldlt ldlt;
   ldlt.compute(ColumnSparse(M));
   const auto refuse = [&](int dof) {
@@ -103,15 +116,14 @@ void requirePositiveDefinite(const Sparse& M, const DofNamer& name) {
         "The mass matrix of an eigenproblem must be positive definite, and it is not at " +
         nameOf(name, dof) + ": give that degree of freedom a mass, or condense it first.");
   };
-  const Vector diagonal = M.diagonal();
   for (int i = 0; i < M.rows(); ++i)
     if (!(diagonal[i] > 0.0)) refuse(i);
   if (ldlt.info() != Eigen::Success) refuse(static_cast<int>(largestEntry(-diagonal)));
-  // Pivot i belongs to row p_i of M; a pivot that is rounding beside the diagonal is zero.
+  // Pivot i belongs to row p_i of M.
   const Vector d = ldlt.vectorD();
   for (int i = 0; i < M.rows(); ++i) {
     const int dof = ldlt.permutationPinv().indices()[i];
-    if (!(d[i] > 4.0 * epsilon * diagonal[dof])) refuse(dof);
+    if (!(d[i] > none * diagonal[dof])) refuse(dof);
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 
 namespace tooljoint::linalg {
@@ -161,6 +162,7 @@ EigenPairs semidefiniteModes(const Sparse& K, const Sparse& M, int count,
 bool hasSingularMass(const Sparse& M) {
   const Vector diagonal = M.diagonal();
   if (!(diagonal.array() > 0).all()) return true;
+  if (suitsMumps(M)) return !isDefinite(M, massless);
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * M * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);

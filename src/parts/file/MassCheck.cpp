@@ -5,6 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "parts/file/PartFile.hpp"
 
 namespace tooljoint::parts {
@@ -75,6 +76,8 @@ class MassCheck {
           fail("is indefinite: " + dof(diagonal[i] == 0.0 ? i : it.col()) +
                " has a zero diagonal entry, but is coupled with " +
                dof(diagonal[i] == 0.0 ? it.col() : i) + " by " + formatNumber(it.value()) + ".");
+    if (linalg::suitsMumps(M_) && diagonal.minCoeff() > 0.0 && linalg::isDefinite(M_, -rounding))
+      return;
     using ColumnMajor = Eigen::SparseMatrix<double>;
     ColumnMajor scaled = ColumnMajor(scale.asDiagonal() * ColumnMajor(M_) * scale.asDiagonal());
     ColumnMajor shift(scaled.rows(), scaled.cols());

@@ -146,7 +146,7 @@ TEST(Version, NamesEverythingARunStandsOn) {
   EXPECT_NE(gitHash(), "");
   const std::string text = versionText();
   for (const std::string& version :
-       {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version()}) {
+       {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version(), blasLibrary()}) {
     EXPECT_NE(text.find(version), std::string::npos);
   }
 }

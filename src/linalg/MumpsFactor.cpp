@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/MumpsFactor.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <dmumps_c.h>
+#include <fstream>
+#include <mpi.h>
+#include <string>
+#include <vector>
+
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "linalg/blocks/ChainFactor.hpp"
+
+namespace tooljoint::linalg {
+
+namespace {
+
+/// Below it KLU2 is as fast for solids: 0.1 s.
+constexpr int fewRows = 2000;
+/// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
+constexpr int blockOfColumns = 64;
+/// Room beside the estimate of the analysis that pivoting may take [%], at first and at most.
+constexpr int firstRoom = 30, mostRoom = 500;
+
+/// Jobs of MUMPS.
+constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, substitute = 3;
+/// Of its errors (Users' guide 5.5, section 8).
+constexpr int noRoom = -9, realRoom = -8, noMemory = -13, singular = -10, notDefinite = -40;
+
+/// Memory that is free, as Linux says [MB]; 0 where it does not.
+long freeMegabytes() {
+  std::ifstream in("/proc/meminfo");
+  for (std::string word; in >> word;)
+    if (word == "MemAvailable:") {
+      long kilobytes = 0;
+      in >> kilobytes;
+      return kilobytes / 1024;
+    }
+  return 0;
+}
+
+[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, long available) {
+  throw ModelError("The factors of a matrix of " + std::to_string(rows) + " rows need " +
+                   std::to_string(needed) + " MB of memory, and " + std::to_string(available) +
+                   " MB are free. Cut the part into smaller ones, or use a machine with more.");
+}
+
+}  // namespace
+
+struct MumpsFactor::Impl {
+  DMUMPS_STRUC_C id{};
+  bool open = false, factored = false;
+  Symmetry symmetry = Symmetry::None;
+  std::vector<int> outer, inner;  ///< pattern that was analysed
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+
+  ~Impl() { close(); }
+
+  int& control(int number) { return id.icntl[number - 1]; }
+  int status() const { return id.infog[0]; }
+  int info(int number) const { return id.infog[number - 1]; }
+
+  void call(int job) {
+    id.job = job;
+    dmumps_c(&id);
+  }
+
+  void close() {
+    if (open) call(finish);
+    open = factored = false;
+  }
+
+  void start(Symmetry kind) {
+    close();
+    id = {};
+    symmetry = kind;
+    id.par = 1;
+    id.sym = kind == Symmetry::None ? 0 : kind == Symmetry::Definite ? 1 : 2;
+    id.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
+    call(initialise);
+    open = true;
+    for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
+    control(4) = 0;
+    control(7) = 5;  // ordering by METIS
+    control(14) = firstRoom;
+    control(27) = blockOfColumns;
+  }
+
+  bool samePattern(const Sparse& A) const {
+    return at(A.outerSize()) + 1 == outer.size() && at(A.nonZeros()) == inner.size() &&
+           std::equal(outer.begin(), outer.end(), A.outerIndexPtr()) &&
+           std::equal(inner.begin(), inner.end(), A.innerIndexPtr());
+  }
+
+  /// Entries of A, of its lower triangle where it is symmetric, counted from 1.
+  void take(const Sparse& A) {
+    const bool half = symmetry != Symmetry::None;
+    rows.clear(), columns.clear(), values.clear();
+    forEachEntry(A, [&](int row, int column, double value) {
+      if (half && column > row) return;
+      rows.push_back(row + 1);
+      columns.push_back(column + 1);
+      values.push_back(value);
+    });
+    id.n = static_cast<MUMPS_INT>(A.rows());
+    id.nnz = static_cast<MUMPS_INT8>(rows.size());
+    id.irn = rows.data();
+    id.jcn = columns.data();
+    id.a = values.data();
+  }
+
+  [[noreturn]] void fail() const {
+    if (status() == noMemory) refuseMemory(id.n, std::max(info(16), info(17)), freeMegabytes());
+    throw ModelError("MUMPS could not factor a matrix of " + std::to_string(id.n) +
+                     " rows: error " + std::to_string(status()) + " (" + std::to_string(info(2)) +
+                     ").");
+  }
+
+  void analysePattern(const Sparse& A) {
+    call(analyse);
+    if (status() < 0) fail();
+    outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1);
+    inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    const long needed = info(16),
+               available = freeMegabytes();  // INFOG(16): MB of the factorisation
+    if (available > 0 && needed > available) refuseMemory(A.rows(), needed, available);
+  }
+};
+
+MumpsFactor::MumpsFactor() : impl_(std::make_unique<Impl>()) {}
+MumpsFactor::~MumpsFactor() = default;
+MumpsFactor::MumpsFactor(MumpsFactor&&) noexcept = default;
+MumpsFactor& MumpsFactor::operator=(MumpsFactor&&) noexcept = default;
+
+bool MumpsFactor::factor(const Sparse& A, Symmetry symmetry) {
+  Impl& m = *impl_;
+  const bool known = m.open && m.symmetry == symmetry && m.samePattern(A);
+  if (!known) m.start(symmetry);
+  m.factored = false;
+  m.take(A);
+  if (!known) m.analysePattern(A);
+  m.call(decompose);
+  while ((m.status() == noRoom || m.status() == realRoom) && m.control(14) < mostRoom) {
+    m.control(14) *= 2;
+    m.call(decompose);
+  }
+  if (m.status() == singular || m.status() == notDefinite) return false;
+  if (m.status() < 0) m.fail();
+  if (symmetry == Symmetry::Definite && m.info(12) > 0) return false;  // negative pivots
+  m.factored = true;
+  return true;
+}
+
+Matrix MumpsFactor::solve(const Matrix& b) const {
+  Impl& m = *impl_;
+  Matrix x = b;
+  m.id.rhs = x.data();
+  m.id.nrhs = static_cast<MUMPS_INT>(x.cols());
+  m.id.lrhs = static_cast<MUMPS_INT>(x.rows());
+  m.call(substitute);
+  if (m.status() < 0) m.fail();
+  return x;
+}
+
+long MumpsFactor::entries() const {
+  // INFOG(29): entries of the factors, in millions with a minus where they are many
+  const long entries = impl_->info(29);
+  return entries < 0 ? -1000000L * entries : entries;
+}
+
+int MumpsFactor::negativePivots() const { return impl_->info(12); }
+
+bool suitsMumps(const Sparse& A) { return A.rows() >= fewRows && !ChainFactor::isChain(A); }
+
+bool isDefinite(const Sparse& A, double tolerance) {
+  Sparse lowered = A;
+  for (int i = 0; i < A.rows(); ++i) lowered.coeffRef(i, i) *= 1.0 - tolerance;
+  return MumpsFactor().factor(lowered, MumpsFactor::Symmetry::Definite);
+}
+
+bool isExactlySymmetric(const Sparse& A) {
+  const Sparse transpose = A.transpose();
+  return A.nonZeros() == transpose.nonZeros() &&
+         std::equal(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1,
+                    transpose.outerIndexPtr()) &&
+         std::equal(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros(),
+                    transpose.innerIndexPtr()) &&
+         std::equal(A.valuePtr(), A.valuePtr() + A.nonZeros(), transpose.valuePtr());
+}
+
+}  // namespace tooljoint::linalg

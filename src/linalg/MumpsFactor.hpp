@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Multifrontal factors by MUMPS (Amestoy, Duff, L'Excellent and Koster 2001), for matrices whose
+/// factors fill: solids and shells. On this rank alone, with the ordering of METIS.
+#pragma once
+
+#include <memory>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+
+class MumpsFactor {
+ public:
+  /// L U, L D L' with pivots of order one and two, or L D L' with D > 0 (no pivoting).
+  enum class Symmetry { None, Indefinite, Definite };
+
+  MumpsFactor();
+  ~MumpsFactor();
+  MumpsFactor(MumpsFactor&&) noexcept;
+  MumpsFactor& operator=(MumpsFactor&&) noexcept;
+
+  /// Factors A; the ordering is kept while pattern and symmetry are the same. Of a symmetric A only
+  /// the lower triangle is read. False: a pivot is zero, or not positive where A is Definite.
+  /// ModelError naming the memory when it does not suffice, and for other failures of MUMPS.
+  bool factor(const Sparse& A, Symmetry symmetry);
+  /// A^-1 b, neither refined nor checked; columns in blocks.
+  Matrix solve(const Matrix& b) const;
+  /// Entries of the factors.
+  long entries() const;
+  /// Negative eigenvalues of A (Sylvester), of symmetric factors.
+  int negativePivots() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// So large a matrix, and no chain of nodes, that its factors by KLU2 would fill much more.
+bool suitsMumps(const Sparse& A);
+
+/// x'(A - tolerance diag(A)) x > 0 for all x and symmetric A with a positive diagonal: no pivot of
+/// A is below that part of its diagonal.
+bool isDefinite(const Sparse& A, double tolerance);
+
+/// a_ij = a_ji for all entries, to the last bit.
+bool isExactlySymmetric(const Sparse& A);
+
+}  // namespace tooljoint::linalg

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Factors by MUMPS on the grid of springs whose eigenvalues are known, 6 - 2 sum cos(i pi /
+/// (n+1)).
+#include "linalg/MumpsFactor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "linalg/Deterministic.hpp"
+#include "linalg/trilinos/DirectSolver.hpp"
+#include "linalg/trilinos/EigenChecks.hpp"
+
+namespace {
+
+using namespace tooljoint;
+using namespace tooljoint::linalg;
+using Symmetry = MumpsFactor::Symmetry;
+
+constexpr int edge = 14;  // 2744 dofs
+
+/// Masses at the points of a cube, joined with their neighbours and, unless it is free, with walls;
+/// `skew` of it acts one way only.
+Sparse grid(bool free = false, double skew = 0.0) {
+  Triplets entries;
+  const auto number = [](int x, int y, int z) { return x + edge * (y + edge * z); };
+  for (int z = 0; z < edge; ++z)
+    for (int y = 0; y < edge; ++y)
+      for (int x = 0; x < edge; ++x) {
+        const int i = number(x, y, z);
+        int neighbours = 0;
+        for (const auto& [a, b, c] :
+             {std::array{1, 0, 0}, std::array{0, 1, 0}, std::array{0, 0, 1}})
+          for (const int side : {-1, 1}) {
+            const int p = x + side * a, q = y + side * b, r = z + side * c;
+            if (std::min({p, q, r}) < 0 || std::max({p, q, r}) >= edge) continue;
+            ++neighbours;
+            entries.emplace_back(i, number(p, q, r), -1.0 + side * skew);
+          }
+        entries.emplace_back(i, i, free ? neighbours : 6.0);
+      }
+  return sparse(edge * edge * edge, edge * edge * edge, entries);
+}
+
+int eigenvaluesOfGridBelow(double bound) {
+  int below = 0;
+  const auto one = [](int i) { return 2 - 2 * std::cos(i * constants::pi / (edge + 1)); };
+  for (int i = 1; i <= edge; ++i)
+    for (int j = 1; j <= edge; ++j)
+      for (int k = 1; k <= edge; ++k) below += one(i) + one(j) + one(k) < bound;
+  return below;
+}
+
+Sparse shifted(const Sparse& A, double shift) {
+  Sparse one(A.rows(), A.cols());
+  one.setIdentity();
+  return A - shift * one;
+}
+
+TEST(MumpsFactor, solvesWithEverySymmetry) {
+  const Matrix b = scatteredNumbers(edge * edge * edge, 100, 3);
+  for (const auto& [A, symmetry] :
+       {std::pair{grid(), Symmetry::None}, std::pair{grid(false, 0.3), Symmetry::None},
+        std::pair{grid(), Symmetry::Definite},
+        std::pair{shifted(grid(), 2.0), Symmetry::Indefinite}}) {
+    MumpsFactor factor;
+    ASSERT_TRUE(factor.factor(A, symmetry));
+    EXPECT_LT(backwardError(A, factor.solve(b), b), 1e-11);
+    EXPECT_GT(factor.entries(), A.nonZeros());
+  }
+}
+
+TEST(MumpsFactor, goesOnWithTheOrderingOfOnePattern) {
+  MumpsFactor factor;
+  const Matrix b = scatteredNumbers(edge * edge * edge, 1, 3);
+  for (const double skew : {0.0, 0.1, 0.2}) {
+    const Sparse A = grid(false, skew);
+    ASSERT_TRUE(factor.factor(A, Symmetry::None));
+    EXPECT_LT(backwardError(A, factor.solve(b), b), 1e-12) << skew;
+  }
+  const Sparse half = shifted(grid(), -1.0);
+  ASSERT_TRUE(factor.factor(half, Symmetry::Definite));
+  EXPECT_LT(backwardError(half, factor.solve(b), b), 1e-12);
+}
+
+TEST(MumpsFactor, countsEigenvalues) {
+  for (const double bound : {0.05, 0.2, 3.05, 6.05, 11.0}) {
+    MumpsFactor factor;
+    ASSERT_TRUE(factor.factor(shifted(grid(), bound), Symmetry::Indefinite));
+    EXPECT_EQ(factor.negativePivots(), eigenvaluesOfGridBelow(bound)) << bound;
+    Sparse one(edge * edge * edge, edge * edge * edge);
+    one.setIdentity();
+    EXPECT_EQ(eigenvaluesBelow(grid(), one, bound), eigenvaluesOfGridBelow(bound)) << bound;
+  }
+}
+
+TEST(MumpsFactor, tellsWhatIsDefinite) {
+  const double lowest = 6 - 6 * std::cos(constants::pi / (edge + 1));
+  EXPECT_TRUE(isDefinite(grid(), 0.99 * lowest / 6));  // of the diagonal, 6
+  EXPECT_FALSE(isDefinite(grid(), 1.01 * lowest / 6));
+  EXPECT_FALSE(MumpsFactor().factor(shifted(grid(), 1.0), Symmetry::Definite));
+}
+
+TEST(MumpsFactor, isForLargeMatricesThatAreNoChains) {
+  EXPECT_TRUE(suitsMumps(grid()));
+  Triplets entries;
+  for (int i = 0; i < 6000; ++i)  // nodes of six dofs, each joined with the next
+    for (int j = std::max(0, i - i % 6 - 6); j < std::min(6000, i - i % 6 + 12); ++j)
+      entries.emplace_back(i, j, i == j ? 2.0 : -0.1);
+  EXPECT_FALSE(suitsMumps(sparse(6000, 6000, entries)));
+  EXPECT_FALSE(suitsMumps(grid().topLeftCorner(100, 100)));
+  EXPECT_TRUE(isExactlySymmetric(grid()));
+  EXPECT_FALSE(isExactlySymmetric(grid(false, 1e-15)));
+}
+
+/// The direct solver of such a matrix: its solution is as good, and what moves freely is named.
+TEST(MumpsFactor, standsBehindTheDirectSolver) {
+  const Matrix b = scatteredNumbers(edge * edge * edge, 130, 5);
+  const DirectSolver solver(grid());
+  EXPECT_LT(backwardError(grid(), solver.solve(b), b), 1e-13);
+  EXPECT_LT(solver.lastResidual(), 1e-13);
+  try {
+    const DirectSolver free(grid(true));
+    FAIL() << "a free grid was factored";
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("nothing resists a motion"), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
