@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Measures long strings, large parts and many rows, and writes docs/scale.md with its figure.
+
+    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--short]
+
+Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
+in the work folder already are not run again. --short takes the smallest of each and prints the tables only.
+"""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import platform
+import re
+import shutil
+import sys
+import time
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENT = PROJECT / "docs/scale.md"
+FIGURE = PROJECT / "docs/figures/scale_solids.svg"
+BLOCK = PROJECT / "examples/12_solid_block"
+# Elements along a block of 8:2:1 of equal hexahedra.
+BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29, 15)
+STRINGS = "build_hold_1400m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
+STATIC_ONLY = ["--without", "Transient", "--without", "Reduction", "--without", "Substructures"]
+MODES, JOINED = 50, 100
+HEAD = """# Scale
+
+What the program takes for long strings, large parts and many rows. Written by
+
+    tools/scale.py --program build/release/tooljoint
+
+Machine: {cpu}, {count} cores; {blas}. Times are of one run each; ratios within a table are what lasts. Memory is the
+peak of the largest process.
+
+"""
+
+
+def measured(options, name, words, ranks=1):
+    """{code, wall_s, cpu_s, memory_mb, output} of a run of the program, from the work folder or by running it."""
+    folder = pathlib.Path(options.work) / name
+    record = folder / "row.json"
+    if record.exists():
+        return json.loads(record.read_text(encoding="utf-8"))
+    folder.mkdir(parents=True, exist_ok=True)
+    command = [options.program, *words]
+    if ranks > 1:
+        command = [options.mpiexec, "-n", str(ranks), *command]
+    log = folder / "log.txt"
+    begin = time.monotonic()
+    child = os.fork()
+    if child == 0:
+        with open(log, "w", encoding="utf-8") as text:
+            os.dup2(text.fileno(), 1)
+            os.dup2(text.fileno(), 2)
+        os.chdir(folder)
+        os.execvp(command[0], command)
+    _, status, usage = os.wait4(child, 0)
+    row = {"code": os.waitstatus_to_exitcode(status), "wall_s": time.monotonic() - begin, "cpu_s": usage.ru_utime + usage.ru_stime,
+           "memory_mb": usage.ru_maxrss / 1024, "output": log.read_text(encoding="utf-8")}
+    record.write_text(json.dumps(row), encoding="utf-8")
+    return row
+
+
+def solid(options, counts):
+    """A block with JOINED retained nodes at its tip, reduced with MODES modes; (dofs, entries, row)."""
+    name = "block_" + "x".join(map(str, counts))
+    folder = pathlib.Path(options.work).resolve() / name
+    folder.mkdir(parents=True, exist_ok=True)
+    made = folder / "made.txt"
+    if not made.exists():
+        text = os.popen(f"{sys.executable} {BLOCK}/make_block.py {' '.join(map(str, counts))} --joined {JOINED} --out {folder}/block.h5").read()
+        shutil.copy(BLOCK / "deck.xml", folder / "deck.xml")
+        made.write_text(text, encoding="utf-8")
+    dofs, entries = map(int, re.search(r"(\d+) dofs, (\d+) entries", made.read_text(encoding="utf-8")).groups())
+    row = measured(options, name, ["export", "deck.xml", "--set", f"Reduction/Mode Selection/Modes={MODES}", "--output", "reduced"])
+    return dofs, entries, row
+
+
+def table(head, lines):
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(map(str, line)) + " |" for line in lines]) + "\n"
+
+
+def times(row):
+    if row["code"] != 0:
+        last = [line for line in row["output"].splitlines() if line.strip()]
+        return f"exit code {row['code']}: {last[-1] if last else ''}", "", ""
+    return f"{row['wall_s']:.3g}", f"{row['cpu_s']:.3g}", f"{row['memory_mb']:.0f}"
+
+
+def solids(options, chosen):
+    found = [solid(options, counts) for counts in chosen]
+    lines = [(dofs, entries, *times(row)) for dofs, entries, row in found]
+    text = (f"## Large parts\n\nBlocks of hexahedra ([example 12](../examples/12_solid_block/README.md)), clamped at one end, {3 * JOINED} dofs kept at the other\n"
+            f"(all of that end where it has fewer nodes): constraint modes and {MODES} fixed-interface modes, with all checks, from the file to the file.\n\n")
+    return text + table(("dofs", "entries of K", "wall [s]", "CPU [s]", "memory [MB]"), lines), found
+
+
+def strings(options, chosen):
+    lines = []
+    for name in chosen:
+        deck = PROJECT / f"xml/{name}.xml"
+        row = measured(options, f"static_{name}", ["run", str(deck), *STATIC_ONLY, "--output", "out", "--set", "Output/XDMF=false"])
+        summary = pathlib.Path(options.work) / f"static_{name}" / "out/summary.json"
+        static = json.loads(summary.read_text(encoding="utf-8"))["static"] if summary.exists() else {}
+        nodes = re.search(r"(\d+) nodes.* (\d+) free dofs", row["output"])
+        lines.append((name, nodes.group(2) if nodes else "", static.get("iterations", ""), *times(row)))
+    return ("## Static states of long strings\n\nWell path, static state, check of its stability and results, on one rank.\n\n" +
+            table(("scene", "dofs", "iterations", "wall [s]", "CPU [s]", "memory [MB]"), lines))
+
+
+def rows(options, end):
+    """The study of the tests on one rank and, rows over ranks, on two."""
+    deck = PROJECT / "tests/study/study.xml"
+    common = ["study", str(deck), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Study/Repeats=1"]
+    one = measured(options, "rows_1", common)
+    two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
+    counts = []
+    for name in ("rows_1", "rows_2"):
+        path = pathlib.Path(options.work) / name / "out/study.csv"
+        counts.append(sum(1 for _ in csv.DictReader(open(path, encoding="utf-8"))) if path.exists() else 0)
+    lines = [(ranks, count, *times(row)) for ranks, count, row in ((1, counts[0], one), (2, counts[1], two))]
+    ratio = one["wall_s"] / two["wall_s"] if one["code"] == two["code"] == 0 else float("nan")
+    return (f"## Rows over ranks\n\nThe study of `tests/study` over {end} s, `--ranks-per-row 1` on two ranks: {ratio:.2f} times the rows per hour of one.\n\n" +
+            table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
+
+
+def draw(found):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "scale", "font.size": 9, "legend.frameon": False})
+    done = [(dofs, row["cpu_s"], row["memory_mb"]) for dofs, _, row in found if row["code"] == 0]
+    dofs, cpu, memory = zip(*done)
+    figure, axes = plt.subplots(figsize=(5.6, 3.4))
+    axes.loglog(dofs, cpu, "o-", label="CPU time [s]", color="#0072B2")
+    axes.loglog(dofs, memory, "s--", label="peak memory [MB]", color="#D55E00")
+    axes.set(xlabel="dofs of the block", title=f"Reduction of a solid part, {MODES} modes, {3 * JOINED} kept dofs")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(FIGURE, metadata={"Date": None})
+
+
+def machine():
+    text = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    name = re.search(r"model name\s*: (.*)", text)
+    return name.group(1) if name else platform.machine()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--work", default="results/scale")
+    parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--short", action="store_true")
+    options = parser.parse_args()
+    options.program = str(pathlib.Path(options.program).resolve())
+    blocks, found = solids(options, BLOCKS[:2] if options.short else BLOCKS)
+    text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS) + "\n" + rows(options, 3 if options.short else 15)
+    print(text)
+    if not options.short:
+        blas = os.popen(f"{options.program} --version").read()
+        blas = re.search(r"BLAS +(\S+)", blas)
+        draw(found)
+        head = HEAD.format(cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
+        figure = f"![Reduction of a solid part](figures/{FIGURE.name})\n\n"
+        at = text.index("\n| dofs") + 1
+        DOCUMENT.write_text(head + text[:at] + figure + text[at:], encoding="utf-8")
+    failed = [row for _, _, row in found if row["code"] != 0]
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
