@@ -6,6 +6,7 @@ Stresses, curvatures, precession, spectra, envelopes, units, the deck with its o
 """
 import base64
 import pathlib
+import re
 import sys
 
 import numpy as np
@@ -83,6 +84,18 @@ def motions():
     expect("thinned curves keep their extremes", len(shown) <= 1200 and shown.max() == 9 and shown.min() == -7, f"({len(shown)})")
 
 
+def pictures():
+    plots.use_style()
+    made, axes = plots.figure()
+    axes.plot([0, 1], [0.00125, 0.00375])
+    axes.set_yticks([0.00125, 0.00375]), axes.set_ylabel("a [m]"), axes.set_title("1.23456")
+    text = plots.inline_svg(made, "one")
+    expect("numbers of a plot keep their digits", all(f">{word}<" in text for word in ("0.00125", "0.00375", "1.23456", "a [m]")))
+    expect("coordinates are shortened", not re.search(r'd="[^"]*\d\.\d{3}', text))
+    expect("ids of a plot are its own", set(re.findall(r'id="(.*?)-', text)) == {"one"} and len(re.findall(r'url\(#(?!one-)', text)) == 0)
+    expect("a plot takes the width that there is", re.match(r"<svg(?![^>]* (width|height)=)[^>]*viewBox", text) is not None, text[:200])
+
+
 def units():
     expect("forces in klbf", quantities.both(4448.2216152605, "force") == ("4.45 kN", "1.00 klbf"), quantities.both(4448.2216152605, "force"))
     expect("torques in kft lbf", quantities.both(1355.8179483314, "torque") == ("1.36 kN m", "1.00 kft lbf"), quantities.both(1355.8179483314, "torque"))
@@ -124,7 +137,7 @@ def view():
 
 
 def main():
-    for part in (stresses, motions, units, scenes, judged, view):
+    for part in (stresses, motions, pictures, units, scenes, judged, view):
         part()
     return finish()
 

@@ -43,6 +43,19 @@ PIXELS = """(() => {
   return {colours: counts.size, drawn: 1 - Math.max(...counts.values()) / pixels.length, sum: sum};
 })()"""
 
+# Texts of plots that are cut off, or that lie on another one; slanted texts have boxes larger than themselves and are not compared.
+TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
+  const frame = svg.getBoundingClientRect(), faults = [];
+  const boxes = [...svg.querySelectorAll("text")].map((t) => [t.textContent, t.getBoundingClientRect(), /rotate\\(-(?!0|90)/.test(t.getAttribute("transform") || "")]);
+  boxes.forEach(([text, box, slanted], i) => {
+    if (box.left < frame.left - 2 || box.right > frame.right + 2 || box.top < frame.top - 2 || box.bottom > frame.bottom + 2) faults.push("cut: " + text);
+    for (const [other, second, slanted2] of boxes.slice(i + 1))
+      if (!slanted && !slanted2 && Math.min(box.right, second.right) - Math.max(box.left, second.left) > 2 &&
+          Math.min(box.bottom, second.bottom) - Math.max(box.top, second.top) > 3) faults.push(text + " on " + other);
+  });
+  return faults.map((fault) => svg.closest("figure").id + ": " + fault);
+})"""
+
 
 def run(folder, deck, *arguments):
     shutil.rmtree(folder, ignore_errors=True)
@@ -101,6 +114,8 @@ def look(title, path, chromium, view=True, moves=True):
                 expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
         small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
         expect(f"{title}, {width} px: figures have a size", not small, small)
+        texts = chromium.value(TEXTS)
+        expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
         expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())
     pages = len(base64.b64decode(chromium.call("Page.printToPDF", preferCSSPageSize=True)["data"]))
     expect(f"{title}: it prints", pages > 20_000, pages)
@@ -127,7 +142,7 @@ def string_numbers(folder, text):
     with h5py.File(pathlib.Path(folder, "results.h5")) as file:
         data = {name: file[name][:] for name in ("/model/position", "/model/frame", "/model/s", "/static/displacement", "/static/normal_force", "/transient/displacement",
                                                  "/transient/time", "/model/bore_radius")}
-    north, east, down = (data["/model/position"] - data["/model/position"][0]).T
+    north, east, down = data["/model/position"].T
     near("string: nodes stand east, up, south", numbers(scene["position"]), np.stack([east, -down, -north], 1), 1e-4)
     frame = numbers(scene["frames"])  # node, axis, component
     near("string: frames are turned likewise", frame[:, :, 1], -data["/model/frame"][:, 2, :], 1e-6)

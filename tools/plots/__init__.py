@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 
 RPM = 30 / np.pi
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D", "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255",
@@ -30,9 +31,12 @@ def use_style():
     plt.rcParams.update(STYLE)
 
 
-def figure(width=WIDE, height=3.0, **options):
-    """A figure and its axes, without overlaps."""
-    return plt.subplots(figsize=(width, height), constrained_layout=True, **options)
+def figure(width=WIDE, height=3.0):
+    """A figure and its axes, without overlaps. The number of ticks is given: one that grew with the axes would change the room they leave."""
+    made, axes = plt.subplots(figsize=(width, height), constrained_layout=True)
+    axes.xaxis.set_major_locator(ticker.MaxNLocator(8 if width > SLENDER else 4))
+    axes.yaxis.set_major_locator(ticker.MaxNLocator(8 if height > 2.9 else 5))
+    return made, axes
 
 
 def profile(label, limits, height=4.2):
@@ -41,7 +45,6 @@ def profile(label, limits, height=4.2):
     axes.set_xlabel(label)
     axes.set_ylabel("measured depth [m]")
     axes.set_ylim(limits[1], limits[0])
-    axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(4))
     return made, axes
 
 
@@ -75,7 +78,8 @@ def inline_svg(made, name):
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>\s*|<!--.*?-->\s*", "", text, flags=re.S)
     text = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{name}-", text)
-    text = re.sub(r"(\d\.\d\d)\d+", r"\1", text)
+    # Coordinates to a hundredth of a point; texts between the tags stay as they are.
+    text = re.sub(r"<[^>]*>", lambda tag: re.sub(r"(\d\.\d\d)\d+", r"\1", tag.group()), text)
     return re.sub(r'(<svg[^>]*?) width="[^"]*"', r"\1", re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1), count=1)
 
 

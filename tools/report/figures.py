@@ -35,7 +35,6 @@ def well(run):
         axes.plot(east, north, color=BLUE)
         axes.plot(east[0], north[0], "o", color=GREY, markersize=5)
         axes.set_aspect("equal", adjustable="datalim")
-        axes.xaxis.set_major_locator(plots.matplotlib.ticker.MaxNLocator(4))
         axes.set_xlabel("east [m]"), axes.set_ylabel("north [m]")
         found.append(Figure("map", made, "Well from above; the dot is the surface."))
     return found
@@ -74,7 +73,7 @@ def static_profiles(run):
     stress = results.von_mises(run, run.get("/static/displacement"))
     if stress is not None:
         add("stress", "von Mises stress [MPa]", "Static stress at the outer wall: effective tension, bending, torsion.",
-            lambda axes: (axes.plot(stress / 1e6, run.middles, color=COLOURS[4], linewidth=1.1), axes.set_xlim(left=0)))
+            lambda axes: (axes.plot(stress / 1e6, run.middles, color=COLOURS[4], linewidth=0.7), axes.set_xlim(left=0)))
     add("curvature", "dogleg severity [deg/30 m]", "Curvature of the axis of the string at rest.",
         lambda axes: (axes.plot(np.degrees(results.curvature(run, run.get("/static/displacement"))) * 30, run.middles, color=COLOURS[5], linewidth=1.1),
                       axes.set_xlim(left=0)))
@@ -174,7 +173,7 @@ def spectra(run, motion, chosen):
     half = slice(motion.first, None)
     interval = float(np.median(np.diff(run.time)))
     found = []
-    made, axes = frequency_axes("lateral displacement [mm$^2$/Hz]")
+    made, axes = frequency_axes("lateral displacement [mm²/Hz]")
     drawn = False
     for number, node in enumerate(chosen):
         drawn |= draw_spectrum(axes, 1e3 * motion.histories[half, number, 0], interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m")
@@ -183,7 +182,7 @@ def spectra(run, motion, chosen):
         found.append(Figure("lateral-spectrum", made, "Spectra of the lateral displacement u at the nodes of the orbits, second half of the motion.", True))
     bit = run.bit_speed()
     if bit is not None:
-        made, axes = frequency_axes("bit speed [rpm$^2$/Hz]")
+        made, axes = frequency_axes("bit speed [rpm²/Hz]")
         if draw_spectrum(axes, RPM * bit[half], interval, color=BLUE) and axes.lines:
             found.append(Figure("bit-spectrum", made, "Spectrum of the bit speed, likewise.", True))
     return found

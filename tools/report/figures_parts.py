@@ -100,7 +100,7 @@ def spectra(run):
     interval = float(np.median(np.diff(run.time)))
     found = []
     for wanted in ("m", "rad"):
-        made, axes = frequency_axes(f"displacement [{wanted}$^2$/Hz]")
+        made, axes = frequency_axes(f"displacement [{wanted}²/Hz]")
         for c, name, unit, node, values in histories(run):
             if unit == wanted:
                 draw_spectrum(axes, values[run.second_half():], interval, color=COLOURS[c % len(COLOURS)], label=f"{name}, {node_name(run, node)}")

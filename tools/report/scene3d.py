@@ -103,7 +103,7 @@ def of_string(run):
               1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)]
     data = {
         "kind": "string", "colours": colours(), "fields": [entry for entry in fields if entry],
-        "position": packed(to_view(position - position[0])[kept], "f4"), "frames": packed(frames[kept], "f4"),
+        "position": packed(to_view(position)[kept], "f4"), "frames": packed(frames[kept], "f4"),
         "radius": packed(np.maximum(radius, contact_radius)[kept] if outer is None else np.where(clearance + contact_radius < bore, contact_radius, radius)[kept], "f4"),
         "bore": packed(bore[kept], "f4"), "depth": packed(run.s[kept], "f4"), "rest": packed(rest[kept][:, :3], "f4")}
     names = run.components()
@@ -157,7 +157,7 @@ def of_parts(run):
     size = 1e3 * np.linalg.norm(rest, axis=-1), None if motion is None else 1e3 * np.linalg.norm(motion, axis=-1)
     turn = np.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # x, z up, -y
     data = {"kind": "parts", "colours": colours(), "fields": [entry for entry in [field("displacement", "displacement", "mm", *size)] if entry],
-            "position": packed((position - position.mean(axis=0)) @ turn.T, "f4"), "rest": packed(rest @ turn.T, "f4"),
+            "position": packed(position @ turn.T, "f4"), "rest": packed(rest @ turn.T, "f4"),
             "links": packed(np.array(edges, dtype="u4").reshape(-1, 2), "u4"), "part": packed(run.get("/model/part")[rows] - 1, "u4")}
     if run.moves:
         data["time"] = packed(run.time[at], "f4")

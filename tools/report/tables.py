@@ -4,6 +4,8 @@ from html import escape
 
 from report.quantities import percent, plain
 
+COUNTS = ("interior", "interface", "retained", "modes")  # dofs of a part in summary.json
+
 
 def table(titles, rows, numbers=(), caption=""):
     """An HTML table; `numbers` are the columns that are aligned as numbers. Cells are texts."""
@@ -50,8 +52,8 @@ def of_reduction(run):
                   ("Estimated error of frequencies", percent(run.value("reduction.estimate.frequency_error")), "largest, without the full model"),
                   ("Estimated vibration error", percent(run.value("reduction.estimate.motion_error")), "of the reduction alone")])
     text += table(("part", "interior", "interface", "retained", "modes", "cut-off [Hz]"),
-                  [[part["name"], *(plain(part[key]) for key in ("interior", "interface", "retained", "modes")), plain(part["cutoff_hz"])] for part in grouped(parts)],
-                  (1, 2, 3, 4, 5), "Parts and their dofs; equal ones stand in one row")
+                  [[part["name"], *(plain(part[key]) for key in COUNTS), part["cut-off"]] for part in grouped(parts)],
+                  (1, 2, 3, 4, 5), "Parts and their dofs; neighbours of equal dofs stand in one row")
     frequencies = run.value("reduction.estimate.frequencies") or []
     if frequencies:
         text += table(("frequency [Hz]", "estimated error", "part that contributes most"),
@@ -61,15 +63,20 @@ def of_reduction(run):
 
 
 def grouped(parts):
-    """Rows of parts; neighbours that differ by their name alone become one."""
-    rows = []
+    """Rows of parts; neighbours of the same numbers of dofs become one."""
+    groups = []
     for part in parts:
-        same = {key: value for key, value in part.items() if key != "name"}
-        if rows and rows[-1][1] == same:
-            rows[-1][0].append(part["name"])
+        if groups and all(groups[-1][-1][key] == part[key] for key in COUNTS):
+            groups[-1].append(part)
         else:
-            rows.append(([part["name"]], same))
-    return [{"name": names[0] if len(names) == 1 else f"{names[0]} to {names[-1]} ({len(names)})", **same} for names, same in rows]
+            groups.append([part])
+    rows = []
+    for group in groups:
+        cut_offs = [part["cutoff_hz"] for part in group if part["cutoff_hz"] is not None]
+        span = plain(cut_offs[0]) if len(set(cut_offs)) == 1 else f"{min(cut_offs):.4g} to {max(cut_offs):.4g}" if cut_offs else "-"
+        name = group[0]["name"] if len(group) == 1 else f"{group[0]['name']} to {group[-1]['name']} ({len(group)})"
+        rows.append({**group[0], "name": name, "cut-off": span})
+    return rows
 
 
 def of_numerics(run):

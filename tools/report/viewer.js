@@ -108,7 +108,7 @@
         points.push(at, at.clone().add(out));
         label((sign * v + 0).toFixed(digits(step)).replace(/^-(0(\.0+)?)$/, "$1"), at.clone().addScaledVector(out, 1.6), axis === 0 ? 0.5 : 1);
       }
-      label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(out, axis === 1 ? 6.5 : 5.5), axis === 0 ? 0.5 : 1);
+      label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(out, axis === 1 ? 6.5 : axis === 0 ? 5.5 : 8), axis === 0 ? 0.5 : 1);
     }
     scene.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: 0x8a8a8a})));
   }
