@@ -439,7 +439,7 @@ def draw_statistics(study):
         spectrum.set_ylim(1e-9 * top, 3 * top)
         spectrum.set_xlim(reference.curve("frequency")[1], reference.curve("frequency")[-1])
         logarithmic(spectrum.xaxis)
-        spectrum.set_xlabel("frequency [Hz]"), spectrum.set_ylabel("lateral spectrum, mean of nodes [m$^2$/Hz]")
+        spectrum.set_xlabel("frequency [Hz]"), spectrum.set_ylabel("lateral spectrum, mean of nodes [m²/Hz]")
     else:
         spectrum.set_visible(False)
     key.legend(handles=handles, loc="center", ncol=2, fontsize=8)

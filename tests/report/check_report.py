@@ -11,6 +11,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -66,10 +67,11 @@ def run(folder, deck, *arguments):
 
 
 def report(folder, *arguments):
-    """Runs the command; (what it said, seconds)."""
-    start = time.monotonic()
+    """Runs the command; (what it said, CPU seconds of it and its script), which other tests beside it do not lengthen."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = tooljoint("report", folder, *arguments)
-    return done, time.monotonic() - start
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def figures(text):
@@ -80,9 +82,9 @@ def page(title, folder, wanted, seconds=SECONDS):
     """Writes the report of a folder and reads it."""
     done, took = report(folder)
     path = pathlib.Path(folder, "report.html")
-    expect(f"{title}: a report is written in {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
+    expect(f"{title}: a report takes less than {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
     text = path.read_text(encoding="utf-8") if path.is_file() else ""
-    print(f"       {title}: {took:.1f} s, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
+    print(f"       {title}: {took:.1f} s of CPU, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
     expect(f"{title}: every figure is there", wanted <= figures(text), sorted(wanted - figures(text)))
     expect(f"{title}: every figure is a picture with axes", text.count("<figure ") == len(figures(text)) == len(re.findall(r"<figure [^>]*>.{0,300}?<svg", text, re.S)))
     expect(f"{title}: below {LARGEST / 1e6:.0f} MB", path.stat().st_size < LARGEST, path.stat().st_size)
@@ -176,7 +178,7 @@ def strings(chromium):
         look("string", path, chromium)
     run("rest", STRING, "--without", "Transient")
     path, text = page("string at rest", "rest", WITHOUT_MOTION)
-    expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and '"time"' not in text)
+    expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
     if chromium:
         look("string at rest", path, chromium, moves=False)
     for name, arguments in {"bare": ["--set", "Output/Fields={}"], "free": ["--without", "Contact", "--without", "Mud"], "full": ["--without", "Reduction", "--without", "Substructures"]}.items():
@@ -270,7 +272,7 @@ def refusals():
     pathlib.Path("damaged/results.h5").write_bytes(whole)
     with h5py.File("damaged/results.h5", "r+") as file:
         del file["/model/frame"]
-    refuse("a dataset that is missing", "damaged", "damaged or incomplete")
+    refuse("a dataset that is missing", "damaged", "has no /model/frame")
     pathlib.Path("damaged/results.h5").write_bytes(whole)
     for what, text in (("half a summary", '{"status": "fini'), ("another summary", "[1, 2]")):
         pathlib.Path("damaged/summary.json").write_text(text, encoding="utf-8")

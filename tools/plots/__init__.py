@@ -68,11 +68,11 @@ def square(axes, reach):
     axes.set_aspect("equal")
 
 
-def inline_svg(made, name):
-    """The figure as <svg> text for a page; `name` keeps its ids apart from those of others. The figure is closed."""
+def inline_svg(made, name, tight=False):
+    """The figure as <svg> text for a page; `name` keeps its ids apart from those of others. `tight`: cut or widened to what is drawn, which
+    takes twice the time and which figures of figure() do not need. The figure is closed."""
     out = io.StringIO()
-    # Cutting to the tight box draws twice, which figures with a layout of their own do not need.
-    made.savefig(out, format="svg", bbox_inches=None if made.get_layout_engine() else "tight", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    made.savefig(out, format="svg", bbox_inches="tight" if tight else None, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     plt.close(made)
     text = out.getvalue()
     text = text[text.index("<svg"):]

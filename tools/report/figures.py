@@ -7,15 +7,16 @@ from plots import COLOURS, GREY, RPM
 from report import results
 
 BLUE, ORANGE, GREEN = COLOURS[:3]
+PICTURE_ROWS = 240  # of contact forces over time and depth
 FLOOR = 1e-8  # of the largest value of a spectrum, below which it is not drawn
 
 
 class Figure:
-    """An inline SVG with its caption; wide ones take a row of the page."""
+    """An inline SVG with its caption; wide ones take two columns of the page, large ones a row."""
 
-    def __init__(self, name, made, caption, wide=False):
-        self.name, self.caption, self.wide = name, caption, wide
-        self.svg = plots.inline_svg(made, name)
+    def __init__(self, name, made, caption, wide=False, large=False):
+        self.name, self.caption, self.size = name, caption, "wide large" if large else "wide" if wide else "slender"
+        self.svg = plots.inline_svg(made, name, tight=large)
 
 
 def well(run):
@@ -96,11 +97,10 @@ def contact(run, found):
         return []
     made, axes = plots.figure(plots.WIDE, 3.6)
     s = run.s
-    # Rows of the picture are equal stretches of depth: the largest force of the nodes in each.
-    rows = np.minimum((np.linspace(0, 1, len(s)) if np.ptp(s) == 0 else (s - s[0]) / np.ptp(s)) * 240, 239).astype(int)
-    picture = np.zeros((240, len(found.time)))
-    for row, force in zip(rows, found.force.T):
-        picture[row] = np.maximum(picture[row], force)
+    # Rows of the picture are equal stretches of depth: the largest force of the nodes whose stretch of the string is in each.
+    ends, edges = run.middles, np.linspace(s[0], s[-1], PICTURE_ROWS + 1)
+    first, last = np.searchsorted(ends, edges[:-1], side="right"), np.searchsorted(ends, edges[1:], side="left")
+    picture = np.array([found.force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
     shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
                         extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
     axes.grid(False)

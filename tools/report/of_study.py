@@ -26,7 +26,7 @@ def headline(summary):
     for name, own in (("Fastest full run within 1 %", full), ("Fastest reduced run within 1 %", reduced)):
         if own:
             best = min(own, key=lambda row: row["cpu_per_simulated_s"])
-            found.append((name, f"{best['cpu_per_simulated_s']:.3g} s per s", "CPU time per simulated second", f"{best['label']}, vibration error {percent(best['vibration_error'])}", False))
+            found.append((name, f"{best['cpu_per_simulated_s']:.3g} s", "CPU time per simulated second", f"{best['label']}, vibration error {percent(best['vibration_error'])}", False))
     own = (summary.get("reference") or {}).get("self_error") or {}
     if own.get("vibration_error") is not None:
         found.append(("Error of the reference", percent(own["vibration_error"]), "", "distance to its check", False))
@@ -38,9 +38,7 @@ def draw_all(study):
     for name, draw in plot_study.PLOTS.items():
         made = draw(study)
         if made is not None:
-            figure = Figure(f"study-{name.replace('_', '-')}", made, CAPTIONS[name], True)
-            figure.large = True
-            found.append(figure)
+            found.append(Figure(f"study-{name.replace('_', '-')}", made, CAPTIONS[name], large=True))
     return found
 
 

@@ -80,8 +80,7 @@ class Page:
 
 
 def figure_html(figure):
-    size = "wide large" if getattr(figure, "large", False) else "wide" if figure.wide else "slender"
-    return (f'<figure id="{figure.name}" class="{size}"><div class="scrolled" role="img" aria-label="{escape(figure.caption)}">{figure.svg}</div>'
+    return (f'<figure id="{figure.name}" class="{figure.size}"><div class="scrolled" role="img" aria-label="{escape(figure.caption)}">{figure.svg}</div>'
             f"<figcaption>{escape(figure.caption)}</figcaption></figure>")
 
 

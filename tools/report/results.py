@@ -9,6 +9,8 @@ import numpy as np
 
 BLOCK = 8_000_000  # numbers of a time series that are in memory at once
 SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
+# Without these datasets of a string there is nothing to draw.
+NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
 
 
 class Unreadable(Exception):
@@ -57,6 +59,9 @@ class Run:
         self.summary = read_summary(folder)
         self.file = open_results(folder / "results.h5")
         self.is_string = "/model/s" in self.file
+        missing = [name for name in (NEEDED if self.is_string else ()) if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
+        if missing:
+            raise Unreadable(f"{folder / 'results.h5'} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
         self.s = self.get("/model/s")
         self.time = self.get("/transient/time")
         self.moves = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file

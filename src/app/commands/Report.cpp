@@ -22,8 +22,8 @@ bool switchedOff() {
   return value != nullptr && std::string(value) == "off";
 }
 
-std::string withoutLineEnd(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
+std::string without(const std::string& endings, std::string text) {
+  text.erase(text.find_last_not_of(endings) + 1);
   return text;
 }
 
@@ -36,7 +36,7 @@ void report(const std::string& folder, const std::string& output) {
     if (!output.empty()) arguments.insert(arguments.end(), {"--output", output});
     const auto end = PythonScript(kScript).run(arguments);
     if (!end.started) throw FileError("The report was not written: " + end.errors + ".");
-    const auto said = withoutLineEnd(end.errors);
+    const auto said = without("\n", end.errors);
     if (end.code == 0 && !said.empty()) log::warn(said);
     if (end.code == static_cast<int>(ExitCode::Files)) throw FileError(said);
     if (end.code != 0) throw Error(ExitCode::Internal, "The report was not written: " + said);
@@ -51,7 +51,7 @@ void reportOfRun(const std::string& folder, bool wanted) {
   if (!wanted || switchedOff()) return;
   const PythonScript script(kScript);
   const auto end = script.run({folder});
-  const auto said = withoutLineEnd(end.errors);
+  const auto said = without(".\n", end.errors);
   if (!end.started || end.code != 0)
     log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +
               folder);
