@@ -127,7 +127,7 @@ largest side force  {side['value'] / 1e3:7.2f} kN    at a measured depth of {sid
 bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f}
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
-Open    {output / 'reduced' / 'results.png'} (the string in its well, contact forces, bit speed)
+Open    {output / 'reduced' / 'report.html'} (in a browser: figures, plots, the motion in space), or results.png beside it
 Type    {program} template scene > mine.xml && {program} run mine.xml"""
 
 

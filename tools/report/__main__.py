@@ -51,8 +51,9 @@ def page_of(folder):
         return of_run.page_of(folder)
     if any((folder / name).is_file() for name in ("torque_drag.csv", "modes.csv")):
         return of_tables.page_of(folder)
-    if (folder / "results.h5.part").is_file():
-        raise Unreadable(f"{folder} holds results.h5.part, the results of a run that has not ended. Wait for its end, or run the deck again.")
+    for name, what in (("results.h5.part", "run"), ("study.csv.part", "study")):
+        if (folder / name).is_file():
+            raise Unreadable(f"{folder} holds {name}, the results of a {what} that has not ended. Wait for its end, or start it again.")
     raise Unreadable(f"{folder} holds no results.h5, study.csv, torque_drag.csv or modes.csv. Name the results folder of a run, a study, torque-drag or modes.")
 
 

@@ -67,7 +67,8 @@ class Page:
         turn = "Drag to turn, roll or pinch to zoom, drag with the right button to move."
         what = " Bore, pipe and lateral displacements are enlarged by the lateral scale, lengths along the well are true." if is_string else ""
         self.add("space", "In space", template("view.html", scale=scale, forces=forces, note=escape(f"{turn}{what} {note}")))
-        self.scripts += [f"<script>/* {LICENCE} */\n{library}</script>", f"<script>const SCENE = {json.dumps(data, separators=(',', ':'))};</script>",
+        scene = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")  # no name in it ends the script
+        self.scripts += [f"<script>/* {LICENCE} */\n{library}</script>", f"<script>const SCENE = {scene};</script>",
                          f"<script>{(HERE / 'viewer.js').read_text(encoding='utf-8')}</script>"]
 
     def text(self):
