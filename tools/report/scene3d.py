@@ -86,11 +86,8 @@ def of_string(run):
     position = run.get("/model/position")
     frames = np.stack([to_view(run.get("/model/frame")[:, :, axis]) for axis in range(3)], axis=1)
     rest = run.get("/static/displacement")
-    outer = run.get("/model/outer_radius")
-    clearance = run.get("/model/clearance")
-    radius = run.get("/model/contact_radius") if outer is None else np.append(outer, outer[-1])
-    contact_radius = run.get("/model/contact_radius")
-    bore = clearance + contact_radius if run.get("/model/bore_radius") is None else run.get("/model/bore_radius")
+    radius = run.get("/model/contact_radius")
+    bore = run.get("/model/clearance") + radius
     at = samples_of(run, len(kept)) if run.moves else None
     motion = taken(run.file["/transient/displacement"], at) if run.moves else None
     stress, force = results.von_mises(run, rest), run.get("/static/normal_force")
@@ -104,7 +101,7 @@ def of_string(run):
     data = {
         "kind": "string", "colours": colours(), "fields": [entry for entry in fields if entry],
         "position": packed(to_view(position)[kept], "f4"), "frames": packed(frames[kept], "f4"),
-        "radius": packed(np.maximum(radius, contact_radius)[kept] if outer is None else np.where(clearance + contact_radius < bore, contact_radius, radius)[kept], "f4"),
+        "radius": packed(radius[kept], "f4"),
         "bore": packed(bore[kept], "f4"), "depth": packed(run.s[kept], "f4"), "rest": packed(rest[kept][:, :3], "f4")}
     names = run.components()
     if names is not None:

@@ -52,10 +52,9 @@ void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& f
 }
 
 void writeSections(const Scene& scene, io::ResultsFile& file) {
-  std::vector<double> bore, outer, inner, area, torsion, young, shear;
+  std::vector<double> outer, inner, area, torsion, young, shear;
   std::vector<std::string> names;
   std::vector<int> component;
-  for (const auto& node : scene.string.nodes) bore.push_back(scene.well.boreRadius(node.s));
   for (const auto& element : scene.string.elements) {
     const auto& section = element.section();
     outer.push_back(section.outerRadius());
@@ -70,7 +69,6 @@ void writeSections(const Scene& scene, io::ResultsFile& file) {
     if (found == names.end()) names.push_back(name);
   }
   const io::Shape elements{outer.size()};
-  file.write("/model/bore_radius", bore, {bore.size()}, "m", "Radius of the bore at the nodes");
   file.write("/model/outer_radius", outer, elements, "m", "Outer radius of the elements");
   file.write("/model/inner_radius", inner, elements, "m", "Inner radius of the elements");
   file.write("/model/area", area, elements, "m2", "Area of the section of the elements");
