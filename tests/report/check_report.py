@@ -116,6 +116,8 @@ def look(title, path, chromium, view=True, moves=True):
                 expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
         small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
         expect(f"{title}, {width} px: figures have a size", not small, small)
+        wide = chromium.value("""[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)""")
+        expect(f"{title}, {width} px: figures fit into their cards", not wide, wide)
         texts = chromium.value(TEXTS)
         expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
         expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())

@@ -31,11 +31,17 @@ def use_style():
     plt.rcParams.update(STYLE)
 
 
+def tick(value, _=None):
+    return f"{value + 0.0:.10g}"
+
+
 def figure(width=WIDE, height=3.0):
     """A figure and its axes, without overlaps. The number of ticks is given: one that grew with the axes would change the room they leave."""
     made, axes = plt.subplots(figsize=(width, height), constrained_layout=True)
     axes.xaxis.set_major_locator(ticker.MaxNLocator(8 if width > SLENDER else 4))
     axes.yaxis.set_major_locator(ticker.MaxNLocator(8 if height > 2.9 else 5))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(ticker.FuncFormatter(tick))  # each tick has its number whole, without a factor or an offset in a corner
     return made, axes
 
 
@@ -57,9 +63,9 @@ def in_time(label, times, height=2.5, width=WIDE):
     return made, axes
 
 
-def legend_above(axes, columns=4):
-    """A legend that covers no data: in a row above the axes."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncol=columns, fontsize=8, borderaxespad=0.2, handlelength=1.4, columnspacing=1.2)
+def legend_above(axes, columns=4, left=0.0):
+    """A legend that covers no data: in rows above the axes, from `left` (in widths of the axes) on."""
+    axes.legend(loc="lower left", bbox_to_anchor=(left, 1.0), ncol=columns, fontsize=8, borderaxespad=0.2, handlelength=1.4, columnspacing=1.0)
 
 
 def square(axes, reach):

@@ -88,6 +88,9 @@ def bit_speed(run):
     made, axes = plots.in_time("speed [rpm]", run.time)
     axes.plot(*plots.envelope(run.time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
     axes.plot(*plots.envelope(run.time, RPM * run.rotary()), color=ORANGE, linewidth=1.4, label="surface")
+    low, high = axes.get_ylim()
+    if high - low < 0.2:  # rpm: a bit that turns evenly
+        axes.set_ylim(0.5 * (low + high) - 1, 0.5 * (low + high) + 1)
     plots.legend_above(axes)
     return [Figure("bit-speed", made, "Rotary speed of the bit and at the surface.", True)]
 

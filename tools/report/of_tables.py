@@ -30,8 +30,13 @@ def against_depth(name, label, caption, rows, value, scale):
     for number, (operation, own) in enumerate(by_operation(rows).items()):
         axes.plot([scale * x for x in numbers(own, value)], numbers(own, "bit_depth"), color=COLOURS[number], marker=plots.MARKERS[number], markersize=3, linewidth=1.2,
                   label=operation)
-    plots.legend_above(axes, 2)
+    plots.legend_above(axes, 2, -0.4)
     return Figure(name, made, caption)
+
+
+def least_around(values, reach=7):
+    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body in turn, that of the one that buckles first."""
+    return [min(values[max(0, i - reach):i + reach + 1]) for i in range(len(values))]
 
 
 def limits_of(operation, rows, number):
@@ -41,12 +46,12 @@ def limits_of(operation, rows, number):
     axes.plot([x / 1e3 for x in numbers(rows, "tension")], depth, color=COLOURS[0], linewidth=1.4, label="tension")
     low, high = axes.get_xlim()
     for name, colour, dashes in (("sinusoidal", COLOURS[1], "--"), ("helical", COLOURS[4], ":")):
-        axes.plot([-x / 1e3 for x in numbers(rows, f"{name}_limit")], depth, color=colour, linewidth=1.1, linestyle=dashes, label=f"{name} limit")
+        axes.plot([-x / 1e3 for x in least_around(numbers(rows, f"{name}_limit"))], depth, color=colour, linewidth=1.1, linestyle=dashes, label=f"{name} limit")
     reach = max(high - low, 1.0)
     axes.set_xlim(min(low, -0.35 * reach), high)
     axes.axvline(0, color=GREY, linewidth=0.6)
-    plots.legend_above(axes, 2)
-    return Figure(f"buckling-{number + 1}", made, f"{operation}, bit at {max(depth):.0f} m: tension, and the compressions at which the string buckles.")
+    plots.legend_above(axes, 2, -0.4)
+    return Figure(f"buckling-{number + 1}", made, f"{operation}, bit at {max(depth):.0f} m: tension, and the compressions at which pipe or tool joint buckles.")
 
 
 def add_torque_drag(page, folder):

@@ -11,6 +11,7 @@ UNITS = {
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
     "stress": (("MPa", 1e-6, 1), ("ksi", 1e-3 / 6894.757293168, 1)),
 }
+SMALLEST = 1e-6  # share that is told in numbers
 
 
 def both(value, quantity):
@@ -34,4 +35,4 @@ def plain(value, digits=4):
 def percent(value):
     if value is None or not math.isfinite(value):
         return "-"
-    return f"{100 * value:.2g} %"
+    return f"{100 * value:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"

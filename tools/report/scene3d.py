@@ -93,9 +93,9 @@ def of_string(run):
     stress, force = results.von_mises(run, rest), run.get("/static/normal_force")
     moving_force = taken(run.file["/transient/normal_force"], at)[:, kept] / 1e3 if run.moves and "/transient/normal_force" in run.file else None
     fields = [
-        field("force", "contact force", "kN", force[kept] / 1e3, moving_force),
         field("stress", "von Mises stress", "MPa", at_nodes(stress)[kept] / 1e6, at_nodes(results.von_mises(run, motion))[:, kept] / 1e6 if run.moves else None)
         if stress is not None else None,
+        field("force", "contact force", "kN", force[kept] / 1e3, moving_force),
         field("displacement", "distance from the axis", "mm", 1e3 * results.lateral(run, rest)[kept],
               1e3 * results.lateral(run, motion)[:, kept] if run.moves else None)]
     data = {

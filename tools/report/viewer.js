@@ -108,7 +108,8 @@
         points.push(at, at.clone().add(out));
         label((sign * v + 0).toFixed(digits(step)).replace(/^-(0(\.0+)?)$/, "$1"), at.clone().addScaledVector(out, 1.6), axis === 0 ? 0.5 : 1);
       }
-      label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(out, axis === 1 ? 6.5 : axis === 0 ? 5.5 : 8), axis === 0 ? 0.5 : 1);
+      const away = [new THREE.Vector3(0, -0.075, 0), new THREE.Vector3(-0.14, 0, 0), new THREE.Vector3(-0.06, -0.07, 0)][axis];
+      label(names[axis], place((low[key] + high[key]) / 2).addScaledVector(away, size), axis === 0 ? 0.5 : 1);
     }
     scene.add(new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(points), new THREE.LineBasicMaterial({color: 0x8a8a8a})));
   }
@@ -256,7 +257,7 @@
   }
   function lookAtAll() {
     const narrow = Math.min(1, camera.aspect);
-    look(box.getCenter(new THREE.Vector3()), 1.75 * size / narrow);
+    look(box.getCenter(new THREE.Vector3()), 1.85 * size / narrow);
   }
   function lookAtDepth(depth) {
     let i = 0;
