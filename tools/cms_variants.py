@@ -23,6 +23,9 @@ import time
 
 sys.dont_write_bytecode = True  # no traces beside the script
 import plot_study  # noqa: E402
+import plots  # noqa: E402
+
+os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FREQUENCIES = 20
@@ -135,7 +138,7 @@ def failures(study):
 
 
 def figure(study, name):
-    plot_study.plt.rcParams.update({**plot_study.STYLE, "svg.hashsalt": "cms"})
+    plot_study.plt.rcParams.update({**plots.STYLE, "svg.hashsalt": "cms"})
     drawn = plot_study.draw_bases(study)
     drawn.savefig(PROJECT / f"docs/figures/{name}.png", dpi=110, bbox_inches="tight")
     plot_study.plt.close(drawn)

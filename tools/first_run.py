@@ -18,6 +18,8 @@ import xml.etree.ElementTree as ET
 try:
     import h5py
     import numpy as np
+
+    from report import checks
 except ImportError as missing:
     sys.exit(f"{missing}: first_run.py needs h5py and numpy (Debian: python3-h5py, then /usr/bin/python3).")
 
@@ -25,14 +27,6 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 DECK = ROOT / "xml" / "first_run.xml"
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 UNITS = {"": 1.0, "in": 0.0254, "m": 1.0, "kN": 1e3, "kN m": 1e3, "g/cm3": 1e3}
-# What each run is checked for: a name, the value in its summary, the bound.
-CHECKS = (
-    ("balance of torque", lambda s: abs(s["static"]["torque_balance_defect"]) / s["static"]["torque_scale"], 1e-2),
-    ("residual of the static state", lambda s: s["static"]["residual"], 1e-8),
-    ("balance of energy", lambda s: abs(s["transient"]["energy_residual"]), 1e-2),
-    ("step error", lambda s: s["transient"]["step_error"], 5e-2),
-    ("share of steps that did not converge", lambda s: s["transient"]["unconverged_steps"] / s["transient"]["steps"], 1e-3),
-)
 
 
 def value(list_element, path):
@@ -97,7 +91,7 @@ def figures(program, output):
         force, depth = results["/static/normal_force"][:], results["/model/s"][:]
     node = int(np.argmax(force))
     ends = np.cumsum([length for _, length, _, _ in string])
-    errors = [(measure(summary) / bound, name, measure(summary), bound) for summary in (reduced, full) for name, measure, bound in CHECKS]
+    errors = [(measure(summary) / bound, name, measure(summary), bound) for summary in (reduced, full) for name, measure, bound in checks.CHECKS]
     cpu = {name: s["transient"]["cpu_s"] / (s["transient"]["end"] - s["transient"]["start"]) for name, s in (("reduced", reduced), ("full", full))}
     return {
         "dofs": {"reduced": reduced["reduction"]["reduced_dofs"], "full": full["model"]["free_dofs"]},
@@ -133,7 +127,7 @@ largest side force  {side['value'] / 1e3:7.2f} kN    at a measured depth of {sid
 bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f}
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
-Open    {output / 'reduced' / 'results.png'} (the string in its well, contact forces, bit speed)
+Open    {output / 'reduced' / 'report.html'} (in a browser: figures, plots, the motion in space), or results.png beside it
 Type    {program} template scene > mine.xml && {program} run mine.xml"""
 
 

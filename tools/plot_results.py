@@ -17,6 +17,8 @@ try:
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     import numpy as np
+
+    from plots import COLOURS, MAP, RPM, use_style
 except ImportError as missing:
     sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -26,10 +28,10 @@ def draw_well(axes, results):
     position = results["/model/position"][:]
     force = results["/static/normal_force"][:] / 1e3
     axes.plot(*position.T, color="0.8", linewidth=4, zorder=0)
-    points = axes.scatter(*position.T, c=force, cmap="inferno_r", s=8, depthshade=False)
+    points = axes.scatter(*position.T, c=force, cmap=MAP, s=8, depthshade=False)
     axes.invert_zaxis()
     axes.view_init(elev=18, azim=-150)
-    axes.set_xlabel("X [m]"), axes.set_ylabel("Y [m]"), axes.set_zlabel("Z [m]")
+    axes.set_xlabel("north [m]"), axes.set_ylabel("east [m]"), axes.set_zlabel("depth [m]")
     axes.set_title("string in its well")
     plt.colorbar(points, ax=axes, shrink=0.6, pad=0.12, label="static contact force [kN]")
 
@@ -53,9 +55,8 @@ def draw_motion(axes, results):
     time = results["/transient/time"][:]
     rotary = results["/transient/speed"][:]
     bit = rotary + results["/transient/velocity"][:, -1, 5]
-    rpm = 30 / np.pi
-    axes.plot(time, rpm * bit, linewidth=0.6, label="bit")
-    axes.plot(time, rpm * rotary, linewidth=1.2, label="surface")
+    axes.plot(time, RPM * bit, linewidth=0.6, label="bit")
+    axes.plot(time, RPM * rotary, linewidth=1.2, label="surface")
     axes.set_xlabel("time [s]"), axes.set_ylabel("speed [rpm]"), axes.legend(fontsize=7)
 
 
@@ -79,7 +80,7 @@ def draw_nodes(axes, results, start, motion):
     part, names = results["/model/part"][:], texts(results["/model/part_names"])
     row = np.arange(part.size)
     if motion is not None:
-        axes.fill_between(row, motion.min(axis=0), motion.max(axis=0), step="mid", color="C0", alpha=0.3, linewidth=0, label="range of the motion")
+        axes.fill_between(row, motion.min(axis=0), motion.max(axis=0), step="mid", color=COLOURS[5], alpha=0.3, linewidth=0, label="range of the motion")
     axes.plot(row, start, "k.", markersize=3, label="start")
     for first in np.flatnonzero(np.diff(part)):
         axes.axvline(first + 0.5, color="0.8", linewidth=0.6)
@@ -136,6 +137,7 @@ def main():
     options = parser.parse_args()
     if not (options.folder / "results.h5").is_file():
         sys.exit(f"{options.folder} holds no results.h5: name the folder of a run that ended.")
+    use_style()
     with h5py.File(options.folder / "results.h5") as results:
         figure = draw_parts(results) if "/model/part_names" in results else draw_string(results)
     figure.savefig(options.output or options.folder / "results.png", dpi=110)

@@ -19,18 +19,10 @@ try:
     import matplotlib.pyplot as plt
     import numpy as np
     from matplotlib import ticker
+
+    from plots import COLOURS, GREY, MARKERS, RPM, use_style
 except ImportError as missing:
     sys.exit(f"{missing}: plot_study.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
-
-RPM = 30 / np.pi
-# Okabe and Ito's colours that can be told apart by all, darkened where they are too light for thin lines.
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#B8860B", "#CC4C99", "#3F9BD4", "#7A3E9D", "#4D4D4D", "#8C2D04", "#5C7A00", "#E69F00", "#117733", "#882255", "#1B9E9E", "#6B4C2A", "#9A6FB0"]
-MARKERS = "osD^vPX*hp<>d"  # their number has no divisor in common with that of the colours, so that no pair comes twice
-GREY = "#8a8a8a"
-STYLE = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 10, "axes.titleweight": "bold", "axes.titlelocation": "left",
-         "axes.edgecolor": "#555555", "xtick.color": "#555555", "ytick.color": "#555555", "axes.grid": True, "grid.color": "#e6e6e6", "grid.linewidth": 0.6,
-         "svg.fonttype": "none", "figure.dpi": 100, "savefig.dpi": 150, "legend.frameon": False}
-
 
 class Run:
     """A row of study.csv with its curves."""
@@ -447,7 +439,7 @@ def draw_statistics(study):
         spectrum.set_ylim(1e-9 * top, 3 * top)
         spectrum.set_xlim(reference.curve("frequency")[1], reference.curve("frequency")[-1])
         logarithmic(spectrum.xaxis)
-        spectrum.set_xlabel("frequency [Hz]"), spectrum.set_ylabel("lateral spectrum, mean of nodes [m$^2$/Hz]")
+        spectrum.set_xlabel("frequency [Hz]"), spectrum.set_ylabel("lateral spectrum, mean of nodes [m²/Hz]")
     else:
         spectrum.set_visible(False)
     key.legend(handles=handles, loc="center", ncol=2, fontsize=8)
@@ -527,7 +519,7 @@ def main():
             sys.exit(f"{options.folder} holds no {name}: name the folder of a study.")
     output = options.output or options.folder
     output.mkdir(parents=True, exist_ok=True)
-    plt.rcParams.update(STYLE)
+    use_style()
     study = Study(options.folder)
     made = []
     for name, draw in PLOTS.items():

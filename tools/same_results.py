@@ -17,6 +17,7 @@ failure counts as a difference, equal or not.
 import argparse
 import json
 import math
+import os
 import pathlib
 import subprocess
 import sys
@@ -25,6 +26,8 @@ import xml.etree.ElementTree as ET
 
 import h5py
 import numpy as np
+
+os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # What two runs of one program do not share, and texts, which may be reworded.

@@ -10,10 +10,13 @@ only; --seconds ends with what there is after so many seconds.
 """
 import argparse
 import json
+import os
 import pathlib
 import re
 import subprocess
 import time
+
+os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = PROJECT / "docs/step-error.md"

@@ -10,10 +10,13 @@ work folder are not repeated.
 import argparse
 import json
 import math
+import os
 import pathlib
 import re
 import subprocess
 import sys
+
+os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 FULL = ["--without", "Reduction", "--without", "Substructures"]

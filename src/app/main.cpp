@@ -139,6 +139,20 @@ void addStudy(CLI::App& program, tooljoint::app::RunOptions& options,
   study->callback([&] { command = [&] { tooljoint::app::study(options); }; });
 }
 
+/// The command `report` with its options.
+void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
+               std::function<void()>& command) {
+  auto* report = program.add_subcommand(
+      "report", "one HTML file with figures, plots and a 3-D view of a results folder");
+  report
+      ->add_option("DIR", options.reported,
+                   "folder of run or study, or the --output of torque-drag or modes")
+      ->required();
+  report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)");
+  report->callback(
+      [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
+}
+
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -214,6 +228,8 @@ int run(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
+
+  addReport(program, options, command);
 
   auto* docCommand = program.add_subcommand("doc", "print the parameter manual");
   docCommand->add_option("TOPIC", topic, "a list of the deck, e.g. Contact, or units");

@@ -24,6 +24,10 @@ deck::ListSpec parameters() {
                  {"displacement", "velocity", "acceleration", "normal_force"},
                  "Motions and forces of all nodes recorded at every sample; {} records none.")
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
+      .boolean(
+          "Report", defaults.report,
+          "Write report.html at the end of `tooljoint run`: figures, plots and a 3-D view of the "
+          "results in one file.")
       .boolean("XDMF", defaults.xdmf,
                "Write results.xdmf for ParaView: the string in its well, coloured by contact force "
                "and speed.")
@@ -54,6 +58,7 @@ OutputSettings readOutput(const Teuchos::ParameterList& list) {
       throw DeckError("Output/Fields names \"" + *it + "\" twice.");
   }
   s.csv = list.get<bool>("CSV");
+  s.report = list.get<bool>("Report");
   s.xdmf = list.get<bool>("XDMF");
   s.xdmfInterval = list.get<double>("XDMF Interval");
   s.reducedBases = list.get<bool>("Reduced Bases");

@@ -18,6 +18,7 @@ struct OutputSettings {
   std::string folder;  ///< "" when the deck names none; the command line goes first
   std::vector<std::string> fields{"displacement", "velocity", "normal_force"};
   bool csv = true;
+  bool report = true;
   bool xdmf = true;
   double xdmfInterval = 0.05;  ///< [s]
   bool reducedBases = false;

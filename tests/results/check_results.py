@@ -118,6 +118,17 @@ def check_geometry(data):
     clearance[-1], radius = 0.001, np.append(body[:-1], 0.107)
     near("clearances are those of bore and body", data["/model/clearance"], clearance, 1e-9)
     near("lever arms are the radii of what touches", data["/model/contact_radius"], radius, 1e-9)
+    # 2 pipes and 3 collars of 4 elements, a bit
+    outer, inner = np.repeat([0.0635, 0.0795], [8, 13]), np.repeat([0.054, 0.0355], [8, 13])
+    near("outer radii", data["/model/outer_radius"], outer, 1e-12)
+    near("inner radii", data["/model/inner_radius"], inner, 1e-12)
+    near("areas", data["/model/area"], np.pi * (outer ** 2 - inner ** 2), 1e-12)
+    near("torsion constants", data["/model/torsion_constant"], np.pi / 2 * (outer ** 4 - inner ** 4), 1e-12)
+    near("Young's moduli", data["/model/young_modulus"], np.full(21, 206e9), 1e-12)
+    near("shear moduli", data["/model/shear_modulus"], np.full(21, 206e9 / 2.6), 1e-12)
+    near("components of the elements", data["/model/component"], np.repeat([1, 2, 3], [8, 12, 1]), 0)
+    names = [name.decode() if isinstance(name, bytes) else name for name in data["/model/component_names"]]
+    expect("entries of the assembly", names == ["pipe", "collar", "bit"], names)
 
 
 def check_contact(data):
@@ -231,6 +242,7 @@ def check_parts(rows, written):
         sizes = {"n": len(file["/model/part"]), "m": len(time), "c": len(names)}
         check_datasets("parts", file, rows, sizes, written)
         check_motion("parts", file, 0.03, 0.3)
+        check_places(file)
         arm = [n.decode() if isinstance(n, bytes) else n for n in file["/model/part_names"][:]].index("arm") + 1
         tip = np.flatnonzero((file["/model/part"][:] == arm) & (file["/model/node"][:] == 5))[0]
         d, v = (file[f"/transient/{name}"][:, tip, names.index("w")] for name in ("displacement", "velocity"))
@@ -244,6 +256,17 @@ def check_parts(rows, written):
     motion = table(folder / "motion.csv", ["time [s]"] + [f"max_{name} [{'rad' if name.startswith('theta') else 'm'}]" for name in names])
     for c, name in enumerate(names):
         near(f"parts: motion.csv: max_{name}", motion[f"max_{name}"], largest[:, c], 1e-12)
+
+
+def check_places(file):
+    """The frame as its deck describes it: beams of 4 m along x, an arm of 1.5 m along y, columns of 3 m upright."""
+    position, links = file["/model/position"][:], file["/model/links"][:]
+    expect("parts: every node has its place", np.array_equal(file["/model/located"][:], np.arange(1, len(file["/model/part"]) + 1)))
+    lengths = np.linalg.norm(position[links[:, 0] - 1] - position[links[:, 1] - 1], axis=1)
+    near("parts: edges have the lengths of elements", np.unique(lengths.round(9)), [0.375, 0.5], 1e-9)
+    ends = position.max(axis=0) - position.min(axis=0)
+    near("parts: the frame has its size", ends, [4, 1.5, 3], 1e-9)
+    expect("parts: joined nodes are one", len(np.unique(position.round(6), axis=0)) == len(position))
 
 
 def main():

@@ -27,6 +27,7 @@ struct RunOptions {
   std::string plan;              ///< folder in which `study` writes its commands and runs nothing
   std::string collect;           ///< folder whose rows `study` makes tables of
   std::string row;               ///< the only one that `study` runs
+  std::string reported;          ///< folder that `report` is made of
   std::string restart;           ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;            ///< frequencies listed by `modes`
   std::string format = "hdf5";   ///< files of `export`: a name of exportFormats()
@@ -72,6 +73,13 @@ const std::map<std::string, io::ExportFormat>& exportFormats();
 /// UsageError: the folders hold different scenes or different times in the window, or the reference
 /// does not move in it; ConvergenceError: the vibration error is above options.failAbove.
 void compare(const CompareOptions& options);
+/// `tooljoint report`: report.html in `folder`, or the file `output`, of what a run, a study,
+/// `torque-drag` or `modes` left there. FileError: nothing to report on, a file that cannot be
+/// read, or no python3 with the modules that are needed. Collective.
+void report(const std::string& folder, const std::string& output);
+/// The report at the end of a run. What goes wrong is a warning with the command to write it later;
+/// TOOLJOINT_REPORT=off in the environment leaves it out. A report of an earlier run is removed.
+void reportOfRun(const std::string& folder, bool wanted);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);
 /// `tooljoint template`: a commented deck ("scene" or "components").

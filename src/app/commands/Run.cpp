@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run.hpp"
+#include "cases/run/Run.hpp"
 
 #include "app/commands/Commands.hpp"
+#include "cases/CaseKinds.hpp"
 
 namespace tooljoint::app {
 
 void run(const RunOptions& options) {
-  runDeck(options.deck, options.overrides, MPI_COMM_WORLD, {options.output, options.restart});
+  const auto one = cases::readCase(options.deck, options.overrides);
+  const auto folder = cases::run(*one, {options.output, options.restart});
+  reportOfRun(folder, one->output().report);
 }
 
 }  // namespace tooljoint::app

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -12,7 +13,9 @@
 #include "cases/ReducedCase.hpp"
 #include "cases/imported/ImportedRecord.hpp"
 #include "cases/imported/MeasuredComponents.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "parts/PartsGeometry.hpp"
 
 namespace tooljoint::cases {
 
@@ -70,6 +73,7 @@ class RestingParts : public RestingCase {
   /// Group /model (which node of which part a row is), and the displacements at the start.
   void write(io::ResultsFile& file) const override {
     writeProfile(file);
+    writeGeometry(file);
     file.write("/static/displacement", rest(),
                {model().recoveryNodes.size(), model().componentNames.size()}, "m, rad",
                "Displacements at the start, in the common frame");
@@ -105,6 +109,35 @@ class RestingParts : public RestingCase {
 
  private:
   const model::SecondOrderModel& model() const { return joined_->whole.model; }
+
+  /// Positions of the nodes and edges of the mesh, where the files give positions.
+  void writeGeometry(io::ResultsFile& file) const {
+    const auto positions = parts::nodePositions(joined_->scene, lists_->settings.imported);
+    if (positions.empty()) return;
+    std::map<std::int64_t, int> rows;
+    std::vector<int> located, links;
+    std::vector<double> coordinates;
+    int row = 0;
+    for (auto number : model().recoveryNodes) {
+      ++row;
+      const auto found = positions.find(number);
+      if (found == positions.end()) continue;
+      rows.emplace(number, row);
+      located.push_back(row);
+      coordinates.insert(coordinates.end(), found->second.begin(), found->second.end());
+    }
+    if (located.empty()) return;
+    for (const auto& [first, second] : parts::nodeLinks(joined_->scene))
+      if (rows.count(first) > 0 && rows.count(second) > 0)
+        links.insert(links.end(), {rows.at(first), rows.at(second)});
+    file.write("/model/located", located, {located.size()}, "1",
+               "Rows of the nodes whose positions are known, counted from 1");
+    file.write("/model/position", coordinates, {located.size(), 3}, "m",
+               "Their positions in the common frame");
+    if (links.empty()) return;
+    file.write("/model/links", links, {links.size() / 2, 2}, "1",
+               "Rows of the nodes that the stiffness of a part couples, counted from 1");
+  }
 
   std::shared_ptr<const ImportedDeck> lists_;
   std::shared_ptr<const JoinedParts> joined_;

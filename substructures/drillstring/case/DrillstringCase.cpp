@@ -60,6 +60,7 @@ class RestingString : public cases::RestingCase {
   void summarise(io::Summary& summary) const override { drillstring::summarise(stage_, summary); }
   void write(io::ResultsFile& file) const override {
     writeModel(scene_, stage_, file);
+    writeSections(scene_, file);
     writePath(stage_, file);
     writeStatic(scene_, stage_, file);
   }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringResults.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/printf.h>
+#include <string>
 #include <vector>
 
 #include "common/Constants.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
@@ -46,6 +49,35 @@ void writeModel(const Scene& scene, const StaticStage& stage, io::ResultsFile& f
              "Nodal frames; columns are the x, y, z axes in global components");
   file.write("/model/clearance", clearance, {nodes}, "m", "Radial clearance between node and wall");
   file.write("/model/contact_radius", radius, {nodes}, "m", "Lever arm of the friction torque");
+}
+
+void writeSections(const Scene& scene, io::ResultsFile& file) {
+  std::vector<double> outer, inner, area, torsion, young, shear;
+  std::vector<std::string> names;
+  std::vector<int> component;
+  for (const auto& element : scene.string.elements) {
+    const auto& section = element.section();
+    outer.push_back(section.outerRadius());
+    inner.push_back(section.innerRadius());
+    area.push_back(section.area());
+    torsion.push_back(section.torsion());
+    young.push_back(section.youngModulus());
+    shear.push_back(section.material().shearModulus());
+    const auto& name = scene.string.instances[at(element.instance)].component;
+    const auto found = std::find(names.begin(), names.end(), name);
+    component.push_back(static_cast<int>(found - names.begin()) + 1);
+    if (found == names.end()) names.push_back(name);
+  }
+  const io::Shape elements{outer.size()};
+  file.write("/model/outer_radius", outer, elements, "m", "Outer radius of the elements");
+  file.write("/model/inner_radius", inner, elements, "m", "Inner radius of the elements");
+  file.write("/model/area", area, elements, "m2", "Area of the section of the elements");
+  file.write("/model/torsion_constant", torsion, elements, "m4", "Torsion constant J");
+  file.write("/model/young_modulus", young, elements, "Pa", "Young's modulus E");
+  file.write("/model/shear_modulus", shear, elements, "Pa", "Shear modulus G");
+  file.write("/model/component_names", names, "Entries of the assembly, each once");
+  file.write("/model/component", component, elements, "1",
+             "Entry of the assembly an element belongs to, counted from 1");
 }
 
 void writePath(const StaticStage& stage, io::ResultsFile& file) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/commands/Commands.hpp"
+#include "common/Error.hpp"
+#include "common/Parallel.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/PythonScript.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+constexpr const char* kScript = "report";
+constexpr const char* kSwitch = "TOOLJOINT_REPORT";
+
+bool switchedOff() {
+  const char* value = std::getenv(kSwitch);
+  return value != nullptr && std::string(value) == "off";
+}
+
+std::string without(const std::string& endings, std::string text) {
+  text.erase(text.find_last_not_of(endings) + 1);
+  return text;
+}
+
+}  // namespace
+
+void report(const std::string& folder, const std::string& output) {
+  parallel::agree([&] {
+    if (parallel::rank() != 0) return;
+    std::vector<std::string> arguments{folder};
+    if (!output.empty()) arguments.insert(arguments.end(), {"--output", output});
+    const auto end = PythonScript(kScript).run(arguments);
+    if (!end.started) throw FileError("The report was not written: " + end.errors + ".");
+    const auto said = without("\n", end.errors);
+    if (end.code == 0 && !said.empty()) log::warn(said);
+    if (end.code == static_cast<int>(ExitCode::Files)) throw FileError(said);
+    if (end.code != 0) throw Error(ExitCode::Internal, "The report was not written: " + said);
+  });
+}
+
+void reportOfRun(const std::string& folder, bool wanted) {
+  if (parallel::rank() != 0) return;
+  std::error_code ignored;
+  // that of an earlier run shows results that are no longer here
+  std::filesystem::remove(std::filesystem::path(folder) / "report.html", ignored);
+  if (!wanted || switchedOff()) return;
+  const PythonScript script(kScript);
+  const auto end = script.run({folder});
+  const auto said = without(".\n", end.errors);
+  if (!end.started || end.code != 0)
+    log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +
+              folder);
+  else if (!said.empty())
+    log::warn(said);
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a report computes itself, against closed forms: check_quantities.py
+
+Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, and the numbers of the 3-D view.
+"""
+import base64
+import pathlib
+import re
+import sys
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "support")]
+from checks import expect, finish  # noqa: E402
+import plots  # noqa: E402
+from report import checks, deck, quantities, results, scene3d, tables  # noqa: E402
+
+
+class Bar:
+    """A straight vertical pipe of `elements` elements in the place of a run."""
+
+    def __init__(self, elements=10, length=20.0, outer=0.06, inner=0.05, tension=1e5, torque=-2e3):
+        nodes = elements + 1
+        self.s = np.linspace(0, length, nodes)
+        self.outer = outer
+        self.S, self.J = np.pi * (outer ** 2 - inner ** 2), np.pi / 2 * (outer ** 4 - inner ** 4)
+        self.E, self.G = 2.06e11, 8e10
+        flat = {"young_modulus": self.E, "shear_modulus": self.G, "area": self.S, "torsion_constant": self.J, "outer_radius": outer}
+        self.data = {f"/model/{name}": np.full(elements, value) for name, value in flat.items()}
+        self.data["/model/frame"] = np.broadcast_to(np.eye(3), (nodes, 3, 3))
+        self.data["/static/axial_force"], self.data["/static/torque"] = np.full(elements, tension), np.full(elements, torque)
+        self.data["/static/displacement"] = np.zeros((nodes, 6))
+
+    def get(self, path):
+        return self.data.get(path)
+
+
+def near(what, found, expected, tolerance=1e-12):
+    error = np.max(np.abs(np.asarray(found) - expected)) / max(np.max(np.abs(expected)), 1e-300)
+    expect(what, error <= tolerance, f"({error:.1e})")
+
+
+def stresses():
+    rest = np.zeros((11, 6))
+    bar = Bar(torque=0.0)
+    near("tension alone: sigma = T/S", results.von_mises(bar, rest), bar.data["/static/axial_force"] / bar.S)
+    bar = Bar(tension=0.0)
+    near("torsion alone: sigma = sqrt(3) M R/J", results.von_mises(bar, rest), np.sqrt(3) * 2e3 * bar.outer / bar.J)
+    # theta_x = -kappa s turns the tangent into y: a bend of curvature kappa
+    bar, bent = Bar(tension=0.0, torque=0.0), rest.copy()
+    bent[:, 3] = -1e-3 * bar.s
+    near("the curvature of a bend", results.curvature(bar, bent), 1e-3)
+    near("bending alone: sigma = E kappa R", results.von_mises(bar, bent), bar.E * 1e-3 * bar.outer)
+    bent[:, 4], bent[:, 3] = 1e-3 * bar.s, 0
+    near("bending in the other plane", results.von_mises(bar, bent), bar.E * 1e-3 * bar.outer)
+    stretched = rest.copy()
+    stretched[:, 2] = 2e-4 * bar.s
+    near("stretching: sigma = E w'", results.von_mises(bar, stretched), bar.E * 2e-4)
+    twisted = rest.copy()
+    twisted[:, 5] = 1e-3 * bar.s
+    near("twisting: sigma = sqrt(3) G theta' R", results.von_mises(bar, twisted), np.sqrt(3) * bar.G * 1e-3 * bar.outer)
+    near("many samples at once", results.von_mises(bar, np.stack([stretched, rest])), np.stack([np.full(10, bar.E * 2e-4), np.zeros(10)]))
+
+
+def motions():
+    time = np.arange(4000) * 5e-3
+    for rate in (12.0, -3.0):
+        turn = results.precession(1.0 + 0.3 * np.cos(rate * time), 0.3 * np.sin(rate * time), time)
+        near(f"an orbit that turns with {rate} rad/s", turn, rate, 1e-3)  # (w dt)^2/6 = 6e-4 of the central differences
+    to_and_fro = results.precession(np.cos(7 * time), 0 * time, time)
+    expect("a motion to and fro does not turn", abs(to_and_fro) < 1e-12, to_and_fro)
+    for frequency, amplitude in ((6.0, 2.0), (31.5, 0.1)):
+        f, power = plots.spectrum(5.0 + amplitude * np.sin(2 * np.pi * frequency * time), time[1])
+        near(f"the spectrum of {frequency} Hz peaks there", f[power.argmax()], frequency, 0.02)
+        near("its integral is the variance", np.trapz(power, f), amplitude ** 2 / 2, 1e-2)
+    noise = np.random.default_rng(3).normal(0, 1.5, 200_000)
+    f, power = plots.spectrum(noise, 0.01)
+    near("white noise has the density 2 dt sigma^2", power[1:-1].mean(), 2 * 0.01 * 1.5 ** 2, 0.02)  # 200,000 numbers: 0.5 %
+    spikes = np.zeros(100_000)
+    spikes[[777, 50_123]] = 9.0, -7.0
+    shown = plots.envelope(np.arange(100_000.0), spikes)[1]
+    expect("thinned curves keep their extremes", len(shown) <= 1200 and shown.max() == 9 and shown.min() == -7, f"({len(shown)})")
+
+
+def pictures():
+    plots.use_style()
+    made, axes = plots.figure()
+    axes.plot([0, 1], [0.00125, 0.00375])
+    axes.set_yticks([0.00125, 0.00375]), axes.set_ylabel("a [m]"), axes.set_title("1.23456")
+    text = plots.inline_svg(made, "one")
+    expect("numbers of a plot keep their digits", all(f">{word}<" in text for word in ("0.00125", "0.00375", "1.23456", "a [m]")))
+    expect("coordinates are shortened", not re.search(r'd="[^"]*\d\.\d{3}', text))
+    expect("ids of a plot are its own", set(re.findall(r'id="(.*?)-', text)) == {"one"} and len(re.findall(r'url\(#(?!one-)', text)) == 0)
+    expect("a plot takes the width that there is", re.match(r"<svg(?![^>]* (width|height)=)[^>]*viewBox", text) is not None, text[:200])
+
+
+def units():
+    expect("forces in klbf", quantities.both(4448.2216152605, "force") == ("4.45 kN", "1.00 klbf"), quantities.both(4448.2216152605, "force"))
+    expect("torques in kft lbf", quantities.both(1355.8179483314, "torque") == ("1.36 kN m", "1.00 kft lbf"), quantities.both(1355.8179483314, "torque"))
+    expect("lengths in feet", quantities.both(304.8, "length") == ("304.8 m", "1000 ft"))
+    expect("stresses in ksi", quantities.both(6.894757293168e6, "stress") == ("6.9 MPa", "1.0 ksi"))
+    expect("shares in percent", [quantities.percent(x) for x in (-0.0123, 1e-9, 0.0)] == ["-1.2 %", "< 0.0001 %", "0 %"], quantities.percent(1e-9))
+    expect("no value is a dash", quantities.both(None, "force")[0] == quantities.both(float("nan"), "force")[0] == quantities.plain(None) == quantities.percent(None) == "-")
+
+
+def scenes():
+    text = """<ParameterList name="a"><Parameter name="x" type="double" value="1"/><ParameterList name="Loads">
+      <Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList><ParameterList name="Mud"><Parameter name="Density" type="string" value="1.2 g/cm3"/>
+      </ParameterList></ParameterList>"""
+    whole = deck.read(text, "Loads/Torque On Bit=3 kN m\nx=2\n")
+    expect("overrides are in the deck", whole["x"] == "2" and whole["Loads"]["Torque On Bit"] == "3 kN m", whole)
+    expect("a title names the conditions", deck.conditions(whole) == "WOB 40 kN, TOB 3 kN m, mud 1.2 g/cm3", deck.conditions(whole))
+    expect("lists that are taken out are gone", "Mud" not in deck.read(text, "!Mud\n"))
+    expect("parameters stand before lists", [row[1] for row in deck.rows(whole)] == ["x", "Loads", "Weight On Bit", "Torque On Bit", "Mud", "Density"])
+    expect("no deck is an empty one", deck.read("<no", "") == {})
+    expect("texts are escaped", "<b>" not in tables.of_deck([(0, "<b>", "<b>")]) and "<b>" not in tables.table(("<b>",), [("<b>",)]))
+
+
+def judged():
+    summary = {"static": {"residual": 1e-9, "torque_balance_defect": -3.0, "torque_scale": 1000.0}, "transient": {"energy_residual": None, "step_error": 0.1, "unconverged_steps": 0,
+                                                                                                               "steps": 0}}
+    measured = {name: value for name, value, _ in checks.measured(summary)}
+    expect("checks of stages that did not run are left out", measured == {"balance of torque": 0.003, "residual of the static state": 1e-9, "step error": 0.1}, measured)
+    expect("the worst check is the one closest to its bound", checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
+
+
+def view():
+    axes = scene3d.to_view(np.eye(3))  # of north, east, down
+    expect("the view is right-handed: east, up, south", np.array_equal(axes, [[0, 0, -1], [1, 0, 0], [0, -1, 0]]) and np.linalg.det(axes) == 1)
+    values = np.array([[1.5, -0.25], [0.0, -3.0]])
+    entry = scene3d.packed(values, "i2")
+    back = np.frombuffer(base64.b64decode(entry["data"]), "<i2").reshape(entry["shape"]) * entry["scale"]
+    near("numbers of 16 bits are right to half a step", back, values, 0.51 / scene3d.LARGEST)
+    expect("zeros stay zeros", scene3d.packed(np.zeros(3), "i2")["scale"] == 1.0)
+    near("a node has the larger value of its elements", scene3d.at_nodes(np.array([1.0, 3.0, 2.0])), [1, 3, 3, 2])
+
+
+def main():
+    for part in (stresses, motions, pictures, units, scenes, judged, view):
+        part()
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,326 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reports of runs, studies and tables, opened in a browser: check_report.py PROGRAM [MPIEXEC]
+
+Each page has its figures, says nothing wrong on the console, asks nothing of a network, fits into 400 px, is below 5 MB, and its 3-D view is
+drawn and moves with its slider. The numbers in it are those of the results. What cannot be reported on ends with a sentence and exit code 5.
+Without Chromium the pages are only read.
+"""
+import base64
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+
+import browser
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
+
+STRING, FRAME, STUDY = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml"))
+LARGEST, SECONDS = 5_000_000, 10.0
+NAMESPACES = ("http://www.w3.org/",)
+RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
+       "bit-spectrum"}
+WITHOUT_MOTION = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature"}
+PIXELS = """(() => {
+  const view = document.querySelector("#view canvas"), copy = document.createElement("canvas");
+  copy.width = view.width; copy.height = view.height;
+  const context = copy.getContext("2d");
+  context.drawImage(view, 0, 0);
+  const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer), counts = new Map();
+  let sum = 0;
+  for (let i = 0; i < pixels.length; ++i) { counts.set(pixels[i], (counts.get(pixels[i]) || 0) + 1); sum = (sum * 31 + pixels[i]) >>> 0; }
+  return {colours: counts.size, drawn: 1 - Math.max(...counts.values()) / pixels.length, sum: sum};
+})()"""
+
+# Texts of plots that are cut off, or that lie on another one; slanted texts have boxes larger than themselves and are not compared.
+TEXTS = """[...document.querySelectorAll("figure svg")].flatMap((svg) => {
+  const frame = svg.getBoundingClientRect(), faults = [];
+  const boxes = [...svg.querySelectorAll("text")].map((t) => [t.textContent, t.getBoundingClientRect(), /rotate\\(-(?!0|90)/.test(t.getAttribute("transform") || "")]);
+  boxes.forEach(([text, box, slanted], i) => {
+    if (box.left < frame.left - 2 || box.right > frame.right + 2 || box.top < frame.top - 2 || box.bottom > frame.bottom + 2) faults.push("cut: " + text);
+    for (const [other, second, slanted2] of boxes.slice(i + 1))
+      if (!slanted && !slanted2 && Math.min(box.right, second.right) - Math.max(box.left, second.left) > 2 &&
+          Math.min(box.bottom, second.bottom) - Math.max(box.top, second.top) > 3) faults.push(text + " on " + other);
+  });
+  return faults.map((fault) => svg.closest("figure").id + ": " + fault);
+})"""
+
+
+def run(folder, deck, *arguments):
+    shutil.rmtree(folder, ignore_errors=True)
+    done = tooljoint("run", deck, "--output", folder, *arguments)
+    if done.returncode != 0:
+        sys.exit(f"the run {folder} failed:\n{done.stderr}")
+    return done
+
+
+def report(folder, *arguments):
+    """Runs the command; (what it said, CPU seconds of it and its script), which other tests beside it do not lengthen."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = tooljoint("report", folder, *arguments)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return done, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def figures(text):
+    return set(re.findall(r'<figure id="([^"]+)"', text))
+
+
+def page(title, folder, wanted, seconds=SECONDS):
+    """Writes the report of a folder and reads it."""
+    done, took = report(folder)
+    path = pathlib.Path(folder, "report.html")
+    expect(f"{title}: a report takes less than {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    print(f"       {title}: {took:.1f} s of CPU, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
+    expect(f"{title}: every figure is there", wanted <= figures(text), sorted(wanted - figures(text)))
+    expect(f"{title}: every figure is a picture with axes", text.count("<figure ") == len(figures(text)) == len(re.findall(r"<figure [^>]*>.{0,300}?<svg", text, re.S)))
+    expect(f"{title}: below {LARGEST / 1e6:.0f} MB", path.stat().st_size < LARGEST, path.stat().st_size)
+    outside = {link for link in re.findall(r"https?://[^\s\"'<>)]+", text) if not link.startswith(NAMESPACES)}
+    expect(f"{title}: no address outside", not outside, sorted(outside)[:5])
+    expect(f"{title}: no number is missing", not re.search(r">\s*(nan|inf|None)\b", text), re.findall(r".{40}>\s*(?:nan|inf|None)\b", text)[:3])
+    return path, text
+
+
+def look(title, path, chromium, view=True, moves=True):
+    """Opens a page at two widths."""
+    for width in (1280, 400):
+        chromium.open(path, width)
+        across = chromium.value("document.scrollingElement.scrollWidth")
+        expect(f"{title}, {width} px: nothing stands out on the right", across <= width, across)
+        if view and width == 1280:
+            expect(f"{title}: the view says it is drawn", chromium.value("document.body.dataset.view") == "drawn")
+            rest = chromium.value(PIXELS)
+            expect(f"{title}: the canvas is drawn", rest["colours"] > 20 and 0.003 < rest["drawn"] < 0.9, rest)
+            if moves:
+                chromium.value('(() => { const s = document.getElementById("view-slider"); s.value = s.max; s.dispatchEvent(new Event("input")); })()')
+                last = chromium.value(PIXELS)
+                shown = chromium.value('document.getElementById("view-time").textContent')
+                expect(f"{title}: the slider moves the picture", last["sum"] != rest["sum"] and shown.endswith(" s"), shown)
+                chromium.value('document.getElementById("view-rest").click()')
+                expect(f"{title}: and back to rest", chromium.value(PIXELS)["sum"] == rest["sum"])
+            if chromium.value('document.getElementById("view-field").length') > 1:
+                chromium.value('(() => { const f = document.getElementById("view-field"); f.value = 1; f.dispatchEvent(new Event("change")); })()')
+                expect(f"{title}: another colour field is another picture", chromium.value(PIXELS)["sum"] != rest["sum"])
+        small = chromium.value("""[...document.querySelectorAll("figure")].filter((f) => f.querySelector("svg").getBoundingClientRect().height < 60).map((f) => f.id)""")
+        expect(f"{title}, {width} px: figures have a size", not small, small)
+        wide = chromium.value("""[...document.querySelectorAll(".card, .notes li")].filter((card) => card.scrollWidth > card.clientWidth).map((card) => card.textContent)""")
+        expect(f"{title}, {width} px: figures fit into their cards", not wide, wide)
+        texts = chromium.value(TEXTS)
+        expect(f"{title}, {width} px: no text of a plot is cut off or lies on another", not texts, texts[:8])
+        expect(f"{title}, {width} px: the console is empty", not chromium.faults(), chromium.faults())
+    pages = len(base64.b64decode(chromium.call("Page.printToPDF", preferCSSPageSize=True)["data"]))
+    expect(f"{title}: it prints", pages > 20_000, pages)
+
+
+def numbers(entry):
+    values = np.frombuffer(base64.b64decode(entry["data"]), "<" + entry["kind"]).astype(float).reshape(entry["shape"])
+    return values * entry.get("scale", 1.0)
+
+
+def scene_of(text):
+    return json.loads(re.search(r"<script>const SCENE = (.*?);</script>", text, re.S).group(1))
+
+
+def near(what, found, expected, tolerance):
+    error = np.abs(found - expected).max() if found.shape == expected.shape else np.inf
+    expect(what, error <= tolerance, f"({error:.2e} > {tolerance:.2e})")
+
+
+def string_numbers(folder, text):
+    """The view shows the results: positions, frames, displacements, fields; the headline figures are those of the summary."""
+    scene = scene_of(text)
+    summary = json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8"))
+    with h5py.File(pathlib.Path(folder, "results.h5")) as file:
+        data = {name: file[name][:] for name in ("/model/position", "/model/frame", "/model/s", "/static/displacement", "/static/normal_force", "/transient/displacement",
+                                                 "/transient/time", "/model/clearance")}
+    north, east, down = data["/model/position"].T
+    near("string: nodes stand east, up, south", numbers(scene["position"]), np.stack([east, -down, -north], 1), 1e-4)
+    frame = numbers(scene["frames"])  # node, axis, component
+    near("string: frames are turned likewise", frame[:, :, 1], -data["/model/frame"][:, 2, :], 1e-6)
+    expect("string: frames stay right-handed", np.all(np.linalg.det(frame) > 0.999))
+    # 0.109 m to 10 m, 0.108 m below; a node where both meet touches the narrower one
+    near("string: the bore", numbers(scene["bore"]), np.where(data["/model/s"] < 10, 0.109, 0.108), 1e-7)
+    near("string: what touches", numbers(scene["bore"]) - numbers(scene["radius"]), data["/model/clearance"], 1e-7)
+    at = np.searchsorted(data["/transient/time"], numbers(scene["time"]) - 1e-4)
+    moved = data["/transient/displacement"][at][:, :, :3]
+    near("string: displacements of the samples that are shown", numbers(scene["motion"]), moved, 0.51 * np.abs(moved).max() / 32767)
+    fields = {field["name"]: field for field in scene["fields"]}
+    near("string: contact forces at rest", numbers(fields["force"]["rest"]), data["/static/normal_force"] / 1e3, 1e-3)
+    expect("string: stresses are those of bending in an arc of 150 m, at least", numbers(fields["stress"]["rest"]).max() > 206e3 * 0.0635 / 150)
+    for what, value in (("hook load", f"{summary['static']['top_axial_force'] / 1e3:.1f} kN"), ("surface torque", f"{-summary['static']['top_torque'] / 1e3:.2f} kN m"),
+                        ("side force", f"{summary['static']['max_normal_force'] / 1e3:.2f} kN"), ("bit speed", f"{summary['transient']['bit_speed_rpm']['mean']:.1f} rpm")):
+        expect(f"string: the {what} is that of the summary", f'<div class="value">{value}</div>' in text, value)
+    node = summary["static"]["max_normal_force_node"]
+    names = "pipe" if data["/model/s"][node - 1] <= 18 else "collar" if data["/model/s"][node - 1] <= 42 else "bit"
+    place = f"at {data['/model/s'][node - 1]:.1f} m ({data['/model/s'][node - 1] / 0.3048:.0f} ft), {names}"
+    expect("string: the largest side force has its depth and component", place in text, place)
+
+
+def strings(chromium):
+    """Runs of a string: 20 s of motion, at rest, and without what a deck may leave out."""
+    run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005")
+    path, text = page("string", "string", RUN)
+    string_numbers("string", text)
+    expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
+    tooljoint("torque-drag", STRING, "--output", "string", "--set", "Torque and Drag/Depths={40, 42}")
+    tooljoint("modes", STRING, "--output", "string", "--count", "6")
+    path, text = page("string with tables", "string", RUN | {"hook-load", "surface-torque", "buckling-1", "mode-errors"})
+    if chromium:
+        look("string", path, chromium)
+    run("rest", STRING, "--without", "Transient")
+    path, text = page("string at rest", "rest", WITHOUT_MOTION)
+    expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
+    if chromium:
+        look("string at rest", path, chromium, moves=False)
+    for name, arguments in {"bare": ["--set", "Output/Fields={}"], "free": ["--without", "Contact", "--without", "Mud"], "full": ["--without", "Reduction", "--without", "Substructures"]}.items():
+        run(name, STRING, *arguments)
+        page(f"string, {name}", name, WITHOUT_MOTION - {"side"})
+
+
+def old_results():
+    """Results without what other programs may leave out: a report of the rest."""
+    for gone in (["/model/young_modulus", "/model/component_names", "/model/outer_radius", "/transient/normal_force", "/transient/motion"], ["/transient"]):
+        shutil.rmtree("old", ignore_errors=True)
+        shutil.copytree("full", "old")
+        with h5py.File("old/results.h5", "r+") as file:
+            for name in gone:
+                del file[name]
+        page(f"results without {gone[-1]}", "old", {"section", "axial"})
+
+
+def parts(chromium):
+    run("parts", FRAME, "--set", "Transient/End Time=0.5")
+    path, text = page("parts", "parts", {"nodes-1", "mover-1", "spectrum-m"})
+    scene = scene_of(text)
+    links, position = numbers(scene["links"]).astype(int), numbers(scene["position"])
+    lengths = np.linalg.norm(position[links[:, 0]] - position[links[:, 1]], axis=1)
+    known = {0.375, 0.5}  # of the arm, of beams and columns
+    expect("parts: edges have the lengths of their parts", set(lengths.round(4)) == known, sorted(set(lengths.round(4))))
+    expect("parts: the loop of the frame closes", len(position) == len(np.unique(position.round(4), axis=0)))
+    if chromium:
+        look("parts", path, chromium)
+    run("resting parts", FRAME, "--without", "Transient")
+    page("parts at rest", "resting parts", set())
+
+
+def studies(chromium):
+    shutil.rmtree("study", ignore_errors=True)
+    done = tooljoint("study", STUDY, "--output", "study", "--set", "Study/Repeats=1", "--set", "Study/Pictures=false")
+    expect("the study succeeds", done.returncode == 0, done.stderr[-300:])
+    path, text = page("study", "study", {"study-speed", "study-modes", "study-error-over-time", "study-bit-speed", "study-static", "study-reference"}, 3 * SECONDS)
+    expect("study: every run has its row", all(row["label"] in text for row in json.loads(pathlib.Path("study/summary.json").read_text(encoding="utf-8"))["study"]))
+    if chromium:
+        look("study", path, chromium, view=False)
+
+
+def tables_alone():
+    shutil.rmtree("tables", ignore_errors=True)
+    tooljoint("torque-drag", STRING, "--output", "tables", "--set", "Torque and Drag/Depths={40, 42}")
+    page("torque and drag alone", "tables", {"hook-load", "surface-torque", "buckling-1"})
+
+
+def end_of_run():
+    """A run writes its report unless told not to, and does not fail without python3."""
+    os.environ.pop("TOOLJOINT_REPORT")
+    path = pathlib.Path("ended/report.html")
+    done = run("ended", STRING)
+    expect("a run ends with a report", path.is_file() and "report      ended/report.html" in done.stdout, done.stdout[-300:])
+    done = tooljoint("run", STRING, "--output", "ended", "--set", "Output/Report=false")
+    expect("told not to, it leaves none, and takes that of the run before away", done.returncode == 0 and not path.exists())
+    os.environ["PYTHONHOME"] = "/nowhere"  # no python3 starts
+    done = tooljoint("run", STRING, "--output", "ended")
+    line = [text for text in done.stderr.splitlines() if "The report was not written" in text]
+    expect("without python3 a run succeeds and says in a line how to write it later", done.returncode == 0 and len(line) == 1 and "tooljoint report ended" in line[0] and not path.exists(),
+           f"({done.returncode}) {done.stderr[-300:]}")
+    refuse("report without python3", "ended", "python3 with h5py, numpy and matplotlib")
+    del os.environ["PYTHONHOME"]
+    os.environ["TOOLJOINT_REPORT"] = "off"
+    run("ended", STRING)
+    expect("TOOLJOINT_REPORT=off: no report", not path.exists())
+    if len(sys.argv) > 2:
+        done = tooljoint("report", "ended", "--output", "two.html", ranks=2)
+        expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
+        done = tooljoint("report", "nowhere", ranks=2)
+        expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
+
+
+def refuse(what, folder, sentence, *arguments):
+    done = tooljoint("report", folder, *arguments)
+    expect(f"{what}: exit code 5 and a sentence", done.returncode == 5 and done.stderr.count(sentence) == 1 and "Traceback" not in done.stderr and len(done.stderr.splitlines()) == 1,
+           f"({done.returncode}) {done.stderr}")
+
+
+def refusals():
+    shutil.rmtree("damaged", ignore_errors=True)
+    shutil.copytree("full", "damaged")
+    whole = pathlib.Path("damaged/results.h5").read_bytes()
+    refuse("no folder", "nowhere", "\"nowhere\" is no folder")
+    pathlib.Path("empty").mkdir(exist_ok=True)
+    refuse("a folder without results", "empty", "empty holds no results.h5")
+    for what, content in (("half a file", whole[:len(whole) // 2]), ("another file", b"<html>" * 100), ("an empty file", b"")):
+        pathlib.Path("damaged/results.h5").write_bytes(content)
+        refuse(what, "damaged", "damaged/results.h5 cannot be read")
+    pathlib.Path("damaged/results.h5").write_bytes(whole)
+    with h5py.File("damaged/results.h5", "r+") as file:
+        del file["/model/frame"]
+    refuse("a dataset that is missing", "damaged", "has no /model/frame")
+    pathlib.Path("damaged/results.h5").write_bytes(whole)
+    for what, text in (("half a summary", '{"status": "fini'), ("another summary", "[1, 2]")):
+        pathlib.Path("damaged/summary.json").write_text(text, encoding="utf-8")
+        refuse(what, "damaged", "damaged/summary.json")
+    pathlib.Path("damaged/summary.json").unlink()
+    refuse("no summary", "damaged", "damaged/summary.json cannot be read")
+    pathlib.Path("damaged/results.h5").rename("damaged/results.h5.part")
+    refuse("a run that has not ended", "damaged", "results of a run that has not ended")
+    refuse("a file that cannot be written", "full", "cannot be written", "--output", "nowhere/page.html")
+    done = tooljoint("report")
+    expect("no folder named: exit code 1", done.returncode == 1 and "DIR" in done.stderr, done.stderr)
+
+
+def interrupted():
+    """What an interrupted run left is reported on, with that on top."""
+    shutil.rmtree("interrupted", ignore_errors=True)
+    process = subprocess.Popen([sys.argv[1], "run", STRING, "--output", "interrupted", "--set", "Transient/End Time=2000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    until = time.monotonic() + 60 * TIME_FACTOR
+    while not pathlib.Path("interrupted/checkpoint.bin").exists() and time.monotonic() < until:
+        time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    expect("the run is interrupted", process.wait(timeout=60 * TIME_FACTOR) == 130)
+    _, text = page("an interrupted run", "interrupted", WITHOUT_MOTION)
+    expect("an interrupted run: the page says so first", re.search(r'<ul class="notes"><li>This run is interrupted: Interrupted at [0-9.]+ s', text) is not None)
+
+
+def main():
+    os.environ["TOOLJOINT_REPORT"] = "off"
+    chromium = browser.Browser(120 * TIME_FACTOR) if browser.program() else None
+    if chromium is None:
+        print("Chromium is not installed: the pages are read, not opened.")
+    else:
+        chromium.__enter__()
+    try:
+        strings(chromium)
+        parts(chromium)
+        studies(chromium)
+    finally:
+        if chromium:
+            chromium.__exit__()
+    for part in (tables_alone, old_results, end_of_run, refusals, interrupted):
+        part()
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

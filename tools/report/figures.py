@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of a run of a string: the well, the static state, the motion."""
+import numpy as np
+
+import plots
+from plots import COLOURS, GREY, RPM
+from report import results
+
+BLUE, ORANGE, GREEN = COLOURS[:3]
+PICTURE_ROWS = 240  # of contact forces over time and depth
+FLOOR = 1e-8  # of the largest value of a spectrum, below which it is not drawn
+
+
+class Figure:
+    """An inline SVG with its caption; wide ones take two columns of the page, large ones a row."""
+
+    def __init__(self, name, made, caption, wide=False, large=False):
+        self.name, self.caption, self.size = name, caption, "wide large" if large else "wide" if wide else "slender"
+        self.svg = plots.inline_svg(made, name, tight=large)
+
+
+def well(run):
+    """Vertical section and map of the well, of one scale."""
+    north, east, down = run.get("/model/position").T
+    away = np.hypot(north - north[0], east - east[0])
+    depth = down - down[0]
+    size = max(np.ptp(away), np.ptp(depth), np.ptp(north), np.ptp(east), 1.0)
+    made, axes = plots.figure(plots.SLENDER, 4.2)
+    axes.plot(away, depth, color=BLUE)
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.invert_yaxis()
+    axes.set_xlabel("horizontal distance [m]"), axes.set_ylabel("vertical depth [m]")
+    found = [Figure("section", made, "Well, vertical section; both axes have one scale.")]
+    if max(np.ptp(north), np.ptp(east)) > 1e-3 * size:
+        made, axes = plots.figure(plots.SLENDER, 4.2)
+        axes.plot(east, north, color=BLUE)
+        axes.plot(east[0], north[0], "o", color=GREY, markersize=5)
+        axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel("east [m]"), axes.set_ylabel("north [m]")
+        found.append(Figure("map", made, "Well from above; the dot is the surface."))
+    return found
+
+
+def static_profiles(run):
+    limits = run.s[0], run.s[-1]
+    found = []
+
+    def add(name, label, caption, draw):
+        made, axes = plots.profile(label, limits)
+        draw(axes)
+        found.append(Figure(name, made, caption))
+
+    def forces(path, colour):
+        def draw(axes):
+            axes.plot(run.get(path) / 1e3, run.middles, color=colour, linewidth=1.3)
+            axes.axvline(0, color=GREY, linewidth=0.6)
+        return draw
+
+    def side(axes):
+        force = run.get("/static/normal_force") / 1e3
+        axes.hlines(run.s, 0, force, color=BLUE, linewidth=1.2)
+        axes.set_xlim(left=0, right=max(1.08 * force.max(), 1e-3))
+
+    def radial(axes):
+        axes.fill_betweenx(run.s, 0, 1e3 * run.get("/model/clearance"), step="mid", color="#e2e2e2", linewidth=0, label="clearance")
+        axes.plot(1e3 * results.lateral(run, run.get("/static/displacement")), run.s, color=GREEN, linewidth=1.1, label="string")
+        axes.set_xlim(left=0)
+        plots.legend_above(axes, 2)
+
+    add("axial", "effective axial force [kN]", "Static axial force; tension is positive.", forces("/static/axial_force", ORANGE))
+    add("torque", "torque [kN m]", "Static torque about the axis.", forces("/static/torque", GREEN))
+    add("side", "side force [kN]", "Static contact force of each node.", side)
+    add("radial", "lateral displacement [mm]", "Static distance from the axis of the well, and the clearance.", radial)
+    stress = results.von_mises(run, run.get("/static/displacement"))
+    if stress is not None:
+        add("stress", "von Mises stress [MPa]", "Static stress at the outer wall: effective tension, bending, torsion.",
+            lambda axes: (axes.plot(stress / 1e6, run.middles, color=COLOURS[4], linewidth=0.7), axes.set_xlim(left=0)))
+    add("curvature", "dogleg severity [deg/30 m]", "Curvature of the axis of the string at rest.",
+        lambda axes: (axes.plot(np.degrees(results.curvature(run, run.get("/static/displacement"))) * 30, run.middles, color=COLOURS[5], linewidth=1.1),
+                      axes.set_xlim(left=0)))
+    return found
+
+
+def bit_speed(run):
+    bit = run.bit_speed()
+    if bit is None:
+        return []
+    made, axes = plots.in_time("speed [rpm]", run.time)
+    axes.plot(*plots.envelope(run.time, RPM * bit), color=BLUE, linewidth=0.8, label="bit")
+    axes.plot(*plots.envelope(run.time, RPM * run.rotary()), color=ORANGE, linewidth=1.4, label="surface")
+    low, high = axes.get_ylim()
+    if high - low < 0.2:  # rpm: a bit that turns evenly
+        axes.set_ylim(0.5 * (low + high) - 1, 0.5 * (low + high) + 1)
+    plots.legend_above(axes)
+    return [Figure("bit-speed", made, "Rotary speed of the bit and at the surface.", True)]
+
+
+def contact(run, found):
+    if found.force is None or not found.largest.max() > 0:
+        return []
+    made, axes = plots.figure(plots.WIDE, 3.6)
+    s = run.s
+    # Rows of the picture are equal stretches of depth: the largest force of the nodes whose stretch of the string is in each.
+    ends, edges = run.middles, np.linspace(s[0], s[-1], PICTURE_ROWS + 1)
+    first, last = np.searchsorted(ends, edges[:-1], side="right"), np.searchsorted(ends, edges[1:], side="left")
+    picture = np.array([found.force[:, a:b + 1].max(axis=1) for a, b in zip(first, last)])
+    shown = axes.imshow(np.ma.masked_equal(picture / 1e3, 0), aspect="auto", cmap=plots.MAP,
+                        extent=(found.time[0], found.time[-1], s[-1], s[0]), interpolation="nearest")
+    axes.grid(False)
+    axes.set_xlabel("time [s]"), axes.set_ylabel("measured depth [m]")
+    made.colorbar(shown, ax=axes, label="contact force [kN]")
+    history = Figure("contact", made, "Contact force over the motion, the largest of each stretch of depth; white: no contact.", True)
+    made, axes = plots.profile("share of time in contact [%]", (s[0], s[-1]))
+    axes.hlines(s, 0, 100 * found.duty, color=BLUE, linewidth=1.1)
+    axes.set_xlim(0, 100)
+    duty = Figure("duty", made, "Share of the second half of the motion in contact.")
+    made, axes = plots.profile("largest contact force [kN]", (s[0], s[-1]))
+    axes.hlines(s, 0, found.largest / 1e3, color=ORANGE, linewidth=1.1)
+    axes.set_xlim(left=0)
+    return [history, duty, Figure("largest", made, "Largest contact force of each node in the motion.")]
+
+
+def vibration(run, motion):
+    limits = run.s[0], run.s[-1]
+    made, axes = plots.profile("lateral vibration [mm rms]", limits)
+    axes.plot(1e3 * motion.lateral_rms(), run.s, color=GREEN, linewidth=1.1)
+    axes.set_xlim(left=0)
+    found = [Figure("rms", made, "Lateral vibration about the mean position, second half of the motion.")]
+    made, axes = plots.profile("torsional vibration [deg rms]", limits)
+    axes.plot(np.degrees(motion.rms[:, 5]), run.s, color=COLOURS[4], linewidth=1.1)
+    axes.set_xlim(left=0)
+    return [*found, Figure("twist", made, "Torsional vibration, likewise.")]
+
+
+def orbits(run, motion, chosen):
+    """The path of the axis of the string in the bore at chosen nodes, in the second half of the motion."""
+    found = []
+    clearance = run.get("/model/clearance")
+    half = slice(motion.first, None)
+    for number, (node, why) in enumerate(chosen.items()):
+        u, v = 1e3 * motion.histories[half, number, 0], 1e3 * motion.histories[half, number, 1]
+        made, axes = plots.figure(plots.SLENDER, 3.0)
+        gap = 1e3 * clearance[node]
+        largest = max(np.abs(u).max(), np.abs(v).max(), 1e-3)
+        if gap < 20 * largest:
+            angle = np.linspace(0, 2 * np.pi, 120)
+            axes.plot(gap * np.cos(angle), gap * np.sin(angle), color=GREY, linewidth=1.2)
+            largest = max(largest, gap)
+        axes.plot(plots.thinned(u, 2500), plots.thinned(v, 2500), color=BLUE, linewidth=0.6)
+        axes.plot(u[-1], v[-1], "o", color=ORANGE, markersize=4)
+        plots.square(axes, 1.08 * largest)
+        axes.set_xlabel("u [mm]"), axes.set_ylabel("v [mm]")
+        turn = results.precession(u, v, run.time[half])
+        speed = np.abs(run.rotary()[half]).mean()
+        whirl = f"; mean precession {RPM * turn:.0f} rpm" + (f", {turn / speed:+.2f} of the surface speed" if speed > 0 else "")
+        circle = "" if gap < 20 * largest else f"; the clearance of {gap:.0f} mm is out of the picture"
+        found.append(Figure(f"orbit-{number + 1}", made, f"Orbit at {run.s[node]:.1f} m, {why}{whirl}{circle}."))
+    return found
+
+
+def frequency_axes(label):
+    made, axes = plots.figure(plots.WIDE, 2.8)
+    axes.set_yscale("log")
+    axes.set_xlabel("frequency [Hz]"), axes.set_ylabel(label)
+    return made, axes
+
+
+def draw_spectrum(axes, values, interval, **line):
+    frequency, power = plots.spectrum(values, interval)
+    if len(frequency) > 2 and power[1:].max() > 0:
+        axes.plot(frequency[1:], np.maximum(power[1:], FLOOR * power[1:].max()), linewidth=0.9, **line)
+    return len(frequency) > 2
+
+
+def spectra(run, motion, chosen):
+    half = slice(motion.first, None)
+    interval = float(np.median(np.diff(run.time)))
+    found = []
+    made, axes = frequency_axes("lateral displacement [mm²/Hz]")
+    drawn = False
+    for number, node in enumerate(chosen):
+        drawn |= draw_spectrum(axes, 1e3 * motion.histories[half, number, 0], interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m")
+    plots.legend_above(axes)
+    if drawn and axes.lines:
+        found.append(Figure("lateral-spectrum", made, "Spectra of the lateral displacement u at the nodes of the orbits, second half of the motion.", True))
+    bit = run.bit_speed()
+    if bit is not None:
+        made, axes = frequency_axes("bit speed [rpm²/Hz]")
+        if draw_spectrum(axes, RPM * bit[half], interval, color=BLUE) and axes.lines:
+            found.append(Figure("bit-spectrum", made, "Spectrum of the bit speed, likewise.", True))
+    return found

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of a run: of a string in its well, or of imported parts."""
+import pathlib
+
+import numpy as np
+
+from report import checks, deck, figures, figures_parts, of_tables, results, scene3d, tables
+from report.page import Page, cards
+from report.quantities import FOOT, POUND, both, percent
+
+
+def headline(run):
+    """Cards of what is asked first."""
+    found = []
+    if run.is_string and run.value("static.top_axial_force") is not None:
+        found.append(("Hook load", *both(run.value("static.top_axial_force"), "hook load"), "effective tension at the surface", False))
+        found.append(("Surface torque", *both(-run.value("static.top_torque"), "torque"), "at rest, against the rotation", False))
+        node = run.value("static.max_normal_force_node")
+        if node:
+            force, depth = run.value("static.max_normal_force"), run.s[node - 1]
+            found.append(("Largest side force", f"{force / 1e3:.2f} kN", f"{force / POUND:.0f} lbf",
+                          f"at {depth:.1f} m ({depth / FOOT:.0f} ft), {run.component_at(node - 1) or f'node {node}'}", False))
+    speed = run.value("transient.bit_speed_rpm") or {}
+    if speed.get("mean") is not None:
+        found.append(("Bit speed", f"{speed['mean']:.1f} rpm", f"{speed['min']:.1f} to {speed['max']:.1f} rpm", "mean and range of the motion", False))
+    largest = run.value("transient.max_displacement")
+    if largest is not None:
+        found.append(("Largest displacement", f"{largest:.4g}", "m or rad", "of all nodes and components", False))
+    worst = checks.worst(run.summary)
+    if worst:
+        name, value, bound = worst
+        found.append(("Worst check", "met" if value <= bound else "NOT MET", f"{value:.2g}", f"{name}, bound {bound:g}", value > bound))
+    energy = run.value("transient.energy_residual")
+    if energy is not None:
+        found.append(("Energy balance", percent(energy), "", "lost (> 0) or made (< 0) by the integration", abs(energy) > 0.05))
+    return cards(found) if found else ""
+
+
+def notes(page, run):
+    """What a reader must know first."""
+    status = run.value("status")
+    if status != "finished":
+        page.note(f"This run is {status}: {run.value('message') or 'its results are incomplete.'}")
+    for name, value, bound in checks.measured(run.summary):
+        if value > bound:
+            page.note(f"Not met: {name} is {value:.1e}, its bound {bound:.0e}.")
+    warnings = run.value("warnings") or []
+    for warning in warnings:
+        page.note(warning)
+    if not page.notes:
+        page.note("No warnings; all checks are met.", good=True)
+
+
+def conditions(run, scene):
+    words = []
+    if run.is_string:
+        words.append(f"string of {run.s[-1]:.0f} m")
+    else:
+        words.append(f"{len(run.file['/model/part_names'])} parts, {len(run.file['/model/part'])} nodes")
+    said = deck.conditions(scene)
+    if said:
+        words.append(said)
+    if run.value("transient.model"):
+        basis = f" ({run.value('reduction.basis')})" if run.value("transient.model") == "reduced" else ""
+        words.append(f"{run.value('transient.model')} model{basis}, {run.value('transient.start'):g} to {run.value('transient.end'):g} s")
+    else:
+        words.append("static state")
+    return ", ".join(words)
+
+
+def string_sections(page, run):
+    page.view(*scene3d.of_string(run))
+    page.plots("well", "Well", figures.well(run))
+    page.plots("static", "Static state", figures.static_profiles(run))
+    of_tables.add_torque_drag(page, run.folder)
+    if run.moves:
+        motion = results.Motion(run)
+        chosen = results.chosen_nodes(run, motion.lateral_rms())
+        motion = results.Motion(run, chosen)
+        page.plots("motion", "Motion", [*figures.bit_speed(run), *figures.contact(run, results.Contact(run)), *figures.vibration(run, motion)],
+                   tables.pairs(results.merits(run, motion)))
+        page.plots("orbits", "Orbits", figures.orbits(run, motion, chosen))
+        page.plots("spectra", "Spectra", figures.spectra(run, motion, chosen))
+    elif run.time is not None:
+        page.plots("motion", "Motion", figures.bit_speed(run))
+
+
+def part_sections(page, run):
+    data, note = scene3d.of_parts(run)
+    if data is None:
+        page.add("space", "In space", f'<p class="remark">{note}</p>')
+    else:
+        page.view(data, note)
+    page.plots("displacements", "Displacements", figures_parts.displacements(run))
+    page.plots("motion", "Motion", [*figures_parts.movers(run), *figures_parts.forces(run)])
+    page.plots("spectra", "Spectra", figures_parts.spectra(run))
+
+
+def page_of(folder):
+    run = results.Run(folder)
+    scene = deck.read(run.attribute("deck_text"), run.attribute("overrides"))
+    name = pathlib.Path(run.value("deck.file") or run.attribute("deck_file") or folder.name).stem
+    page = Page(name, conditions(run, scene))
+    notes(page, run)
+    page.add("figures", "Figures", headline(run))
+    if run.is_string and "/static/displacement" in run.file:
+        string_sections(page, run)
+    elif "/model/part" in run.file:
+        part_sections(page, run)
+    page.add("reduction", "Reduction and errors", tables.of_reduction(run) + of_tables.basis_table(folder))
+    measured = checks.measured(run.summary)
+    page.add("checks", "Checks", tables.of_checks(measured) if measured else "")
+    page.add("numerics", "Computation", tables.of_numerics(run))
+    of_tables.add_modes(page, folder)
+    rows = list(deck.rows(scene))
+    page.add("deck", "Deck", f"<details open><summary>{len(rows)} lines, with the overrides of the command line</summary>{tables.of_deck(rows)}</details>" if rows else "")
+    page.footer = (f"Written by tooljoint report from {folder}: program {run.attribute('program_version')} ({run.attribute('git_hash')}), "
+                   f"results of {run.attribute('date')}, deck SHA-256 {run.attribute('deck_sha256')}.")
+    return page

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sections and reports of tables: torque_drag.csv, modes.csv, basis.csv."""
+import math
+
+import plots
+from plots import COLOURS, GREY
+from report import tables
+from report.figures import Figure
+from report.page import Page
+from report.quantities import FOOT, POUND, percent, plain
+from report.results import read_table
+
+BASIS_ROWS = 60  # of a page; basis.csv has all
+
+
+def numbers(rows, name):
+    return [row[name] if isinstance(row[name], float) else math.nan for row in rows]
+
+
+def by_operation(rows):
+    found = {}
+    for row in rows:
+        found.setdefault(row["operation"], []).append(row)
+    return found
+
+
+def against_depth(name, label, caption, rows, value, scale):
+    made, axes = plots.profile(label, (0, max(numbers(rows, "bit_depth"))))
+    axes.set_ylabel("depth of the bit [m]")
+    for number, (operation, own) in enumerate(by_operation(rows).items()):
+        axes.plot([scale * x for x in numbers(own, value)], numbers(own, "bit_depth"), color=COLOURS[number], marker=plots.MARKERS[number], markersize=3, linewidth=1.2,
+                  label=operation)
+    plots.legend_above(axes, 2, -0.4)
+    return Figure(name, made, caption)
+
+
+def least_around(values, reach=7):
+    """The least of each value and its `reach` neighbours on both sides: of tool joint and pipe body in turn, that of the one that buckles first."""
+    return [min(values[max(0, i - reach):i + reach + 1]) for i in range(len(values))]
+
+
+def limits_of(operation, rows, number):
+    """Tension of one operation along the string, and where it would buckle."""
+    depth = numbers(rows, "depth")
+    made, axes = plots.profile("effective tension [kN]", (0, max(depth)))
+    axes.plot([x / 1e3 for x in numbers(rows, "tension")], depth, color=COLOURS[0], linewidth=1.4, label="tension")
+    low, high = axes.get_xlim()
+    for name, colour, dashes in (("sinusoidal", COLOURS[1], "--"), ("helical", COLOURS[4], ":")):
+        axes.plot([-x / 1e3 for x in least_around(numbers(rows, f"{name}_limit"))], depth, color=colour, linewidth=1.1, linestyle=dashes, label=f"{name} limit")
+    reach = max(high - low, 1.0)
+    axes.set_xlim(min(low, -0.35 * reach), high)
+    axes.axvline(0, color=GREY, linewidth=0.6)
+    plots.legend_above(axes, 2, -0.4)
+    return Figure(f"buckling-{number + 1}", made, f"{operation}, bit at {max(depth):.0f} m: tension, and the compressions at which pipe or tool joint buckles.")
+
+
+def add_torque_drag(page, folder):
+    """Hook load and surface torque against the depth of the bit, and tension with buckling limits at the deepest bit."""
+    if not (folder / "torque_drag.csv").is_file():
+        return
+    rows = read_table(folder / "torque_drag.csv")
+    if not rows:
+        return
+    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit.", rows, "hook_load", 1e-3),
+             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit.", rows, "surface_torque", 1e-3)]
+    if (folder / "torque_drag_profile.csv").is_file():
+        profiles = by_operation(read_table(folder / "torque_drag_profile.csv"))
+        found += [limits_of(operation, own, number) for number, (operation, own) in enumerate(profiles.items())]
+    deepest = max(numbers(rows, "bit_depth"))
+    last = [row for row in rows if row["bit_depth"] == deepest]
+    table = tables.table(("operation", "hook load [kN]", "[klbf]", "torque [kN m]", "[kft lbf]", "yield", "sinusoidal", "helical", "lock-up [m]"),
+                         [(row["operation"], *scaled(row["hook_load"], 1e-3, 1e-3 / POUND), *scaled(row["surface_torque"], 1e-3, 1e-3 / (FOOT * POUND)),
+                           *(plain(row[f"{name}_margin"], 3) for name in ("yield", "sinusoidal", "helical")), plain(row["lock_up_depth"])) for row in last],
+                         range(1, 9), f"Bit at {deepest:.0f} m; margins are allowed over present load, above 1 there is reserve")
+    page.plots("torque-drag", "Torque and drag", found, table)
+
+
+def scaled(value, *factors):
+    return [f"{value * factor:.1f}" if isinstance(value, float) else "-" for factor in factors]
+
+
+def basis_table(folder):
+    """Vectors of the bases, those around the cut first."""
+    if not (folder / "basis.csv").is_file():
+        return ""
+    rows = read_table(folder / "basis.csv")
+    if not rows:
+        return ""
+    shown = rows[:BASIS_ROWS]
+    more = f", the first {BASIS_ROWS} of {len(rows)}; basis.csv has all" if len(rows) > BASIS_ROWS else ""
+    table = tables.table(("part", "kind", "vector", "frequency [Hz]", "residual", "kept", "why"),
+                         [(row["part"], row["kind"], plain(row["vector"]), plain(row["frequency"]), plain(row["residual"], 2), row["kept"], row["why"]) for row in shown], (3, 4))
+    return f"<details><summary>Vectors of the bases{more}</summary>{table}</details>"
+
+
+def modes_figure(rows):
+    made, axes = plots.figure(plots.WIDE, 2.8)
+    made_of = [row for row in rows if isinstance(row.get("error"), float) and row["error"] != 0]
+    if not made_of:
+        plots.plt.close(made)
+        return []
+    axes.set_yscale("log")
+    axes.plot(numbers(made_of, "mode"), [abs(x) for x in numbers(made_of, "error")], "o", color=COLOURS[0], markersize=4, label="error")
+    estimated = [row for row in made_of if isinstance(row.get("estimate"), float) and row["estimate"] > 0]
+    if estimated:
+        axes.plot(numbers(estimated, "mode"), numbers(estimated, "estimate"), "s", markersize=4, markerfacecolor="none", color=COLOURS[1], label="estimate")
+    axes.set_xlabel("mode"), axes.set_ylabel("relative error of the frequency [1]")
+    plots.legend_above(axes)
+    return [Figure("mode-errors", made, "Errors of the coupled frequencies, and their estimates without the full model.", True)]
+
+
+def add_modes(page, folder):
+    for file, title in (("modes.csv", "Eigenfrequencies"), ("damped_modes.csv", "Damped modes")):
+        if not (folder / file).is_file():
+            continue
+        rows = read_table(folder / file)
+        if not rows:
+            continue
+        names = list(rows[0])
+        units = {"full": " [Hz]", "coupled": " [Hz]", "full_im": " [Hz]", "coupled_im": " [Hz]"}
+        cells = [[percent(row[name]) if name in ("error", "estimate") and isinstance(row[name], float) else plain(row[name], 6) for name in names] for row in rows]
+        table = tables.table([name.replace("_", " ") + units.get(name, "") for name in names], cells, range(len(names)))
+        figures = modes_figure(rows) if file == "modes.csv" else []
+        if figures:
+            page.plots(file.split(".")[0].replace("_", "-"), title, figures, table)
+        else:
+            page.add(file.split(".")[0].replace("_", "-"), title, table)
+
+
+def page_of(folder):
+    """Of a folder that holds tables alone."""
+    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
+                                                                if (folder / file).is_file()))
+    add_torque_drag(page, folder)
+    add_modes(page, folder)
+    return page

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers as texts, in SI units and in those of the field."""
+import math
+
+FOOT, POUND = 0.3048, 4.4482216152605  # [m], [N] (exact)
+# quantity -> (SI unit, factor to it, decimals), (unit of the field, factor to it, decimals)
+UNITS = {
+    "length": (("m", 1.0, 1), ("ft", 1 / FOOT, 0)),
+    "force": (("kN", 1e-3, 2), ("klbf", 1e-3 / POUND, 2)),
+    "hook load": (("kN", 1e-3, 1), ("klbf", 1e-3 / POUND, 1)),
+    "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
+    "stress": (("MPa", 1e-6, 1), ("ksi", 1e-3 / 6894.757293168, 1)),
+}
+SMALLEST = 1e-6  # share that is told in numbers
+
+
+def both(value, quantity):
+    """("442.7 kN", "99.5 klbf"); dashes where there is no value."""
+    if value is None or not math.isfinite(value):
+        return "-", ""
+    return tuple(f"{value * factor:.{decimals}f} {unit}" for unit, factor, decimals in UNITS[quantity])
+
+
+def plain(value, digits=4):
+    """A number of a table; - for none."""
+    if value is None or value == "":
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, (int, str)):
+        return str(value)
+    return f"{value:.{digits}g}" if math.isfinite(value) else "-"
+
+
+def percent(value):
+    if value is None or not math.isfinite(value):
+        return "-"
+    return f"{100 * value:.2g} %" if value == 0 or abs(value) >= SMALLEST else f"< {100 * SMALLEST:g} %"

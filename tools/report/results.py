@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run left in its folder, read once and in pieces that fit into memory."""
+import csv
+import json
+import math
+
+import h5py
+import numpy as np
+
+BLOCK = 8_000_000  # numbers of a time series that are in memory at once
+SECOND_HALF = 0.5  # statistics begin after this share of the motion, when its start has died away
+# Without these datasets of a string there is nothing to draw.
+NEEDED = ("/model/position", "/model/frame", "/model/clearance", "/model/contact_radius", "/static/displacement", "/static/normal_force", "/static/axial_force", "/static/torque")
+
+
+class Unreadable(Exception):
+    """A sentence on what is missing or damaged."""
+
+
+def read_summary(folder):
+    path = folder / "summary.json"
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Unreadable(f"{path} cannot be read: {error}. Run the deck again, or restore the file from a copy.") from error
+    if not isinstance(summary, dict) or "status" not in summary:
+        raise Unreadable(f"{path} is no summary of a run: it has no \"status\".")
+    return summary
+
+
+def open_results(path):
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise Unreadable(f"{path} cannot be read: {str(error).splitlines()[0]}. Run the deck again, or restore the file from a copy.") from error
+
+
+def read_table(path):
+    """Rows of a CSV file as dicts; names without their units. Numbers where a cell is one."""
+    def value(text):
+        try:
+            return float(text)
+        except (TypeError, ValueError):
+            return text
+
+    with open(path, newline="", encoding="utf-8") as file:
+        return [{name.split(" [")[0]: value(text) for name, text in row.items() if name is not None} for row in csv.DictReader(file)]
+
+
+def texts(dataset):
+    return [value.decode() if isinstance(value, bytes) else str(value) for value in dataset[:]]
+
+
+class Run:
+    """results.h5 and summary.json of a run. Arrays have the shapes of docs/file-formats.md; None for what is not there."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.summary = read_summary(folder)
+        self.file = open_results(folder / "results.h5")
+        self.is_string = "/model/s" in self.file
+        missing = [name for name in (NEEDED if self.is_string else ()) if name not in self.file and (name.startswith("/model") or "/static" in self.file)]
+        if missing:
+            raise Unreadable(f"{folder / 'results.h5'} has no {', '.join(missing)}: it is damaged or of another program. Run the deck again.")
+        self.s = self.get("/model/s")
+        self.time = self.get("/transient/time")
+        self.moves = self.time is not None and len(self.time) > 1 and "/transient/displacement" in self.file
+
+    def get(self, path):
+        dataset = self.file.get(path)
+        return None if dataset is None else dataset[()]
+
+    def attribute(self, name, default=""):
+        value = self.file.attrs.get(name, default)
+        return value.decode() if isinstance(value, bytes) else value
+
+    def value(self, path):
+        """Of the summary by keys joined by dots; None where a stage did not run."""
+        found = self.summary
+        for key in path.split("."):
+            found = found.get(key) if isinstance(found, dict) else None
+        return found
+
+    @property
+    def middles(self):
+        """Depths of the middles of the elements [m]."""
+        return 0.5 * (self.s[1:] + self.s[:-1])
+
+    def components(self):
+        """Entry of the assembly of each element, or None."""
+        names = self.file.get("/model/component_names")
+        return None if names is None else [texts(names)[i - 1] for i in self.get("/model/component")]
+
+    def component_at(self, node):
+        """Entry of the assembly a node (from 0) belongs to: the upper one where two meet."""
+        names = self.components()
+        return "" if names is None else names[max(0, node - 1)]
+
+    def blocks(self, path):
+        """(first sample, samples x ...) of a time series, from the start to the end."""
+        data = self.file[path]
+        rows = max(1, BLOCK // max(1, math.prod(data.shape[1:])))
+        for first in range(0, len(data), rows):
+            yield first, data[first:first + rows]
+
+    def frames(self, most):
+        """Numbers of at most `most` samples in equal distances."""
+        return np.arange(0, len(self.time), max(1, -(-len(self.time) // most)))
+
+    def rotary(self):
+        """Speed imposed at the surface [rad/s] at the samples."""
+        speed = self.get("/transient/speed")
+        return np.zeros(len(self.time)) if speed is None else speed
+
+    def bit_speed(self):
+        """Omega + dtheta_z/dt of the bit [rad/s] at the samples, or None."""
+        motion = self.get("/transient/motion")
+        return motion[:, 2] if self.is_string and motion is not None and motion.shape[1] == 5 else None
+
+    def second_half(self):
+        start, end = self.time[0], self.time[-1]
+        return int(np.searchsorted(self.time, start + SECOND_HALF * (end - start)))
+
+
+def curvature(run, displacement):
+    """Curvature of the bent string in its elements [1/m]: turn of the tangents from node to node, t' = t + theta x t, over the length.
+    `displacement` is ... x nodes x 6 in nodal frames."""
+    frames = run.get("/model/frame")
+    x, y, z = frames[:, :, 0], frames[:, :, 1], frames[:, :, 2]
+    # theta x z = theta_y x - theta_x y in the nodal frame
+    tangent = z + displacement[..., 4, None] * x - displacement[..., 3, None] * y
+    return np.linalg.norm(np.diff(tangent, axis=-2), axis=-1) / np.diff(run.s)
+
+
+def von_mises(run, displacement):
+    """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for results without sections.
+
+        T = T_s + E S (w' - w_s'),  M = M_s + G J (theta_z' - theta_zs'),  sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
+
+    at the outer wall, from effective tension, as for torque and drag (docs/drilling.md); s: static state."""
+    if run.get("/model/young_modulus") is None or run.get("/static/axial_force") is None:
+        return None
+    E, G, S, J, R = (run.get(f"/model/{name}") for name in ("young_modulus", "shear_modulus", "area", "torsion_constant", "outer_radius"))
+    change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:, None]
+    tension = run.get("/static/axial_force") + E * S * change[..., 2]
+    torque = run.get("/static/torque") + G * J * change[..., 5]
+    axial = np.abs(tension) / S + E * curvature(run, displacement) * R
+    return np.sqrt(axial ** 2 + 3 * (torque * R / J) ** 2)
+
+
+def lateral(run, displacement):
+    """Distance of the nodes from the axis of the well [m]."""
+    return np.hypot(displacement[..., 0], displacement[..., 1])
+
+
+class Motion:
+    """Statistics of the second half of a motion, and the histories of a few nodes."""
+
+    def __init__(self, run, chosen=()):
+        self.run = run
+        self.first = run.second_half()
+        self.chosen = list(chosen)
+        shape = run.file["/transient/displacement"].shape
+        total, square = np.zeros(shape[1:]), np.zeros(shape[1:])
+        self.histories = np.zeros((shape[0], len(self.chosen), shape[2]))
+        self.low, self.high = np.full(shape[1:], np.inf), np.full(shape[1:], -np.inf)
+        for start, block in run.blocks("/transient/displacement"):
+            self.histories[start:start + len(block)] = block[:, self.chosen]
+            self.low, self.high = np.minimum(self.low, block.min(axis=0)), np.maximum(self.high, block.max(axis=0))
+            kept = block[max(0, self.first - start):]
+            total += kept.sum(axis=0)
+            square += (kept ** 2).sum(axis=0)
+        count = shape[0] - self.first
+        self.mean = total / count
+        self.rms = np.sqrt(np.maximum(square / count - self.mean ** 2, 0.0))
+
+    def lateral_rms(self):
+        """Root mean square of the lateral vibration about the mean position [m], of the nodes of a string."""
+        return np.hypot(self.rms[:, 0], self.rms[:, 1])
+
+
+class Contact:
+    """Contact forces over the motion: share of time in contact and largest force of each node, and a thinned history."""
+
+    def __init__(self, run, most=160):
+        self.force, self.duty, self.largest = None, None, None
+        if "/transient/normal_force" not in run.file or not run.moves:
+            return
+        at = run.frames(most)
+        first = run.second_half()
+        touching = np.zeros(len(run.s))
+        self.largest = np.zeros(len(run.s))
+        rows = []
+        for start, block in run.blocks("/transient/normal_force"):
+            rows.append(block[at[(at >= start) & (at < start + len(block))] - start])
+            self.largest = np.maximum(self.largest, block.max(axis=0))
+            touching += np.count_nonzero(block[max(0, first - start):] > 0, axis=0)
+        self.force, self.time = np.concatenate(rows), run.time[at]
+        self.duty = touching / (len(run.time) - first)
+
+
+def precession(u, v, time):
+    """Mean rate of an orbit about its centre [rad/s], positive from x to y: sum(u v' - v u') / sum(u^2 + v^2)."""
+    u, v = u - u.mean(), v - v.mean()
+    size = np.sum(u ** 2 + v ** 2)
+    return float(np.sum(u * np.gradient(v, time) - v * np.gradient(u, time)) / size) if size > 0 and len(u) > 2 else 0.0
+
+
+def chosen_nodes(run, rms, most=4):
+    """Nodes (from 0) worth a look, with why: the one that shakes most, most contact force, middle of the bottom-hole assembly, above the bit."""
+    found = {}
+
+    def add(node, why):
+        if all(abs(node - other) > max(2, len(run.s) // 100) for other in found):
+            found[int(node)] = why
+
+    add(int(np.argmax(rms)), "largest lateral vibration")
+    force = run.get("/static/normal_force")
+    if force is not None and force.max() > 0:
+        add(int(np.argmax(force)), "largest static side force")
+    add(max(0, len(run.s) - 4), "above the bit")
+    for share, why in ((0.25, "quarter of the length"), (0.5, "middle"), (0.75, "three quarters of the length")):
+        if len(found) < most:
+            add(int(np.searchsorted(run.s, share * run.s[-1])), why)
+    return dict(sorted(found.items())[:most]) if len(found) > most else dict(sorted(found.items()))
+
+
+def merits(run, motion):
+    """Figures of merit of the second half of the motion: rows of (name, value, what it is)."""
+    half = slice(motion.first, None)
+    rows = []
+    bit, rotary = run.bit_speed(), run.rotary()
+    if bit is not None:
+        bit = bit[half]
+        mean = bit.mean()
+        rows.append(("Stick-slip index", f"{np.ptp(bit) / (2 * abs(mean)):.2f}" if mean else "-", "(max - min) / (2 mean) of the bit speed; stick-slip from 1 on"))
+        slow = 0.05 * np.abs(rotary[half]).mean()
+        if slow > 0:
+            rows.append(("Time the bit is stuck", f"{100 * np.mean(np.abs(bit) < slow):.1f} %", "below 5 % of the mean surface speed"))
+    rms = motion.lateral_rms()
+    node = int(np.argmax(rms))
+    rows.append(("Largest lateral vibration", f"{1e3 * rms[node]:.2f} mm rms", f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}"))
+    rows.append(("Axial vibration of the bit", f"{1e3 * motion.rms[-1, 2]:.3g} mm rms", ""))
+    return rows
