@@ -2,8 +2,6 @@
 #include "substructures/drilling/TopDrive.hpp"
 
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -85,7 +83,7 @@ deck::ListSpec topDriveParameters() {
       .real("Tuning Frequency", "Hz", Optional{}, Range::positive(),
             "Frequency without reflection, that of stick-slip; control Impedance Matched.")
       .real("Impedance Ratio", "", Optional{}, Range::positive(),
-            "k_p over the impedance of the uppermost pipe, 1 without it; control Impedance "
+            "k_p over the impedance of the uppermost component, 1 without it; control Impedance "
             "Matched.")
       .expert()
       .real("Torque", "N m", Optional{}, Range::any(),
@@ -117,8 +115,13 @@ TopDrive readTopDrive(const Teuchos::ParameterList& list) {
   return drive;
 }
 
-double torsionalImpedance(const beam::Section& pipe) {
-  return std::sqrt(pipe.density() * pipe.polar() * pipe.torsionalRigidity());
+double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& pieces) {
+  double inertia = 0.0, compliance = 0.0;
+  for (const auto& [section, length] : pieces) {
+    inertia += section.density() * section.polar() * length;
+    compliance += length / section.torsionalRigidity();
+  }
+  return std::sqrt(inertia / compliance);
 }
 
 TopDrive tuned(TopDrive drive, double impedance) {

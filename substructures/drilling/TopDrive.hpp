@@ -6,6 +6,8 @@
 #include <Teuchos_ParameterList.hpp>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "deck/ListSpec.hpp"
 #include "substructures/beam/Section.hpp"
@@ -42,8 +44,9 @@ deck::ListSpec topDriveParameters();
 /// From the validated list. DeckError for parameters that the control lacks or does not use.
 TopDrive readTopDrive(const Teuchos::ParameterList& list);
 
-/// Characteristic impedance sqrt(rho I_p G J) of a pipe [N m s/rad].
-double torsionalImpedance(const beam::Section& pipe);
+/// Characteristic impedance of a run of pipe for waves that are long beside its pieces [N m s/rad]:
+/// sqrt(j k), the mean of j = rho I_p and the harmonic mean of k = G J over the lengths.
+double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& pieces);
 
 /// The drive with its gains, on a pipe of that impedance: ImpedanceMatched has k_p = ratio zeta and
 /// k_i = J (2 pi f)^2, so that at the frequency f the impedance of the drive,

@@ -226,7 +226,51 @@ def matched(program):
         expect(f"{name}: a root 2 % off would show", misfit(t[later], angle[later], wrong) > 0.02, "")
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, steady, matched)}
+def cutting(program):
+    """A bit that cuts, axial and torsional loop together: static state, and the motion against an integration of its own with
+    the delay solved for; full against reduced; both integrators; a free hook."""
+    slow, fast, rise, feed = 12.0, 14.0, 0.3, 3e-3
+    bit = {"Blades": 4, "Radius": 0.108, "Specific Energy": 1e6, "Inclination": 0.6}
+    drive = {"Control": "Speed", "Inertia": 1500.0, "Proportional Gain": 2000.0, "Integral Gain": 1000.0, "Block Speed": feed}
+    truth = models.CuttingString(PIECES, 0.5, 1500.0, 4, 0.108, 1e6, 0.6)
+    t, found = truth.integrate(2.0, 2.5e-4, feed, lambda t: fast + (slow - fast) * math.exp(-t / rise),
+                               lambda t: (fast - slow) / rise * math.exp(-t / rise),
+                               lambda t: fast * t + (slow - fast) * rise * (1 - math.exp(-t / rise)), 2000.0, 1000.0)
+    every = round(0.01 / (t[1] - t[0]))
+    w, theta, depth = found[::every].T
+    lists = {"Loads": {"Gravity": 9.81}, "Bit": {"Law": "Cutting", "Cutting": bit}, "Damping": {"Mass Coefficient": 0.5},
+             "Rotary Speed": {"Law": "Exponential", "Exponential": {"Initial Speed": slow, "Final Speed": fast, "Time Constant": rise}}}
+    short = {"Transient/End Time": 2.0}
+    runs = {"full, generalized-alpha": string(program, "cutting_full", drive, {**short, "Transient/Step": 5e-4}, **lists),
+            "full, RK4": string(program, "cutting_rk4", drive, {**short, "Transient/Integrator": "RK4", "Transient/Step": 2e-4}, **lists),
+            "reduced": string(program, "cutting_reduced", drive, {**short, "Transient/Step": 5e-4}, **lists,
+                              Substructures={"Rule": "By component"}, Reduction={"Mode Selection": {"Modes": 6}})}
+    for name, run in runs.items():
+        weight = 4 * 0.108 * 0.6 * 1e6 * depth
+        near(f"{name}: weight at rest", run.data("transient/weight_on_bit")[0], weight[0], 1e-6 * weight[0])
+        near(f"{name}: weight on bit over its change", np.abs(run.data("transient/weight_on_bit") - weight).max() / np.ptp(weight), 0.0, 0.01)
+        for what, component, exact_ in (("w", W, w), ("theta_z", THETA_Z, theta)):
+            moved = run.nodes(component)[:, -1] - run.nodes(component)[0, -1]
+            near(f"{name}: {what} of the bit over its change", np.abs(moved - exact_).max() / np.ptp(exact_), 0.0, 0.01)
+        near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+    hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
+    near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)
+    # the hook load and the weight of the string balance the weight on bit of the start
+    elements = [(part, part["Length"] / part["Elements"]) for part, count in PIECES for _ in range(count * part["Elements"])]
+    lumped = np.zeros(len(elements) + 1)
+    for e, (part, h) in enumerate(elements):
+        lumped[e:e + 2] += models.DENSITY * models.area(part) * h / 2
+    samples = hook.data("transient/weight_on_bit")
+    times = hook.time()
+    change = samples - samples[0]
+    drift = np.array([lumped @ v for v in hook.nodes(W, "velocity")])
+    lost = 0.5 * np.concatenate([[0], np.cumsum(0.5 * (drift[1:] + drift[:-1]) * np.diff(times))])  # mass damping of 0.5 1/s
+    impulse = -np.concatenate([[0], np.cumsum(0.5 * (change[1:] + change[:-1]) * np.diff(times))])
+    near("constant hook load: momentum of the string is the impulse of the weight less damping",
+         np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
+
+
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, steady, matched, cutting)}
 
 
 def main():

@@ -92,6 +92,61 @@ class TorsionalString:
         return found.y[:n].T, found.y[n:].T
 
 
+class CuttingString:
+    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling, by the classical
+    Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in the motion so far."""
+
+    def __init__(self, pieces, damping, inertia, blades, radius, energy, inclination):
+        torsion = TorsionalString(pieces, damping, inertia)
+        n = len(torsion.K)
+        K, M = np.zeros((n, n)), np.zeros((n, n))
+        elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces for _ in range(count * part["Elements"])]
+        for e, (part, h) in enumerate(elements):
+            at = slice(e, e + 2)
+            K[at, at] += YOUNG * area(part) / h * np.array([[1, -1], [-1, 1]])
+            M[at, at] += DENSITY * area(part) * h / 6 * np.array([[2, 1], [1, 2]])
+        self.torsion, self.K, self.M = torsion, K[1:, 1:], M[1:, 1:]
+        self.C, self.inverse = damping * self.M, np.linalg.inv(self.M)
+        self.pitch, self.weight, self.torque = 2 * math.pi / blades, blades * radius * inclination * energy, 0.5 * blades * radius**2 * energy
+
+    def integrate(self, end, step, feed, omega, acceleration, angle, kp, ki):
+        """Times, deviations of w and theta_z of the bit, depth of cut of a blade."""
+        n, m = len(self.torsion.K), len(self.K)
+        start = feed * self.pitch / omega(0.0)
+        steps = round(end / step)
+        past = round(1.5 * self.pitch / omega(0.0) / step)
+        times = step * np.arange(-past, steps + 1)
+        U, phi = feed * times, omega(0.0) * times
+        total = self.torsion.M.sum(axis=1)
+
+        def depth(t, w, theta, known):
+            then = np.interp(angle(t) + theta - self.pitch, phi[:known], U[:known])
+            return feed * t + w - then
+
+        def rates(t, y, known):
+            w, v, theta, rate = y[:m], y[m:2 * m], y[2 * m:2 * m + n], y[2 * m + n:]
+            more = depth(t, w[-1], theta[-1], known) - start
+            axial = -self.K @ w - self.C @ v
+            axial[-1] -= self.weight * more
+            turn = -self.torsion.K @ theta - self.torsion.C @ rate - acceleration(t) * total
+            turn[-1] -= self.torque * more
+            turn[0] -= kp * rate[0] + ki * theta[0]
+            return np.concatenate([v, self.inverse @ axial, rate, self.torsion.inverse @ turn])
+        y = np.zeros(2 * m + 2 * n)
+        found = np.zeros((steps + 1, 3))
+        found[0] = 0, 0, start
+        for i in range(steps):
+            t, known = i * step, past + i + 1
+            a = rates(t, y, known)
+            b = rates(t + step / 2, y + step / 2 * a, known)
+            c = rates(t + step / 2, y + step / 2 * b, known)
+            d = rates(t + step, y + step * c, known)
+            y = y + step / 6 * (a + 2 * b + 2 * c + d)
+            U[known], phi[known] = feed * (t + step) + y[m - 1], angle(t + step) + y[2 * m + n - 1]
+            found[i + 1] = y[m - 1], y[2 * m + n - 1], depth(t + step, y[m - 1], y[2 * m + n - 1], known + 1)
+        return step * np.arange(steps + 1), found
+
+
 def cycles(t, w, width):
     """Peak speed, share of time stuck, and mean period between releases of a bit."""
     stuck = np.abs(w) < width

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
@@ -238,8 +240,12 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
 
 namespace {
 
+/// With the gains for the uppermost component.
 drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillString& string) {
-  return drilling::tuned(drive, drilling::torsionalImpedance(string.elements.front().section()));
+  std::vector<std::pair<beam::Section, double>> pieces;
+  for (int e = 0; e <= string.instances.front().lastElement; ++e)
+    pieces.emplace_back(string.elements[at(e)].section(), string.elements[at(e)].length());
+  return drilling::tuned(drive, drilling::torsionalImpedance(pieces));
 }
 
 /// The dofs of the top that its drive moves are not among those held by default.
