@@ -57,7 +57,7 @@ const bool registered = addBitLaw<Stribeck>(
         .real("Dynamic Coefficient", "", 0.5, Range::nonNegative(),
               "Friction coefficient mu_d of a fast bit; at most the static one.")
         .radius("Radius", Required{}, Range::positive(), "Radius R of the bit.")
-        .real("Decay Speed", "rad/s", 1.0 / 0.9, Range::positive(),
+        .real("Decay Speed", "rad/s", 1.1, Range::positive(),
               "Speed over which the coefficient falls from the one to the other by e.")
         .real("Viscous Damping", "N m s/rad", 0.0, Range::nonNegative(),
               "Coefficient c of a torque that grows with the speed.")

@@ -132,7 +132,7 @@ def torque_limit(program):
 PIECES = ((models.PIPE, 3), (models.COLLAR, 2))
 COLLAR_BIT = {"Law": "Stribeck", "Stribeck": {"Radius": 0.108, "Viscous Damping": 20.0, "Sticking Speed": 0.1}}
 WEIGHT = 60e3
-STRING_BIT = models.Friction(static=WEIGHT * 0.108 * 0.8, dynamic=WEIGHT * 0.108 * 0.5, decay=1 / 0.9, viscous=20.0, width=0.1)
+STRING_BIT = models.Friction(static=WEIGHT * 0.108 * 0.8, dynamic=WEIGHT * 0.108 * 0.5, decay=1.1, viscous=20.0, width=0.1)
 SPEED, RISE = 6.0, 0.5
 
 
@@ -169,6 +169,19 @@ def strings(program):
         near(f"{name}: torque on bit", np.sqrt(np.mean((torque - STRING_BIT.torque(bit))**2)) / STRING_BIT.static, 0.0, bound)
     top = rk4.data("transient/top_drive_torque")
     near("torque of the drive", np.abs(top + kp * rate[:, 0] + ki * theta[:, 0]).max() / STRING_BIT.static, 0.0, 5e-3)
+
+
+def torque_source(program):
+    """A constant torque on the inertia of a drive that starts from rest, against scipy."""
+    torque, inertia = 5600.0, 1500.0
+    times = np.arange(0, 8.0 + 1e-9, 0.01)
+    model = models.TorsionalString(PIECES, damping=0.05, inertia=inertia)
+    theta, rate = model.integrate(times, lambda t: SPEED * (1 - math.exp(-t / RISE)), lambda t: SPEED / RISE * math.exp(-t / RISE),
+                                  STRING_BIT, 0.0, 0.0, torque)
+    run = string(program, "torque_source", {"Control": "Torque", "Inertia": inertia, "Torque": torque}, {"Transient/End Time": 8.0})
+    near("largest error of theta_z", np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, 1e-3)
+    near("torque of the drive", np.abs(run.data("transient/top_drive_torque") - torque).max(), 0.0, 1e-9 * torque)
+    expect("the bit turns in the end", SPEED + rate[-1, -1] > 1.0, "")
 
 
 def steady(program):
@@ -270,7 +283,7 @@ def cutting(program):
          np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, steady, matched, cutting)}
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting)}
 
 
 def main():

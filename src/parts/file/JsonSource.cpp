@@ -230,7 +230,7 @@ std::set<std::string> filesOfPart(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".json") return files;
   const Json root = Json::parse(readInput(path, largestJson), nullptr, false);
   if (root.is_discarded()) return files;  // no JSON: its reader says so
-  const Json flat = root.flatten();  // items() refers to it
+  const Json flat = root.flatten();       // items() refers to it
   for (const auto& [key, value] : flat.items()) {
     if (!value.is_string()) continue;
     const auto named = std::filesystem::path(path).parent_path() / value.get<std::string>();
