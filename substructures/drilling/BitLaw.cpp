@@ -48,4 +48,14 @@ PointOnString bitOnString(const BitSettings& bit, int node, const loads::RotaryS
   return onString(bitSet, node, coordinates, bit.law->make(weightOnBit));
 }
 
+BitLoad steadyLoad(const PointOnString& bit, double t) {
+  const std::vector<double> still(bit.components.size());
+  auto force = still;
+  bit.law->evaluate(t, {0}, still.data(), still.data(), force.data());
+  BitLoad load;
+  for (std::size_t c = 0; c < force.size(); ++c)
+    (bit.components[c] == axial ? load.weight : load.torque) = -force[c];
+  return load;
+}
+
 }  // namespace tooljoint::drilling

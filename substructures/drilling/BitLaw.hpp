@@ -58,6 +58,13 @@ BitSettings readBit(const Teuchos::ParameterList& list);
 PointOnString bitOnString(const BitSettings& bit, int node, const loads::RotarySpeed& rotary,
                           double feed, double weightOnBit);
 
+/// What the rock exerts on the bit in steady drilling at the speeds of time t.
+struct BitLoad {
+  double weight = 0.0;  ///< [N], positive in compression; 0 for a law that does not give it
+  double torque = 0.0;  ///< [N m], positive against rotation
+};
+BitLoad steadyLoad(const PointOnString& bit, double t);
+
 /// Names of the point sets.
 constexpr const char* bitSet = "bit";
 constexpr const char* topDriveSet = "top drive";

@@ -114,12 +114,9 @@ std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
 /// Adds to F_s what the rock exerts on the bit in steady drilling at the speeds of the start.
 void addBitAtRest(const Scene& scene, PathEquations& equations) {
   for (const auto& bit : bitInMotion(scene)) {
-    const Vector still = Vector::Zero(static_cast<Eigen::Index>(bit.components.size()));
-    Vector force = still;
-    bit.law->evaluate(startTime(scene), {0}, still.data(), still.data(), force.data());
-    for (std::size_t c = 0; c < bit.components.size(); ++c)
-      equations.load(kNodeDofs * bit.node + bit.components[c]) +=
-          force(static_cast<Eigen::Index>(c));
+    const auto load = drilling::steadyLoad(bit, startTime(scene));
+    equations.load(kNodeDofs * bit.node + axial) -= load.weight;
+    equations.load(kNodeDofs * bit.node + torsional) -= load.torque;
   }
 }
 
