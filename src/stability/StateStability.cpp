@@ -31,6 +31,9 @@ using ComplexVector = Eigen::VectorXcd;
 constexpr int modesBeyond = 12, mostModes = 60;
 /// Accuracy of these modes: they span a basis, and what grows in it is refined.
 constexpr double basisAccuracy = 1e-4;
+/// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
+/// small as the growth that is looked for, that motion would hide the accuracy of all others.
+constexpr double floatingShift = -1.0;
 /// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
 constexpr double refined = 1e-9;
 constexpr int mostRefinements = 20;
@@ -153,7 +156,11 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   if (found.negativePivots == 0 && !canFlutter(model, tangent, t)) return found;
   linalg::EigenOptions options;
   options.tolerance = basisAccuracy;
-  if (found.negativePivots == 0) options.shift = -4 * slowestGrowth * slowestGrowth;  // below all
+  if (found.negativePivots == 0) {
+    const double slowest = slowestGrowth * slowestGrowth;
+    const bool floats = linalg::eigenvaluesBelow(symmetric, tangent.mass, slowest) > 0;
+    options.shift = floats ? floatingShift : -4 * slowest;  // below all
+  }
   const auto modes = linalg::lowestFiniteModes(
       symmetric, tangent.mass,
       std::min({model.size(), mostModes, found.negativePivots + modesBeyond}), options);

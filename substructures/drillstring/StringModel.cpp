@@ -81,6 +81,23 @@ void addContact(const StringModel& string, const FreeDofs& dofs,
   model.points.push_back(std::move(set));
 }
 
+/// Laws of bit and top drive at the nodes that `owns` names; an empty row where a dof is held.
+void addDrilling(const StringModel& string, const FreeDofs& dofs,
+                 const std::function<bool(int)>& owns, model::SecondOrderModel& model) {
+  for (const auto& one : string.drilling) {
+    if (!owns(one.node)) continue;
+    const auto width = static_cast<int>(one.components.size());
+    model::PointSet set{
+        one.name, one.law, {one.node + 1}, Sparse(width, dofs.size()), Vector::Zero(width)};
+    for (int c = 0; c < width; ++c) {
+      const int dof = dofs.of(kNodeDofs * one.node + one.components[static_cast<std::size_t>(c)]);
+      if (dof >= 0) set.rows.insert(c, dof) = 1.0;
+    }
+    set.rows.makeCompressed();
+    model.points.push_back(std::move(set));
+  }
+}
+
 /// Matrices, labels, initial state and recovery of a run of elements; loads and contact of the
 /// nodes that `owns` names.
 model::SecondOrderModel assembleRun(const StringModel& string, int firstElement, int lastElement,
@@ -120,6 +137,7 @@ model::SecondOrderModel assembleRun(const StringModel& string, int firstElement,
   model.recovery.setFromTriplets(recovery.begin(), recovery.end());
   model.recoveryOffset = Vector::Zero(model.recovery.rows());
   if (string.contact.law) addContact(string, dofs, touches, model);
+  addDrilling(string, dofs, owns, model);
   return model;
 }
 

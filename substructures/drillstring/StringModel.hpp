@@ -16,6 +16,7 @@
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
 #include "substructures/beam/BeamMatrices.hpp"
+#include "substructures/drilling/PointOnString.hpp"
 #include "substructures/drillstring/Partition.hpp"
 
 namespace tooljoint::drillstring {
@@ -55,6 +56,7 @@ struct StringModel {
   std::vector<ElementTerm> stiffness;
   std::vector<NodalLoad> loads;
   ContactBatch contact;
+  std::vector<drilling::PointOnString> drilling;  ///< bit and top drive, where they are laws
   Vector state;  ///< static displacement D_s, 6 nodes; the motion starts here at rest
 
   int elements() const { return static_cast<int>(mass.size()); }

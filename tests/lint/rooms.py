@@ -29,13 +29,14 @@ DRILLSTRING = {
     "beam": ("", GROUND, "sections, elements, rotations"),
     "loads": ("beam", GROUND, "gravity, forces, unbalance, rotary speed"),
     "contact": ("", GROUND, "the borehole wall"),
+    "drilling": ("beam loads", GROUND, "laws of the bit and of the top drive"),
     "mud": ("beam", GROUND, "added mass, drag, flow"),
     "path": ("beam well", GROUND, "bending of the string into the well"),
     "softstring": ("beam well", GROUND, "torque and drag of a string without bending stiffness"),
     "equilibrium": ("beam contact", GROUND, "the static state"),
-    "drillstring": ("beam contact loads mud path well", GROUND, "components, mesh, supports, equations"),
-    "drillstring/case": ("beam contact drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
-    "drillstring/analyses": ("beam contact drillstring drillstring/case loads mud softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
+    "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
+    "drillstring/case": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
+    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case loads mud softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs that are stopped and go on: check_restart.py PROGRAM MPIEXEC PART [without-sundials]
 
-PART is "integrators" (every integrator, full and reduced models, strings and imported parts: stopped by SIGTERM, gone on with, killed, gone on
+PART is "bits" (laws of the bit and of the top drive), "integrators" (every integrator, full and reduced models, strings and imported parts: stopped by SIGTERM, gone on with, killed, gone on
 with) or "folders" (full disks, other ranks, two runs in one folder, damaged and foreign files). A run that was stopped ends with the samples,
 tables, pictures and figures of the one that was not, bit by bit.
 """
@@ -172,6 +172,20 @@ def integrators():
             interrupted_twice(f"{integrator}, {model} frame", FRAME, [*settings(integrator, *frame[integrator]), *without[:2]])
 
 
+def bits():
+    """Delay lines of a bit, and the integral of a drive at its limit."""
+    def overrides(*pairs):
+        return [word for pair in pairs for word in ("--set", pair)]
+    drive = overrides("Top Drive/Control=Speed", "Top Drive/Inertia=1000", "Top Drive/Proportional Gain=2000", "Top Drive/Integral Gain=2000", "Top Drive/Torque Limit=3 kN m")
+    cutting = ["--without", "Loads/Torque On Bit", "--without", "Loads/Weight On Bit", *overrides("Bit/Law=Cutting", "Bit/Cutting/Blades=4", "Bit/Cutting/Radius=0.1",
+               "Bit/Cutting/Wear Flat=1 mm", "Top Drive/Block Speed=0.001")]
+    friction = ["--without", "Loads/Torque On Bit", *overrides("Bit/Law=Stribeck", "Bit/Stribeck/Radius=0.1")]
+    for title, own in (("cutting bit", cutting), ("friction at the bit", friction)):
+        for integrator, end, interval in (("Generalized-alpha", 15, 0.5), ("RK4", 0.15, 0.02)):
+            for model, without in (("reduced", []), ("full", FULL)):
+                interrupted_twice(f"{title} and drive, {integrator}, {model}", STRING, [*settings(integrator, end, interval), *drive, *own, *without])
+
+
 LONG = tuple(settings("Generalized-alpha", 15, 0.5))
 
 
@@ -332,6 +346,8 @@ def results_larger_than_the_disk():
 if __name__ == "__main__":
     if PART == "integrators":
         integrators()
+    elif PART == "bits":
+        bits()
     else:
         for part in (results_larger_than_the_disk, full_disk, other_ranks, two_runs_in_one_folder, restart_killed_early, elsewhere, other_decks, other_contents):
             part()

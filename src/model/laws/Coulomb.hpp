@@ -38,6 +38,15 @@ class SmoothedSliding {
   double velocity_, size_;
 };
 
+/// sign w, smoothed over +-width: s (3 - s^2)/2 with s = w/width, exactly +-1 beyond.
+template <class T>
+T smoothedSign(const T& w, double width) {
+  if (w >= width) return T(1.0);
+  if (w <= -width) return T(-1.0);
+  const T s = w / width;
+  return 0.5 * s * (3.0 - s * s);
+}
+
 /// Coefficient of Nguyen et al. 2020, eq. (9):
 ///
 /// mu(v) = v/(2 v_r) [ (1-xi) q + (1+xi) q^2 ],  q = 1/(1 + c |v|),  xi = sqrt(1 - mu_d/mu_s),  c =

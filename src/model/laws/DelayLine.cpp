@@ -2,6 +2,7 @@
 #include "model/laws/DelayLine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/Error.hpp"
@@ -12,10 +13,16 @@ namespace {
 
 constexpr int fewest = 4;
 
+/// A rate no larger than three times the secant, and of its sign: the cubic is then monotone.
+double limited(double rate, double secant) {
+  if (rate * secant <= 0.0) return 0.0;
+  return std::abs(rate) > 3.0 * std::abs(secant) ? 3.0 * secant : rate;
+}
+
 }  // namespace
 
-DelayLine::DelayLine(int values, double span, int samples)
-    : values_(values), samples_(samples), row_(1 + 2 * values) {
+DelayLine::DelayLine(int values, double span, int samples, Shape shape)
+    : values_(values), samples_(samples), row_(1 + 2 * values), shape_(shape) {
   if (!(span > 0) || samples < fewest || values < 1)
     throw ModelError("A delay line of " + std::to_string(values) + " values over " +
                      formatNumber(span) + " s with " + std::to_string(samples) +
@@ -35,6 +42,17 @@ void DelayLine::start(double t, const double* y, double* memory) const {
   memory[0] = 1;
   memory[header] = t;
   std::copy(y, y + values_, memory + header + 1);
+}
+
+void DelayLine::start(double t, const double* y, const double* yDot, double* memory) const {
+  const double span = spacing_ * (samples_ - 2);
+  start(t - span, y, memory);
+  double* first = memory + header + 1;
+  for (int i = 0; i < values_; ++i) {
+    first[i] = y[i] - span * yDot[i];
+    first[values_ + i] = yDot[i];
+  }
+  append(t, y, yDot, memory);
 }
 
 void DelayLine::append(double t, const double* y, const double* yDot, double* memory) const {
@@ -77,8 +95,12 @@ void DelayLine::at(double t, const double* memory, double* y, double* yDot) cons
   const double* before = sample(memory, high);
   const double h = after[0] - before[0], s = (t - before[0]) / h;
   for (int i = 0; i < values_; ++i) {
-    const double a = before[1 + i], b = after[1 + i], aDot = before[1 + values_ + i],
-                 bDot = after[1 + values_ + i];
+    const double a = before[1 + i], b = after[1 + i];
+    double aDot = before[1 + values_ + i], bDot = after[1 + values_ + i];
+    if (shape_ == Shape::Monotone) {
+      aDot = limited(aDot, (b - a) / h);
+      bDot = limited(bDot, (b - a) / h);
+    }
     y[i] = (1 + 2 * s) * (1 - s) * (1 - s) * a + s * (1 - s) * (1 - s) * h * aDot +
            s * s * (3 - 2 * s) * b + s * s * (s - 1) * h * bDot;
     if (yDot != nullptr)

@@ -11,18 +11,34 @@ namespace tooljoint::model {
 /// is the cubic of values and rates, with an error of (distance)^4 y'''' / 384.
 class DelayLine {
  public:
+  enum class Shape {
+    Cubic,
+    Monotone,  ///< where a rate does not go with the samples on both sides, the cubic is limited so
+               ///< that it does not leave the values between them (F. N. Fritsch and R. E. Carlson,
+               ///< SIAM J. Numer. Anal. 17 (1980) 238-246)
+  };
   /// span > 0 [s], samples >= 4. Throws ModelError otherwise.
-  DelayLine(int values, double span, int samples);
+  DelayLine(int values, double span, int samples, Shape shape = Shape::Cubic);
   /// Numbers of memory this needs.
   int states() const { return header + samples_ * row_; }
 
   /// At rest at y for all time before t.
   void start(double t, const double* y, double* memory) const;
+  /// Steady motion at the rates yDot up to t.
+  void start(double t, const double* y, const double* yDot, double* memory) const;
   /// The motion has been accepted up to t. Call at the end of every step.
   void append(double t, const double* y, const double* yDot, double* memory) const;
   /// y (and y' unless null) at the time t, not after the last append(). Throws ConvergenceError for
   /// a time after it (a delay shorter than the step), ModelError for one more than `span` before.
   void at(double t, const double* memory, double* y, double* yDot = nullptr) const;
+  /// Time of the newest and of the oldest sample, and the newest y.
+  double newest(const double* memory) const { return sample(memory, 0)[0]; }
+  double oldest(const double* memory) const {
+    return sample(memory, static_cast<int>(memory[0]) - 1)[0];
+  }
+  double* newestValues(double* memory) const {
+    return memory + header + static_cast<int>(memory[1]) * row_ + 1;
+  }
 
  private:
   static constexpr int header = 2;  ///< number of samples, slot of the newest
@@ -30,6 +46,7 @@ class DelayLine {
 
   int values_, samples_, row_;
   double spacing_;
+  Shape shape_;
 };
 
 }  // namespace tooljoint::model

@@ -113,9 +113,18 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
                                                   const softstring::TorqueDragSettings& settings) {
   const double deckSpeed = scene.rotary.present() ? std::abs(scene.rotary.speed(started)) : 0.0;
   const auto& loads = scene.list().sublist("Loads");
+  drilling::BitLoad bit{loads.get<double>("Weight On Bit"), loads.get<double>("Torque On Bit")};
+  if (scene.bit) {
+    const auto steady = drilling::steadyLoad(
+        drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1, scene.rotary,
+                              scene.topDrive.blockSpeed, bit.weight),
+        started);
+    if (scene.bit->law->givesWeight()) bit.weight = steady.weight;
+    bit.torque = steady.torque;
+  }
   return softstring::operations(
-      settings, settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed),
-      loads.get<double>("Weight On Bit"), loads.get<double>("Torque On Bit"));
+      settings, settings.rotarySpeed.value_or(deckSpeed > 0.0 ? deckSpeed : usualSpeed), bit.weight,
+      bit.torque);
 }
 
 TorqueDragProfile torqueDragAt(const SoftModel& model,

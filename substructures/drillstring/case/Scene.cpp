@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
@@ -32,6 +34,8 @@ deck::ListSpec sceneSpec() {
   scene.list(loads::parameters());
   scene.list(loads::rotarySpeedParameters());
   scene.list(loads::dampingParameters());
+  scene.list(drilling::bitParameters());
+  scene.list(drilling::topDriveParameters());
   scene.list(path::parameters());
   scene.list(equilibrium::parameters());
   scene.list(softstring::torqueDragParameters());
@@ -44,6 +48,17 @@ deck::ListSpec sceneSpec() {
 
 int Scene::freeDofs() const {
   return static_cast<int>(std::count(held.begin(), held.end(), char{0}));
+}
+
+double Scene::weightOnBit() const {
+  return list().isSublist("Loads") ? list().sublist("Loads").get<double>("Weight On Bit") : 0.0;
+}
+
+std::vector<char> Scene::heldAtRest() const {
+  auto all = held;
+  if (topDrive.constantHookLoad) all[2] = 1;
+  if (topDrive.turnsFreely()) all[5] = 1;
+  return all;
 }
 
 namespace {
@@ -85,6 +100,57 @@ void checkLoads(const Scene& scene, Faults& faults) {
   }
 }
 
+/// What a law at the bit asks of the loads and supports.
+void checkBit(const Scene& scene, Faults& faults) {
+  const auto& list = scene.list();
+  const auto& law = *scene.bit->law;
+  const std::string name = inQuotes(scene.bit->name);
+  const auto end = scene.held.end();
+  if (law.givesWeight() && scene.weightOnBit() != 0.0)
+    faults.add("Loads/Weight On Bit",
+               "is given, but the law " + name + " of Bit gives the weight on bit. Leave it out.");
+  if (!law.givesWeight() && scene.weightOnBit() == 0.0)
+    faults.add("Bit/Law", "is " + name +
+                              ", whose torque is friction under the weight on bit. Give "
+                              "Loads/Weight On Bit.");
+  if (list.isSublist("Loads") && list.sublist("Loads").get<double>("Torque On Bit") != 0.0)
+    faults.add("Loads/Torque On Bit",
+               "is given, but the law " + name + " of Bit gives the torque on bit. Leave it out.");
+  if (law.givesWeight() ? *(end - 4) != 0 : *(end - 1) != 0)
+    faults.add("Bit/Law", "is " + name + ", but the Supports hold " +
+                              (law.givesWeight() ? "w" : "theta_z") +
+                              " of the bit, on which it acts. Release it.");
+}
+
+/// What the drive asks of the bit and the supports.
+void checkTopDrive(const Scene& scene, Faults& faults) {
+  const auto& drive = scene.topDrive;
+  const bool feeds = scene.bit && scene.bit->law->givesWeight();
+  if (!drive.turnsFreely() && drive.blockSpeed == 0.0 && !drive.constantHookLoad)
+    faults.add("Top Drive",
+               "is stiff and stands, as without the list. Choose a Control, or leave it out.");
+  if (drive.turnsFreely() && scene.held[5] != 0)
+    faults.add("Top Drive/Control",
+               "turns the top of the string, but the Supports hold theta_z of node 1. Leave "
+               "theta_z out of Supports/Top, or set Control to \"Stiff\".");
+  if (drive.turnsFreely() && !scene.rotary.present())
+    faults.add("Top Drive/Control", "needs the set speed: give Rotary Speed.");
+  if (drive.turnsFreely() && !scene.moves())
+    faults.add("Top Drive/Control",
+               "has no effect without Transient: the drive holds the static state. Add Transient.");
+  if (drive.blockSpeed > 0.0 && !feeds)
+    faults.add("Top Drive/Block Speed",
+               "has no effect without a Bit law that gives the weight on bit.");
+  if (drive.constantHookLoad && !feeds)
+    faults.add("Top Drive/Hook",
+               "is \"Constant Load\", but no Bit law gives the weight on bit: nothing would hold "
+               "the string along the well.");
+  if (drive.constantHookLoad && scene.held[2] != 0)
+    faults.add("Top Drive/Hook",
+               "is \"Constant Load\", but the Supports hold w of node 1. Leave w out of "
+               "Supports/Top.");
+}
+
 /// What only several lists together can tell.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -119,6 +185,8 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Contact/Friction",
                "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
                "Transient, or leave Friction out.");
+  if (scene.bit) checkBit(scene, faults);
+  if (list.isSublist("Top Drive")) checkTopDrive(scene, faults);
   if (scene.freeDofs() == 0)
     faults.add("Supports",
                "hold every dof of the string; nothing is left to compute. Release some.");
@@ -170,6 +238,24 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
 
 }  // namespace
 
+namespace {
+
+/// With the gains for the uppermost component.
+drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillString& string) {
+  std::vector<std::pair<beam::Section, double>> pieces;
+  for (int e = 0; e <= string.instances.front().lastElement; ++e)
+    pieces.emplace_back(string.elements[at(e)].section(), string.elements[at(e)].length());
+  return drilling::tuned(drive, drilling::torsionalImpedance(pieces));
+}
+
+/// The dofs of the top that its drive moves are not among those held by default.
+void releaseTop(const drilling::TopDrive& drive, SupportSettings& supports) {
+  if (drive.constantHookLoad) supports.top[2] = false;
+  if (drive.turnsFreely()) supports.top[5] = false;
+}
+
+}  // namespace
+
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
   return readScene(deck::Deck::read(file, sceneSpec(), overrides));
 }
@@ -202,6 +288,11 @@ Scene readScene(const deck::Deck& deck) {
     faults.attempt([&] { damping = loads::readDamping(list.sublist("Damping")); });
   if (list.isSublist("Supports"))
     faults.attempt([&] { supports = readSupports(list.sublist("Supports")); });
+  std::optional<drilling::BitSettings> bit;
+  drilling::TopDrive topDrive;
+  if (list.isSublist("Bit")) faults.attempt([&] { bit = drilling::readBit(list.sublist("Bit")); });
+  if (list.isSublist("Top Drive"))
+    faults.attempt([&] { topDrive = drilling::readTopDrive(list.sublist("Top Drive")); });
   faults.attempt([&] { path = path::optionsFrom(listOrDefaults(list, path::parameters())); });
   faults.attempt(
       [&] { statics = equilibrium::optionsFrom(listOrDefaults(list, equilibrium::parameters())); });
@@ -216,6 +307,9 @@ Scene readScene(const deck::Deck& deck) {
   Scene scene{deck,   *well, *string, supports, {},      mud,       contact,      {},
               rotary, loads, damping, path,     statics, partition, common.output};
   scene.coupling = common.coupling;
+  scene.bit = bit;
+  scene.topDrive = tunedToPipe(topDrive, scene.string);
+  if (!deck.gives("Supports/Top")) releaseTop(topDrive, supports);
   if (scene.coupling)
     faults.attempt(
         [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });

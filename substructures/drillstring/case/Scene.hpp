@@ -11,6 +11,8 @@
 
 #include "cases/CaseLists.hpp"
 #include "substructures/contact/ContactParameters.hpp"
+#include "substructures/drilling/BitLaw.hpp"
+#include "substructures/drilling/TopDrive.hpp"
 #include "substructures/drillstring/DrillString.hpp"
 #include "substructures/drillstring/Partition.hpp"
 #include "substructures/drillstring/Supports.hpp"
@@ -46,11 +48,17 @@ struct Scene {
   io::OutputSettings output;
   std::optional<coupling::CouplingInput> coupling =
       std::nullopt;  ///< null: equal node numbers alone join the parts
+  std::optional<drilling::BitSettings> bit = std::nullopt;  ///< null: loads alone act on the bit
+  drilling::TopDrive topDrive = {};                         ///< with its gains
 
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }
   bool moves() const { return list().isSublist("Transient"); }
   int freeDofs() const;
+  /// WOB that stands in Loads [N].
+  double weightOnBit() const;
+  /// `held` in the static state: the drive and the hook then hold the top.
+  std::vector<char> heldAtRest() const;
 };
 
 /// Checks a deck read by sceneSpec(). DeckError (one line per fault of the phase that failed),

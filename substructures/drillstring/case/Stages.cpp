@@ -12,6 +12,7 @@
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "reduction/part/Partition.hpp"
 #include "statics/NoxSolver.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
@@ -65,7 +66,7 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
                                      const StaticFriction& friction) {
   equilibrium::StaticInput input;
   input.nodes = equations.model.nodes;
-  input.held = equations.model.held;
+  input.held = scene.heldAtRest();
   input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
   input.geometricStiffness = scene.statics.geometricStiffness;
   for (int e = 0; e < equations.model.elements(); ++e) {
@@ -101,9 +102,67 @@ ContactBatch contactInMotion(const Scene& scene) {
   return contact;
 }
 
+constexpr int axial = 2, torsional = 5;  // w and theta_z of a node
+
+/// The law of the bit in motion; none without it.
+std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
+  if (!scene.bit) return {};
+  return {drilling::bitOnString(*scene.bit, scene.string.nodeCount() - 1, scene.rotary,
+                                scene.topDrive.blockSpeed, scene.weightOnBit())};
+}
+
+/// Adds to F_s what the rock exerts on the bit in steady drilling at the speeds of the start.
+void addBitAtRest(const Scene& scene, PathEquations& equations) {
+  for (const auto& bit : bitInMotion(scene)) {
+    const auto load = drilling::steadyLoad(bit, startTime(scene));
+    equations.load(kNodeDofs * bit.node + axial) -= load.weight;
+    equations.load(kNodeDofs * bit.node + torsional) -= load.torque;
+  }
+}
+
+/// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right.
+void addDriveInertia(const Scene& scene, StringModel& model) {
+  const double J = scene.topDrive.inertia;
+  if (J == 0.0) return;
+  model.mass.front()(torsional, torsional) += J;
+  Vector load = Vector::Zero(kNodeDofs * model.nodes);
+  load(torsional) = -J;
+  model.loads.push_back(
+      {"drive spin-up", model.lawIndex(scene.rotary.scalar("dOmega/dt")), std::move(load)});
+}
+
+/// What holds a dof of the first node at rest: K D_s less constant loads and point laws.
+double reactionAtTop(const StringModel& string, double t, int component) {
+  const auto model = assemble(string);
+  const Vector& state = model.initialDisplacement;
+  Vector force = reduction::constantStiffness(model) * state -
+                 model.pointForce(t, state, Vector::Zero(model.size()));
+  for (const auto& load : model.loads)
+    if (model.laws[static_cast<std::size_t>(load.law)].name == "1") force -= load.vector;
+  for (std::size_t i = 0; i < model.dofs.size(); ++i)
+    if (model.dofs[i] == model::DofLabel::physical(1, component))
+      return force(static_cast<Eigen::Index>(i));
+  throw Error(ExitCode::Internal, "The top of the string is held where its drive should move it.");
+}
+
+/// Bit and top drive as laws of the motion that starts from the static state.
+void addDrilling(const Scene& scene, StringModel& model) {
+  model.drilling = bitInMotion(scene);
+  const auto& drive = scene.topDrive;
+  if (drive.constantHookLoad) {
+    Vector load = Vector::Zero(kNodeDofs * model.nodes);
+    load(axial) = reactionAtTop(model, startTime(scene), axial);
+    model.loads.push_back({"hook load", model.lawIndex(model::ScalarLaw::one()), std::move(load)});
+  }
+  if (drive.turnsFreely())
+    model.drilling.push_back(
+        drilling::driveOnString(drive, reactionAtTop(model, startTime(scene), torsional)));
+}
+
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
 /// can touch, is singular. Throws ModelError naming the dof that moves most.
-void requireHeld(const Scene& scene, const StringModel& equations) {
+void requireHeld(const Scene& scene, StringModel equations) {
+  equations.held = scene.heldAtRest();
   const auto model = assemble(equations);
   Triplets walls;
   for (int i = 0; i < scene.contactPoints.size(); ++i)
@@ -169,11 +228,12 @@ equilibrium::UnstableMode unstableMode(const Scene& scene, const StaticStage& st
 }  // namespace
 
 std::vector<int> freeDirections(const Scene& scene) {
+  const auto heldDofs = scene.heldAtRest();
   std::vector<int> free;
   for (const auto& motion : freeMotions) {
     bool held = false;
     for (int node = 0; node < scene.string.nodeCount(); ++node)
-      held = held || scene.held[static_cast<std::size_t>(kNodeDofs * node + motion.component)];
+      held = held || heldDofs[static_cast<std::size_t>(kNodeDofs * node + motion.component)];
     if (!held) free.push_back(motion.component);
   }
   return free;
@@ -183,15 +243,17 @@ StaticStage findEquilibrium(const Scene& scene) {
   StaticStage stage;
   stage.friction = staticFriction(scene);
   stage.path = bend(scene);
-  const auto equations =
-      buildEquations({scene.string, scene.well, stage.path, scene.held, scene.mud.get(),
-                      scene.rotary, scene.loads, scene.damping});
+  auto equations = buildEquations({scene.string, scene.well, stage.path, scene.held,
+                                   scene.mud.get(), scene.rotary, scene.loads, scene.damping});
+  addBitAtRest(scene, equations);
+  addDriveInertia(scene, equations.model);
   requireHeld(scene, equations.model);
   const auto input = staticInput(scene, stage.path, equations, stage.friction);
   const auto solver = statics::noxSolver(listOrEmpty(scene, "Static"));
   const auto finish = [&] {
     stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
                                 scene.damping, contactInMotion(scene));
+    addDrilling(scene, stage.equations);
     stage.stability = stability::assess(assemble(stage.equations), startTime(scene));
   };
   try {
@@ -307,6 +369,12 @@ NodeState nodeState(const Scene& scene, const StaticStage& stage) {
     const int dof = kNodeDofs * (load.node - 1) + load.component;
     if (load.value != 0.0 && !scene.held[static_cast<std::size_t>(dof)]) loaded.insert(dof);
   }
+  for (const auto& one : stage.equations.drilling)
+    for (const int component : one.components)
+      if (const int dof = kNodeDofs * one.node + component;
+          !scene.held[static_cast<std::size_t>(dof)])
+        loaded.insert(dof);
+  if (scene.topDrive.constantHookLoad) loaded.insert(axial);
   nodes.loadedDofs.assign(loaded.begin(), loaded.end());
   return nodes;
 }

@@ -40,6 +40,13 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
                                         : "switched off in Static"},
       {scene.damping.present(), "Rayleigh damping",
        scene.damping.present() ? "" : "no Damping list"}};
+  items.push_back({scene.bit.has_value(), "rock at the bit",
+                   scene.bit ? scene.bit->name + ": " + scene.bit->law->describe()
+                             : "no Bit list: constant weight and torque"});
+  const bool drive = scene.list().isSublist("Top Drive");
+  items.push_back({drive, "top drive",
+                   drive ? drilling::describe(scene.topDrive)
+                         : "no Top Drive list: it turns with the rotary speed"});
   if (scene.loads.empty()) items.push_back({false, "loads", "no Loads list"});
   for (const auto& load : scene.loads)
     for (const auto& remark : load->describe(scene.rotary))

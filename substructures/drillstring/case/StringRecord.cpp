@@ -39,6 +39,8 @@ StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
   for (const auto& set : model.points) touches = touches || set.name == kContactSet;
   recordsForce_ = output.hasField("normal_force") && touches;
   for (const auto& set : model.points) {
+    if (set.name == drilling::bitSet || set.name == drilling::topDriveSet)
+      drilling_.emplace_back(model, set);
     if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
     if (!recordsForce_ && !picture_) continue;
@@ -66,6 +68,15 @@ std::vector<cases::Channel> StringRecord::channels() const {
                    "N",
                    "Normal contact force, positive pushing off the wall",
                    normalForce_.data()});
+  for (const auto& one : drilling_)
+    for (std::size_t c = 0; c < one.channels().size(); ++c) {
+      const auto& channel = one.channels()[c];
+      out.push_back({"/transient/" + channel.name,
+                     {},
+                     channel.unit,
+                     channel.longName,
+                     one.values(static_cast<int>(c))});
+    }
   return out;
 }
 
@@ -79,6 +90,7 @@ std::vector<io::Csv::Column> StringRecord::columns() const {
 
 void StringRecord::sample(const cases::Sample& sample) {
   rotarySpeed_ = scene_.rotary.speed(sample.t);
+  for (auto& one : drilling_) one.sample(sample);
   sampleContact(sample);
   measureBit(sample);
   measureWall(sample.displacement);

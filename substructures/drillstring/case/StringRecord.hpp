@@ -61,9 +61,10 @@ class StringRecord : public cases::MotionRecord {
   MotionFigures figures_;
   bool recordsForce_ = false;
   std::vector<Contact> contacts_;
-  std::vector<char> watched_;  ///< per node: its contact is evaluated
-  double rotarySpeed_ = 0.0;   ///< [rad/s]
-  Vector normalForce_;         ///< per node [N]
+  std::vector<cases::PointRecord> drilling_;  ///< bit and top drive
+  std::vector<char> watched_;                 ///< per node: its contact is evaluated
+  double rotarySpeed_ = 0.0;                  ///< [rad/s]
+  Vector normalForce_;                        ///< per node [N]
   std::vector<double> row_;
   std::optional<io::XdmfScene> picture_;
 };

@@ -23,6 +23,7 @@ import rows as table
 import basis  # noqa: F401  (registers its cases)
 import buckling  # noqa: F401
 import contact  # noqa: F401
+import drilling  # noqa: F401
 import friction  # noqa: F401
 import motion  # noqa: F401
 import parts  # noqa: F401
@@ -63,12 +64,6 @@ def results(case, options, program):
                                 "plots": [dataclasses.asdict(plot) for plot in plots]}), encoding="utf-8")
     print(f"case {case.number}: {time.monotonic() - begin:.1f} s", flush=True)
     return rows, plots
-
-
-@table.case(30, "Bit-rock interaction with delay", "depth of cut, on both sides of the linear limit",
-            "growth and decay as linear theory says; negative depth of cut handled")
-def bit_rock(_program, _short):
-    yield table.Row("comes with the bit laws", "", "", "", "open")
 
 
 def main():

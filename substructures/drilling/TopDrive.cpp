@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drilling/TopDrive.hpp"
+
+#include <cmath>
+
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "common/Text.hpp"
+#include "model/laws/PointLawRegistry.hpp"
+#include "substructures/drilling/BitLaw.hpp"
+
+namespace tooljoint::drilling {
+namespace {
+
+using deck::Optional;
+using deck::Range;
+
+constexpr int torsional = 5;  // theta_z of a node
+
+struct Control {
+  DriveControl control;
+  const char* name;
+  std::vector<std::string> needs, takes;  ///< parameters beside those every control takes
+};
+
+const std::vector<Control>& controls() {
+  static const std::vector<Control> all{
+      {DriveControl::Stiff, "Stiff", {}, {}},
+      {DriveControl::Torque, "Torque", {"Inertia"}, {"Inertia", "Torque"}},
+      {DriveControl::Speed,
+       "Speed",
+       {"Inertia", "Proportional Gain"},
+       {"Inertia", "Proportional Gain", "Integral Gain", "Torque Limit"}},
+      {DriveControl::ImpedanceMatched,
+       "Impedance Matched",
+       {"Inertia", "Tuning Frequency"},
+       {"Inertia", "Tuning Frequency", "Impedance Ratio", "Torque Limit"}}};
+  return all;
+}
+
+const Control& controlNamed(const std::string& name) {
+  for (const auto& one : controls())
+    if (one.name == name) return one;
+  throw Error(ExitCode::Internal, "There is no control " + inQuotes(name) + " of a top drive.");
+}
+
+double given(const Teuchos::ParameterList& list, const char* name, double otherwise = 0.0) {
+  return list.isParameter(name) ? list.get<double>(name) : otherwise;
+}
+
+void checkParameters(const Teuchos::ParameterList& list, const Control& control) {
+  for (const auto& needed : control.needs)
+    if (!list.isParameter(needed))
+      throw DeckError(list.name() + "/" + needed + " is missing: the control " +
+                      inQuotes(control.name) + " needs it.");
+  for (const char* name : {"Inertia", "Torque", "Proportional Gain", "Integral Gain",
+                           "Tuning Frequency", "Impedance Ratio", "Torque Limit"})
+    if (list.isParameter(name) && !contains(control.takes, std::string(name)))
+      throw DeckError(list.name() + "/" + name + " is not used by the control " +
+                      inQuotes(control.name) + ". Leave it out, or choose another control.");
+}
+
+}  // namespace
+
+deck::ListSpec topDriveParameters() {
+  std::vector<std::string> names;
+  for (const auto& one : controls()) names.emplace_back(one.name);
+  return deck::ListSpec("Top Drive",
+                        "How the drive turns and carries the string; without this list it turns "
+                        "with the speed of Rotary Speed and stands.")
+      .choice("Control", std::string("Stiff"), names,
+              "Stiff: the top turns with Rotary Speed, whatever the torque. Torque: a constant "
+              "torque on the inertia of the drive. Speed: a PI controller holds the speed of "
+              "Rotary Speed. Impedance Matched: the same with gains that absorb torsional waves of "
+              "the Tuning Frequency.")
+      .real("Inertia", "kg m2", Optional{}, Range::nonNegative(),
+            "Moment of inertia J of drive and gear at the string; all controls but Stiff.")
+      .real("Proportional Gain", "N m s/rad", Optional{}, Range::nonNegative(),
+            "Gain k_p on the speed error; control Speed.")
+      .real("Integral Gain", "N m/rad", Optional{}, Range::nonNegative(),
+            "Gain k_i on the integral of the speed error, 0 without it; control Speed.")
+      .real("Tuning Frequency", "Hz", Optional{}, Range::positive(),
+            "Frequency without reflection, that of stick-slip; control Impedance Matched.")
+      .real("Impedance Ratio", "", Optional{}, Range::positive(),
+            "k_p over the impedance of the uppermost component, 1 without it; control Impedance "
+            "Matched.")
+      .expert()
+      .real("Torque", "N m", Optional{}, Range::any(),
+            "Torque of the control Torque; without it that of the static state.")
+      .real("Torque Limit", "N m", Optional{}, Range::positive(),
+            "Largest torque of a controlled drive either way; no limit without it.")
+      .real("Block Speed", "m/s", 0.0, Range::nonNegative(),
+            "Downward speed of the block: the feed of a Bit law that gives the weight on bit.")
+      .choice("Hook", std::string("Block"), {"Block", "Constant Load"},
+              "Block: the top moves with the block. Constant Load: the top is free along the well "
+              "under the hook load of the static state at the Block Speed.");
+}
+
+TopDrive readTopDrive(const Teuchos::ParameterList& list) {
+  const auto& control = controlNamed(list.get<std::string>("Control"));
+  checkParameters(list, control);
+  TopDrive drive;
+  drive.control = control.control;
+  drive.inertia = given(list, "Inertia");
+  drive.proportionalGain = given(list, "Proportional Gain");
+  drive.integralGain = given(list, "Integral Gain");
+  drive.tuningFrequency = given(list, "Tuning Frequency");
+  drive.impedanceRatio = given(list, "Impedance Ratio", 1.0);
+  drive.torque = given(list, "Torque");
+  drive.torqueGiven = list.isParameter("Torque");
+  drive.torqueLimit = given(list, "Torque Limit");
+  drive.blockSpeed = list.get<double>("Block Speed");
+  drive.constantHookLoad = list.get<std::string>("Hook") == "Constant Load";
+  return drive;
+}
+
+double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& pieces) {
+  double inertia = 0.0, compliance = 0.0;
+  for (const auto& [section, length] : pieces) {
+    inertia += section.density() * section.polar() * length;
+    compliance += length / section.torsionalRigidity();
+  }
+  return std::sqrt(inertia / compliance);
+}
+
+TopDrive tuned(TopDrive drive, double impedance) {
+  if (drive.control != DriveControl::ImpedanceMatched) return drive;
+  const double omega = constants::twoPi * drive.tuningFrequency;
+  drive.proportionalGain = drive.impedanceRatio * impedance;
+  drive.integralGain = drive.inertia * omega * omega;
+  return drive;
+}
+
+PointOnString driveOnString(const TopDrive& drive, double staticTorque) {
+  if (drive.torqueLimit > 0.0 && std::abs(staticTorque) > drive.torqueLimit)
+    throw ModelError("The static state needs a torque of " +
+                     formatNumber(std::round(staticTorque)) +
+                     " N m from the top drive, more than its Top Drive/Torque Limit of " +
+                     formatNumber(drive.torqueLimit) + " N m. Raise it, or reduce the torque.");
+  // the frame turns with the set speed: in it the controller holds still
+  Teuchos::ParameterList own("Speed Control");
+  own.set("Speed", 0.0)
+      .set("Proportional Gain", drive.proportionalGain)
+      .set("Integral Gain", drive.integralGain)
+      .set("Initial Force", drive.torqueGiven ? drive.torque : staticTorque);
+  if (drive.torqueLimit > 0.0) own.set("Force Limit", drive.torqueLimit);
+  return onString(
+      topDriveSet, 0,
+      {{torsional, {}, {"top_drive_torque", "N m", "Torque of the top drive on the string"}, 1.0}},
+      model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
+}
+
+std::string describe(const TopDrive& drive) {
+  std::string text;
+  if (drive.control == DriveControl::Stiff)
+    text = "stiff";
+  else if (drive.control == DriveControl::Torque)
+    text = drive.torqueGiven ? "constant torque of " + formatNumber(drive.torque) + " N m"
+                             : "constant torque of the static state";
+  else
+    text = "speed controlled, k_p = " + formatNumber(drive.proportionalGain) +
+           " N m s/rad, k_i = " + formatNumber(drive.integralGain) + " N m/rad";
+  if (drive.turnsFreely()) text += ", inertia " + formatNumber(drive.inertia) + " kg m2";
+  if (drive.torqueLimit > 0.0) text += ", at most " + formatNumber(drive.torqueLimit) + " N m";
+  if (drive.blockSpeed > 0.0) text += ", block down at " + formatNumber(drive.blockSpeed) + " m/s";
+  return text + (drive.constantHookLoad ? ", constant hook load" : "");
+}
+
+}  // namespace tooljoint::drilling

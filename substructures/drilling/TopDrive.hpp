@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The drive at the surface: how it turns the string and how it carries it. Deck list `Top Drive`.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "substructures/beam/Section.hpp"
+#include "substructures/drilling/PointOnString.hpp"
+
+namespace tooljoint::drilling {
+
+enum class DriveControl {
+  Stiff,            ///< the top turns with the rotary speed, whatever the torque
+  Torque,           ///< a constant torque on the inertia of the drive
+  Speed,            ///< a PI controller of the speed
+  ImpedanceMatched  ///< the same, with gains that absorb torsional waves
+};
+
+/// What the list says; the defaults are those of a deck without it.
+struct TopDrive {
+  DriveControl control = DriveControl::Stiff;
+  double inertia = 0.0;           ///< J [kg m2]
+  double proportionalGain = 0.0;  ///< k_p [N m s/rad]
+  double integralGain = 0.0;      ///< k_i [N m/rad]
+  double tuningFrequency = 0.0;   ///< of ImpedanceMatched [Hz]
+  double impedanceRatio = 1.0;    ///< of ImpedanceMatched: k_p over the impedance of the pipe
+  double torque = 0.0;            ///< of Torque [N m]
+  bool torqueGiven = false;       ///< else that of the static state
+  double torqueLimit = 0.0;       ///< [N m]; 0: none
+  double blockSpeed = 0.0;        ///< downward speed of the block [m/s]
+  bool constantHookLoad = false;  ///< the top is free to move under a constant load
+
+  bool turnsFreely() const { return control != DriveControl::Stiff; }
+};
+
+/// Description of the list `Top Drive`.
+deck::ListSpec topDriveParameters();
+/// From the validated list. DeckError for parameters that the control lacks or does not use.
+TopDrive readTopDrive(const Teuchos::ParameterList& list);
+
+/// Characteristic impedance of a run of pipe for waves that are long beside its pieces [N m s/rad]:
+/// sqrt(j k), the mean of j = rho I_p and the harmonic mean of k = G J over the lengths.
+double torsionalImpedance(const std::vector<std::pair<beam::Section, double>>& pieces);
+
+/// The drive with its gains, on a pipe of that impedance: ImpedanceMatched has k_p = ratio zeta and
+/// k_i = J (2 pi f)^2, so that at the frequency f the impedance of the drive,
+/// k_p + i (omega J - k_i/omega), is that of the pipe and no wave is reflected (A. Kyllingstad and
+/// P. J. Nessjoen, SPE 119660 (2009)).
+TopDrive tuned(TopDrive drive, double impedance);
+
+/// The torque of the drive on theta_z of the first node, in the frame that turns with the set
+/// speed. `staticTorque` [N m]: what the drive exerts in the static state, where the motion starts.
+/// Channel top_drive_torque. Throws ModelError for a static torque above the limit.
+PointOnString driveOnString(const TopDrive& drive, double staticTorque);
+
+/// What `tooljoint check` says of it.
+std::string describe(const TopDrive& drive);
+
+}  // namespace tooljoint::drilling

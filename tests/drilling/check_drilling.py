@@ -1,0 +1,297 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Laws of bits and top drives in runs of the program, beside integrations of scipy and characteristic equations (models.py).
+
+    check_drilling.py PROGRAM [NAME ...]     NAME: some of the checks
+"""
+import math
+import pathlib
+import sys
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parents[1] / "tests" / "support"), str(HERE.parents[1] / "tests/stability/hard_cases")]
+import models
+from checks import expect, finish
+from program import Program
+from scenes import parts_deck
+
+RPM = math.pi / 30
+THETA_Z, W = 5, 2
+
+
+def near(what, found, truth, tolerance):
+    expect(f"{what}: {found:.6g}, true {truth:.6g} within {tolerance:.2g}", abs(found - truth) <= tolerance)
+
+
+# Two inertias on a torsion spring: the drive J1 and the bit J2 (numbers of the size of Navarro-Lopez and Cortes 2007).
+J1, J2, STIFFNESS, DAMPING = 2122.0, 374.0, 473.0, 23.2
+BIT = models.Friction(static=7467.6, dynamic=4667.25, decay=1 / 0.9, viscous=50.0, width=1e-2)
+
+
+def two_inertias(program, name, drive, start=(0.0, 0.0), settings=None, bit=BIT):
+    """A run of the two inertias as a part; `drive`: parameters of Speed Control, `start`: speeds of both."""
+    k, c = np.array([[1, -1], [-1, 1]]) * STIFFNESS, np.array([[1, -1], [-1, 1]]) * DAMPING
+    part = program.part(name, ["theta_z"], np.diag([J1, J2]), k, c)
+    laws = {"drive": {"Type": "Speed Control", "First": "string:1", "Component": "theta_z", "Speed Control": drive},
+            "bit": {"Type": "Stribeck", "First": "string:2", "Component": "theta_z",
+                    "Stribeck": {"Static Force": bit.static, "Dynamic Force": bit.dynamic, "Decay Velocity": bit.decay,
+                                 "Viscous Damping": bit.viscous, "Slip Velocity": bit.width}}}
+    starts = {f"start {n + 1}": {"Part": "string", "Node": n + 1, "Component": "theta_z", "Displacement": a, "Velocity": v}
+              for n, (a, v) in enumerate(start if isinstance(start[0], tuple) else [(0.0, v) for v in start])}
+    deck = parts_deck(program, name, {"string": part}, {"Transient/Progress": False}, Parts={"Starts": starts},
+                      Coupling={"Point Laws": laws})
+    return program.run(name, deck, settings)
+
+
+def exact(drive, times, start, bit=BIT):
+    """The same by scipy: angles and speeds of both."""
+    V, kp, ki = (drive.get(name, 0.0) for name in ("Speed", "Proportional Gain", "Integral Gain"))
+    limit = drive.get("Force Limit", math.inf)
+    a0 = start[0]
+
+    def rates(t, y):
+        wanted = drive.get("Initial Force", 0.0) + kp * (V - y[2]) + ki * (V * t - (y[0] - a0) + y[4])
+        force = min(max(wanted, -limit), limit)
+        pipe = STIFFNESS * (y[0] - y[1]) + DAMPING * (y[2] - y[3])
+        excess = (force - wanted) / kp if ki else 0.0
+        return [y[2], y[3], (force - pipe) / J1, (pipe - bit.torque(y[3])) / J2, excess]
+    return solve_ivp(rates, (0.0, times[-1]), [*start, 0.0], method="Radau", rtol=1e-10, atol=1e-11, t_eval=times, max_step=0.01).y
+
+
+def stick_slip(program):
+    """Speed-controlled drive, stick-slip from rest: the motion, its peak, period and share stuck against scipy."""
+    drive = {"Speed": 4.0, "Proportional Gain": 3000.0, "Integral Gain": 2000.0}
+    end, sampling = 30.0, 0.005
+    times = np.arange(0, end + 1e-9, sampling)
+    truth = exact(drive, times, [0.0] * 4)
+    peak, stuck, period = models.cycles(times, truth[3], BIT.width)
+    expect("the bit sticks and slips", 0.1 < stuck < 0.9, f"stuck {stuck:.3f}, peak {peak:.3f} rad/s, period {period:.3f} s")
+    common = {"Transient/End Time": end, "Transient/Sampling Interval": sampling}
+    for name, own, bound in (("RK4", {"Transient/Integrator": "RK4", "Transient/Step": 5e-4}, 2e-5),
+                             ("generalized-alpha", {"Transient/Integrator": "Generalized-alpha", "Transient/Step": 1e-3}, 2e-3)):
+        run = two_inertias(program, f"stick_slip_{name}", drive, settings={**common, **own})
+        speed = run.nodes(0, "velocity")
+        error = np.abs(speed - truth[2:4].T).max() / peak
+        near(f"{name}: largest error of the speeds over the peak", error, 0.0, bound)
+        found = models.cycles(run.time(), speed[:, 1], BIT.width)
+        for what, a, b, tolerance in zip(("peak", "share stuck", "period"), found, (peak, stuck, period), (bound * peak, 2e-3, 1e-3)):
+            near(f"{name}: {what} against {b:.5g}", a, b, tolerance)
+        near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+
+
+def onset(program):
+    """On both sides of the speed where steady drilling loses stability: growth of a small disturbance against the eigenvalue."""
+    drive = {"Proportional Gain": 3000.0, "Integral Gain": 2000.0}
+
+    def rightmost(omega):
+        A = np.zeros((4, 4))
+        A[0, 2] = A[1, 3] = 1
+        A[2] = np.array([-STIFFNESS - 2000.0, STIFFNESS, -DAMPING - 3000.0, DAMPING]) / J1
+        A[3] = np.array([STIFFNESS, -STIFFNESS, DAMPING, -DAMPING - BIT.slope(omega)]) / J2
+        values = np.linalg.eigvals(A)
+        return values[np.argmax(values.real)]
+    low, high = 1.0, 12.0
+    while high - low > 1e-6:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if rightmost(middle).real > 0 else (low, middle)
+    for factor in (0.95, 1.05):
+        omega = factor * low
+        torque = float(BIT.torque(omega))
+        twist = torque / STIFFNESS
+        own = {**drive, "Speed": omega, "Initial Force": torque}
+        run = two_inertias(program, f"onset_{factor}", own, ((0.0, omega), (-twist, omega + 1e-5)),
+                           {"Transient/End Time": 40.0, "Transient/Sampling Interval": 0.01, "Transient/Integrator": "RK4",
+                            "Transient/Step": 2e-3})
+        s = rightmost(omega)
+        t, w = run.time(), run.nodes(0, "velocity")[:, 1] - omega
+        late = t > 10
+        columns = np.column_stack([np.exp(s.real * t[late]) * np.cos(s.imag * t[late]), np.exp(s.real * t[late]) * np.sin(s.imag * t[late])])
+        fit, *_ = np.linalg.lstsq(columns, w[late], rcond=None)
+        rest = w[late] - columns @ fit
+        near(f"{omega:.3f} rad/s: the disturbance is the mode of s = {s.real:+.4f} {s.imag:+.3f}i",
+             np.linalg.norm(rest) / np.linalg.norm(w[late]), 0.0, 1e-3)
+    expect("growth below the critical speed, decay above", rightmost(0.95 * low).real > 0 > rightmost(1.05 * low).real,
+           f"critical {low:.4f} rad/s")
+
+
+def torque_limit(program):
+    """The limit of a drive and the integral that it stops: against scipy."""
+    drive = {"Speed": 4.0, "Proportional Gain": 3000.0, "Integral Gain": 2000.0, "Force Limit": 7600.0}
+    times = np.arange(0, 10.0 + 1e-9, 0.01)
+    truth = exact(drive, times, [0.0] * 4)
+    run = two_inertias(program, "torque_limit", drive, settings={
+        "Transient/End Time": 10.0, "Transient/Sampling Interval": 0.01, "Transient/Integrator": "RK4", "Transient/Step": 5e-4})
+    near("largest error of the speeds", np.abs(run.nodes(0, "velocity") - truth[2:4].T).max(), 0.0, 2e-3)
+    free = exact({**drive, "Force Limit": math.inf}, times, [0.0] * 4)
+    expect("the limit was reached", np.abs(free[2] - truth[2]).max() > 0.5, "")
+
+
+PIECES = ((models.PIPE, 3), (models.COLLAR, 2))
+COLLAR_BIT = {"Law": "Stribeck", "Stribeck": {"Radius": 0.108, "Viscous Damping": 20.0, "Sticking Speed": 0.1}}
+WEIGHT = 60e3
+STRING_BIT = models.Friction(static=WEIGHT * 0.108 * 0.8, dynamic=WEIGHT * 0.108 * 0.5, decay=1.1, viscous=20.0, width=0.1)
+SPEED, RISE = 6.0, 0.5
+
+
+def string(program, name, drive, settings, **lists):
+    rotary = {"Law": "Exponential", "Exponential": {"Final Speed": SPEED, "Time Constant": RISE}}
+    deck = models.string_deck(PIECES, **{"Loads": {"Gravity": 9.81, "Weight On Bit": WEIGHT}, "Rotary Speed": rotary,
+                                         "Damping": {"Mass Coefficient": 0.05}, "Bit": COLLAR_BIT, **lists})
+    if drive:
+        deck["Top Drive"] = drive
+    deck["Transient"] = {"Progress": False, "End Time": 12.0, "Sampling Interval": 0.01, "Integrator": "Generalized-alpha", "Step": 1e-3}
+    return program.run(name, program.deck(name, deck), settings)
+
+
+def strings(program):
+    """A string with bit law and speed-controlled drive against scipy; full against reduced; both integrators; the ledger."""
+    inertia, kp, ki = 1500.0, 2000.0, 1000.0
+    drive = {"Control": "Speed", "Inertia": inertia, "Proportional Gain": kp, "Integral Gain": ki}
+    times = np.arange(0, 12.0 + 1e-9, 0.01)
+    model = models.TorsionalString(PIECES, damping=0.05, inertia=inertia)
+    theta, rate = model.integrate(times, lambda t: SPEED * (1 - math.exp(-t / RISE)), lambda t: SPEED / RISE * math.exp(-t / RISE),
+                                  STRING_BIT, kp, ki)
+    bit = SPEED * (1 - np.exp(-times / RISE)) + rate[:, -1]
+    expect("the bit sticks and slips", np.mean(np.abs(bit) < STRING_BIT.width) > 0.1 and bit.max() > 1.5 * SPEED,
+           f"stuck {np.mean(np.abs(bit) < STRING_BIT.width):.3f}, peak {bit.max():.3f} rad/s")
+    full = string(program, "string_full", drive, {})
+    rk4 = string(program, "string_rk4", drive, {"Transient/Integrator": "RK4", "Transient/Step": 1e-4})
+    reduced = string(program, "string_reduced", drive, {}, Substructures={"Rule": "By component"},
+                     Reduction={"Mode Selection": {"Modes": 6}})
+    for name, run, bound in (("full, generalized-alpha", full, 5e-3), ("full, RK4", rk4, 5e-4), ("reduced", reduced, 5e-3)):
+        near(f"{name}: largest error of theta_z against scipy", np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, bound)
+        near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+        torque = run.data("transient/torque_on_bit")
+        # where it sticks, the torque of a step takes any value that the friction carries: by its mean square
+        near(f"{name}: torque on bit", np.sqrt(np.mean((torque - STRING_BIT.torque(bit))**2)) / STRING_BIT.static, 0.0, 4 * bound)
+    top = rk4.data("transient/top_drive_torque")
+    near("torque of the drive", np.abs(top + kp * rate[:, 0] + ki * theta[:, 0]).max() / STRING_BIT.static, 0.0, 5e-3)
+
+
+def torque_source(program):
+    """A constant torque on the inertia of a drive that starts from rest, against scipy."""
+    torque, inertia = 5600.0, 1500.0
+    times = np.arange(0, 8.0 + 1e-9, 0.01)
+    model = models.TorsionalString(PIECES, damping=0.05, inertia=inertia)
+    theta, rate = model.integrate(times, lambda t: SPEED * (1 - math.exp(-t / RISE)), lambda t: SPEED / RISE * math.exp(-t / RISE),
+                                  STRING_BIT, 0.0, 0.0, torque)
+    run = string(program, "torque_source", {"Control": "Torque", "Inertia": inertia, "Torque": torque}, {"Transient/End Time": 8.0})
+    near("largest error of theta_z", np.abs(run.nodes(THETA_Z) - theta).max() / np.abs(theta).max(), 0.0, 1e-3)
+    near("torque of the drive", np.abs(run.data("transient/top_drive_torque") - torque).max(), 0.0, 1e-9 * torque)
+    expect("the bit turns in the end", SPEED + rate[-1, -1] > 1.0, "")
+
+
+def steady(program):
+    """A motion that begins in steady drilling has the static torque and stays there where it is stable."""
+    drive = {"Control": "Impedance Matched", "Inertia": 1500.0, "Tuning Frequency": 0.25}
+    rotary = {"Law": "Constant", "Constant": {"Speed": 15.0}}
+    run = string(program, "steady", drive, {"Transient/End Time": 5.0}, **{"Rotary Speed": rotary})
+    torque = float(STRING_BIT.torque(15.0))
+    near("torque of the last element at rest", run.summary["static"]["last_element_torque"], -torque, 1e-6 * torque)
+    near("torque on bit at the start", run.data("transient/torque_on_bit")[0], torque, 1e-9 * torque)
+    near("torque of the drive at the start", run.data("transient/top_drive_torque")[0], torque, 1e-6 * torque)
+    near("it stays", np.abs(run.nodes(THETA_Z) - run.nodes(THETA_Z)[0]).max(), 0.0, 1e-6)
+
+
+def misfit(t, x, roots):
+    """Part of x that is no sum of the modes with these roots, relative."""
+    columns = np.column_stack([np.ones(len(t)), *(part(np.exp(s * t)) for s in roots for part in (np.real, np.imag))])
+    fit, *_ = np.linalg.lstsq(columns, x, rcond=None)
+    return float(np.linalg.norm(x - columns @ fit) / np.linalg.norm(x))
+
+
+def matched(program):
+    """The first torsional mode of a pipe with a free end below a drive: decay against the characteristic equation; a drive
+    without inertia at the impedance of the pipe leaves nothing after one return of the wave."""
+    part = {**models.PIPE, "Length": 1000.0, "Elements": 100}
+    zeta, speed = models.impedance(part), math.sqrt(models.SHEAR / models.DENSITY)
+    quarter = speed / 4 / 1000.0
+    J = 300.0
+    cases = {"matched": ({"Control": "Impedance Matched", "Inertia": J, "Tuning Frequency": quarter}, zeta, J * (2 * math.pi * quarter)**2, J),
+             "half": ({"Control": "Impedance Matched", "Inertia": J, "Tuning Frequency": quarter, "Impedance Ratio": 0.5}, zeta / 2,
+                      J * (2 * math.pi * quarter)**2, J),
+             "stiff PI": ({"Control": "Speed", "Inertia": J, "Proportional Gain": 8 * zeta, "Integral Gain": 0.0}, 8 * zeta, 0.0, J),
+             "absorbing": ({"Control": "Speed", "Inertia": 0.0, "Proportional Gain": zeta}, zeta, 0.0, 0.0)}
+    rotary = {"Law": "Constant", "Constant": {"Speed": 10.0}}
+    kick = {"Forces": {"kick": {"Node": 101, "Component": "theta_z", "Value": 1000.0, "Frequency": 0.5, "Phase": -math.pi / 2, "End Time": 1.0}}}
+    for name, (drive, kp, ki, inertia) in cases.items():
+        deck = models.string_deck(((part, 1),), **{"Loads": kick, "Rotary Speed": rotary, "Top Drive": drive, "Transient": {
+            "End Time": 8.0, "Step": 2e-3, "Sampling Interval": 0.02, "Progress": False}})
+        run = program.run(f"drive_{name.replace(' ', '_')}", program.deck(f"drive_{name.replace(' ', '_')}", deck))
+        t, angle, w = run.time(), run.nodes(THETA_Z)[:, -1], run.nodes(THETA_Z, "velocity")[:, -1]
+        if name == "absorbing":
+            back = 1.0 + 2 * 1000.0 / speed
+            near("absorbing: speed after the wave has returned once, over its peak", np.abs(w[t > back + 0.3]).max() / np.abs(w).max(), 0.0, 0.02)
+            continue
+        roots = {}
+        for start in (complex(-a, b) for a in (0.05, 1.0, 4.0) for b in np.linspace(0.3, 80, 400)):
+            root = models.drive_root(1000.0, speed, zeta, kp, ki, inertia, start)
+            if np.isfinite(root) and -20 < root.real < 0 <= root.imag < 80:
+                roots[(round(root.real, 6), round(root.imag, 6))] = root
+        slow = min((root for root in roots.values() if root.imag > 0.1), key=lambda root: root.imag)
+        later = t > 2.0
+        near(f"{name}: the motion is that of the modes of the characteristic equation, first s = {slow:.4f} 1/s",
+             misfit(t[later], angle[later], roots.values()), 0.0, 5e-3)
+        wrong = [root * 1.02 if root == slow else root for root in roots.values()]
+        expect(f"{name}: a root 2 % off would show", misfit(t[later], angle[later], wrong) > 0.02, "")
+
+
+def cutting(program):
+    """A bit that cuts, axial and torsional loop together: static state, and the motion against an integration of its own with
+    the delay solved for; full against reduced; both integrators; a free hook."""
+    slow, fast, rise, feed = 12.0, 14.0, 0.3, 3e-3
+    bit = {"Blades": 4, "Radius": 0.108, "Specific Energy": 1e6, "Inclination": 0.6}
+    drive = {"Control": "Speed", "Inertia": 1500.0, "Proportional Gain": 2000.0, "Integral Gain": 1000.0, "Block Speed": feed}
+    truth = models.CuttingString(PIECES, 0.5, 1500.0, 4, 0.108, 1e6, 0.6)
+    t, found = truth.integrate(2.0, 2.5e-4, feed, lambda t: fast + (slow - fast) * math.exp(-t / rise),
+                               lambda t: (fast - slow) / rise * math.exp(-t / rise),
+                               lambda t: fast * t + (slow - fast) * rise * (1 - math.exp(-t / rise)), 2000.0, 1000.0)
+    every = round(0.01 / (t[1] - t[0]))
+    w, theta, depth = found[::every].T
+    lists = {"Loads": {"Gravity": 9.81}, "Bit": {"Law": "Cutting", "Cutting": bit}, "Damping": {"Mass Coefficient": 0.5},
+             "Rotary Speed": {"Law": "Exponential", "Exponential": {"Initial Speed": slow, "Final Speed": fast, "Time Constant": rise}}}
+    short = {"Transient/End Time": 2.0}
+    runs = {"full, generalized-alpha": string(program, "cutting_full", drive, {**short, "Transient/Step": 5e-4}, **lists),
+            "full, RK4": string(program, "cutting_rk4", drive, {**short, "Transient/Integrator": "RK4", "Transient/Step": 2e-4}, **lists),
+            "reduced": string(program, "cutting_reduced", drive, {**short, "Transient/Step": 5e-4}, **lists,
+                              Substructures={"Rule": "By component"}, Reduction={"Mode Selection": {"Modes": 6}})}
+    for name, run in runs.items():
+        weight = 4 * 0.108 * 0.6 * 1e6 * depth
+        near(f"{name}: weight at rest", run.data("transient/weight_on_bit")[0], weight[0], 1e-6 * weight[0])
+        near(f"{name}: weight on bit over its change", np.abs(run.data("transient/weight_on_bit") - weight).max() / np.ptp(weight), 0.0, 0.01)
+        for what, component, exact_ in (("w", W, w), ("theta_z", THETA_Z, theta)):
+            moved = run.nodes(component)[:, -1] - run.nodes(component)[0, -1]
+            near(f"{name}: {what} of the bit over its change", np.abs(moved - exact_).max() / np.ptp(exact_), 0.0, 0.01)
+        near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+    hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
+    near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)
+    # the hook load and the weight of the string balance the weight on bit of the start
+    elements = [(part, part["Length"] / part["Elements"]) for part, count in PIECES for _ in range(count * part["Elements"])]
+    lumped = np.zeros(len(elements) + 1)
+    for e, (part, h) in enumerate(elements):
+        lumped[e:e + 2] += models.DENSITY * models.area(part) * h / 2
+    samples = hook.data("transient/weight_on_bit")
+    times = hook.time()
+    change = samples - samples[0]
+    drift = np.array([lumped @ v for v in hook.nodes(W, "velocity")])
+    lost = 0.5 * np.concatenate([[0], np.cumsum(0.5 * (drift[1:] + drift[:-1]) * np.diff(times))])  # mass damping of 0.5 1/s
+    impulse = -np.concatenate([[0], np.cumsum(0.5 * (change[1:] + change[:-1]) * np.diff(times))])
+    near("constant hook load: momentum of the string is the impulse of the weight less damping",
+         np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
+
+
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting)}
+
+
+def main():
+    program = Program(sys.argv[1], "drilling")
+    for name in sys.argv[2:] or CHECKS:
+        CHECKS[name](program)
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Decks of bits and drives, and what their motions should be: independent integrations and characteristic equations."""
+import math
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 0.054}
+COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius": 0.0355}
+STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
+DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
+
+
+def polar(part):
+    return math.pi / 2 * (part["Outer Radius"]**4 - part["Inner Radius"]**4)
+
+
+def area(part):
+    return math.pi * (part["Outer Radius"]**2 - part["Inner Radius"]**2)
+
+
+def impedance(part):
+    """zeta = I_p sqrt(rho G) [N m s/rad]."""
+    return polar(part) * math.sqrt(DENSITY * SHEAR)
+
+
+def smoothed_sign(w, width):
+    s = np.clip(w / width, -1.0, 1.0)
+    return s * (3 - s * s) / 2
+
+
+class Friction:
+    """Torque of a bit that weakens with speed."""
+
+    def __init__(self, static, dynamic, decay, viscous, width):
+        self.static, self.dynamic, self.decay, self.viscous, self.width = static, dynamic, decay, viscous, width
+
+    def torque(self, w):
+        dry = self.dynamic + (self.static - self.dynamic) * np.exp(-np.abs(w) / self.decay)
+        return self.viscous * w + dry * smoothed_sign(w, self.width)
+
+    def slope(self, w):
+        """dT/dw of a bit that slides forward."""
+        return self.viscous - (self.static - self.dynamic) / self.decay * math.exp(-w / self.decay)
+
+
+def string_deck(pieces, **lists):
+    """A vertical string without lateral motion; `pieces`: (component, how many)."""
+    names = {id(PIPE): "pipe", id(COLLAR): "collar"}
+    components, assembly, length = {}, [], 0.0
+    for part, count in pieces:
+        name = names.get(id(part), f"part {len(components) + 1}")
+        components[name] = part
+        assembly.append(f"{count}*{name}")
+        length += count * part["Length"]
+    base = {"Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": 0.2},
+            "Drillstring": {"Assembly": assembly, "Components": components, "Material": STEEL},
+            "Supports": {"Dofs": "axial torsional"}}
+    return {**base, **lists}
+
+
+class TorsionalString:
+    """Linear torsional elements, in the frame that turns with Omega(t): an implementation of its own."""
+
+    def __init__(self, pieces, damping=0.0, inertia=0.0):
+        elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces
+                    for _ in range(count * part["Elements"])]
+        n = len(elements) + 1
+        self.K, self.M = np.zeros((n, n)), np.zeros((n, n))
+        for e, (part, h) in enumerate(elements):
+            at = slice(e, e + 2)
+            self.K[at, at] += SHEAR * polar(part) / h * np.array([[1, -1], [-1, 1]])
+            self.M[at, at] += DENSITY * polar(part) * h / 6 * np.array([[2, 1], [1, 2]])
+        self.C = damping * self.M
+        self.M[0, 0] += inertia
+        self.inverse = np.linalg.inv(self.M)
+
+    def integrate(self, times, omega, acceleration, bit, kp, ki, torque=0.0):
+        """theta_z and its rate at the nodes (samples x nodes) from rest without twist."""
+        n = len(self.K)
+        total = self.M.sum(axis=1)
+
+        def rates(t, y):
+            theta, speed = y[:n], y[n:]
+            force = -self.K @ theta - self.C @ speed - acceleration(t) * total
+            force[0] += torque - kp * speed[0] - ki * theta[0]
+            force[-1] -= bit.torque(omega(t) + speed[-1])
+            return np.concatenate([speed, self.inverse @ force])
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="Radau", rtol=1e-9, atol=1e-10, t_eval=times,
+                          max_step=0.02)
+        return found.y[:n].T, found.y[n:].T
+
+
+class CuttingString:
+    """Axial and torsional elements above a bit of sharp blades, as deviations from steady drilling, by the classical
+    Runge-Kutta method; the delay is the root of phi(t) - phi(t - t_n) = 2 pi/n in the motion so far."""
+
+    def __init__(self, pieces, damping, inertia, blades, radius, energy, inclination):
+        torsion = TorsionalString(pieces, damping, inertia)
+        n = len(torsion.K)
+        K, M = np.zeros((n, n)), np.zeros((n, n))
+        elements = [(part, part["Length"] / part["Elements"]) for part, count in pieces for _ in range(count * part["Elements"])]
+        for e, (part, h) in enumerate(elements):
+            at = slice(e, e + 2)
+            K[at, at] += YOUNG * area(part) / h * np.array([[1, -1], [-1, 1]])
+            M[at, at] += DENSITY * area(part) * h / 6 * np.array([[2, 1], [1, 2]])
+        self.torsion, self.K, self.M = torsion, K[1:, 1:], M[1:, 1:]
+        self.C, self.inverse = damping * self.M, np.linalg.inv(self.M)
+        self.pitch, self.weight, self.torque = 2 * math.pi / blades, blades * radius * inclination * energy, 0.5 * blades * radius**2 * energy
+
+    def integrate(self, end, step, feed, omega, acceleration, angle, kp, ki):
+        """Times, deviations of w and theta_z of the bit, depth of cut of a blade."""
+        n, m = len(self.torsion.K), len(self.K)
+        start = feed * self.pitch / omega(0.0)
+        steps = round(end / step)
+        past = round(1.5 * self.pitch / omega(0.0) / step)
+        times = step * np.arange(-past, steps + 1)
+        U, phi = feed * times, omega(0.0) * times
+        total = self.torsion.M.sum(axis=1)
+
+        def depth(t, w, theta, known):
+            then = np.interp(angle(t) + theta - self.pitch, phi[:known], U[:known])
+            return feed * t + w - then
+
+        def rates(t, y, known):
+            w, v, theta, rate = y[:m], y[m:2 * m], y[2 * m:2 * m + n], y[2 * m + n:]
+            more = depth(t, w[-1], theta[-1], known) - start
+            axial = -self.K @ w - self.C @ v
+            axial[-1] -= self.weight * more
+            turn = -self.torsion.K @ theta - self.torsion.C @ rate - acceleration(t) * total
+            turn[-1] -= self.torque * more
+            turn[0] -= kp * rate[0] + ki * theta[0]
+            return np.concatenate([v, self.inverse @ axial, rate, self.torsion.inverse @ turn])
+        y = np.zeros(2 * m + 2 * n)
+        found = np.zeros((steps + 1, 3))
+        found[0] = 0, 0, start
+        for i in range(steps):
+            t, known = i * step, past + i + 1
+            a = rates(t, y, known)
+            b = rates(t + step / 2, y + step / 2 * a, known)
+            c = rates(t + step / 2, y + step / 2 * b, known)
+            d = rates(t + step, y + step * c, known)
+            y = y + step / 6 * (a + 2 * b + 2 * c + d)
+            U[known], phi[known] = feed * (t + step) + y[m - 1], angle(t + step) + y[2 * m + n - 1]
+            found[i + 1] = y[m - 1], y[2 * m + n - 1], depth(t + step, y[m - 1], y[2 * m + n - 1], known + 1)
+        return step * np.arange(steps + 1), found
+
+
+def cycles(t, w, width):
+    """Peak speed, share of time stuck, and mean period between releases of a bit."""
+    stuck = np.abs(w) < width
+    releases = t[1:][stuck[:-1] & ~stuck[1:]]
+    if len(releases) < 2:
+        return float(w.max()), float(stuck.mean()), math.nan
+    whole = (t >= releases[0]) & (t < releases[-1])
+    return float(w[whole].max()), float(stuck[whole].mean()), float(np.diff(releases).mean())
+
+
+class Chatter:
+    """m s^2 + c s + k + A (1 - exp(-s tau)) = 0: a mass on a spring that cuts what it left a delay ago."""
+
+    def __init__(self, mass, damping, stiffness):
+        self.m, self.c, self.k = mass, damping, stiffness
+        self.natural = math.sqrt(stiffness / mass)
+
+    def critical(self, delay):
+        """Smallest A [N/m] of the limit of stability, and its frequency [rad/s]: with s = i w
+
+            k - m w^2 + A (1 - cos w tau) = 0,   c w + A sin w tau = 0."""
+        def imaginary(w):
+            # A from the real part, in the imaginary one times (1 - cos)
+            return self.c * w * (1 - math.cos(w * delay)) + (self.m * w * w - self.k) * math.sin(w * delay)
+        grid = np.linspace(self.natural * 1.0001, self.natural * 6, 200001)
+        values = [imaginary(w) for w in grid]
+        found = []
+        for a, b, fa, fb in zip(grid, grid[1:], values, values[1:]):
+            if fa * fb >= 0:
+                continue
+            w = brentq(imaginary, a, b, xtol=1e-14)
+            if 1 - math.cos(w * delay) < 1e-6:
+                continue
+            A = (self.m * w * w - self.k) / (1 - math.cos(w * delay))
+            if A > 0 and math.sin(w * delay) < 0:
+                found.append((A, w))
+        return min(found)
+
+    def root(self, A, delay, start):
+        """The characteristic root next to `start`, by Newton's method."""
+        s = complex(start)
+        for _ in range(100):
+            f = self.m * s * s + self.c * s + self.k + A * (1 - np.exp(-s * delay))
+            df = 2 * self.m * s + self.c + A * delay * np.exp(-s * delay)
+            s, change = s - f / df, abs(f / df)
+            if change < 1e-12 * abs(s):
+                break
+        return s
+
+    def rightmost(self, A, delay):
+        """The root with the largest real part, from starts around the natural frequency."""
+        starts = [complex(re, im * self.natural) for re in (-5.0, 0.0, 5.0) for im in np.linspace(0.5, 4, 71)]
+        roots = [self.root(A, delay, start) for start in starts]
+        roots = [s for s in roots if abs(s.imag) > 1e-3 * self.natural]
+        return max(roots, key=lambda s: s.real)
+
+
+def drive_root(length, speed, zeta, kp, ki, inertia, start):
+    """s of the pipe with a free end below a drive: zeta tanh(s L/c) + k_p + k_i/s + J s = 0."""
+    s = complex(start)
+
+    def f(z):
+        return zeta * np.tanh(z * length / speed) + kp + ki / z + inertia * z
+    for _ in range(100):
+        h = 1e-6 * abs(s)
+        change = f(s) / ((f(s + h) - f(s - h)) / (2 * h))
+        s -= change
+        if abs(change) < 1e-12 * abs(s):
+            break
+    return s
