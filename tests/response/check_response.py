@@ -3,7 +3,7 @@
 """Checks `tooljoint campbell` and `tooljoint response`: rotors against closed forms and a published rotor, a string scene reduced against
 full, the limit at rest, refusals, ranks.
 
-    check_response.py PROGRAM MPIEXEC SOURCES
+    check_response.py PROGRAM MPIEXEC SOURCES rotors|string
 """
 import csv
 import json
@@ -290,6 +290,23 @@ def shaft():
         close(f"shaft at {speed} rad/s: {np.round(sizes, 2)}", sizes / np.sort(exact)[:len(sizes)], 1.0, 2e-4)
 
 
+def walls():
+    """Unbalance of the shaft, by the scene and by the analysis, and the distance it leaves to a wall."""
+    contact = lists("Contact", values(Stiffness=1e7))
+    response = lists("Response", values(Highest_Speed=300.0, Points=4) + "UNBALANCE" + lists("Outputs", lists("middle", values(Node=21, Component="u"))))
+    mass = values(Node=21, Moment=0.05, Phase=0.4)
+    for name, text in (("walls", contact + response.replace("UNBALANCE", lists("Unbalance", lists("a", mass)))),
+                       ("walls_scene", contact + response.replace("UNBALANCE", "") + lists("Loads", values(Gravity=0.0) + lists("Unbalance", lists("a", mass))))):
+        pathlib.Path(f"{name}.xml").write_text(SHAFT[:SHAFT.rindex("</ParameterList>")] + text + "</ParameterList>", encoding="utf-8")
+        run("response", f"{name}.xml", name)
+    ours, scene = table("walls", "response"), table("walls_scene", "response")
+    close("walls: unbalance of the scene and of the analysis", scene["middle_amplitude"], ours["middle_amplitude"], 1e-12)
+    close("walls: its phase", scene["middle_phase"][1:], ours["middle_phase"][1:], 1e-9)
+    expect("walls: the middle moves", ours["middle_amplitude"][-1] > 1e-7, ours["middle_amplitude"])
+    close("walls: the circle of the middle and what it leaves are the clearance", ours["contact_margin"] + ours["middle_amplitude"], 0.9, 1e-12)
+    expect("walls: the middle is nearest", np.all(ours["contact_node"][1:] == 21), ours["contact_node"])
+
+
 def string():
     """The reference scene: limit at rest, spot checks within the estimates, ranks."""
     text = pathlib.Path(STRING).read_text(encoding="utf-8").replace("components/helical_170m.xml", str(SOURCES / "xml/components/helical_170m.xml"))
@@ -308,6 +325,11 @@ def string():
     estimates("string")
     done = tooljoint("modes", STRING, "--count", "30", "--time", "0", "--output", "string_modes", *(word for one in ramp for word in ("--set", one)))
     expect("string: modes ends well", done.returncode == 0, done.stderr)
+    run("campbell", STRING, "string_smooth", *campbell[:-1], "Campbell/Spot Checks=0")
+    smooth = modes_at(table("string_smooth", "campbell"), 120 * RPM)
+    sliding = modes_at(table("string", "campbell"), 120 * RPM)
+    expect("string: friction damps what slides", np.abs(smooth["damping"][0] - sliding["damping"][0]) > 1e-3 * smooth["damping"][0],
+           (smooth["damping"], sliding["damping"]))
     still = table("string_modes", "damped_modes")
     vibrating = still["coupled_im"] > 1e-6 * still["coupled"]
     rows = modes_at(table("string", "campbell"), 0.0)
@@ -346,12 +368,9 @@ def refusals():
         expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
 
 
-laval()
-overhung()
-bearing()
-nelson()
-transfer()
-shaft()
-string()
-refusals()
+if sys.argv[4] == "rotors":
+    for check in (laval, overhung, bearing, nelson, transfer, shaft, walls, refusals):
+        check()
+else:
+    string()
 sys.exit(finish())
