@@ -230,7 +230,8 @@ std::set<std::string> filesOfPart(const std::string& path) {
   if (std::filesystem::path(path).extension() != ".json") return files;
   const Json root = Json::parse(readInput(path, largestJson), nullptr, false);
   if (root.is_discarded()) return files;  // no JSON: its reader says so
-  for (const auto& [key, value] : root.flatten().items()) {
+  const Json values = root.flatten();     // items() only refers to it
+  for (const auto& [key, value] : values.items()) {
     if (!value.is_string()) continue;
     const auto named = std::filesystem::path(path).parent_path() / value.get<std::string>();
     std::error_code ignored;
