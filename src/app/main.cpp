@@ -54,7 +54,9 @@ int guarded(const std::function<void()>& command) {
 enum class Output { None, Wanted, Always };
 
 /// A deck on the command line with its overrides and where results go.
-void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output) {
+/// \param suffix of the default folder
+void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output,
+                    const std::string& suffix = "") {
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
   command
       .add_option("--set", options.overrides,
@@ -66,10 +68,11 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Outp
                   "is not modelled")
       ->allow_extra_args(false);
   if (output != Output::None)
-    command.add_option("--output,-o", options.output,
-                       output == Output::Always
-                           ? "folder for the results (default: results/<name of the deck>)"
-                           : "folder for the tables (default: none are written)");
+    command.add_option(
+        "--output,-o", options.output,
+        output == Output::Always
+            ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
+            : "folder for the tables (default: none are written)");
 }
 
 /// What is wrong with a command line that holds words or options no command takes.
@@ -200,6 +203,17 @@ int run(int argc, char** argv) {
       "hook load, surface torque, buckling and yield margins against the depth of the bit");
   addDeckOptions(*torqueDragCommand, options, Output::Wanted);
   torqueDragCommand->callback([&] { command = [&] { app::torqueDrag(options); }; });
+
+  auto* campbellCommand = program.add_subcommand(
+      "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
+  addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");
+  campbellCommand->callback([&] { command = [&] { app::campbell(options); }; });
+
+  auto* responseCommand = program.add_subcommand(
+      "response",
+      "amplitude and phase under unbalance or harmonic loads, transfer functions (list Response)");
+  addDeckOptions(*responseCommand, options, Output::Always, "_response");
+  responseCommand->callback([&] { command = [&] { app::response(options); }; });
 
   auto* exportCommand =
       program.add_subcommand("export",

@@ -156,13 +156,11 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }
 
-/// The end of the motion, unless the options say otherwise.
-double timeOf(const Case& one, const ModesOptions& options) {
-  if (options.time) return *options.time;
+}  // namespace
+
+double timeOfLaws(const Case& one) {
   return one.moves() ? one.transient().get<double>("End Time") : 0.0;
 }
-
-}  // namespace
 
 void listModes(const Case& one, const ModesOptions& options) {
   announce(one);
@@ -170,7 +168,7 @@ void listModes(const Case& one, const ModesOptions& options) {
   const auto text = rest->describe();
   if (!text.empty()) log::info(text);
   const auto full = rest->full();
-  const double t = timeOf(one, options);
+  const double t = options.time.value_or(timeOfLaws(one));
   if (!one.reduces()) {
     listFullModes(full.model, options, t);
     return;

@@ -17,6 +17,10 @@ struct ModesOptions {
   std::string output;          ///< folder of modes.csv and damped_modes.csv; empty: no files
 };
 
+/// When the laws of time are looked at where nothing else says so: at the end of the motion [s], 0
+/// without one.
+double timeOfLaws(const Case& one);
+
 /// Lists the undamped and damped modes of the full model and, where the deck reduces, those of the
 /// coupled model beside them with MAC values, true and estimated errors. DeckError, ModelError,
 /// ConvergenceError, FileError. Collective.

@@ -11,9 +11,9 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
+#include "estimate/DynamicError.hpp"
 #include "estimate/FrequencyEstimate.hpp"
 #include "estimate/PartResidual.hpp"
-#include "estimate/ResidualFlexibility.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
 
 namespace tooljoint::estimate {
@@ -57,94 +57,6 @@ Sparse pointDamping(const model::SecondOrderModel& model, double t) {
 ComplexMatrix localShapes(const coupling::Synthesis& synthesis, std::size_t p,
                           const ComplexMatrix& shapes) {
   return synthesis.coupled.maps[p].cast<Complex>() * shapes;
-}
-
-ComplexVector times(const Sparse& A, const ComplexVector& x) {
-  const Matrix parts = (Matrix(x.size(), 2) << x.real(), x.imag()).finished();
-  const Matrix y = A * parts;
-  return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
-}
-
-ComplexVector answer(const ResidualFlexibility& flexibility, const ComplexVector& r) {
-  const Matrix y = flexibility.apply((Matrix(r.size(), 2) << r.real(), r.imag()).finished());
-  return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
-}
-
-/// l' (F - (s^2 M) F ...) r: the two first terms of the expansion of the truncated dynamic
-/// flexibility, summed as a geometric series.
-Complex truncatedWork(const ResidualFlexibility& flexibility, const Sparse& mass,
-                      const ComplexVector& l, const ComplexVector& r, Complex s) {
-  const ComplexVector first = answer(flexibility, r);
-  const Complex still = l.cwiseProduct(first).sum();
-  const Complex next = -s * s * l.cwiseProduct(answer(flexibility, times(mass, first))).sum();
-  return std::abs(next) < 0.5 * std::abs(still) ? still * still / (still - next) : still + next;
-}
-
-/// s - s_full per coupled mode.
-ComplexVector dampedErrors(const std::vector<model::Substructure>& parts,
-                           const coupling::Synthesis& synthesis,
-                           const linalg::QuadraticModes& right, const ComplexMatrix& left,
-                           double t) {
-  const auto count = right.values.size();
-  ComplexVector work = ComplexVector::Zero(count);
-  ComplexVector slope = ComplexVector::Zero(count);
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& basis = *synthesis.parts[p].basis;
-    const Linearised part = linearise(parts[p].model, t);
-    const ResidualFlexibility flexibility(parts[p], basis,
-                                          reduction::symmetricPart(part.stiffness));
-    const auto& interior = flexibility.interior();
-    const Sparse mass = reduction::block(part.mass, interior, interior);
-    const Sparse damping = part.damping.transpose(), stiffness = part.stiffness.transpose();
-    const auto rows = [&](const ComplexVector& x) {
-      ComplexVector inner(static_cast<Eigen::Index>(interior.size()));
-      for (std::size_t i = 0; i < interior.size(); ++i)
-        inner[static_cast<Eigen::Index>(i)] = x[interior[i]];
-      return inner;
-    };
-    const ComplexMatrix y = localShapes(synthesis, p, right.vectors);
-    const ComplexMatrix z = localShapes(synthesis, p, left);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const Complex s = right.values[j];
-      const ComplexVector D = times(basis.vectors, y.col(j)), E = times(basis.vectors, z.col(j));
-      const ComplexVector MD = times(part.mass, D), CD = times(part.damping, D);
-      const ComplexVector r = s * s * MD + s * CD + times(part.stiffness, D);
-      const ComplexVector l =
-          s * s * times(part.mass, E) + s * times(damping, E) + times(stiffness, E);
-      slope[j] += E.cwiseProduct(2.0 * s * MD + CD).sum();
-      if (flexibility.truncated() > 0)
-        work[j] += truncatedWork(flexibility, mass, rows(l), rows(r), s);
-    }
-  }
-  for (Eigen::Index j = 0; j < count; ++j)
-    work[j] = slope[j] != 0.0 ? -work[j] / slope[j] : Complex(0);
-  return work;
-}
-
-/// Left vectors in the order of the right ones: modes of the transposed matrices with the nearest
-/// value.
-ComplexMatrix leftShapes(const Linearised& m, const linalg::QuadraticModes& right) {
-  const int count = static_cast<int>(right.values.size());
-  const auto modes = linalg::lowestDampedModes(m.mass, Sparse(m.damping.transpose()),
-                                               Sparse(m.stiffness.transpose()), count);
-  ComplexMatrix left(right.vectors.rows(), count);
-  std::vector<char> taken(static_cast<std::size_t>(modes.values.size()), 0);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    Eigen::Index best = -1;
-    for (Eigen::Index i = 0; i < modes.values.size(); ++i)
-      if (!taken[static_cast<std::size_t>(i)] &&
-          (best < 0 || std::abs(modes.values[i] - right.values[j]) <
-                           std::abs(modes.values[best] - right.values[j])))
-        best = i;
-    if (best <
-        0) {  // repeated zeros may be told apart on one side only; they have no relative error
-      left.col(j).setZero();
-      continue;
-    }
-    taken[static_cast<std::size_t>(best)] = 1;
-    left.col(j) = modes.vectors.col(best);
-  }
-  return left;
 }
 
 }  // namespace
@@ -277,54 +189,6 @@ std::vector<ModeComparison> compareModes(const model::SecondOrderModel& full,
   return modes;
 }
 
-namespace {
-
-/// What rounding leaves of the energy of a coupled shape: that of the parts it was projected from.
-linalg::EnergyRounding roundingOfParts(const std::vector<model::Substructure>& parts,
-                                       const coupling::Synthesis& synthesis) {
-  std::vector<Sparse> absolute, shapes;
-  std::vector<double> fractions;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const Sparse K = reduction::constantStiffness(parts[p].model);
-    absolute.push_back(K.cwiseAbs());
-    fractions.push_back(linalg::roundingOf(K));
-    shapes.push_back(synthesis.parts[p].basis->vectors * synthesis.coupled.maps[p]);
-  }
-  return [absolute, shapes, fractions](const ComplexVector& y) {
-    double sum = 0;
-    for (std::size_t p = 0; p < shapes.size(); ++p) {
-      const Vector size = times(shapes[p], y).cwiseAbs();
-      sum += fractions[p] * size.dot(absolute[p] * size);
-    }
-    return sum;
-  };
-}
-
-/// The damped modes of smallest |s| that are not spurious.
-linalg::QuadraticModes physicalDampedModes(const model::SecondOrderModel& model,
-                                           const Linearised& m, int count,
-                                           const linalg::EnergyRounding& rounding) {
-  for (int looked = std::min(count, model.size());; looked = std::min(2 * looked, model.size())) {
-    auto modes = linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, looked, {}, rounding);
-    const auto spurious = coupling::spuriousShapes(model, modes.vectors);
-    Eigen::Index kept = 0;
-    for (Eigen::Index j = 0; j < modes.values.size(); ++j) {
-      if (spurious[static_cast<std::size_t>(j)]) continue;
-      modes.values[kept] = modes.values[j];
-      modes.vectors.col(kept) = ComplexVector(modes.vectors.col(j));
-      modes.residuals[kept++] = modes.residuals[j];
-    }
-    const bool enough = kept >= count || looked == model.size() || modes.values.size() < looked;
-    kept = std::min<Eigen::Index>(kept, count);
-    modes.values.conservativeResize(kept);
-    modes.vectors.conservativeResize(Eigen::NoChange, kept);
-    modes.residuals.conservativeResize(kept);
-    if (enough) return modes;
-  }
-}
-
-}  // namespace
-
 std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& full,
                                                const std::vector<model::Substructure>& parts,
                                                const coupling::Synthesis& synthesis, int count,
@@ -335,9 +199,11 @@ std::vector<ModeComparison> compareDampedModes(const model::SecondOrderModel& fu
   const auto coupled = physicalDampedModes(synthesis.coupled.model, small, count + 2 * moreModes,
                                            roundingOfParts(parts, synthesis));
   const bool estimated = isRitz(synthesis);
-  const ComplexVector errors =
-      estimated ? dampedErrors(parts, synthesis, coupled, leftShapes(small, coupled), t)
-                : ComplexVector();
+  ComplexVector errors;
+  if (estimated) {
+    const auto matrices = linearise(parts, t);
+    errors = DynamicError(parts, synthesis, matrices).ofModes(matrices, small, coupled);
+  }
   const auto matches = matchModes(whole.mass, exact.values, exact.vectors,
                                   recover(full, parts, synthesis, coupled.vectors, maps));
   std::vector<ModeComparison> modes(

@@ -123,7 +123,9 @@ deck::ListSpec parameters() {
   ListSpec starts("Starts", "Initial displacements and velocities of single dofs.");
   starts.namedLists(startParameters());
   list.list(starts);
-  ListSpec laws("Laws", "Laws of time for files and loads; \"1\" always exists.");
+  ListSpec laws("Laws",
+                "Laws of time for files and loads; \"1\" always exists. The law \"Omega\" is the "
+                "rotary speed [rad/s], which Campbell diagrams and responses vary.");
   laws.namedLists(timeLawParameters());
   list.list(laws);
   return list;
@@ -149,11 +151,15 @@ PartsSettings readSettings(const ParameterList& list) {
                                one.get<std::string>("Component"), one.get<double>("Displacement"),
                                one.get<double>("Velocity")});
   });
+  std::function<double(double)> speed;
+  forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
+    if (name == rotarySpeedName) speed = readTimeLaw(name, one, {}).value;
+  });
   forEachList(list, "Laws", [&](const std::string& name, const ParameterList& one) {
     if (name == "1")
       throw DeckError(one.name() +
                       " has the name \"1\", which is the constant law. Choose another name.");
-    settings.laws.push_back(readTimeLaw(name, one));
+    settings.laws.push_back(readTimeLaw(name, one, speed));
   });
   return settings;
 }

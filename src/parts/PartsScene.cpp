@@ -8,9 +8,11 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "coupling/input/ResolvedCoupling.hpp"
+#include "model/SpeedLaw.hpp"
 #include "parts/ContentEdits.hpp"
 #include "parts/JointReader.hpp"
 #include "parts/RestState.hpp"
+#include "parts/TimeLaw.hpp"
 
 namespace tooljoint::parts {
 
@@ -121,13 +123,15 @@ class Builder {
         used.insert(law.name);
         const auto it = std::find_if(settings_.laws.begin(), settings_.laws.end(),
                                      [&](const auto& one) { return one.name == law.name; });
-        if (it != settings_.laws.end())
+        if (it != settings_.laws.end()) {
           law = *it;
-        else
+          if (model::speedLaw(law) != nullptr) used.insert(rotarySpeedName);
+        } else {
           faults_.push_back(settings_.where + "/Laws has no law " + inQuotes(law.name) +
                             ", but terms or loads of part " + inQuotes(content.part.name) + " (" +
                             content.file + ") use it. Add a list " + inQuotes(law.name) +
                             " with its Form.");
+        }
       }
     for (const auto& law : settings_.laws)
       if (used.count(law.name) == 0)

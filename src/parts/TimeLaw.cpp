@@ -4,6 +4,7 @@
 #include <Teuchos_Array.hpp>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "model/SpeedLaw.hpp"
 
 namespace tooljoint::parts {
 
@@ -76,28 +78,59 @@ class Ramp : public TimeLaw {
 /// Straight lines between points, constant before the first and after the last.
 class Table : public TimeLaw {
  public:
-  explicit Table(const ParameterList& list)
-      : times_(list.get<Teuchos::Array<double>>("Times").toVector()),
-        values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
-    if (times_.empty() || times_.size() != values_.size())
-      throw DeckError(list.name() + " has " + std::to_string(times_.size()) + " times and " +
-                      std::to_string(values_.size()) + " values. Give one value for each time.");
-    for (std::size_t i = 1; i < times_.size(); ++i)
-      if (!(times_[i] > times_[i - 1]))
-        throw DeckError(list.name() + "/Times does not increase: " + formatNumber(times_[i - 1]) +
-                        " s is followed by " + formatNumber(times_[i]) + " s.");
-  }
+  explicit Table(const ParameterList& list) : Table(list, "Times", "times", "s") {}
   double value(double t) const override {
-    if (t <= times_.front()) return values_.front();
-    if (t >= times_.back()) return values_.back();
-    const auto i = static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), t) -
-                                            times_.begin());
-    const double x = (t - times_[i - 1]) / (times_[i] - times_[i - 1]);
+    if (t <= places_.front()) return values_.front();
+    if (t >= places_.back()) return values_.back();
+    const auto i = static_cast<std::size_t>(std::upper_bound(places_.begin(), places_.end(), t) -
+                                            places_.begin());
+    const double x = (t - places_[i - 1]) / (places_[i] - places_[i - 1]);
     return values_[i - 1] + x * (values_[i] - values_[i - 1]);
   }
 
+ protected:
+  Table(const ParameterList& list, const std::string& name, const std::string& what,
+        const std::string& unit)
+      : places_(list.get<Teuchos::Array<double>>(name).toVector()),
+        values_(list.get<Teuchos::Array<double>>("Values").toVector()) {
+    if (places_.empty() || places_.size() != values_.size())
+      throw DeckError(list.name() + " has " + std::to_string(places_.size()) + " " + what +
+                      " and " + std::to_string(values_.size()) +
+                      " values. Give one value for each " + what.substr(0, what.size() - 1) + ".");
+    for (std::size_t i = 1; i < places_.size(); ++i)
+      if (!(places_[i] > places_[i - 1]))
+        throw DeckError(list.name() + "/" + name +
+                        " does not increase: " + formatNumber(places_[i - 1]) + " " + unit +
+                        " is followed by " + formatNumber(places_[i]) + " " + unit + ".");
+  }
+
  private:
-  std::vector<double> times_, values_;
+  std::vector<double> places_, values_;
+};
+
+/// The same against the rotary speed.
+class SpeedTable final : public Table {
+ public:
+  explicit SpeedTable(const ParameterList& list) : Table(list, "Speeds", "speeds", "rad/s") {}
+  bool ofSpeed() const override { return true; }
+};
+
+/// f = c |Omega|^n, with the sign of Omega where it is odd
+class SpeedPower final : public TimeLaw {
+ public:
+  explicit SpeedPower(const ParameterList& list)
+      : factor_(list.get<double>("Factor")),
+        exponent_(list.get<double>("Exponent")),
+        odd_(list.get<bool>("Odd")) {}
+  double value(double speed) const override {
+    const double size = factor_ * std::pow(std::abs(speed), exponent_);
+    return odd_ && speed < 0.0 ? -size : size;
+  }
+  bool ofSpeed() const override { return true; }
+
+ private:
+  double factor_, exponent_;
+  bool odd_;
 };
 
 template <class Law>
@@ -137,6 +170,22 @@ bool add(ListSpec parameters) {
         .realArray("Times", "s", deck::Required{}, Range::any(), "Times of the points, increasing.")
         .realArray("Values", "", deck::Required{}, Range::any(), "Values at these times."));
 
+[[maybe_unused]] const bool speedTable = add<SpeedTable>(
+    ListSpec("Speed Table",
+             "Linear interpolation against the rotary speed, the law \"Omega\" of the same list: "
+             "coefficients of bearings.")
+        .realArray("Speeds", "rad/s", deck::Required{}, Range::any(),
+                   "Rotary speeds of the points, increasing.")
+        .realArray("Values", "", deck::Required{}, Range::any(), "Values at these speeds."));
+
+[[maybe_unused]] const bool speedPower =
+    add<SpeedPower>(ListSpec("Speed Power",
+                             "Factor |Omega|^Exponent of the rotary speed, the law \"Omega\" of "
+                             "the same list.")
+                        .real("Factor", "", 1.0, Range::any(), "Factor; the speed is in rad/s.")
+                        .real("Exponent", "", deck::Required{}, Range::nonNegative(), "Exponent.")
+                        .boolean("Odd", false, "Takes the sign of Omega."));
+
 }  // namespace
 
 deck::ListSpec timeLawParameters() {
@@ -148,13 +197,28 @@ deck::ListSpec timeLawParameters() {
   return spec;
 }
 
-model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list) {
+model::ScalarLaw readTimeLaw(const std::string& name, const ParameterList& list,
+                             const std::function<double(double)>& speed) {
   const auto form = list.get<std::string>("Form");
   if (!list.isSublist(form))
     throw DeckError(list.name() + "/Form is " + inQuotes(form) + ", but the list " +
                     inQuotes(form) + " with its parameters is missing.");
   const std::shared_ptr<const TimeLaw> law = TimeLaws::instance().make(form, list.sublist(form));
-  return {name, [law](double t) { return law->value(t); }};
+  using Complex = std::complex<double>;
+  if (law->ofSpeed()) {
+    if (!speed)
+      throw DeckError(list.name() + "/Form is " + inQuotes(form) +
+                      ", but there is no law of time \"" + rotarySpeedName +
+                      "\". Add one to Laws: its value is the rotary speed in rad/s.");
+    return {name, model::SpeedLaw{[law, speed](double t) { return law->value(speed(t)); },
+                                  [law](double omega) { return Complex(law->value(omega)); }}};
+  }
+  const auto inTime = [law](double t) { return law->value(t); };
+  if (name == rotarySpeedName)
+    return {name, model::SpeedLaw{inTime, [](double omega) { return Complex(omega); }}};
+  if (name == "dOmega/dt")
+    return {name, model::SpeedLaw{inTime, [](double /*omega*/) { return Complex(0.0); }}};
+  return {name, inTime};
 }
 
 }  // namespace tooljoint::parts

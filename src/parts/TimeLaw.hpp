@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <functional>
 #include <string>
 
 #include "deck/ListSpec.hpp"
@@ -12,11 +13,16 @@
 
 namespace tooljoint::parts {
 
+/// Name of the law whose value is the rotary speed [rad/s].
+constexpr const char* rotarySpeedName = "Omega";
+
 /// A scalar function of time.
 class TimeLaw {
  public:
   virtual ~TimeLaw() = default;
   virtual double value(double t) const = 0;
+  /// True: value() takes the rotary speed [rad/s] in the place of the time.
+  virtual bool ofSpeed() const { return false; }
 };
 
 /// name -> form; a new form is one file that registers itself.
@@ -25,8 +31,11 @@ using TimeLaws = deck::Registry<TimeLaw, const Teuchos::ParameterList&>;
 /// Description of one law: its form, and a sublist of the numbers of each form.
 deck::ListSpec timeLawParameters();
 
-/// The law of a validated list, under the name of the law. DeckError when its numbers are missing
-/// or make no sense together.
-model::ScalarLaw readTimeLaw(const std::string& name, const Teuchos::ParameterList& list);
+/// The law of a validated list, under the name of the law. The law rotarySpeedName, its derivative
+/// "dOmega/dt" and forms of the speed hold a model::SpeedLaw. \param speed rotary speed over time;
+/// empty: the deck has no such law. DeckError when its numbers are missing or make no sense
+/// together, or when it needs the speed and there is none.
+model::ScalarLaw readTimeLaw(const std::string& name, const Teuchos::ParameterList& list,
+                             const std::function<double(double)>& speed);
 
 }  // namespace tooljoint::parts

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stability/StateStability.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "common/Constants.hpp"
@@ -15,6 +13,7 @@
 #include "coupling/CoupledModes.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 #include "estimate/ModeComparison.hpp"
+#include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
 #include "reduction/part/Partition.hpp"
@@ -24,7 +23,6 @@ namespace tooljoint::stability {
 namespace {
 
 using Complex = std::complex<double>;
-using ComplexVector = Eigen::VectorXcd;
 
 /// Modes of the symmetric tangent that the damped equations are projected on: so many beyond those
 /// of negative pivots, and at most.
@@ -34,9 +32,6 @@ constexpr double basisAccuracy = 1e-4;
 /// Shift of the modes of a state that some motion leaves without any force [1/s2]: with one as
 /// small as the growth that is looked for, that motion would hide the accuracy of all others.
 constexpr double floatingShift = -1.0;
-/// Relative change of an eigenvalue that ends its refinement, and the iterations allowed.
-constexpr double refined = 1e-9;
-constexpr int mostRefinements = 20;
 /// Growth, and frequencies, below this part of |s| are within the accuracy of s.
 constexpr double noGrowth = 1e-7;
 /// Skew stiffness below this part of the rows is rounding.
@@ -61,52 +56,21 @@ bool canFlutter(const model::SecondOrderModel& model, const estimate::Linearised
   return false;
 }
 
-struct Growth {
-  Complex s;
-  ComplexVector shape;
-};
-
 /// Growing modes of the equations projected on the columns of `basis`, the fastest first.
-std::vector<Growth> growingModes(const estimate::Linearised& tangent, const Matrix& basis) {
+std::vector<linalg::DampedMode> growingModes(const estimate::Linearised& tangent,
+                                             const Matrix& basis) {
   const auto projected = [&](const Sparse& A) {
     return Matrix(basis.transpose() * Matrix(A * basis));
   };
   const auto modes = linalg::dampedModes(projected(tangent.mass), projected(tangent.damping),
                                          projected(tangent.stiffness));
-  std::vector<Growth> growing;
+  std::vector<linalg::DampedMode> growing;
   for (Eigen::Index j = 0; j < modes.values.size(); ++j)
     if (isGrowth(modes.values[j]) && modes.values[j].imag() >= 0.0)
       growing.push_back({modes.values[j], basis.cast<Complex>() * modes.vectors.col(j)});
   std::sort(growing.begin(), growing.end(),
-            [](const Growth& a, const Growth& b) { return a.s.real() > b.s.real(); });
+            [](const auto& a, const auto& b) { return a.s.real() > b.s.real(); });
   return growing;
-}
-
-/// Newton's method for Q(s) phi = 0, e_k'phi = 1 (nonlinear inverse iteration; A. Ruhe, SIAM J.
-/// Numer. Anal. 10 (1973) 674-689):
-///
-///     y = Q(s)^-1 Q'(s) phi,   s <- s - phi_k / y_k,   Q(s) = s^2 M + s C + K
-///
-/// Nothing when it does not converge.
-std::optional<Growth> refine(const estimate::Linearised& tangent, Growth mode) {
-  using ComplexSparse = Eigen::SparseMatrix<Complex, Eigen::ColMajor, int>;
-  const ComplexSparse M = tangent.mass.cast<Complex>(), C = tangent.damping.cast<Complex>(),
-                      K = tangent.stiffness.cast<Complex>();
-  for (int i = 0; i < mostRefinements; ++i) {
-    const ComplexSparse Q = mode.s * mode.s * M + mode.s * C + K;
-    const Eigen::SparseLU<ComplexSparse> factors(Q);
-    if (factors.info() != Eigen::Success) return mode;  // Q(s) is singular: s is the eigenvalue
-    const ComplexVector y =
-        factors.solve(ComplexVector(C * mode.shape + 2.0 * mode.s * (M * mode.shape)));
-    Eigen::Index k = 0;
-    y.cwiseAbs().maxCoeff(&k);
-    if (!y.allFinite() || y[k] == 0.0) return std::nullopt;
-    const Complex change = mode.shape[k] / y[k];
-    mode.s -= change;
-    mode.shape = y / y[k];
-    if (std::abs(change) <= refined * std::abs(mode.s)) return mode;
-  }
-  return std::nullopt;
 }
 
 ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape) {
@@ -167,9 +131,9 @@ StateStability assess(const model::SecondOrderModel& model, double t) {
   found.examined = modes.count();
   count("modes of the static state", modes.count());
   if (found.negativePivots > 0) found.staticGrowthRate = std::sqrt(std::max(0.0, -modes.values[0]));
-  for (const Growth& ritz : growingModes(tangent, modes.vectors)) {
-    const auto exact = refine(tangent, ritz);
-    const Growth& mode = exact ? *exact : ritz;
+  for (const auto& ritz : growingModes(tangent, modes.vectors)) {
+    const auto exact = linalg::refine(tangent.mass, tangent.damping, tangent.stiffness, ritz);
+    const auto& mode = exact ? *exact : ritz;
     if (!isGrowth(mode.s)) continue;
     found.refined = exact.has_value();
     found.growthRate = mode.s.real();

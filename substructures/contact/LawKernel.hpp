@@ -27,6 +27,7 @@
 #include "model/laws/Coulomb.hpp"
 #include "model/laws/Friction.hpp"
 #include "model/laws/HuntCrossley.hpp"
+#include "model/laws/Turning.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 
@@ -63,7 +64,9 @@ using model::FrictionCurve;
 using model::NormalForce;
 
 template <class Kernel>
-class BoreholeContactOf final : public BoreholeContact, public model::Frictional {
+class BoreholeContactOf final : public BoreholeContact,
+                                public model::Frictional,
+                                public model::Turning {
  public:
   BoreholeContactOf(ContactPoints points, Kernel kernel, RotarySpeed speed)
       : BoreholeContact(std::move(points)),
@@ -161,6 +164,11 @@ class BoreholeContactOf final : public BoreholeContact, public model::Frictional
     std::fill(smooth.muStatic.begin(), smooth.muStatic.end(), 0.0);
     std::fill(smooth.muDynamic.begin(), smooth.muDynamic.end(), 0.0);
     return std::make_shared<BoreholeContactOf>(std::move(smooth), original_, speed_);
+  }
+
+  std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
+    return std::make_shared<BoreholeContactOf>(points_, original_,
+                                               [speed](double /*t*/) { return speed; });
   }
 
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {

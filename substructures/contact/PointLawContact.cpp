@@ -10,6 +10,7 @@
 #include "common/Index.hpp"
 #include "common/Types.hpp"
 #include "model/laws/PointLawRegistry.hpp"
+#include "model/laws/Turning.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 
 namespace tooljoint::contact {
@@ -22,7 +23,7 @@ using Rows =
     Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 using RowsOut = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-class PointLawInBore final : public model::StatefulPointLaw {
+class PointLawInBore final : public model::StatefulPointLaw, public model::Turning {
  public:
   PointLawInBore(ContactPoints points, std::shared_ptr<const model::PointLaw> law,
                  RotarySpeed speed)
@@ -128,6 +129,10 @@ class PointLawInBore final : public model::StatefulPointLaw {
       out[2 * n + p] = force_[at(n_ * p + 1)];
       out[3 * n + p] = force_[at(n_ * p + 1)] * points_.contactRadius[at(p)];
     }
+  }
+
+  std::shared_ptr<const model::PointLaw> atSpeed(double speed) const override {
+    return std::make_shared<PointLawInBore>(points_, law_, [speed](double /*t*/) { return speed; });
   }
 
   std::shared_ptr<const model::PointLaw> subset(const std::vector<int>& positions) const override {

@@ -2,9 +2,11 @@
 #include "substructures/loads/RotarySpeed.hpp"
 
 #include <cmath>
+#include <complex>
 #include <map>
 
 #include "common/Error.hpp"
+#include "model/SpeedLaw.hpp"
 
 namespace tooljoint::loads {
 
@@ -53,32 +55,61 @@ double RotarySpeed::sense(double from) const {
   return 0.0;
 }
 
-model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
-  // F = m e (phi'^2 cos phi + phi'' sin phi, phi'^2 sin phi - phi'' cos phi), phi' = Omega
-  static const std::map<std::string, double (*)(const RotarySpeed&, double)> functions{
-      {"Omega", [](const RotarySpeed& r, double t) { return r.speed(t); }},
+namespace {
+
+/// A law of time, and what it is at a constant speed.
+struct Form {
+  double (*inTime)(const RotarySpeed&, double);
+  std::complex<double> (*steady)(double);
+  int order = 0;
+};
+
+/// F = m e (phi'^2 cos phi + phi'' sin phi, phi'^2 sin phi - phi'' cos phi), phi' = Omega; at a
+/// constant speed m e Omega^2 Re((1, -i) exp(i phi))
+const std::map<std::string, Form>& forms() {
+  using Rotary = const RotarySpeed&;
+  using Complex = std::complex<double>;
+  static const std::map<std::string, Form> known{
+      {"Omega",
+       {[](Rotary r, double t) { return r.speed(t); }, [](double w) { return Complex(w); }}},
       {"sqrt|Omega|",
-       [](const RotarySpeed& r, double t) { return std::sqrt(std::abs(r.speed(t))); }},
-      {"Omega^2", [](const RotarySpeed& r, double t) { return r.speed(t) * r.speed(t); }},
+       {[](Rotary r, double t) { return std::sqrt(std::abs(r.speed(t))); },
+        [](double w) { return Complex(std::sqrt(std::abs(w))); }}},
+      {"Omega^2",
+       {[](Rotary r, double t) { return r.speed(t) * r.speed(t); },
+        [](double w) { return Complex(w * w); }}},
       {"Omega sqrt|Omega|",
-       [](const RotarySpeed& r, double t) { return r.speed(t) * std::sqrt(std::abs(r.speed(t))); }},
-      {"dOmega/dt", [](const RotarySpeed& r, double t) { return r.acceleration(t); }},
+       {[](Rotary r, double t) { return r.speed(t) * std::sqrt(std::abs(r.speed(t))); },
+        [](double w) { return Complex(w * std::sqrt(std::abs(w))); }}},
+      {"dOmega/dt",
+       {[](Rotary r, double t) { return r.acceleration(t); }, [](double) { return Complex(0.0); }}},
       {unbalanceCosine,
-       [](const RotarySpeed& r, double t) {
-         return r.speed(t) * r.speed(t) * std::cos(r.angle(t)) +
-                r.acceleration(t) * std::sin(r.angle(t));
-       }},
+       {[](Rotary r, double t) {
+          return r.speed(t) * r.speed(t) * std::cos(r.angle(t)) +
+                 r.acceleration(t) * std::sin(r.angle(t));
+        },
+        [](double w) { return Complex(w * w); }, 1}},
       {unbalanceSine,
-       [](const RotarySpeed& r, double t) {
-         return r.speed(t) * r.speed(t) * std::sin(r.angle(t)) -
-                r.acceleration(t) * std::cos(r.angle(t));
-       }},
+       {[](Rotary r, double t) {
+          return r.speed(t) * r.speed(t) * std::sin(r.angle(t)) -
+                 r.acceleration(t) * std::cos(r.angle(t));
+        },
+        [](double w) { return Complex(0.0, -w * w); }, 1}},
   };
+  return known;
+}
+
+}  // namespace
+
+model::ScalarLaw RotarySpeed::scalar(const std::string& name) const {
   if (name == "1") return model::ScalarLaw::one();
-  const auto it = functions.find(name);
-  if (it == functions.end())
+  const auto it = forms().find(name);
+  if (it == forms().end())
     throw Error(ExitCode::Internal, "\"" + name + "\" is no scalar law of the rotary speed.");
-  return {name, [self = *this, function = it->second](double t) { return function(self, t); }};
+  const Form& form = it->second;
+  return {name, model::SpeedLaw{
+                    [self = *this, inTime = form.inTime](double t) { return inTime(self, t); },
+                    form.steady, form.order}};
 }
 
 }  // namespace tooljoint::loads

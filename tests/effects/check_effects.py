@@ -7,7 +7,7 @@
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
 "effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
-"files" for the list of files; with NAME torque_drag.csv the command is `tooljoint torque-drag`. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
+"files" for the list of files; tables and figures of an analysis (ANALYSES) are those of its own command. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
 import argparse
@@ -19,6 +19,11 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 STUDY = "../study/study.xml"
+ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
+    "torque-drag": ["file:torque_drag.csv"],
+    "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv"],
+    "response": ["file:response.csv"],
+}
 
 
 def parameters(description, path=""):
@@ -51,7 +56,7 @@ class Runs:
         return self.done[key]
 
     def value(self, overrides, key, scene):
-        command = "torque-drag" if key == "file:torque_drag.csv" else "study" if scene == STUDY else "run"
+        command = next((word for word in ANALYSES if key in ANALYSES[word] or key.startswith(word + ".")), "study" if scene == STUDY else "run")
         folder = self.folder(overrides, scene, command)
         if key.startswith("file:"):
             return (folder / key[5:]).read_bytes()

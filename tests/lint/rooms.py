@@ -21,7 +21,8 @@ TOOLKIT = {
     "stability": (f"{MODELS} estimate", "whether a state at rest is stable"),
     "cases": (CASES, "a case; run, record, restart, check"),
     "study": (f"{CASES} cases", "speed against error over many runs"),
-    "app": (f"{CASES} cases study", "the program, a file for each command"),
+    "response": (f"{CASES} cases", "Campbell diagrams and harmonic responses of any case"),
+    "app": (f"{CASES} cases response study", "the program, a file for each command"),
 }
 # Room: (rooms of substructures/, rooms of src/, what it holds)
 DRILLSTRING = {

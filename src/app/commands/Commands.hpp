@@ -63,6 +63,10 @@ void modes(const RunOptions& options);
 /// against the depth of its bit; torque_drag.csv and torque_drag_profile.csv in the output folder,
 /// if one is given.
 void torqueDrag(const RunOptions& options);
+/// `tooljoint campbell`: damped modes against the rotary speed, and critical speeds.
+void campbell(const RunOptions& options);
+/// `tooljoint response`: amplitude and phase under harmonic loads against speed or frequency.
+void response(const RunOptions& options);
 /// `tooljoint export`: reduces the parts of the deck and writes each with its basis as a part file,
 /// to be imported elsewhere.
 void exportReduced(const RunOptions& options);

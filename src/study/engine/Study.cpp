@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <vector>
 
+#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/RankGroups.hpp"
@@ -99,7 +100,7 @@ class Study {
  private:
   void open() {
     parallel::agree([&] {
-      folder_.emplace(studyFolder(scene_, options_.output));
+      folder_.emplace(cases::analysisFolder(scene_, options_.output, "study"));
       if (options_.fresh) RowStore(folder_->folder()).clear();
     });
     scene_.summarise(summary_);

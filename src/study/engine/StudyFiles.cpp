@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Constants.hpp"
@@ -141,15 +140,6 @@ const StudyRow* StudyResult::find(RunKind kind) const {
     return row.plan.kind == kind && row.done();
   });
   return it == rows.end() ? nullptr : &*it;
-}
-
-std::string studyFolder(const cases::Case& one, const std::string& output) {
-  if (!output.empty()) return output;
-  const auto& given = one.output().folder;
-  if (!given.empty()) return given + "_study";
-  return (std::filesystem::path("results") / std::filesystem::path(one.deck().file()).stem())
-             .string() +
-         "_study";
 }
 
 void stageStudyTable(const StudyResult& result, io::OutputFolder& folder) {

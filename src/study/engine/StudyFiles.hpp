@@ -26,10 +26,6 @@ struct StudyResult {
   const StudyRow* find(RunKind kind) const;
 };
 
-/// Where the study of a case goes: `output`, else beside the folder of `tooljoint run`, whose files
-/// would be replaced otherwise.
-std::string studyFolder(const cases::Case& one, const std::string& output);
-
 void stageStudyTable(const StudyResult& result, io::OutputFolder& folder);
 void stageStudyFile(const StudyResult& result, io::OutputFolder& folder);
 void summarise(const StudyResult& result, io::Summary& summary);

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
@@ -68,7 +69,7 @@ void computeRow(const cases::Case& one, const std::string& row, const StudyOptio
   const auto wanted = runNumber(plan, row);
   Timing timing{parallel::size(), std::nullopt, false};
   if (!options.sharedTiming) timing.beside = 0;
-  StudyRows rows(plan, studyFolder(one, options.output), timing);
+  StudyRows rows(plan, cases::analysisFolder(one, options.output, "study"), timing);
   if (wanted < plan.referenceRuns()) return rows.computeReference();
   rows.takeReference();
   while (!rows.isComplete(wanted)) rows.run(wanted, "");

@@ -29,7 +29,8 @@ STRATEGIES = {name: {OWN + "Leave Out": [name]} for name in
               ("Relaxation", "Near Solves", "Points Alone", "Point Paths", "Turns", "Resting Impacts", "Newton", "Troubled Points", "Bracketing")}
 STRATEGIES |= {"Halving": {OWN + "Max Halvings": 0}, "Impacts resolved": {OWN + "Resolve Impacts": False}, "Phase correction": {OWN + "Phase Correction": False}}
 WINS = 0.05  # of the time, below which a strategy does not earn its place
-SAME = 0.01  # vibration error beside the run with all strategies that counts as the same motion
+SAME, NOISE = 0.01, 3.0  # vibration error that counts as the same motion, and how often that of a run with half the tolerance
+JUDGED_ELSEWHERE = {"Transient/Energy Residual Limit": 1e9, "Transient/Step Error Limit": 1e9}  # what is wrong with a case by itself
 HEAD = """# Strategies of a step
 
 A step of `Generalized-alpha` has strategies for hard contact; [theory](theory.md) says what each does. The
@@ -39,7 +40,7 @@ counts their uses. This table is written by
     cmake --build --preset release --target strategies
 
 Numbers are CPU times of the motion over those with all strategies, the least of {repeats} runs of each. A motion
-that differs by more than {same:g} % (vibration error) is given with its difference, *refused* is a run that
+that differs by more than {same:g} % (vibration error), and by three times what half the tolerance of the iteration changes, is given with its difference, *refused* is a run that
 ends without one, and a dash stands where the strategy is not used in that case. Those that are not used in
 any case are not in the table of what they win.
 
@@ -103,7 +104,16 @@ def cases(program, short):
 
 
 def run(program, case, more):
-    return program.run("ablation", case.deck, {**case.settings, **more}, case.without, seconds=300)
+    return program.run("ablation", case.deck, {**JUDGED_ELSEWHERE, **case.settings, **more}, case.without, seconds=300)
+
+
+def noise(program, case, whole):
+    """Vibration error of a run whose iterations stop at half the tolerance."""
+    return program.vibration_error(run(program, case, {OWN + "Tolerance": 5e-6}), whole, end(case))
+
+
+def end(case):
+    return case.settings.get("Transient/End Time", 0.2)
 
 
 def used(one, strategy):
@@ -126,15 +136,15 @@ def set_aside(one):
     one.folder = one.folder.rename(aside)
 
 
-def compared(program, case, strategy, whole, cost, repeats):
+def compared(program, case, strategy, whole, cost, same, repeats):
     """Cell of the table, what the strategy wins in time (infinite where the motion needs it), and the run."""
     if used(whole, strategy) == 0:
         return "-", 0.0, None
     one, own = least(program, case, STRATEGIES[strategy], repeats)
     if not one.done:
         return "refused", math.inf, one
-    apart = program.vibration_error(one, whole, case.settings.get("Transient/End Time", 0.2))
-    if apart > SAME:
+    apart = program.vibration_error(one, whole, end(case))
+    if apart > same:
         return f"{own / cost:.2f}, differs by {100 * apart:.2g} %", math.inf, one
     return f"{own / cost:.2f}", own / cost - 1, one
 
@@ -148,9 +158,10 @@ def table(program, chosen, repeats):
             lines.append((case.name, f"refused: {whole.sentence()[:80]}", *[""] * len(STRATEGIES)))
             continue
         set_aside(whole)
+        same = max(SAME, NOISE * noise(program, case, whole))
         cells = []
         for name in STRATEGIES:
-            cell, gain, one = compared(program, case, name, whole, cost, repeats)
+            cell, gain, one = compared(program, case, name, whole, cost, same, repeats)
             if one is not None:
                 wins[name].append((gain, case.name))
                 if used(one, name) not in (0, math.inf):

@@ -4,6 +4,7 @@
 
 #include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
+#include "model/laws/Turning.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
@@ -87,6 +88,15 @@ TEST(HuntCrossleyLaw, IsAPowerLawWithDampingByPenetration) {
   EXPECT_NEAR(normal("Hunt-Crossley", p, 4e-4, 0.1), 1e7 * std::pow(4e-4, 1.5) * (1.0 + 2.0 * 0.1),
               1e-6);
   EXPECT_EQ(normal("Hunt-Crossley", p, -1e-9, 1.0), 0.0);
+}
+
+TEST(Friction, AtASpeedIsThatOfTheSpeed) {
+  const ContactPoint p = steelOnRock();
+  const auto slow = law("Nguyen")->inMotion(batch({p}), [](double) { return 0.02; });
+  const auto fast = law("Nguyen")->inMotion(batch({p}), [](double) { return 9.0; });
+  const std::vector<double> d = {p.clearance + 1e-4, 0.0, 0.0}, v = {0.0, 0.0, 0.0};
+  EXPECT_EQ(force(*model::atSpeed(slow, 9.0), 0.0, d, v), force(*fast, 0.0, d, v));
+  EXPECT_NE(force(*slow, 0.0, d, v), force(*fast, 0.0, d, v));
 }
 
 TEST(Friction, ForcesAndTorqueOpposeTheSliding) {

@@ -6,6 +6,7 @@
 
 #include <Teuchos_Array.hpp>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <gtest/gtest.h>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "model/SpeedLaw.hpp"
 #include "tests/support/ListDefaults.hpp"
 
 namespace tooljoint::loads {
@@ -353,6 +355,24 @@ TEST(RotarySpeed, DoesNotTakeRoundingForTheFirstRotation) {
                             }))
                 .sense(0.0),
             -1.0);
+}
+
+// Re(steady exp(i order Omega t)) is the law itself where the speed is constant.
+TEST(SpeedLaw, SteadyFormsAreTheLawsAtAConstantSpeed) {
+  const double omega = 3.0;
+  const RotarySpeed rotary(law("Constant", [&](auto& l) { l.set("Speed", omega); }));
+  for (const std::string name : {"Omega", "sqrt|Omega|", "Omega^2", "Omega sqrt|Omega|",
+                                 "dOmega/dt", unbalanceCosine, unbalanceSine}) {
+    const auto scalar = rotary.scalar(name);
+    const auto* steady = model::speedLaw(scalar);
+    ASSERT_NE(steady, nullptr) << name;
+    for (const double t : {0.0, 0.3, 1.1})
+      EXPECT_NEAR(scalar.value(t),
+                  (steady->steady(omega) * std::polar(1.0, steady->order * omega * t)).real(),
+                  1e-14)
+          << name;
+  }
+  EXPECT_EQ(model::speedLaw(model::ScalarLaw::one()), nullptr);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "common/Error.hpp"
 #include "coupling/CoupledModes.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
+#include "model/SpeedLaw.hpp"
 #include "model/laws/Connectors.hpp"
 #include "parts/TimeLaw.hpp"
 #include "tests/support/SampleParts.hpp"
@@ -246,6 +247,41 @@ TEST(TimeLaw, FormsAreTheirFormulas) {
   EXPECT_EQ(at("Table", table, 1.5), 6.0);
   EXPECT_EQ(at("Table", table, 3.0), 6.5);
   EXPECT_EQ(at("Table", table, 5.0), 6.0);
+}
+
+TEST(TimeLaw, FormsOfTheSpeedFollowIt) {
+  Teuchos::ParameterList power("square"), table("bearing");
+  power.set("Form", "Speed Power")
+      .sublist("Speed Power")
+      .set("Factor", 3.0)
+      .set("Exponent", 2.0)
+      .set("Odd", true);
+  table.set("Form", "Speed Table")
+      .sublist("Speed Table")
+      .set("Speeds", numbers({0.0, 10.0}))
+      .set("Values", numbers({5.0, 7.0}));
+  const auto speed = [](double t) { return -2.0 * t; };
+  const auto square = readTimeLaw("square", power, speed),
+             bearing = readTimeLaw("bearing", table, [](double t) { return 2.0 * t; });
+  EXPECT_EQ(square.value(1.0), -12.0);
+  EXPECT_EQ(bearing.value(2.5), 6.0);
+  EXPECT_EQ(model::speedLaw(square)->steady(4.0), 48.0);
+  EXPECT_EQ(model::speedLaw(bearing)->steady(5.0), 6.0);
+  EXPECT_THROW(readTimeLaw("square", power, {}), DeckError);
+}
+
+TEST(TimeLaw, OmegaIsTheSpeedAndItsRateIsZeroWhereItIsConstant) {
+  Teuchos::ParameterList ramp("ramp");
+  ramp.set("Form", "Ramp")
+      .sublist("Ramp")
+      .set("From", 0.0)
+      .set("To", 8.0)
+      .set("Start Time", 0.0)
+      .set("Duration", 2.0);
+  EXPECT_EQ(readTimeLaw("Omega", ramp, {}).value(1.0), 4.0);
+  EXPECT_EQ(model::speedLaw(readTimeLaw("Omega", ramp, {}))->steady(6.0), 6.0);
+  EXPECT_EQ(model::speedLaw(readTimeLaw("dOmega/dt", ramp, {}))->steady(6.0), 0.0);
+  EXPECT_EQ(model::speedLaw(readTimeLaw("wave", ramp, {})), nullptr);
 }
 
 TEST(TimeLaw, RefusesNumbersThatMakeNoSense) {

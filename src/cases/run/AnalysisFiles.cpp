@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/run/AnalysisFiles.hpp"
+
+#include <filesystem>
+
+#include "cases/run/ResultsWriter.hpp"
+#include "common/Parallel.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+
+namespace tooljoint::cases {
+
+std::string analysisFolder(const Case& one, const std::string& given, const std::string& analysis) {
+  if (!given.empty()) return given;
+  const auto& ofDeck = one.output().folder;
+  if (!ofDeck.empty()) return ofDeck + "_" + analysis;
+  const auto stem = std::filesystem::path(one.deck().file()).stem();
+  return (std::filesystem::path("results") / stem).string() + "_" + analysis;
+}
+
+AnalysisFiles::AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis)
+    : case_(one), name_(analysis) {
+  parallel::agree(
+      [&] { folder_ = std::make_unique<io::OutputFolder>(analysisFolder(one, given, analysis)); });
+  one.summarise(summary_);
+}
+
+void AnalysisFiles::complete(const std::function<void()>& work,
+                             const std::function<void(io::ResultsFile&)>& write) {
+  try {
+    work();
+    stamp("finished", "");
+    parallel::agree([&] {
+      io::ResultsFile file(folder_->file(name_ + ".h5"), provenance(case_.deck()));
+      write(file);
+      file.flush();
+      file.close();
+      summary_.set("files", folder_->files());
+      summary_.stage(folder_->file(io::summaryName));
+      folder_->publish();
+    });
+  } catch (const Error& error) {
+    leave(error);
+    throw;
+  }
+  log::info("results     " + folder_->folder() + ": " + join(folder_->files(), ", "));
+}
+
+void AnalysisFiles::stamp(const std::string& status, const std::string& message) {
+  summary_.set("status", status);
+  if (!message.empty()) summary_.set("message", message);
+  summary_.set("wall_s", watch_.wall());
+  summary_.set("warnings", log::warnings());
+}
+
+void AnalysisFiles::leave(const Error& error) {
+  stamp(error.code() == ExitCode::Interrupted ? "interrupted" : "failed", error.what());
+  try {
+    summary_.stage(folder_->file(io::summaryName));
+    folder_->publishUnfinished();
+  } catch (const Error& second) {
+    log::warn(std::string("The summary could not be written: ") + second.what());
+  }
+}
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The files of an analysis of a case: its folder, tables, NAME.h5 and summary.json.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "cases/Case.hpp"
+#include "common/Error.hpp"
+#include "common/report/Stopwatch.hpp"
+#include "io/OutputFolder.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+
+namespace tooljoint::cases {
+
+/// The folder `given` on the command line, else that of the deck or results/<name of the deck>,
+/// with "_<analysis>" behind it.
+std::string analysisFolder(const Case& one, const std::string& given, const std::string& analysis);
+
+class AnalysisFiles {
+ public:
+  /// Opens the folder. FileError. Collective. The case must outlive the object.
+  AnalysisFiles(const Case& one, const std::string& given, const std::string& analysis);
+
+  io::OutputFolder& folder() { return *folder_; }
+  io::Summary& summary() { return summary_; }
+
+  /// Runs `work`, then writes with `write` (tables into the folder, groups into NAME.h5, figures
+  /// into the summary) and publishes; an error leaves a summary that says what happened, and is
+  /// thrown on. Collective.
+  void complete(const std::function<void()>& work,
+                const std::function<void(io::ResultsFile&)>& write);
+
+ private:
+  void stamp(const std::string& status, const std::string& message);
+  void leave(const Error& error);
+
+  const Case& case_;
+  std::string name_;  ///< of the analysis
+  Stopwatch watch_;
+  std::unique_ptr<io::OutputFolder> folder_;
+  io::Summary summary_;
+};
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The dynamic stiffness of a linear model: harmonic responses, and one damped mode at a time.
+#pragma once
+
+#include <Eigen/SparseLU>
+#include <complex>
+#include <optional>
+
+#include "common/Types.hpp"
+
+namespace tooljoint::linalg {
+
+/// Q(s) = s^2 M + s C + K, factored; real square matrices of one size.
+class DynamicStiffness {
+ public:
+  DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& K, std::complex<double> s);
+
+  /// Q(s) has no inverse: s is an eigenvalue to the last digit.
+  bool singular() const { return factors_.info() != Eigen::Success; }
+  /// Q(s)^-1 f, column by column.
+  Eigen::MatrixXcd solve(const Eigen::MatrixXcd& f) const;
+  /// Q(s)^-T c, transposed and not conjugated: the adjoint of an output c'x.
+  Eigen::MatrixXcd solveTransposed(const Eigen::MatrixXcd& c);
+
+ private:
+  using ComplexSparse = Eigen::SparseMatrix<std::complex<double>, Eigen::ColMajor, int>;
+  Eigen::SparseLU<ComplexSparse> factors_;
+};
+
+/// A mode of (s^2 M + s C + K) phi = 0.
+struct DampedMode {
+  std::complex<double> s;  ///< [1/s]
+  Eigen::VectorXcd shape;
+};
+
+/// The mode that Newton's method for Q(s) phi = 0, e_k'phi = 1 finds from a guess (nonlinear
+/// inverse iteration; A. Ruhe, SIAM J. Numer. Anal. 10 (1973) 674-689):
+///
+///     y = Q(s)^-1 Q'(s) phi,   s <- s - phi_k / y_k
+///
+/// to a relative change of s of 1e-9. Nothing when it does not converge.
+std::optional<DampedMode> refine(const Sparse& M, const Sparse& C, const Sparse& K,
+                                 DampedMode guess);
+
+}  // namespace tooljoint::linalg

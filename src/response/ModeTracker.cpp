@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "response/ModeTracker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/Index.hpp"
+#include "estimate/ModeMatching.hpp"
+
+namespace tooljoint::response {
+
+namespace {
+
+/// A MAC above the first needs no smaller step; below the second a mode is lost.
+constexpr double sure = 0.9, lost = 0.3;
+constexpr int mostHalvings = 5;
+/// Modes looked at beyond those followed: the next ones may come below them.
+constexpr int beyond = 8;
+
+Eigen::MatrixXcd columns(const Eigen::MatrixXcd& all, const std::vector<int>& which) {
+  Eigen::MatrixXcd some(all.rows(), static_cast<Eigen::Index>(which.size()));
+  for (std::size_t j = 0; j < which.size(); ++j)
+    some.col(static_cast<Eigen::Index>(j)) = all.col(which[j]);
+  return some;
+}
+
+}  // namespace
+
+ModeTracker::ModeTracker(Modes modes, Sparse mass, int count)
+    : modes_(std::move(modes)), mass_(std::move(mass)), count_(count) {}
+
+void ModeTracker::advance(double speed) {
+  for (auto& mode : now_) mode.mac = 1.0;
+  if (started_) {
+    step(speed, 0);
+    return;
+  }
+  started_ = true;
+  speed_ = speed;
+  start(modes_(speed, count_), {});
+}
+
+void ModeTracker::step(double speed, int halvings) {
+  const auto candidates = modes_(speed, std::max(count_, sizeOf(now_)) + beyond);
+  const Partners found = match(candidates);
+  if (found.least < sure && halvings < mostHalvings) {
+    const double middle = 0.5 * (speed_ + speed);
+    step(middle, halvings + 1);
+    step(speed, halvings + 1);
+    return;
+  }
+  std::vector<TrackedMode> next;
+  std::vector<int> taken;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const int j = found.candidate[i];
+    if (j < 0 || found.mac[i] < lost) continue;
+    taken.push_back(j);
+    next.push_back({now_[i].track, candidates.values[j], candidates.shapes.col(j),
+                    std::min(now_[i].mac, found.mac[i])});
+  }
+  now_ = std::move(next);
+  speed_ = speed;
+  start(candidates, taken);
+}
+
+ModeTracker::Partners ModeTracker::match(const VibratingModes& candidates) const {
+  Partners found;
+  found.candidate.assign(now_.size(), -1);
+  found.mac.assign(now_.size(), 0.0);
+  Eigen::VectorXcd values(static_cast<Eigen::Index>(now_.size()));
+  Eigen::MatrixXcd shapes(mass_.rows(), values.size());
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = now_[i].s;
+    shapes.col(static_cast<Eigen::Index>(i)) = now_[i].shape;
+  }
+  const Matrix mac = estimate::modalAssurance(mass_, shapes, candidates.shapes);
+  // single modes first: of close values the shapes tell which is which
+  std::vector<int> modesLeft, candidatesLeft = range(candidates.values.size());
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+    Eigen::Index j = 0;
+    const double best = mac.cols() > 0 ? mac.row(i).maxCoeff(&j) : 0.0;
+    const auto place = std::find(candidatesLeft.begin(), candidatesLeft.end(), static_cast<int>(j));
+    if (best >= sure && place != candidatesLeft.end()) {
+      found.candidate[at(i)] = static_cast<int>(j);
+      found.mac[at(i)] = std::min(1.0, best);
+      candidatesLeft.erase(place);
+    } else {
+      modesLeft.push_back(i);
+    }
+  }
+  Eigen::VectorXcd valuesLeft(static_cast<Eigen::Index>(modesLeft.size()));
+  for (std::size_t k = 0; k < modesLeft.size(); ++k)
+    valuesLeft[static_cast<Eigen::Index>(k)] = values[modesLeft[k]];
+  const auto rest = estimate::matchModes(mass_, valuesLeft, columns(shapes, modesLeft),
+                                         columns(candidates.shapes, candidatesLeft));
+  for (std::size_t k = 0; k < modesLeft.size(); ++k) {
+    if (rest[k].partner < 0) continue;
+    found.candidate[at(modesLeft[k])] = candidatesLeft[at(rest[k].partner)];
+    found.mac[at(modesLeft[k])] = rest[k].mac;
+  }
+  for (const double one : found.mac) found.least = std::min(found.least, one);
+  return found;
+}
+
+void ModeTracker::start(const VibratingModes& candidates, const std::vector<int>& taken) {
+  const int lowest = std::min(count_, static_cast<int>(candidates.values.size()));
+  for (int j = 0; j < lowest; ++j)
+    if (!contains(taken, j))
+      now_.push_back({++tracks_, candidates.values[j], candidates.shapes.col(j), 1.0});
+  std::stable_sort(now_.begin(), now_.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.s) < std::abs(b.s); });
+}
+
+}  // namespace tooljoint::response

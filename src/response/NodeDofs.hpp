@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Dofs of nodes as a deck names them, in any model of a case: loads and outputs of responses.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "cases/Case.hpp"
+#include "deck/ListSpec.hpp"
+
+namespace tooljoint::response {
+
+/// A component of a node, in the words of a deck.
+struct NodeDof {
+  std::string where;  ///< path of its list
+  std::string part;   ///< "": the scene has one node of this number
+  int node = 0;
+  std::string component;  ///< "" for a node alone
+};
+
+/// Declares `Part` and `Node`.
+void declareNode(deck::ListSpec& list, const std::string& what);
+NodeDof readNode(const Teuchos::ParameterList& list);
+
+/// A row of the recovery of the models of a case.
+struct NodeRow {
+  std::int64_t number = 0;  ///< of the node in the scene
+  int component = 0;
+};
+
+/// The row that a deck names. DeckError where the part, the node (or more than one of this number)
+/// or the component is not there, or all of the node is held.
+NodeRow findRow(const cases::RestingCase& rest, const model::SecondOrderModel& model,
+                const NodeDof& dof);
+
+/// The coefficients c of a displacement c'q, and of a unit load there c, dofs of the model; zero
+/// where the model does not have the node or the dof is held.
+Vector coefficients(const model::SecondOrderModel& model, const NodeRow& row);
+
+/// Positions among the components of a node of the two translations across the axis of rotation
+/// "x", "y" or "z", in the sense of the rotation; -1 for one that the nodes lack.
+std::array<int, 2> lateralComponents(const model::SecondOrderModel& model, const std::string& axis);
+
+}  // namespace tooljoint::response

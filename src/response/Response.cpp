@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "response/Response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "common/Text.hpp"
+#include "linalg/DynamicStiffness.hpp"
+#include "model/SteadyRotation.hpp"
+#include "response/SweepParameters.hpp"
+
+namespace tooljoint::response {
+
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexMatrix = Eigen::MatrixXcd;
+
+constexpr Complex imaginary{0.0, 1.0};
+/// Points of a golden section between two neighbours of a largest amplitude: the place of a peak is
+/// known to 1e-4 of their distance.
+constexpr int goldenSteps = 20;
+
+/// Rows of the recovery that the deck names.
+struct Rows {
+  std::vector<NodeRow> loads, outputs;
+  std::vector<std::array<NodeRow, 2>> unbalances;
+};
+
+/// A load at one rotary speed in any model of the case.
+class Loads {
+ public:
+  Loads(const ResponseSettings& settings, const Rows& rows) : settings_(settings), rows_(rows) {}
+
+  /// Complex f, dofs x load cases: Re(f exp(i omega t)).
+  ComplexMatrix on(const model::SecondOrderModel& model, double speed) const {
+    switch (settings_.excitation) {
+      case Excitation::Unbalance:
+        return unbalance(model, speed);
+      case Excitation::Harmonic: {
+        ComplexMatrix f = ComplexMatrix::Zero(model.size(), 1);
+        for (std::size_t i = 0; i < rows_.loads.size(); ++i)
+          f += std::polar(settings_.loads[i].value, settings_.loads[i].phase) *
+               coefficients(model, rows_.loads[i]);
+        return f;
+      }
+      case Excitation::Transfer:
+        break;
+    }
+    return columns(model, rows_.loads);
+  }
+
+  ComplexMatrix outputs(const model::SecondOrderModel& model) const {
+    return columns(model, rows_.outputs);
+  }
+
+ private:
+  /// m e Omega^2 (cos, sin)(Omega t + phase) = Re(m e Omega^2 exp(i phase) (1, -i) exp(i Omega t))
+  ComplexMatrix unbalance(const model::SecondOrderModel& model, double speed) const {
+    ComplexMatrix f = model::turningLoad(model, speed);
+    for (std::size_t i = 0; i < rows_.unbalances.size(); ++i) {
+      const auto& one = settings_.unbalances[i];
+      const Complex turning = std::polar(one.value * speed * speed, one.phase);
+      f += turning * coefficients(model, rows_.unbalances[i][0]) -
+           imaginary * turning * coefficients(model, rows_.unbalances[i][1]);
+    }
+    return f;
+  }
+
+  static ComplexMatrix columns(const model::SecondOrderModel& model,
+                               const std::vector<NodeRow>& rows) {
+    ComplexMatrix c(model.size(), static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      c.col(static_cast<Eigen::Index>(i)) = coefficients(model, rows[i]).cast<Complex>();
+    return c;
+  }
+
+  const ResponseSettings& settings_;
+  const Rows& rows_;
+};
+
+/// Distances to the wall of the nodes that are open at rest.
+class Margins {
+ public:
+  Margins(const RotatingCase& rotating, const std::string& axis) {
+    const auto& model = rotating.model();
+    const auto measures = rotating.rest().measures();
+    const auto lateral = lateralComponents(model, axis);
+    if (lateral[0] < 0 || lateral[1] < 0) return;
+    const Vector rest = rotating.rest().rest();
+    const auto width = static_cast<Eigen::Index>(model.componentNames.size());
+    for (std::size_t i = 0; i < measures.nodes.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i) * width;
+      const double gap =
+          measures.clearance[i] - std::hypot(rest[row + lateral[0]], rest[row + lateral[1]]);
+      if (!std::isfinite(gap) || gap <= 0.0) continue;
+      nodes_.push_back({measures.nodes[i], gap, row + lateral[0], row + lateral[1]});
+    }
+    recovery_ = model.recovery;
+  }
+
+  /// Gap less the larger semi-axis of the orbit, a^2 = (|U|^2 + |V|^2 + |U^2 + V^2|)/2.
+  void judge(const Eigen::VectorXcd& q, ResponsePoint& point) const {
+    if (nodes_.empty()) return;
+    const Vector re = recovery_ * Vector(q.real()), im = recovery_ * Vector(q.imag());
+    for (const auto& node : nodes_) {
+      const Complex u(re[node.u], im[node.u]), v(re[node.v], im[node.v]);
+      const double left =
+          node.gap - std::sqrt(0.5 * (std::norm(u) + std::norm(v) + std::abs(u * u + v * v)));
+      if (left < point.margin) point.margin = left, point.marginNode = node.number;
+    }
+  }
+
+ private:
+  struct Node {
+    std::int64_t number;
+    double gap;
+    Eigen::Index u, v;
+  };
+  std::vector<Node> nodes_;
+  Sparse recovery_;
+};
+
+class Sweep {
+ public:
+  Sweep(const RotatingCase& rotating, const ResponseSettings& settings)
+      : rotating_(rotating),
+        settings_(settings),
+        rows_(find()),
+        loads_(settings, rows_),
+        margins_(rotating, settings.axis) {}
+
+  HarmonicResponse compute() {
+    HarmonicResponse out;
+    out.loads = caseNames();
+    for (std::size_t i = 0; i < settings_.points(); ++i)
+      out.points.push_back(
+          at(settings_.bySpeed() ? settings_.speeds[i] : settings_.frequencies[i]));
+    const auto cases = static_cast<int>(out.loads.size()), outputs = sizeOf(settings_.outputs);
+    for (int load = 0; load < cases; ++load)
+      for (int output = 0; output < outputs; ++output) addPeaks(load, output, out);
+    if (rotating_.reduced())
+      for (const auto i : spread(out.points.size(), settings_.spotChecks))
+        out.checks.push_back({out.points[i], fullAt(out.points[i])});
+    return out;
+  }
+
+ private:
+  std::vector<std::string> caseNames() const {
+    if (settings_.excitation == Excitation::Unbalance) return {"unbalance"};
+    if (settings_.excitation == Excitation::Harmonic) return {"loads"};
+    std::vector<std::string> names;
+    for (const auto& load : settings_.loads) names.push_back(load.name);
+    return names;
+  }
+
+  NodeRow row(const NodeDof& dof) const {
+    const auto found = findRow(rotating_.rest(), rotating_.model(), dof);
+    if (coefficients(rotating_.model(), found).isZero(0.0))
+      throw DeckError(dof.where + " is " + dof.component + " of node " + std::to_string(dof.node) +
+                      ", which is held. Choose a dof that is free.");
+    return found;
+  }
+
+  Rows find() const {
+    const auto& model = rotating_.model();
+    Rows rows;
+    for (const auto& load : settings_.loads) rows.loads.push_back(row(load.dof));
+    for (const auto& output : settings_.outputs) rows.outputs.push_back(row(output.dof));
+    const auto lateral = lateralComponents(model, settings_.axis);
+    for (const auto& one : settings_.unbalances) {
+      if (lateral[0] < 0 || lateral[1] < 0)
+        throw DeckError(one.dof.where + " is an unbalance about the axis " + settings_.axis +
+                        ", but the nodes of the scene have no translations across it.");
+      std::array<NodeRow, 2> pair;
+      for (std::size_t i = 0; i < 2; ++i) {
+        auto dof = one.dof;
+        dof.component = model.componentNames[tooljoint::at(lateral[i])];
+        pair[i] = row(dof);
+      }
+      rows.unbalances.push_back(pair);
+    }
+    if (settings_.excitation == Excitation::Unbalance && rows.unbalances.empty() &&
+        model::turningLoad(model, 1.0).isZero(0.0))
+      throw DeckError(rotating_.deckCase().deck().error(
+          "Response/Excitation",
+          "is \"Unbalance\", but the scene has no mass off its axis. Add a list to "
+          "Response/Unbalance, or to Loads/Unbalance of a string that turns."));
+    return rows;
+  }
+
+  /// \param where  rotary speed [rad/s] or frequency [Hz]
+  /// \param whole  with estimate and margin
+  ResponsePoint at(double where, bool whole = true) const {
+    ResponsePoint point;
+    point.speed = settings_.bySpeed() ? where : settings_.rotarySpeed;
+    const double omega = settings_.bySpeed() ? settings_.order * where : constants::twoPi * where;
+    point.frequency = omega / constants::twoPi;
+    const Complex s = imaginary * omega;
+    const auto m = rotating_.at(point.speed);
+    linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness, s);
+    requireInverse(Q, point);
+    const ComplexMatrix y = Q.solve(loads_.on(rotating_.model(), point.speed));
+    const ComplexMatrix c = loads_.outputs(rotating_.model());
+    point.x = c.transpose() * y;
+    if (!whole) return point;
+    if (settings_.excitation != Excitation::Transfer) margins_.judge(y.col(0), point);
+    if (rotating_.estimated()) point.estimate = estimate(point.speed, s, y, Q.solveTransposed(c));
+    return point;
+  }
+
+  static void requireInverse(const linalg::DynamicStiffness& Q, const ResponsePoint& point) {
+    if (Q.singular())
+      throw ModelError("The dynamic stiffness at " + formatNumber(point.frequency) +
+                       " Hz is singular: the model resonates there without damping, or nothing "
+                       "holds it. Add damping or supports, or leave this frequency out.");
+  }
+
+  Matrix estimate(double speed, Complex s, const ComplexMatrix& y, const ComplexMatrix& z) const {
+    std::vector<ComplexMatrix> loads, outputs;
+    for (const auto& part : rotating_.parts()) {
+      loads.push_back(loads_.on(part.model, speed));
+      outputs.push_back(loads_.outputs(part.model));
+    }
+    return rotating_.error()
+        .ofResponses(rotating_.partsAt(speed), s, y, loads, z, outputs)
+        .cwiseAbs();
+  }
+
+  ResponsePoint fullAt(const ResponsePoint& reduced) const {
+    ResponsePoint point;
+    point.speed = reduced.speed;
+    point.frequency = reduced.frequency;
+    const auto m = rotating_.fullAt(point.speed);
+    const linalg::DynamicStiffness Q(m.mass, m.damping, m.stiffness,
+                                     imaginary * constants::twoPi * point.frequency);
+    requireInverse(Q, point);
+    point.x = loads_.outputs(rotating_.full()).transpose() *
+              Q.solve(loads_.on(rotating_.full(), point.speed));
+    return point;
+  }
+
+  double whereOf(const ResponsePoint& point) const {
+    return settings_.bySpeed() ? point.speed : point.frequency;
+  }
+
+  /// Local maxima of the amplitude between points, by golden section.
+  void addPeaks(int load, int output, HarmonicResponse& out) const {
+    const auto size = [&](const ResponsePoint& point) { return std::abs(point.x(output, load)); };
+    for (std::size_t i = 1; i + 1 < out.points.size(); ++i) {
+      if (!(size(out.points[i]) > size(out.points[i - 1]) &&
+            size(out.points[i]) >= size(out.points[i + 1])))
+        continue;
+      const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+      double a = whereOf(out.points[i - 1]), b = whereOf(out.points[i + 1]);
+      ResponsePoint left = at(b - ratio * (b - a), false), right = at(a + ratio * (b - a), false);
+      for (int k = 0; k < goldenSteps; ++k) {
+        if (size(left) > size(right)) {
+          b = whereOf(right), right = left, left = at(b - ratio * (b - a), false);
+        } else {
+          a = whereOf(left), left = right, right = at(a + ratio * (b - a), false);
+        }
+      }
+      out.peaks.push_back({load, output, at(whereOf(size(left) > size(right) ? left : right))});
+    }
+  }
+
+  const RotatingCase& rotating_;
+  const ResponseSettings& settings_;
+  Rows rows_;
+  Loads loads_;
+  Margins margins_;
+};
+
+}  // namespace
+
+HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings) {
+  return Sweep(rotating, settings).compute();
+}
+
+}  // namespace tooljoint::response

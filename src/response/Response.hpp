@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Harmonic responses about the state at rest: unbalance, harmonic loads, transfer functions.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "response/NodeDofs.hpp"
+#include "response/RotatingCase.hpp"
+
+namespace tooljoint::response {
+
+enum class Excitation {
+  Unbalance,  ///< loads m e Omega^2 that turn with the string
+  Harmonic,   ///< all loads of the list at once
+  Transfer,   ///< a unit load at each dof of the list in turn
+};
+
+/// A harmonic load or an unbalance as the deck gives it.
+struct ResponseLoad {
+  std::string name;
+  NodeDof dof;
+  double value = 0.0;  ///< [N], [N m]; of an unbalance m e [kg m]
+  double phase = 0.0;  ///< [rad]
+};
+
+/// A dof whose response is wanted.
+struct ResponseOutput {
+  std::string name;
+  NodeDof dof;
+};
+
+/// The deck list `Response`.
+struct ResponseSettings {
+  Excitation excitation = Excitation::Unbalance;
+  std::vector<double> speeds;       ///< of a sweep by speed [rad/s]
+  double order = 1.0;               ///< excitation frequency over rotary speed in such a sweep
+  std::vector<double> frequencies;  ///< of a sweep by frequency [Hz]
+  double rotarySpeed = 0.0;         ///< in such a sweep [rad/s]
+  std::vector<ResponseLoad> loads;
+  std::vector<ResponseLoad> unbalances;
+  std::vector<ResponseOutput> outputs;
+  bool friction = false;
+  int spotChecks = 0;
+  std::string axis;
+
+  bool bySpeed() const { return frequencies.empty(); }
+  std::size_t points() const { return bySpeed() ? speeds.size() : frequencies.size(); }
+};
+deck::ListSpec responseParameters();
+/// From the validated list. DeckError: no or two sweeps, no output, no load, an unbalance in a
+/// sweep by frequency.
+ResponseSettings readResponse(const Teuchos::ParameterList& list);
+
+/// Solution of (K - omega^2 M + i omega C) x = f.
+struct ResponsePoint {
+  double speed = 0.0;      ///< [rad/s]
+  double frequency = 0.0;  ///< [Hz]
+  Eigen::MatrixXcd x;  ///< outputs x load cases; the motion is Re(x exp(i omega t)) [m, rad], of a
+                       ///< transfer function per [N] or [N m]
+  Matrix estimate;     ///< of |x - x_full|; empty without an estimate
+  /// Least distance left to the wall, over the nodes that are open at rest [m]; infinite where
+  /// there are none, or for transfer functions.
+  double margin = std::numeric_limits<double>::infinity();
+  std::int64_t marginNode = 0;
+};
+
+/// A point solved with the full model too.
+struct ResponseCheck {
+  ResponsePoint reduced, full;
+};
+
+/// A largest amplitude of one output under one load case.
+struct ResponsePeak {
+  int load = 0, output = 0;  ///< 0-based
+  ResponsePoint at;
+};
+
+struct HarmonicResponse {
+  std::vector<std::string> loads;  ///< names of the load cases
+  std::vector<ResponsePoint> points;
+  std::vector<ResponsePeak> peaks;  ///< of every local maximum, found between the points too
+  std::vector<ResponseCheck> checks;
+};
+
+/// DeckError: a node or component that is not there or held, nothing that loads the model.
+/// ModelError: no response, since the dynamic stiffness is singular. Every rank computes the same.
+HarmonicResponse respond(const RotatingCase& rotating, const ResponseSettings& settings);
+
+/// `tooljoint response`: state at rest, responses, response.csv, peaks.csv, spot_checks.csv,
+/// response.h5 and summary.json in `folder` ("": see cases::analysisFolder). DeckError without the
+/// list Response. Collective.
+void runResponse(const cases::Case& one, const std::string& folder);
+
+}  // namespace tooljoint::response

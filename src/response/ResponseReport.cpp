@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "cases/imported/ImportedRecord.hpp"
+#include "cases/run/AnalysisFiles.hpp"
+#include "cases/run/Run.hpp"
+#include "common/Constants.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
+#include "response/Columns.hpp"
+#include "response/Response.hpp"
+
+namespace tooljoint::response {
+
+namespace {
+
+using constants::rpmPerRadianPerSecond;
+using constants::twoPi;
+
+/// Responses in the words of the settings.
+class Report {
+ public:
+  Report(const RotatingCase& rotating, const ResponseSettings& settings,
+         const HarmonicResponse& response)
+      : rotating_(rotating), settings_(settings), response_(response) {}
+
+  void print() const {
+    log::info(fmt::format("largest amplitudes of {}:",
+                          settings_.bySpeed() ? "the sweep by speed" : "the sweep by frequency"));
+    for (const auto& peak : response_.peaks)
+      log::info(fmt::format(
+          "  {:<24} {:>9.2f} rpm {:>10.4f} Hz  {:.4e} {:<10} phase {:>7.1f} deg{}",
+          nameOf(peak.load, peak.output), rpm(peak.at.speed), peak.at.frequency,
+          std::abs(peak.at.x(peak.output, peak.load)), unitOf(peak.load, peak.output),
+          std::arg(peak.at.x(peak.output, peak.load)) * degrees,
+          peak.at.estimate.size() > 0
+              ? fmt::format("  estimated error {:.1e}", peak.at.estimate(peak.output, peak.load))
+              : ""));
+    if (response_.peaks.empty()) log::info("  no local maximum in this range");
+    if (!response_.checks.empty())
+      log::info(fmt::format(
+          "spot checks with the full model: largest error {:.1e} of the largest amplitude of an "
+          "output (estimate {:.1e})",
+          worstError(), worstEstimate(response_.checks)));
+    const auto* touching = firstTouch();
+    if (touching != nullptr)
+      log::warn(fmt::format(
+          "From {:.2f} rpm and {:.4f} Hz on node {} would reach the wall: what is open at rest "
+          "stays open in a linear response, so larger amplitudes are no longer those of the scene.",
+          rpm(touching->speed), touching->frequency, touching->marginNode));
+  }
+
+  void write(io::OutputFolder& folder, io::ResultsFile& file) const {
+    table().write("response", folder, file);
+    peakTable().write("peaks", folder, file);
+    checkTable().write("spot_checks", folder, file);
+    std::vector<std::string> outputs;
+    for (const auto& output : settings_.outputs) outputs.push_back(output.name);
+    file.write("/outputs", outputs, "Outputs in the order of the deck");
+    file.write("/loads", response_.loads, "Load cases");
+  }
+
+  void summarise(io::Summary& summary) const {
+    summary.set("response.model", rotating_.reduced() ? "reduced" : "full");
+    summary.set("response.dofs", rotating_.model().size());
+    summary.set("response.points", static_cast<long>(response_.points.size()));
+    if (rotating_.estimated())
+      summary.set("response.largest_estimate", worstEstimate(response_.points));
+    if (!response_.checks.empty()) summary.set("response.largest_error", worstError());
+    for (const auto& peak : response_.peaks) {
+      const auto x = peak.at.x(peak.output, peak.load);
+      io::SummaryRow row;
+      row.set("load", response_.loads[at(peak.load)])
+          .set("output", settings_.outputs[at(peak.output)].name)
+          .set("speed_rpm", rpm(peak.at.speed))
+          .set("hz", peak.at.frequency)
+          .set("amplitude", std::abs(x))
+          .set("unit", unitOf(peak.load, peak.output))
+          .set("phase", std::arg(x));
+      if (peak.at.estimate.size() > 0)
+        row.set("estimate", peak.at.estimate(peak.output, peak.load));
+      summary.append("response.peaks", row);
+    }
+    if (const auto* touching = firstTouch()) {
+      summary.set("response.contact_speed_rpm", rpm(touching->speed));
+      summary.set("response.contact_hz", touching->frequency);
+      summary.set("response.contact_node", static_cast<long>(touching->marginNode));
+    }
+  }
+
+ private:
+  static constexpr double degrees = 180.0 / constants::pi;
+  static double rpm(double speed) { return speed * rpmPerRadianPerSecond; }
+
+  int loads() const { return sizeOf(response_.loads); }
+  int outputs() const { return sizeOf(settings_.outputs); }
+
+  /// "bit", or of transfer functions "bit:table", output and load.
+  std::string nameOf(int load, int output) const {
+    const auto& name = settings_.outputs[at(output)].name;
+    return settings_.excitation == Excitation::Transfer ? name + ":" + response_.loads[at(load)]
+                                                        : name;
+  }
+  std::string unitOf(int load, int output) const {
+    const auto unit = cases::unitOf(settings_.outputs[at(output)].dof.component);
+    if (settings_.excitation != Excitation::Transfer) return unit.empty() ? "1" : unit;
+    const bool moment = cases::unitOf(settings_.loads[at(load)].dof.component) == "rad";
+    return (unit.empty() ? "1" : unit) + (moment ? "/(N m)" : "/N");
+  }
+
+  template <class Value>
+  void addColumn(Columns& table, const std::string& name, const std::string& unit,
+                 const std::string& longName, const Value& value) const {
+    table.columns.push_back({name, unit, longName, collect(response_.points, value)});
+  }
+
+  Columns table() const {
+    Columns table;
+    addColumn(table, "speed", "rad/s", "Rotary speed", [](const auto& p) { return p.speed; });
+    addColumn(table, "frequency", "Hz", "Frequency of the excitation",
+              [](const auto& p) { return p.frequency; });
+    for (int load = 0; load < loads(); ++load)
+      for (int output = 0; output < outputs(); ++output) {
+        const auto name = nameOf(load, output), unit = unitOf(load, output);
+        addColumn(table, name + "_amplitude", unit, "|x|",
+                  [=](const auto& p) { return std::abs(p.x(output, load)); });
+        addColumn(table, name + "_phase", "rad", "Phase of x ahead of the load",
+                  [=](const auto& p) { return std::arg(p.x(output, load)); });
+        if (rotating_.estimated())
+          addColumn(table, name + "_estimate", unit, "Estimate of |x - x_full|",
+                    [=](const auto& p) { return p.estimate(output, load); });
+      }
+    if (std::isfinite(response_.points.front().margin)) {
+      addColumn(table, "contact_margin", "m",
+                "Least distance to the wall left to a node that is open at rest",
+                [](const auto& p) { return p.margin; });
+      addColumn(table, "contact_node", "1", "Node of that distance",
+                [](const auto& p) { return static_cast<double>(p.marginNode); });
+    }
+    return table;
+  }
+
+  Columns peakTable() const {
+    const auto& peaks = response_.peaks;
+    const auto value = [](const auto& p) { return p.at.x(p.output, p.load); };
+    Columns table{{
+        {"load", "1", "Load case, from 1",
+         collect(peaks, [](const auto& p) { return p.load + 1; })},
+        {"output", "1", "Output, from 1",
+         collect(peaks, [](const auto& p) { return p.output + 1; })},
+        {"speed", "rad/s", "Rotary speed",
+         collect(peaks, [](const auto& p) { return p.at.speed; })},
+        {"frequency", "Hz", "Frequency of the excitation",
+         collect(peaks, [](const auto& p) { return p.at.frequency; })},
+        {"amplitude", "1", "|x| in SI units",
+         collect(peaks, [&](const auto& p) { return std::abs(value(p)); })},
+        {"phase", "rad", "Phase of x ahead of the load",
+         collect(peaks, [&](const auto& p) { return std::arg(value(p)); })},
+    }};
+    if (rotating_.estimated())
+      table.columns.push_back(
+          {"estimate", "1", "Estimate of |x - x_full| in SI units",
+           collect(peaks, [](const auto& p) { return p.at.estimate(p.output, p.load); })});
+    return table;
+  }
+
+  Columns checkTable() const {
+    Columns table{{{"speed", "rad/s", "Rotary speed", {}},
+                   {"frequency", "Hz", "Frequency of the excitation", {}},
+                   {"load", "1", "Load case, from 1", {}},
+                   {"output", "1", "Output, from 1", {}},
+                   {"full", "1", "|x| of the full model in SI units", {}},
+                   {"reduced", "1", "|x| of the reduced model in SI units", {}},
+                   {"error", "1", "|x - x_full| in SI units", {}}}};
+    if (rotating_.estimated())
+      table.columns.push_back({"estimate", "1", "Estimate of that in SI units", {}});
+    for (const auto& check : response_.checks)
+      for (int load = 0; load < loads(); ++load)
+        for (int output = 0; output < outputs(); ++output) {
+          const auto full = check.full.x(output, load), reduced = check.reduced.x(output, load);
+          std::vector<double> row{
+              check.full.speed,  check.full.frequency,    load + 1.0, output + 1.0, std::abs(full),
+              std::abs(reduced), std::abs(reduced - full)};
+          if (rotating_.estimated()) row.push_back(check.reduced.estimate(output, load));
+          for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
+        }
+    return table;
+  }
+
+  /// Largest amplitude of an output in the sweep; errors are related to it.
+  double scale(int load, int output) const {
+    double largest = 0.0;
+    for (const auto& point : response_.points)
+      largest = std::max(largest, std::abs(point.x(output, load)));
+    return largest > 0.0 ? largest : 1.0;
+  }
+
+  double worstError() const {
+    double worst = 0.0;
+    for (const auto& check : response_.checks)
+      for (int load = 0; load < loads(); ++load)
+        for (int output = 0; output < outputs(); ++output)
+          worst =
+              std::max(worst, std::abs(check.full.x(output, load) - check.reduced.x(output, load)) /
+                                  scale(load, output));
+    return worst;
+  }
+
+  static const ResponsePoint& pointOf(const ResponsePoint& point) { return point; }
+  static const ResponsePoint& pointOf(const ResponseCheck& check) { return check.reduced; }
+  template <class Points>
+  double worstEstimate(const Points& points) const {
+    double worst = 0.0;
+    for (const auto& one : points) {
+      const Matrix& estimate = pointOf(one).estimate;
+      for (Eigen::Index load = 0; load < estimate.cols(); ++load)
+        for (Eigen::Index output = 0; output < estimate.rows(); ++output)
+          worst = std::max(worst, estimate(output, load) /
+                                      scale(static_cast<int>(load), static_cast<int>(output)));
+    }
+    return worst;
+  }
+
+  const ResponsePoint* firstTouch() const {
+    for (const auto& point : response_.points)
+      if (point.margin < 0.0) return &point;
+    return nullptr;
+  }
+
+  const RotatingCase& rotating_;
+  const ResponseSettings& settings_;
+  const HarmonicResponse& response_;
+};
+
+}  // namespace
+
+void runResponse(const cases::Case& one, const std::string& folder) {
+  if (!one.list().isSublist("Response"))
+    throw DeckError(one.deck().file() +
+                    ": the deck has no list Response. Add one with a Highest Speed or a Highest "
+                    "Frequency, and Outputs.");
+  const auto settings = readResponse(one.list().sublist("Response"));
+  cases::AnalysisFiles files(one, folder, "response");
+  std::unique_ptr<RotatingCase> rotating;
+  HarmonicResponse response;
+  files.complete(
+      [&] {
+        cases::announce(one);
+        rotating = std::make_unique<RotatingCase>(one, settings.friction);
+        if (settings.bySpeed()) rotating->announceLaws();
+        try {
+          response = respond(*rotating, settings);
+        } catch (const DeckError& fault) {
+          throw DeckError(one.deck().located(fault.what()));
+        }
+        Report(*rotating, settings, response).print();
+        log::info("times       " + stageTimes());
+      },
+      [&](io::ResultsFile& file) {
+        const Report report(*rotating, settings, response);
+        report.write(files.folder(), file);
+        report.summarise(files.summary());
+      });
+}
+
+}  // namespace tooljoint::response

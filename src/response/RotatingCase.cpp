@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "response/RotatingCase.hpp"
+
+#include <algorithm>
+
+#include "cases/ModesReport.hpp"
+#include "cases/run/Report.hpp"
+#include "common/Text.hpp"
+#include "common/report/Log.hpp"
+#include "estimate/PartResidual.hpp"
+#include "model/SteadyRotation.hpp"
+
+namespace tooljoint::response {
+
+RotatingCase::RotatingCase(const cases::Case& one, bool friction)
+    : case_(one), friction_(friction), time_(cases::timeOfLaws(one)), rest_(one.atRest()) {
+  const auto text = rest_->describe();
+  if (!text.empty()) log::info(text);
+  if (!one.reduces()) {
+    full();
+    return;
+  }
+  reduced_ = cases::reduce(one, *rest_);
+  log::info(cases::describeCoupling(reduced_->coupled()));
+  for (const auto& remark : reduced_->coupled().remarks) log::warn(remark);
+  const auto& synthesis = reduced_->outcome.synthesis;
+  rounding_ = estimate::roundingOfParts(parts(), synthesis);
+  if (estimate::isRitz(synthesis))
+    error_ = std::make_unique<estimate::DynamicError>(parts(), synthesis, partsAt(0.0));
+}
+
+const model::SecondOrderModel& RotatingCase::model() const {
+  return reduced_ ? reduced_->model() : full();
+}
+
+const std::vector<model::Substructure>& RotatingCase::parts() const {
+  static const std::vector<model::Substructure> none;
+  return reduced_ ? reduced_->unreduced.parts : none;
+}
+
+const model::SecondOrderModel& RotatingCase::full() const {
+  if (!full_) full_ = rest_->full();
+  return full_->model;
+}
+
+model::SecondOrderModel RotatingCase::turning(const model::SecondOrderModel& model,
+                                              double speed) const {
+  return model::atSpeed(model, speed, friction_);
+}
+
+std::vector<model::Substructure> RotatingCase::turningParts(double speed) const {
+  auto turned = parts();
+  for (auto& part : turned) part.model = turning(part.model, speed);
+  return turned;
+}
+
+estimate::Linearised RotatingCase::at(double speed) const {
+  return estimate::linearise(turning(model(), speed), time_);
+}
+
+estimate::Linearised RotatingCase::fullAt(double speed) const {
+  return estimate::linearise(turning(full(), speed), time_);
+}
+
+std::vector<estimate::Linearised> RotatingCase::partsAt(double speed) const {
+  return estimate::linearise(turningParts(speed), time_);
+}
+
+linalg::QuadraticModes RotatingCase::modes(const estimate::Linearised& m, int count) const {
+  const int most = std::min(count, model().size());
+  return reduced_ ? estimate::physicalDampedModes(model(), m, most, rounding_)
+                  : linalg::lowestDampedModes(m.mass, m.damping, m.stiffness, most);
+}
+
+std::vector<estimate::ModeComparison> RotatingCase::compare(double speed, int count) const {
+  auto synthesis = reduced_->outcome.synthesis;
+  synthesis.coupled.model = turning(synthesis.coupled.model, speed);
+  return estimate::compareDampedModes(turning(full(), speed), turningParts(speed), synthesis, count,
+                                      time_, full_->maps);
+}
+
+void RotatingCase::announceLaws() const {
+  const auto followed = model::matrixLaws(model(), true), held = model::matrixLaws(model(), false);
+  if (followed.empty())
+    log::warn(
+        "No matrix of this scene follows the rotary speed, so its modes are the same at all "
+        "speeds. A string needs the list Rotary Speed, parts need terms with the law \"Omega\".");
+  else
+    log::info("speed       the matrices follow the laws " + quotedList(followed));
+  if (!held.empty())
+    log::info("            " + quotedList(held) +
+              " have their values of t = " + formatNumber(time_) + " s");
+}
+
+}  // namespace tooljoint::response

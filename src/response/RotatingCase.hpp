@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// A case at rest as linear equations at any rotary speed: what Campbell diagrams and responses are
+/// computed of.
+#pragma once
+
+#include <complex>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cases/Case.hpp"
+#include "cases/ReducedCase.hpp"
+#include "estimate/DynamicError.hpp"
+#include "estimate/ModeComparison.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
+
+namespace tooljoint::response {
+
+/// M x'' + C(Omega) x' + K(Omega) x = f about the state at rest: closed contacts with their
+/// tangent, open ones free. Laws that follow the rotary speed (model::SpeedLaw) have their value at
+/// Omega, other laws of time that of the end of the motion. The reduced model where the deck has
+/// the list Reduction, with its error estimate where the basis is a Ritz one; else the full model.
+class RotatingCase {
+ public:
+  /// Finds the state at rest and reduces the parts. \param friction false: contacts without
+  /// friction. Throws what these stages throw. Collective. The case must outlive the object.
+  RotatingCase(const cases::Case& one, bool friction);
+
+  const cases::Case& deckCase() const { return case_; }
+  const cases::RestingCase& rest() const { return *rest_; }
+  bool reduced() const { return reduced_.has_value(); }
+  bool estimated() const { return error_ != nullptr; }
+  /// The model that is solved, and the parts it was reduced from (none for a full model).
+  const model::SecondOrderModel& model() const;
+  const std::vector<model::Substructure>& parts() const;
+  /// The full model, made when first asked for. Collective.
+  const model::SecondOrderModel& full() const;
+
+  /// Matrices of the model that is solved, of the full model and of the parts.
+  estimate::Linearised at(double speed) const;
+  estimate::Linearised fullAt(double speed) const;
+  std::vector<estimate::Linearised> partsAt(double speed) const;
+
+  /// The `count` damped modes of smallest |s| of the model that is solved, fewer where there are
+  /// fewer.
+  linalg::QuadraticModes modes(const estimate::Linearised& m, int count) const;
+  /// Damped modes of the full and of the reduced model side by side (estimate::compareDampedModes).
+  /// Needs reduced().
+  std::vector<estimate::ModeComparison> compare(double speed, int count) const;
+  /// Needs estimated().
+  const estimate::DynamicError& error() const { return *error_; }
+
+  /// Logs which laws follow the speed, and warns where no matrix does.
+  void announceLaws() const;
+
+ private:
+  model::SecondOrderModel turning(const model::SecondOrderModel& model, double speed) const;
+  std::vector<model::Substructure> turningParts(double speed) const;
+
+  const cases::Case& case_;
+  bool friction_;
+  double time_;  ///< of laws that do not follow the speed [s]
+  std::shared_ptr<const cases::RestingCase> rest_;
+  std::optional<cases::ReducedCase> reduced_;
+  mutable std::optional<coupling::Coupling> full_;
+  linalg::EnergyRounding rounding_;
+  std::unique_ptr<estimate::DynamicError> error_;
+};
+
+}  // namespace tooljoint::response

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Parameters that the lists Campbell and Response share.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+
+namespace tooljoint::response {
+
+/// Declares `Friction`, `Spot Checks` and `Axis`.
+void declareCommon(deck::ListSpec& list);
+bool wantsFriction(const Teuchos::ParameterList& list);
+/// So many values as the list's `Points`, from one parameter to another. DeckError when they do not
+/// increase.
+std::vector<double> evenly(const Teuchos::ParameterList& list, const std::string& from,
+                           const std::string& to);
+/// Positions of `count` of `size` points, spread from the first to the last.
+std::vector<std::size_t> spread(std::size_t size, int count);
+
+}  // namespace tooljoint::response

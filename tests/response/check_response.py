@@ -1,0 +1,376 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks `tooljoint campbell` and `tooljoint response`: rotors against closed forms and a published rotor, a string scene reduced against
+full, the limit at rest, refusals, ranks.
+
+    check_response.py PROGRAM MPIEXEC SOURCES rotors|string
+"""
+import csv
+import json
+import pathlib
+import sys
+
+import h5py
+import numpy as np
+from scipy.linalg import eig
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
+SOURCES = pathlib.Path(sys.argv[3])
+STRING = str(SOURCES / "xml/helical_170m.xml")
+RPM = np.pi / 30
+GYROSCOPIC = '<ParameterList name="Omega"><Parameter name="Form" type="string" value="Constant"/><ParameterList name="Constant"><Parameter name="Value" type="double" value="0"/></ParameterList></ParameterList>'
+
+
+def lists(name, inner):
+    return f'<ParameterList name="{name}">{inner}</ParameterList>'
+
+
+def values(**given):
+    """Parameters of a list; blanks of a name are written as underscores."""
+    kinds = {str: "string", int: "int", float: "double"}
+    return "".join(f'<Parameter name="{key.replace("_", " ")}" type="{kinds[type(value)]}" value="{value}"/>' for key, value in given.items())
+
+
+def part(path, components, mass, stiffness, damping=None, gyroscopic=None, terms=()):
+    """A part of one file; `gyroscopic` is the damping of unit speed, `terms` further stiffnesses (law, matrix)."""
+    nodes = len(mass) // len(components)
+    with h5py.File(path, "w") as f:
+        f.attrs["format"] = "tooljoint part 1"
+        f["components"] = components
+        f["dofs"] = [[node + 1, c + 1] for node in range(nodes) for c in range(len(components))]
+        f["mass"] = mass
+        for name, law, matrix in (("stiffness/structure", "1", stiffness), ("damping/structure", "1", damping), ("damping/gyroscopic", "Omega", gyroscopic),
+                                  *((f"stiffness/{law}", law, matrix) for law, matrix in terms)):
+            if matrix is not None:
+                f[name] = matrix
+                f[name].attrs["law"] = law
+
+
+def deck(name, file, analyses, laws="", reduction=""):
+    whole = lists("Parts", lists("Imported", lists("rotor", values(File=file))) + (lists("Laws", laws) if laws else ""))
+    path = pathlib.Path(f"{name}.xml")
+    path.write_text(lists(name, whole + reduction + analyses), encoding="utf-8")
+    return str(path)
+
+
+def table(folder, name):
+    with open(pathlib.Path(folder) / f"{name}.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {key.split(" [")[0]: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+
+
+def run(command, scene, folder, *settings, ranks=1):
+    arguments = [word for setting in settings for word in (("--without", setting[1:]) if setting.startswith("!") else ("--set", setting))]
+    done = tooljoint(command, scene, "--output", folder, *arguments, ranks=ranks, seconds=280)
+    expect(f"{folder}: {command} ends well", done.returncode == 0, done.stderr or done.stdout[-600:])
+    return done
+
+
+def close(what, found, exact, tolerance):
+    error = np.max(np.abs(np.asarray(found) - exact) / np.max(np.abs(exact)))
+    expect(f"{what}: largest difference {error:.1e}, allowed {tolerance:.0e}", error <= tolerance)
+
+
+def modes_at(rows, speed):
+    here = np.abs(rows["speed"] - speed) < 1e-9 * (1 + speed)
+    return {key: column[here] for key, column in rows.items()}
+
+
+def laval():
+    """A disc amid a shaft without mass, damped: amplitude and phase of the unbalance at all speeds, critical speed."""
+    m, k, c, moment = 12.0, 3e6, 900.0, 4e-3
+    omega0, ratio = np.sqrt(k / m), c / (2 * np.sqrt(k * m))
+    part("laval.h5", ["u", "v"], m * np.eye(2), k * np.eye(2), c * np.eye(2))
+    scene = deck("laval", "laval.h5",
+                 lists("Campbell", values(Highest_Speed=1000.0, Points=11, Modes=2) + '<Parameter name="Orders" type="Array(double)" value="{1}"/>') +
+                 lists("Response", values(Highest_Speed=1000.0, Points=101) + lists("Unbalance", lists("disc", values(Node=1, Moment=moment, Phase=0.3))) +
+                       lists("Outputs", lists("x", values(Node=1, Component="u")) + lists("y", values(Node=1, Component="v")))))
+    done = run("response", scene, "laval_response")
+    expect("laval: it is said that nothing follows the speed", 'law "Omega"' in done.stdout + done.stderr)
+    rows = table("laval_response", "response")
+    w = rows["speed"]
+    exact = moment * w**2 * np.exp(0.3j) / (k - m * w**2 + 1j * w * c)
+    close("laval: motion along x at all speeds", rows["x_amplitude"] * np.exp(1j * rows["x_phase"]), exact, 1e-12)
+    close("laval: motion along y, a quarter turn behind", rows["y_amplitude"] * np.exp(1j * rows["y_phase"]), -1j * exact, 1e-12)
+    # d|x|/dw = 0 of w^2/sqrt((w0^2-w^2)^2+(2 z w0 w)^2): w = w0/sqrt(1-2 z^2)
+    close("laval: speed of the largest amplitude", table("laval_response", "peaks")["speed"], omega0 / np.sqrt(1 - 2 * ratio**2), 1e-6)
+    run("campbell", scene, "laval_campbell")
+    crossings = table("laval_campbell", "crossings")
+    close("laval: critical speed", crossings["speed"], omega0 * np.sqrt(1 - ratio**2), 1e-9)
+    close("laval: damping ratio", crossings["damping"], ratio, 1e-9)
+    expect("laval: two planes of the same value do not whirl", np.all(crossings["whirl"] == 0.0))
+
+
+def overhung():
+    """A disc at the end of a cantilever without mass: the gyroscopic moment splits its modes, forward and backward."""
+    m, diametral, polar, length, bending = 8.0, 0.05, 0.1, 0.4, 5e4
+    k = bending / length**3 * np.array([[12, -6 * length], [-6 * length, 4 * length**2]])
+    flip = np.diag([1.0, -1.0])
+    K, M, G = np.zeros((6, 6)), np.diag([m, m, m, diametral, diametral, polar]), np.zeros((6, 6))
+    K[np.ix_([0, 4], [0, 4])] = k
+    K[np.ix_([1, 3], [1, 3])] = flip @ k @ flip
+    K[2, 2], K[5, 5] = 1e9, 1e7
+    G[3, 4], G[4, 3] = polar, -polar
+    part("overhung.h5", ["u", "v", "w", "theta_x", "theta_y", "theta_z"], M, K, None, G)
+    scene = deck("overhung", "overhung.h5", lists("Campbell", values(Highest_Speed=600.0, Points=13, Modes=4)), GYROSCOPIC)
+    run("campbell", scene, "overhung")
+    rows = table("overhung", "campbell")
+    # r = u + i v, q = theta_y - i theta_x, exp(i w t): K - w^2 M + w Omega diag(0, I_p); w < 0 is backward
+    for speed in (0.0, 300.0, 600.0):
+        companion = np.block([[np.zeros((2, 2)), np.eye(2)], [np.linalg.solve(np.diag([m, diametral]), k), np.diag([0, polar * speed / diametral])]])
+        w = np.linalg.eigvals(companion).real
+        w = w[np.argsort(np.abs(w))]
+        here = modes_at(rows, speed)
+        order = np.argsort(here["frequency"])
+        close(f"overhung at {speed} rad/s: frequencies", 2 * np.pi * here["frequency"][order], np.abs(w), 1e-9)
+        if speed > 0:
+            expect(f"overhung at {speed} rad/s: forward and backward", np.array_equal(np.round(here["whirl"][order], 6), np.sign(w)), here["whirl"][order])
+    close("overhung: modes are followed through the splitting", rows["mac"], 1.0, 0.11)
+    start, end = modes_at(rows, 50.0), modes_at(rows, 600.0)
+    whirls = {mode: whirl for mode, whirl in zip(start["mode"], np.sign(start["whirl"]))}
+    expect("overhung: a track keeps its sense of whirl", whirls == {mode: whirl for mode, whirl in zip(end["mode"], np.sign(end["whirl"]))})
+    crossings = table("overhung", "crossings")
+    # w = o Omega: det(k - w^2 (M -+ diag(0, I_p)/o)) = 0
+    for at in range(len(crossings["speed"])):
+        order, sense = crossings["order"][at], np.sign(crossings["whirl"][at])
+        inertia = np.diag([m, diametral - sense * polar / order])
+        critical = np.sqrt(np.array([v.real for v in eig(k, inertia, right=False) if v.real > 0])) / order
+        expect(f"overhung: critical speed {crossings['speed'][at]:.3f} rad/s of order {order:g}", np.min(np.abs(critical / crossings["speed"][at] - 1)) < 1e-8, critical)
+    expect("overhung: forward and backward critical speeds of the first mode with 1x", np.sum(crossings["order"] == 1) >= 2)
+
+
+def bearing():
+    """A rotor in a bearing of stiffness k_0 + k_1 Omega (Speed Table) + k_2 Omega^2 (Speed Power): critical speed of a quadratic equation."""
+    m, k0, k1, k2 = 20.0, 2e6, 3e3, 4.0
+    part("bearing.h5", ["u", "v"], m * np.eye(2), k0 * np.eye(2), None, None, (("table", k1 * np.eye(2)), ("square", k2 * np.eye(2))))
+    laws = (GYROSCOPIC +
+            lists("table", values(Form="Speed Table") + lists("Speed Table", '<Parameter name="Speeds" type="Array(double)" value="{0, 1000}"/>'
+                                                              '<Parameter name="Values" type="Array(double)" value="{0, 1000}"/>')) +
+            lists("square", values(Form="Speed Power") + lists("Speed Power", values(Exponent=2.0))))
+    campbell = lists("Campbell", values(Highest_Speed=900.0, Points=7, Modes=2) + '<Parameter name="Orders" type="Array(double)" value="{1}"/>')
+    run("campbell", deck("bearing", "bearing.h5", campbell, laws), "bearing")
+    exact = (k1 + np.sqrt(k1**2 + 4 * (m - k2) * k0)) / (2 * (m - k2))  # m w^2 = k0 + k1 w + k2 w^2
+    close("bearing: critical speed of a stiffness that follows the speed", table("bearing", "crossings")["speed"], exact, 1e-9)
+    done = tooljoint("campbell", deck("speedless", "bearing.h5", campbell, laws.replace(GYROSCOPIC, "")))
+    expect("bearing: without a law Omega it says what to add", done.returncode == 2 and 'no law of time "Omega"' in done.stderr, done.stderr)
+
+
+NELSON = {  # H. D. Nelson and J. M. McVaugh, J. Eng. Ind. 98 (1976) 593-600: stations, inner and outer radii [cm]
+    "x": [0, 1.27, 5.08, 7.62, 8.89, 10.16, 10.67, 11.43, 12.70, 13.46, 16.51, 19.05, 22.86, 26.67, 28.70, 30.48, 31.50, 34.54, 35.81],
+    "inner": [0, 0, 0, 0, 0, 0, 1.52, 1.78, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.52],
+    "outer": [0.51, 1.02, 0.76, 2.03, 2.03, 3.30, 3.30, 2.54, 2.54, 1.27, 1.27, 1.52, 1.52, 1.27, 1.27, 3.81, 2.03, 2.03],
+    "published": {-1: [15470, 46612, 64752], 1: [17159, 49983, 96457]},  # synchronous critical speeds, isotropic bearings [rpm]
+}
+
+
+def nelson_matrices():
+    """Rayleigh elements, a disc at station 5 and isotropic bearings at 11 and 15; one plane: K, M, G."""
+    young, density = 2.078e11, 7806.0
+    x, inner, outer = (1e-2 * np.array(NELSON[name]) for name in ("x", "inner", "outer"))
+    K, M, G = (np.zeros((2 * len(x), 2 * len(x))) for _ in range(3))
+    for e, l in enumerate(np.diff(x)):
+        area, inertia = np.pi * (outer[e]**2 - inner[e]**2), np.pi / 4 * (outer[e]**4 - inner[e]**4)
+        turn = density * inertia / (30 * l) * np.array([[36, 3 * l, -36, 3 * l], [3 * l, 4 * l * l, -3 * l, -l * l], [-36, -3 * l, 36, -3 * l], [3 * l, -l * l, -3 * l, 4 * l * l]])
+        span = slice(2 * e, 2 * e + 4)
+        K[span, span] += young * inertia / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l], [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
+        M[span, span] += turn + density * area * l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l], [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
+        G[span, span] += 2 * turn
+    M[8, 8] += 1.401
+    M[9, 9] += 0.00136
+    G[9, 9] += 0.00203
+    for station in (11, 15):
+        K[2 * station - 2, 2 * station - 2] += 4.378e7
+    return K, M, G
+
+
+def nelson():
+    """The published rotor, whole and reduced, and the same critical speeds from a dense solver."""
+    k, m, g = nelson_matrices()
+    stations = len(k) // 2
+    flip = np.diag([1.0, -1.0] * stations)
+    K, M, G = (np.zeros((4 * stations, 4 * stations)) for _ in range(3))
+    along_u = [4 * i + c for i in range(stations) for c in (0, 3)]  # u, theta_y
+    along_v = [4 * i + c for i in range(stations) for c in (1, 2)]  # v, -theta_x
+    for A, a in ((K, k), (M, m)):
+        A[np.ix_(along_u, along_u)] = a
+        A[np.ix_(along_v, along_v)] = flip @ a @ flip
+    # M r'' - i Omega G r' + K r = 0, r = u + i v: u'' has + Omega G v', v'' has - Omega G u'
+    G[np.ix_(along_u, along_v)] = g @ flip
+    G[np.ix_(along_v, along_u)] = -flip @ g
+    part("nelson.h5", ["u", "v", "theta_x", "theta_y"], M, K, None, G)
+    campbell = lists("Campbell", values(Highest_Speed="100000 rpm", Points=26, Modes=6) + '<Parameter name="Orders" type="Array(double)" value="{1}"/>')
+    reduction = lists("Reduction", values(Basis="Craig-Bampton") + lists("Mode Selection", values(Modes=16)))
+    runs = {"nelson": "", "nelson_reduced": reduction}
+    critical = {}
+    for name, reduced in runs.items():
+        run("campbell", deck(name, "nelson.h5", campbell, GYROSCOPIC, reduced), name)
+        crossings = table(name, "crossings")
+        critical[name] = {sense: crossings["speed"][crossings["whirl"] * sense > 0] / RPM for sense in (-1, 1)}
+    for sense, published in NELSON["published"].items():
+        exact = np.sort([np.sqrt(w.real) / RPM for w in eig(k, m - sense * g, right=False) if w.real > 0 and abs(w.imag) < 1e-6 * abs(w)])[:3]
+        for found in (critical["nelson"][sense],):
+            close(f"nelson: critical speeds {np.round(found, 1)} of sense {sense:+d} against a dense solver", found, exact, 1e-8)
+            # stations and radii are published to three figures
+            close(f"nelson: critical speeds of sense {sense:+d} against the published ones", found / published, 1.0, 0.015)
+        if len(critical["nelson_reduced"][sense]) == len(exact):
+            reduced = critical["nelson_reduced"][sense]
+            expect(f"nelson, reduced: {np.round(reduced, 1)}", np.max(np.abs(reduced / exact - 1)) < 1e-3, exact)
+    estimates("nelson_reduced")
+
+
+def estimates(folder):
+    """Errors of the spot checks are those that were estimated, where they are more than rounding."""
+    checks = table(folder, "spot_checks")
+    large = checks["error"] > 1e-8
+    expect(f"{folder}: the spot checks found the modes", np.all(checks["mac"] > 0.9), checks["mac"])
+    expect(f"{folder}: {np.sum(large)} errors up to {checks['error'].max():.1e} within a factor of 2 of the estimates",
+           np.all(checks["error"][large] < 2 * checks["estimate"][large]) and np.all(checks["estimate"][large] < 2 * checks["error"][large] + 1e-8),
+           np.c_[checks["full"], checks["error"], checks["estimate"]][large])
+
+
+def transfer():
+    """Transfer functions of a chain between walls: closed form and reciprocity."""
+    m, k, c = 2.0, 5e4, 30.0
+    chain = 2 * np.eye(3) - np.eye(3, k=1) - np.eye(3, k=-1)
+    part("chain.h5", ["u"], m * np.eye(3), k * chain, c * np.eye(3))
+    ends = lists("Loads", "".join(lists(f"at {n}", values(Node=n, Component="u")) for n in (1, 3)))
+    wanted = lists("Outputs", "".join(lists(f"node {n}", values(Node=n, Component="u")) for n in (1, 3)))
+    scene = deck("chain", "chain.h5", lists("Response", values(Excitation="Transfer", Highest_Frequency=60.0, Points=61) + ends + wanted))
+    run("response", scene, "chain")
+    rows = table("chain", "response")
+    for a, b in ((1, 1), (1, 3), (3, 1)):
+        exact = [np.linalg.inv(k * chain - w**2 * m * np.eye(3) + 1j * w * c * np.eye(3))[a - 1, b - 1] for w in 2 * np.pi * rows["frequency"]]
+        name = f"node {a}:at {b}"
+        close(f"transfer function {name}", rows[name + "_amplitude"] * np.exp(1j * rows[name + "_phase"]), np.array(exact), 1e-12)
+    run("response", scene, "chain_loads", "Response/Excitation=Harmonic", "Response/Loads/at 1/Value=2", "Response/Loads/at 3/Phase=90 deg")
+    loads = table("chain_loads", "response")
+    sum_of = 2 * rows["node 1:at 1_amplitude"] * np.exp(1j * rows["node 1:at 1_phase"]) + 1j * rows["node 1:at 3_amplitude"] * np.exp(1j * rows["node 1:at 3_phase"])
+    close("harmonic loads add with their phases", loads["node 1_amplitude"] * np.exp(1j * loads["node 1_phase"]), sum_of, 1e-12)
+
+
+SHAFT = """<ParameterList name="shaft">
+  <ParameterList name="Well"><Parameter name="Trajectory" type="string" value="Vertical"/><Parameter name="Bore Radius" type="double" value="1"/>
+    <ParameterList name="Vertical"><Parameter name="Length" type="double" value="2"/></ParameterList></ParameterList>
+  <ParameterList name="Supports"><Parameter name="Top" type="string" value="u v w theta_z"/><Parameter name="Bit" type="string" value="u v"/></ParameterList>
+  <ParameterList name="Drillstring"><ParameterList name="Components"><ParameterList name="bar"><Parameter name="Length" type="double" value="2"/>
+    <Parameter name="Elements" type="int" value="40"/><Parameter name="Outer Radius" type="double" value="0.1"/><Parameter name="Inner Radius" type="double" value="0"/></ParameterList></ParameterList>
+    <Parameter name="Assembly" type="Array(string)" value="{bar}"/></ParameterList>
+  <ParameterList name="Rotary Speed"><Parameter name="Law" type="string" value="Constant"/><ParameterList name="Constant"><Parameter name="Speed" type="double" value="1"/></ParameterList></ParameterList>
+  <ParameterList name="Campbell"><Parameter name="Highest Speed" type="double" value="4000"/><Parameter name="Points" type="int" value="9"/><Parameter name="Modes" type="int" value="4"/>
+    <Parameter name="Orders" type="Array(double)" value="{1}"/></ParameterList>
+</ParameterList>
+"""
+
+
+def shaft():
+    """A spinning pinned Rayleigh shaft as a string: (rho S + rho I q^2) w^2 - 2 rho I q^2 Omega w - (E I q^4) = 0 with shear as a softer spring."""
+    pathlib.Path("shaft.xml").write_text(SHAFT, encoding="utf-8")
+    run("campbell", "shaft.xml", "shaft")
+    rows = table("shaft", "campbell")
+    manual = json.loads(tooljoint("doc", "--format", "json").stdout)
+    bar = next(one for one in manual[0]["lists"] if one["name"] == "Drillstring") if isinstance(manual, list) else next(one for one in manual["lists"] if one["name"] == "Drillstring")
+    number = {one["name"]: one.get("default") for one in bar["parameters"]}
+    young, nu, rho = (float(number.get(name, default) or default) for name, default in (("Young Modulus", 2.1e11), ("Poisson Ratio", 0.3), ("Density", 7850)))
+    radius, length, beta = 0.1, 2.0, 0.9
+    area, inertia, shear = np.pi * radius**2, np.pi * radius**4 / 4, young / (2 * (1 + nu))
+    for speed in (0.0, 2000.0, 4000.0):
+        found = modes_at(rows, speed)
+        lateral = np.abs(found["whirl"]) > 0.5 if speed > 0 else np.ones_like(found["whirl"], bool)
+        exact = []
+        for n in (1, 2):
+            q = n * np.pi / length
+            stiff = young * inertia * q**4 / (1 + young * inertia * q**2 / (shear * area * beta))  # bending and shear in series
+            half = 2 * rho * inertia * q**2 * speed / (2 * (rho * area + rho * inertia * q**2))
+            root = np.sqrt(half**2 + stiff / (rho * area + rho * inertia * q**2))
+            exact += [root - half, root + half]
+        sizes = np.sort(2 * np.pi * found["frequency"][lateral])
+        # 40 elements; the mass matrix has the deflection of bending alone
+        close(f"shaft at {speed} rad/s: {np.round(sizes, 2)}", sizes / np.sort(exact)[:len(sizes)], 1.0, 2e-4)
+
+
+def walls():
+    """Unbalance of the shaft, by the scene and by the analysis, and the distance it leaves to a wall."""
+    contact = lists("Contact", values(Stiffness=1e7))
+    response = lists("Response", values(Highest_Speed=300.0, Points=4) + "UNBALANCE" + lists("Outputs", lists("middle", values(Node=21, Component="u"))))
+    mass = values(Node=21, Moment=0.05, Phase=0.4)
+    for name, text in (("walls", contact + response.replace("UNBALANCE", lists("Unbalance", lists("a", mass)))),
+                       ("walls_scene", contact + response.replace("UNBALANCE", "") + lists("Loads", values(Gravity=0.0) + lists("Unbalance", lists("a", mass))))):
+        pathlib.Path(f"{name}.xml").write_text(SHAFT[:SHAFT.rindex("</ParameterList>")] + text + "</ParameterList>", encoding="utf-8")
+        run("response", f"{name}.xml", name)
+    ours, scene = table("walls", "response"), table("walls_scene", "response")
+    close("walls: unbalance of the scene and of the analysis", scene["middle_amplitude"], ours["middle_amplitude"], 1e-12)
+    close("walls: its phase", scene["middle_phase"][1:], ours["middle_phase"][1:], 1e-9)
+    expect("walls: the middle moves", ours["middle_amplitude"][-1] > 1e-7, ours["middle_amplitude"])
+    close("walls: the circle of the middle and what it leaves are the clearance", ours["contact_margin"] + ours["middle_amplitude"], 0.9, 1e-12)
+    expect("walls: the middle is nearest", np.all(ours["contact_node"][1:] == 21), ours["contact_node"])
+
+
+def string():
+    """The reference scene: limit at rest, spot checks within the estimates, ranks."""
+    text = pathlib.Path(STRING).read_text(encoding="utf-8").replace("components/helical_170m.xml", str(SOURCES / "xml/components/helical_170m.xml"))
+    loads = lists("Loads", lists("bit", values(Node=163, Component="w", Value="5 kN")))
+    outputs = lists("Outputs", lists("bit", values(Node=163, Component="w")) + lists("pipe", values(Node=40, Component="u")))
+    response = lists("Response", values(Excitation="Harmonic", Highest_Speed="120 rpm", Order=3.0, Points=5) + loads + outputs)
+    pathlib.Path("string.xml").write_text(text[:text.rindex("</ParameterList>")] + response + "</ParameterList>", encoding="utf-8")
+    run("response", "string.xml", "string_response")
+    checks = table("string_response", "spot_checks")
+    good = np.abs(checks["error"] - checks["estimate"]) <= 0.5 * checks["error"] + 1e-9 * checks["full"]
+    expect("string: the error of the response is the one estimated", np.all(good), np.c_[checks["full"], checks["error"], checks["estimate"]])
+    # a smooth start: neither speed nor acceleration at t = 0
+    ramp = ["Rotary Speed/Law=Ramp", "Rotary Speed/Ramp/Final Speed=120 rpm", "Rotary Speed/Ramp/Duration=1"]
+    campbell = [*ramp, "Campbell/Highest Speed=120 rpm", "Campbell/Points=3", "Campbell/Modes=6", "Campbell/Friction=Sliding"]
+    run("campbell", STRING, "string", *campbell)
+    estimates("string")
+    done = tooljoint("modes", STRING, "--count", "30", "--time", "0", "--output", "string_modes", *(word for one in ramp for word in ("--set", one)))
+    expect("string: modes ends well", done.returncode == 0, done.stderr)
+    run("campbell", STRING, "string_smooth", *campbell[:-1], "Campbell/Spot Checks=0")
+    smooth = modes_at(table("string_smooth", "campbell"), 120 * RPM)
+    sliding = modes_at(table("string", "campbell"), 120 * RPM)
+    expect("string: friction damps what slides", np.abs(smooth["damping"][0] - sliding["damping"][0]) > 1e-3 * smooth["damping"][0],
+           (smooth["damping"], sliding["damping"]))
+    still = table("string_modes", "damped_modes")
+    vibrating = still["coupled_im"] > 1e-6 * still["coupled"]
+    rows = modes_at(table("string", "campbell"), 0.0)
+    apart = [np.min(np.abs(still["coupled_im"][vibrating] - f) + np.abs(still["coupled_damping"][vibrating] - d)) for f, d in zip(rows["frequency"], rows["damping"])]
+    expect("string: the modes at rest are those of `modes` at Omega = 0", np.max(apart) < 1e-6, apart)
+    run("campbell", STRING, "string_2", *campbell, ranks=2)
+    alone, two = table("string", "campbell"), table("string_2", "campbell")
+    close("string: two ranks give the same table", two["frequency"], alone["frequency"], 1e-9)
+
+
+def refusals():
+    for name, words, command, settings in (
+        ("no list", "has no list Campbell", "campbell", []),
+        ("no range", "Highest Speed", "campbell", ["Campbell/Modes=3"]),
+        ("falling speeds", "Give a larger one", "campbell", ["Campbell/Lowest Speed=20", "Campbell/Highest Speed=10"]),
+        ("no list Response", "has no list Response", "response", []),
+        ("no sweep", "neither", "response", ["Response/Points=3"]),
+        ("no output", "Outputs holds no dof", "response", ["Response/Highest Speed=10"]),
+        ("two sweeps", "Give one", "response", ["Response/Highest Speed=10", "Response/Highest Frequency=10"]),
+    ):
+        arguments = [word for setting in settings for word in ("--set", setting)]
+        done = tooljoint(command, STRING, "--output", "refused", *arguments)
+        expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
+    for name, words, settings in (
+        ("no unbalance", "no mass off its axis", ["!Response/Unbalance"]),
+        ("unbalance by frequency", "no sense for an unbalance", ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
+        ("order of an unbalance", "has the order 1", ["Response/Order=2"]),
+        ("no load", "Loads holds no load", ["Response/Excitation=Harmonic"]),
+        ("node", "no such node", ["Response/Outputs/x/Node=5"]),
+        ("component", "have the components", ["Response/Outputs/x/Component=w"]),
+        ("part", "but no part has this name", ["Response/Outputs/x/Part=motor"]),
+        ("held", "is held", ["Parts/Imported/rotor/Fixed={1 v}"]),
+    ):
+        arguments = [word for one in settings for word in (("--without", one[1:]) if one.startswith("!") else ("--set", one))]
+        done = tooljoint("response", "laval.xml", "--output", "refused", *arguments)
+        expect(f"refused: {name}", done.returncode == 2 and words in done.stderr, f"{done.returncode} {done.stderr[-400:]}")
+
+
+if sys.argv[4] == "rotors":
+    for check in (laval, overhung, bearing, nelson, transfer, shaft, walls, refusals):
+        check()
+else:
+    string()
+sys.exit(finish())

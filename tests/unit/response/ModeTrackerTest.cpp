@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Modes with known shapes: tracks through crossings, veerings, jumps and new modes.
+#include "response/ModeTracker.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace tooljoint::response {
+namespace {
+
+using Complex = std::complex<double>;
+
+Sparse identity(int n) {
+  Sparse M(n, n);
+  M.setIdentity();
+  return M;
+}
+
+/// Modes of unit shapes with these frequencies, by |s|.
+VibratingModes sorted(std::vector<double> frequencies, Eigen::MatrixXcd shapes) {
+  std::vector<int> order(frequencies.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return frequencies[static_cast<std::size_t>(a)] < frequencies[static_cast<std::size_t>(b)];
+  });
+  VibratingModes out{Eigen::VectorXcd(shapes.cols()), shapes};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    out.values[static_cast<Eigen::Index>(i)] =
+        Complex(0, frequencies[static_cast<std::size_t>(order[i])]);
+    out.shapes.col(static_cast<Eigen::Index>(i)) = shapes.col(order[i]);
+  }
+  return out;
+}
+
+const TrackedMode& track(const ModeTracker& tracker, int number) {
+  for (const auto& mode : tracker.now())
+    if (mode.track == number) return mode;
+  throw std::runtime_error("no such track");
+}
+
+TEST(ModeTracker, CrossingModesKeepTheirNumbers) {
+  ModeTracker tracker(
+      [](double speed, int) {
+        return sorted({1.0 + speed, 3.0 - speed}, Eigen::MatrixXcd::Identity(2, 2));
+      },
+      identity(2), 2);
+  for (const double speed : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+    tracker.advance(speed);
+    EXPECT_EQ(track(tracker, 1).s, Complex(0, 1.0 + speed));
+    EXPECT_EQ(track(tracker, 2).s, Complex(0, 3.0 - speed));
+    EXPECT_EQ(tracker.now().size(), 2U);
+  }
+}
+
+// Shapes that turn by 60 degrees between two speeds have a MAC of 1/4: only smaller steps follow.
+TEST(ModeTracker, StepsAreHalvedWhereShapesTurn) {
+  int calls = 0;
+  ModeTracker tracker(
+      [&calls](double speed, int) {
+        ++calls;
+        const double angle = speed * std::acos(-1.0) / 3.0;
+        Eigen::MatrixXcd shapes(2, 2);
+        shapes << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+        return sorted({2.0 - speed, 2.2 + speed}, shapes);
+      },
+      identity(2), 2);
+  tracker.advance(0.0);
+  tracker.advance(1.0);
+  EXPECT_GT(calls, 4);
+  EXPECT_EQ(track(tracker, 1).s, Complex(0, 1.0));
+  EXPECT_GE(track(tracker, 1).mac, 0.9);
+}
+
+// u and v of the same value span one subspace: their whirls are any combination of them.
+TEST(ModeTracker, RepeatedValuesSplitWithoutBeingLost) {
+  ModeTracker tracker(
+      [](double speed, int) {
+        if (speed == 0.0) return sorted({1.0, 1.0}, Eigen::MatrixXcd::Identity(2, 2));
+        Eigen::MatrixXcd circles(2, 2);
+        circles << 1.0, 1.0, Complex(0, -1), Complex(0, 1);
+        return sorted({1.0 + speed, 1.0 - speed}, circles);
+      },
+      identity(2), 2);
+  tracker.advance(0.0);
+  tracker.advance(0.5);
+  ASSERT_EQ(tracker.now().size(), 2U);
+  for (const auto& mode : tracker.now()) {
+    EXPECT_LE(mode.track, 2);
+    EXPECT_NEAR(mode.mac, 1.0, 1e-12);
+  }
+}
+
+TEST(ModeTracker, NewModesBeginTracksAndStrangersEndThem) {
+  ModeTracker tracker(
+      [](double speed, int) {
+        Eigen::MatrixXcd shapes = Eigen::MatrixXcd::Identity(3, 3);
+        if (speed < 0.5) return sorted({1.0, 2.0}, shapes.leftCols(2));
+        return sorted({1.0, 1.5},
+                      Eigen::MatrixXcd((Eigen::MatrixXcd(3, 2) << 1, 0, 0, 0, 0, 1).finished()));
+      },
+      identity(3), 2);
+  tracker.advance(0.0);
+  tracker.advance(1.0);
+  ASSERT_EQ(tracker.now().size(), 2U);
+  EXPECT_EQ(tracker.now()[0].track, 1);
+  EXPECT_EQ(tracker.now()[1].track, 3);  // the shape of track 2 is gone
+}
+
+}  // namespace
+}  // namespace tooljoint::response

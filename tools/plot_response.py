@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws what `tooljoint campbell` or `tooljoint response` left in its folder: tools/plot_response.py DIR [--output FILE.png]
+
+Campbell diagram: frequencies and damping ratios against the rotary speed, forward whirl blue, backward whirl red, lines of the excitation orders,
+critical speeds marked. Response: amplitude and phase of every output, largest amplitudes marked. Needs h5py, numpy and matplotlib; reads
+campbell.h5 or response.h5 alone.
+"""
+import argparse
+import pathlib
+import sys
+
+try:
+    import h5py
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+except ImportError as missing:
+    sys.exit(f"{missing}: plot_response.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
+
+RPM = 30 / np.pi
+CLEAR_WHIRL = 0.1  # of a circle; less is drawn grey
+
+
+def columns(results, group):
+    return {name: data[:] for name, data in results[group].items()} if group in results else None
+
+
+def colour(whirl):
+    return "tab:blue" if whirl > CLEAR_WHIRL else "tab:red" if whirl < -CLEAR_WHIRL else "0.45"
+
+
+def draw_campbell(results):
+    rows, crossings = columns(results, "campbell"), columns(results, "crossings")
+    figure, (frequencies, damping) = plt.subplots(2, 1, figsize=(8, 8), sharex=True, height_ratios=[2.2, 1], constrained_layout=True)
+    for mode in np.unique(rows["mode"]):
+        here = rows["mode"] == mode
+        look = {"color": colour(np.median(rows["whirl"][here])), "linewidth": 1.1}
+        frequencies.plot(RPM * rows["speed"][here], rows["frequency"][here], **look)
+        damping.plot(RPM * rows["speed"][here], rows["damping"][here], **look)
+    last, top = RPM * rows["speed"].max(), 1.05 * rows["frequency"].max()
+    for order in results["orders"][:]:
+        frequencies.plot([0, last], [0, order * last / 60], color="0.7", linewidth=0.8, linestyle="--")
+        end = min(last, 60 * top / order)
+        frequencies.annotate(f"{order:g}x", (end, order * end / 60), fontsize=8, color="0.4", ha="right", va="bottom")
+    if crossings is not None:
+        frequencies.plot(RPM * crossings["speed"], crossings["frequency"], "ko", markersize=4, fillstyle="none", label="critical speeds")
+    for name, look in (("forward whirl", "tab:blue"), ("backward whirl", "tab:red")):
+        frequencies.plot([], [], color=look, label=name)
+    frequencies.set_xlim(RPM * rows["speed"].min(), last), frequencies.set_ylim(0, top)
+    frequencies.set_ylabel("frequency [Hz]"), frequencies.legend(fontsize=8, loc="upper left")
+    damping.axhline(0, color="0.7", linewidth=0.6)
+    damping.set_ylim(bottom=min(-1e-4, 1.1 * rows["damping"].min()), top=max(1e-3, 1.1 * rows["damping"].max()))  # no picture of rounding
+    damping.set_ylabel("damping ratio"), damping.set_xlabel("rotary speed [rpm]")
+    return figure
+
+
+def draw_response(results):
+    group, peaks = results["response"], columns(results, "peaks")
+    rows = columns(results, "response")
+    by_speed = np.ptp(rows["speed"]) > 0
+    x, label = (RPM * rows["speed"], "rotary speed [rpm]") if by_speed else (rows["frequency"], "frequency [Hz]")
+    names = [name[: -len("_amplitude")] for name in group if name.endswith("_amplitude")]
+    figure, (amplitudes, phases) = plt.subplots(2, 1, figsize=(8, 7), sharex=True, height_ratios=[2, 1], constrained_layout=True)
+    for name in names:
+        unit = group[name + "_amplitude"].attrs["units"]
+        unit = unit.decode() if isinstance(unit, bytes) else unit
+        line, = amplitudes.semilogy(x, np.maximum(rows[name + "_amplitude"], 1e-300), linewidth=1.1, label=f"{name} [{unit}]")
+        phases.plot(x, np.degrees(np.unwrap(rows[name + "_phase"])), color=line.get_color(), linewidth=1.0)
+    if peaks is not None:
+        amplitudes.semilogy(RPM * peaks["speed"] if by_speed else peaks["frequency"], peaks["amplitude"], "ko", markersize=4, fillstyle="none")
+    positive = np.concatenate([rows[name + "_amplitude"] for name in names])
+    positive = positive[positive > 0]
+    if positive.size:
+        amplitudes.set_ylim(bottom=0.5 * positive.min())
+    amplitudes.set_ylabel("amplitude"), amplitudes.legend(fontsize=8)
+    phases.set_ylabel("phase [deg]"), phases.set_xlabel(label)
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, help="folder of tooljoint campbell or tooljoint response")
+    parser.add_argument("--output", type=pathlib.Path, help="picture (default: campbell.png or response.png in the folder)")
+    options = parser.parse_args()
+    for name, draw in (("campbell", draw_campbell), ("response", draw_response)):
+        file = options.folder / f"{name}.h5"
+        if not file.exists():
+            continue
+        with h5py.File(file, "r") as results:
+            figure = draw(results)
+        output = options.output or options.folder / f"{name}.png"
+        figure.savefig(output, dpi=150)
+        print(f"drawn {output}")
+        return 0
+    return f"{options.folder} holds neither campbell.h5 nor response.h5. Give the folder of tooljoint campbell or tooljoint response."
+
+
+if __name__ == "__main__":
+    sys.exit(main())
