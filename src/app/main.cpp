@@ -156,6 +156,87 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
 
+/// The command `run`.
+void addRun(CLI::App& program, tooljoint::app::RunOptions& options,
+            std::function<void()>& command) {
+  auto* runCommand = program.add_subcommand(
+      "run", "path, static state, reduction, transient: from deck to results");
+  addDeckOptions(*runCommand, options, Output::Always);
+  runCommand->add_option("--restart", options.restart,
+                         "folder of an interrupted run to go on from");
+  runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
+}
+
+/// The commands that look at a deck, and `export`.
+void addAnalyses(CLI::App& program, tooljoint::app::RunOptions& options,
+                 std::function<void()>& command) {
+  auto* checkCommand =
+      program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
+  addDeckOptions(*checkCommand, options, Output::None);
+  checkCommand->add_flag(
+      "--cost", options.cost,
+      "compute static state and reduction too, and predict which model is faster");
+  checkCommand->callback([&] { command = [&] { tooljoint::app::check(options); }; });
+
+  auto* modesCommand = program.add_subcommand(
+      "modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
+  addDeckOptions(*modesCommand, options, Output::Wanted);
+  modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
+      ->check(CLI::PositiveNumber);
+  modesCommand->add_option("--time", options.modeTime,
+                           "when the laws of time (rotary speed) are looked at for damped modes "
+                           "[s] (default: the end of the motion)");
+  modesCommand->callback([&] { command = [&] { tooljoint::app::modes(options); }; });
+
+  auto* torqueDragCommand = program.add_subcommand(
+      "torque-drag",
+      "hook load, surface torque, buckling and yield margins against the depth of the bit");
+  addDeckOptions(*torqueDragCommand, options, Output::Wanted);
+  torqueDragCommand->callback([&] { command = [&] { tooljoint::app::torqueDrag(options); }; });
+
+  auto* campbellCommand = program.add_subcommand(
+      "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
+  addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");
+  campbellCommand->callback([&] { command = [&] { tooljoint::app::campbell(options); }; });
+
+  auto* responseCommand = program.add_subcommand(
+      "response",
+      "amplitude and phase under unbalance or harmonic loads, transfer functions (list Response)");
+  addDeckOptions(*responseCommand, options, Output::Always, "_response");
+  responseCommand->callback([&] { command = [&] { tooljoint::app::response(options); }; });
+
+  auto* exportCommand =
+      program.add_subcommand("export",
+                             "reduce the parts of a deck and write them with their bases as part "
+                             "files, to be imported by other decks");
+  addDeckOptions(*exportCommand, options, Output::Always);
+  exportCommand
+      ->add_option("--format", options.format,
+                   "hdf5 (one file a part), mtx (a folder of Matrix Market files a part), dmig "
+                   "(Nastran punch file) or extptfm (superelement of OpenFAST)")
+      ->check(CLI::IsMember(tooljoint::app::exportFormats()));
+  exportCommand->callback([&] { command = [&] { tooljoint::app::exportReduced(options); }; });
+}
+
+/// The command `compare`.
+void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
+                std::function<void()>& command) {
+  auto* compareCommand = program.add_subcommand(
+      "compare", "errors eps_t, eps_n and the vibration error of one run against a reference run");
+  compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
+  compareCommand
+      ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
+      ->required();
+  compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
+  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
+  compareCommand
+      ->add_option("--fail-above", comparison.failAbove,
+                   "end with exit code 4 when the vibration error is larger than this")
+      ->check(CLI::NonNegativeNumber);
+  compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
+  compareCommand->callback([&] { command = [&] { tooljoint::app::compare(comparison); }; });
+}
+
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -171,78 +252,12 @@ int run(int argc, char** argv) {
   std::string kind;
   std::function<void()> command;
 
-  auto* runCommand = program.add_subcommand(
-      "run", "path, static state, reduction, transient: from deck to results");
-  addDeckOptions(*runCommand, options, Output::Always);
-  runCommand->add_option("--restart", options.restart,
-                         "folder of an interrupted run to go on from");
-  runCommand->callback([&] { command = [&] { app::run(options); }; });
-
+  addRun(program, options, command);
   addStudy(program, options, command);
 
-  auto* checkCommand =
-      program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
-  addDeckOptions(*checkCommand, options, Output::None);
-  checkCommand->add_flag(
-      "--cost", options.cost,
-      "compute static state and reduction too, and predict which model is faster");
-  checkCommand->callback([&] { command = [&] { app::check(options); }; });
-
-  auto* modesCommand = program.add_subcommand(
-      "modes", "eigenfrequencies and shapes: fixed-interface, full, coupled");
-  addDeckOptions(*modesCommand, options, Output::Wanted);
-  modesCommand->add_option("--count", options.modeCount, "number of frequencies to list")
-      ->check(CLI::PositiveNumber);
-  modesCommand->add_option("--time", options.modeTime,
-                           "when the laws of time (rotary speed) are looked at for damped modes "
-                           "[s] (default: the end of the motion)");
-  modesCommand->callback([&] { command = [&] { app::modes(options); }; });
-
-  auto* torqueDragCommand = program.add_subcommand(
-      "torque-drag",
-      "hook load, surface torque, buckling and yield margins against the depth of the bit");
-  addDeckOptions(*torqueDragCommand, options, Output::Wanted);
-  torqueDragCommand->callback([&] { command = [&] { app::torqueDrag(options); }; });
-
-  auto* campbellCommand = program.add_subcommand(
-      "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
-  addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");
-  campbellCommand->callback([&] { command = [&] { app::campbell(options); }; });
-
-  auto* responseCommand = program.add_subcommand(
-      "response",
-      "amplitude and phase under unbalance or harmonic loads, transfer functions (list Response)");
-  addDeckOptions(*responseCommand, options, Output::Always, "_response");
-  responseCommand->callback([&] { command = [&] { app::response(options); }; });
-
-  auto* exportCommand =
-      program.add_subcommand("export",
-                             "reduce the parts of a deck and write them with their bases as part "
-                             "files, to be imported by other decks");
-  addDeckOptions(*exportCommand, options, Output::Always);
-  exportCommand
-      ->add_option("--format", options.format,
-                   "hdf5 (one file a part), mtx (a folder of Matrix Market files a part), dmig "
-                   "(Nastran punch file) or extptfm (superelement of OpenFAST)")
-      ->check(CLI::IsMember(app::exportFormats()));
-  exportCommand->callback([&] { command = [&] { app::exportReduced(options); }; });
-
+  addAnalyses(program, options, command);
   app::CompareOptions comparison;
-  auto* compareCommand = program.add_subcommand(
-      "compare", "errors eps_t, eps_n and the vibration error of one run against a reference run");
-  compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
-  compareCommand
-      ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
-      ->required();
-  compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
-  compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
-  compareCommand
-      ->add_option("--fail-above", comparison.failAbove,
-                   "end with exit code 4 when the vibration error is larger than this")
-      ->check(CLI::NonNegativeNumber);
-  compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
-  compareCommand->callback([&] { command = [&] { app::compare(comparison); }; });
-
+  addCompare(program, comparison, command);
   addReport(program, options, command);
 
   auto* docCommand = program.add_subcommand("doc", "print the parameter manual");

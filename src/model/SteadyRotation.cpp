@@ -6,7 +6,7 @@
 #include "common/Index.hpp"
 #include "model/SpeedLaw.hpp"
 #include "model/laws/Friction.hpp"
-#include "model/laws/Turning.hpp"
+#include "model/laws/PointLaw.hpp"
 
 namespace tooljoint::model {
 

@@ -27,7 +27,7 @@
 #include "model/laws/Coulomb.hpp"
 #include "model/laws/Friction.hpp"
 #include "model/laws/HuntCrossley.hpp"
-#include "model/laws/Turning.hpp"
+#include "model/laws/PointLaw.hpp"
 #include "substructures/contact/ContactLaw.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "common/Index.hpp"
 #include "common/Types.hpp"
+#include "model/laws/PointLaw.hpp"
 #include "model/laws/PointLawRegistry.hpp"
-#include "model/laws/Turning.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 
 namespace tooljoint::contact {

@@ -254,6 +254,16 @@ void releaseTop(const drilling::TopDrive& drive, SupportSettings& supports) {
   if (drive.turnsFreely()) supports.top[5] = false;
 }
 
+/// What can be said of parts and basis before the static state.
+void checkReduction(const Scene& scene) {
+  requireKnownNodes(scene.string, scene.partition);
+  const auto& list = scene.deck.list().sublist("Reduction");
+  const auto parts = cutParts(scene.string, scene.partition);
+  const auto options = reduction::readOptions(list, static_cast<int>(parts.size()));
+  reduction::makeBasis(options.basis, list)->checkInput(reductionOutlines(scene));
+  estimate::readEstimateOptions(list);
+}
+
 }  // namespace
 
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
@@ -309,27 +319,17 @@ Scene readScene(const deck::Deck& deck) {
   scene.coupling = common.coupling;
   scene.bit = bit;
   scene.topDrive = tunedToPipe(topDrive, scene.string);
-  if (!deck.gives("Supports/Top")) releaseTop(topDrive, supports);
+  if (!deck.gives("Supports/Top")) releaseTop(topDrive, scene.supports);
   if (scene.coupling)
     faults.attempt(
         [&] { coupling::checkNames(*scene.coupling, outlines(scene), componentNames()); });
-  faults.attempt([&] { scene.held = heldDofs(supports, scene.string); });
+  faults.attempt([&] { scene.held = heldDofs(scene.supports, scene.string); });
   faults.raise();
   if (contact)
     faults.attempt(
         [&] { scene.contactPoints = contactPoints(*contact, scene.string, scene.held); });
   faults.attempt([&] { checkLoads(scene, faults); });
-  if (scene.reduces()) {
-    faults.attempt([&] {
-      requireKnownNodes(scene.string, partition);
-      const auto parts = cutParts(scene.string, partition);
-      const auto options =
-          reduction::readOptions(list.sublist("Reduction"), static_cast<int>(parts.size()));
-      reduction::makeBasis(options.basis, list.sublist("Reduction"))
-          ->checkInput(reductionOutlines(scene));
-      estimate::readEstimateOptions(list.sublist("Reduction"));
-    });
-  }
+  if (scene.reduces()) faults.attempt([&] { checkReduction(scene); });
   crossCheck(scene, faults);
   faults.raise();
   return scene;

@@ -4,7 +4,7 @@
 
 #include "common/Constants.hpp"
 #include "common/report/EvaluationCounters.hpp"
-#include "model/laws/Turning.hpp"
+#include "model/laws/PointLaw.hpp"
 #include "substructures/contact/WallKinematics.hpp"
 #include "tests/unit/contact/Samples.hpp"
 
