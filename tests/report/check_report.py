@@ -83,7 +83,9 @@ def page(title, folder, wanted, seconds=SECONDS):
     done, took = report(folder)
     path = pathlib.Path(folder, "report.html")
     expect(f"{title}: a report takes less than {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
-    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    if not path.is_file():
+        return path, ""
+    text = path.read_text(encoding="utf-8")
     print(f"       {title}: {took:.1f} s of CPU, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
     expect(f"{title}: every figure is there", wanted <= figures(text), sorted(wanted - figures(text)))
     expect(f"{title}: every figure is a picture with axes", text.count("<figure ") == len(figures(text)) == len(re.findall(r"<figure [^>]*>.{0,300}?<svg", text, re.S)))
