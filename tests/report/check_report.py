@@ -83,7 +83,9 @@ def page(title, folder, wanted, seconds=SECONDS):
     done, took = report(folder)
     path = pathlib.Path(folder, "report.html")
     expect(f"{title}: a report takes less than {SECONDS:.0f} s", done.returncode == 0 and path.is_file() and took < seconds * TIME_FACTOR, f"({done.returncode}, {took:.1f} s) {done.stderr}")
-    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    if not path.is_file():
+        return path, ""
+    text = path.read_text(encoding="utf-8")
     print(f"       {title}: {took:.1f} s of CPU, {path.stat().st_size / 1e6:.2f} MB, {len(figures(text))} figures")
     expect(f"{title}: every figure is there", wanted <= figures(text), sorted(wanted - figures(text)))
     expect(f"{title}: every figure is a picture with axes", text.count("<figure ") == len(figures(text)) == len(re.findall(r"<figure [^>]*>.{0,300}?<svg", text, re.S)))
@@ -290,6 +292,17 @@ def refusals():
     expect("no folder named: exit code 1", done.returncode == 1 and "DIR" in done.stderr, done.stderr)
 
 
+def failed():
+    """Runs that did not converge, before and after the state at rest: a page of what there is, with the reason first."""
+    for folder, setting, wanted, reason in (("no motion", "Transient/Step=0.1", WITHOUT_MOTION, "The time step (0.1 s) is too large"),
+                                            ("no rest", "Static/Max Iterations=1", set(), "The static equilibrium did not converge")):
+        shutil.rmtree(folder, ignore_errors=True)
+        done = tooljoint("run", STRING, "--output", folder, "--set", "Transient/End Time=5", "--set", setting)
+        expect(f"{folder}: the run fails", done.returncode == 4, f"({done.returncode}) {done.stderr[-300:]}")
+        _, text = page(folder, folder, wanted)
+        expect(f"{folder}: the page says so first", f'<ul class="notes"><li>The run failed: {reason}' in text)
+
+
 def interrupted():
     """What an interrupted run left is reported on, with that on top."""
     shutil.rmtree("interrupted", ignore_errors=True)
@@ -300,7 +313,7 @@ def interrupted():
     process.send_signal(signal.SIGTERM)
     expect("the run is interrupted", process.wait(timeout=60 * TIME_FACTOR) == 130)
     _, text = page("an interrupted run", "interrupted", WITHOUT_MOTION)
-    expect("an interrupted run: the page says so first", re.search(r'<ul class="notes"><li>This run is interrupted: Interrupted at [0-9.]+ s', text) is not None)
+    expect("an interrupted run: the page says so first", re.search(r'<ul class="notes"><li>The run was interrupted: Interrupted at [0-9.]+ s', text) is not None)
 
 
 def main():
@@ -317,7 +330,7 @@ def main():
     finally:
         if chromium:
             chromium.__exit__()
-    for part in (tables_alone, old_results, end_of_run, refusals, interrupted):
+    for part in (tables_alone, old_results, end_of_run, refusals, failed, interrupted):
         part()
     return finish()
 

@@ -32,8 +32,6 @@ except ImportError as missing:
     fail(f"{missing}: the report needs numpy, h5py and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
 
-
-
 class Arguments(argparse.ArgumentParser):
     def error(self, message):
         self.print_usage(sys.stderr)

@@ -2,11 +2,11 @@
 """The report of a run: of a string in its well, or of imported parts."""
 import pathlib
 
-import numpy as np
-
 from report import checks, deck, figures, figures_parts, of_tables, results, scene3d, tables
 from report.page import Page, cards
-from report.quantities import FOOT, POUND, both, percent
+from report.quantities import both, percent
+
+ENDS = {"failed": "The run failed", "interrupted": "The run was interrupted"}
 
 
 def headline(run):
@@ -17,9 +17,9 @@ def headline(run):
         found.append(("Surface torque", *both(-run.value("static.top_torque"), "torque"), "at rest, against the rotation", False))
         node = run.value("static.max_normal_force_node")
         if node:
-            force, depth = run.value("static.max_normal_force"), run.s[node - 1]
-            found.append(("Largest side force", f"{force / 1e3:.2f} kN", f"{force / POUND:.0f} lbf",
-                          f"at {depth:.1f} m ({depth / FOOT:.0f} ft), {run.component_at(node - 1) or f'node {node}'}", False))
+            depth, feet = both(run.s[node - 1], "length")
+            found.append(("Largest side force", *both(run.value("static.max_normal_force"), "side force"),
+                          f"at {depth} ({feet}), {run.component_at(node - 1) or f'node {node}'}", False))
     speed = run.value("transient.bit_speed_rpm") or {}
     if speed.get("mean") is not None:
         found.append(("Bit speed", f"{speed['mean']:.1f} rpm", f"{speed['min']:.1f} to {speed['max']:.1f} rpm", "mean and range of the motion", False))
@@ -40,7 +40,7 @@ def notes(page, run):
     """What a reader must know first."""
     status = run.value("status")
     if status != "finished":
-        page.note(f"This run is {status}: {run.value('message') or 'its results are incomplete.'}")
+        page.note(f"{ENDS.get(status, 'The run did not finish')}: {run.value('message') or 'its results are incomplete.'}")
     for name, value, bound in checks.measured(run.summary):
         if value > bound:
             page.note(f"Not met: {name} is {value:.1e}, its bound {bound:.0e}.")
@@ -55,7 +55,7 @@ def conditions(run, scene):
     words = []
     if run.is_string:
         words.append(f"string of {run.s[-1]:.0f} m")
-    else:
+    elif "/model/part" in run.file:
         words.append(f"{len(run.file['/model/part_names'])} parts, {len(run.file['/model/part'])} nodes")
     said = deck.conditions(scene)
     if said:
@@ -63,7 +63,7 @@ def conditions(run, scene):
     if run.value("transient.model"):
         basis = f" ({run.value('reduction.basis')})" if run.value("transient.model") == "reduced" else ""
         words.append(f"{run.value('transient.model')} model{basis}, {run.value('transient.start'):g} to {run.value('transient.end'):g} s")
-    else:
+    elif "/static" in run.file:
         words.append("static state")
     return ", ".join(words)
 

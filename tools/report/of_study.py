@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a study: its plots, its rows and what its reference is worth."""
 import plot_study
-import plots
 from report import deck, results, tables
 from report.figures import Figure
 from report.page import Page, cards

@@ -6,10 +6,9 @@ FOOT, POUND = 0.3048, 4.4482216152605  # [m], [N] (exact)
 # quantity -> (SI unit, factor to it, decimals), (unit of the field, factor to it, decimals)
 UNITS = {
     "length": (("m", 1.0, 1), ("ft", 1 / FOOT, 0)),
-    "force": (("kN", 1e-3, 2), ("klbf", 1e-3 / POUND, 2)),
+    "side force": (("kN", 1e-3, 2), ("lbf", 1 / POUND, 0)),
     "hook load": (("kN", 1e-3, 1), ("klbf", 1e-3 / POUND, 1)),
     "torque": (("kN m", 1e-3, 2), ("kft lbf", 1e-3 / (FOOT * POUND), 2)),
-    "stress": (("MPa", 1e-6, 1), ("ksi", 1e-3 / 6894.757293168, 1)),
 }
 SMALLEST = 1e-6  # share that is told in numbers
 
