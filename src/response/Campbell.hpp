@@ -35,7 +35,7 @@ struct CampbellRow {
   double mac = 1.0;    ///< with the mode at the speed before (ModeTracker)
   double whirl = 0.0;  ///< +1: all nodes go round with the rotation in circles, -1: against it, 0:
                        ///< in lines, not across the axis, or a repeated value
-  double error = 0.0;        ///< estimate of |s - s_full| / |s| of a reduced model
+  double error = 0.0;  ///< estimate of |s - s_full| / |s| of a reduced model
   double frequency() const;  ///< Im s / 2 pi [Hz]
   double damping() const;    ///< -Re s / |s|
 };

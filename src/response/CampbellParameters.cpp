@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Teuchos_Array.hpp>
+#include <fmt/format.h>
 
 #include "cases/CaseLists.hpp"
 #include "common/Constants.hpp"
@@ -47,7 +48,7 @@ std::string describe(const cases::Case& one) {
   for (const double order : settings.orders) orders.push_back(formatNumber(order) + "x");
   return std::to_string(settings.modes) + " modes at " + std::to_string(settings.speeds.size()) +
          " speeds up to " +
-         formatNumber(settings.speeds.back() * constants::rpmPerRadianPerSecond) +
+         fmt::format("{:.6g}", settings.speeds.back() * constants::rpmPerRadianPerSecond) +
          " rpm, crossings with " + join(orders, ", ") +
          (settings.friction ? ", with" : ", without") + " friction; " +
          (one.reduces()

@@ -113,6 +113,20 @@ void print(const CampbellDiagram& diagram, bool estimated) {
                     worst->full.imag() / twoPi));
 }
 
+/// Of |s|: a larger estimate is worth a warning.
+constexpr double tooCoarse = 0.01;
+
+void warnOfCoarseness(const CampbellDiagram& diagram) {
+  const auto worst =
+      std::max_element(diagram.rows.begin(), diagram.rows.end(),
+                       [](const auto& a, const auto& b) { return a.error < b.error; });
+  if (worst != diagram.rows.end() && worst->error > tooCoarse)
+    log::warn(fmt::format(
+        "The estimated error of mode {} of the reduced model is {:.1f} % at {:.2f} rpm. Keep more "
+        "modes (Reduction/Mode Selection), or leave the list Reduction out.",
+        worst->mode, 100.0 * worst->error, worst->speed * rpmPerRadianPerSecond));
+}
+
 /// Damped modes whose damping ratio is below this grow, beyond rounding.
 constexpr double growing = -1e-8;
 
@@ -178,6 +192,7 @@ void runCampbell(const cases::Case& one, const std::string& folder) {
         diagram = campbell(*rotating, settings);
         print(diagram, rotating->estimated());
         warnOfGrowth(diagram);
+        warnOfCoarseness(diagram);
         log::info("times       " + stageTimes());
       },
       [&](io::ResultsFile& file) {

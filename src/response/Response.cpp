@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -142,9 +144,7 @@ class Sweep {
     const auto cases = static_cast<int>(out.loads.size()), outputs = sizeOf(settings_.outputs);
     for (int load = 0; load < cases; ++load)
       for (int output = 0; output < outputs; ++output) addPeaks(load, output, out);
-    if (rotating_.reduced())
-      for (const auto i : spread(out.points.size(), settings_.spotChecks))
-        out.checks.push_back({out.points[i], fullAt(out.points[i])});
+    if (rotating_.reduced() && settings_.spotChecks > 0) addChecks(out);
     return out;
   }
 
@@ -241,6 +241,22 @@ class Sweep {
     point.x = loads_.outputs(rotating_.full()).transpose() *
               Q.solve(loads_.on(rotating_.full(), point.speed));
     return point;
+  }
+
+  /// At points spread over the sweep, and at the largest amplitude of every output.
+  void addChecks(HarmonicResponse& out) const {
+    for (const auto i : spread(out.points.size(), settings_.spotChecks))
+      out.checks.push_back({out.points[i], fullAt(out.points[i])});
+    std::map<std::pair<int, int>, const ResponsePeak*> highest;
+    for (const auto& peak : out.peaks) {
+      auto& best = highest.try_emplace({peak.load, peak.output}, &peak).first->second;
+      if (amplitude(peak) > amplitude(*best)) best = &peak;
+    }
+    for (const auto& [which, peak] : highest) out.checks.push_back({peak->at, fullAt(peak->at)});
+  }
+
+  static double amplitude(const ResponsePeak& peak) {
+    return std::abs(peak.at.x(peak.output, peak.load));
   }
 
   double whereOf(const ResponsePoint& point) const {

@@ -85,8 +85,8 @@ struct ResponsePeak {
 struct HarmonicResponse {
   std::vector<std::string> loads;  ///< names of the load cases
   std::vector<ResponsePoint> points;
-  std::vector<ResponsePeak> peaks;  ///< of every local maximum, found between the points too
-  std::vector<ResponseCheck> checks;
+  std::vector<ResponsePeak> peaks;    ///< of every local maximum, found between the points too
+  std::vector<ResponseCheck> checks;  ///< spread points, and the highest peak of every output
 };
 
 /// DeckError: a node or component that is not there or held, nothing that loads the model.

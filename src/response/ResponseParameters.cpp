@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include "cases/CaseLists.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -14,6 +16,10 @@ namespace {
 using deck::ListSpec;
 using deck::Range;
 using Teuchos::ParameterList;
+
+/// Parameters of the other kind of sweep.
+constexpr const char* bySpeedNot[] = {"Lowest Frequency", "Rotary Speed"};
+constexpr const char* byFrequencyNot[] = {"Lowest Speed", "Order"};
 
 constexpr const char* excitations[] = {"Unbalance", "Harmonic", "Transfer"};
 
@@ -58,6 +64,10 @@ void readSweep(const ParameterList& list, ResponseSettings& settings) {
     throw DeckError(list.name() + " has " + (bySpeed ? "both" : "neither") + " Highest Speed " +
                     (bySpeed ? "and" : "nor") +
                     " Highest Frequency. Give one: the sweep is by rotary speed or by frequency.");
+  for (const char* other : bySpeed ? bySpeedNot : byFrequencyNot)
+    if (list.get<double>(other) != (std::string(other) == "Order" ? 1.0 : 0.0))
+      throw DeckError(list.name() + "/" + other + " has no effect in a sweep by " +
+                      (bySpeed ? "speed" : "frequency") + ". Leave it out.");
   if (bySpeed) {
     settings.speeds = evenly(list, "Lowest Speed", "Highest Speed");
     settings.order = list.get<double>("Order");
@@ -93,11 +103,12 @@ std::string describe(const cases::Case& one) {
   const bool bySpeed = settings.bySpeed();
   const double last = bySpeed ? settings.speeds.back() * constants::rpmPerRadianPerSecond
                               : settings.frequencies.back();
+  std::vector<std::string> names;
+  for (const auto& output : settings.outputs) names.push_back(output.name);
   return lower(excitations[static_cast<int>(settings.excitation)]) + " at " +
          std::to_string(settings.points()) + (bySpeed ? " speeds up to " : " frequencies up to ") +
-         formatNumber(last) + (bySpeed ? " rpm" : " Hz") + ", " +
-         std::to_string(settings.outputs.size()) + " outputs, " +
-         (settings.friction ? "with" : "without") + " friction; " +
+         fmt::format("{:.6g}", last) + (bySpeed ? " rpm" : " Hz") + ", outputs " +
+         quotedList(names) + ", " + (settings.friction ? "with" : "without") + " friction; " +
          (one.reduces()
               ? "reduced model, full model at " + std::to_string(settings.spotChecks) + " points"
               : "full model") +

@@ -47,6 +47,12 @@ class Report {
           "spot checks with the full model: largest error {:.1e} of the largest amplitude of an "
           "output (estimate {:.1e})",
           worstError(), worstEstimate(response_.checks)));
+    const double coarse = std::max(worstEstimate(response_.points), worstEstimate(response_.peaks));
+    if (coarse > tooCoarse)
+      log::warn(fmt::format(
+          "The estimated error of the reduced model is {:.0f} % of the largest amplitude of an "
+          "output. Keep more modes (Reduction/Mode Selection), or leave the list Reduction out.",
+          100.0 * coarse));
     const auto* touching = firstTouch();
     if (touching != nullptr)
       log::warn(fmt::format(
@@ -70,7 +76,8 @@ class Report {
     summary.set("response.dofs", rotating_.model().size());
     summary.set("response.points", static_cast<long>(response_.points.size()));
     if (rotating_.estimated())
-      summary.set("response.largest_estimate", worstEstimate(response_.points));
+      summary.set("response.largest_estimate",
+                  std::max(worstEstimate(response_.points), worstEstimate(response_.peaks)));
     if (!response_.checks.empty()) summary.set("response.largest_error", worstError());
     for (const auto& peak : response_.peaks) {
       const auto x = peak.at.x(peak.output, peak.load);
@@ -94,6 +101,8 @@ class Report {
   }
 
  private:
+  /// Of the largest amplitude: a larger estimate is worth a warning.
+  static constexpr double tooCoarse = 0.05;
   static constexpr double degrees = 180.0 / constants::pi;
   static double rpm(double speed) { return speed * rpmPerRadianPerSecond; }
 
@@ -197,6 +206,8 @@ class Report {
     double largest = 0.0;
     for (const auto& point : response_.points)
       largest = std::max(largest, std::abs(point.x(output, load)));
+    for (const auto& peak : response_.peaks)
+      largest = std::max(largest, std::abs(peak.at.x(output, load)));
     return largest > 0.0 ? largest : 1.0;
   }
 
@@ -213,6 +224,7 @@ class Report {
 
   static const ResponsePoint& pointOf(const ResponsePoint& point) { return point; }
   static const ResponsePoint& pointOf(const ResponseCheck& check) { return check.reduced; }
+  static const ResponsePoint& pointOf(const ResponsePeak& peak) { return peak.at; }
   template <class Points>
   double worstEstimate(const Points& points) const {
     double worst = 0.0;

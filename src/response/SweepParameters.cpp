@@ -12,8 +12,10 @@ void declareCommon(deck::ListSpec& list) {
               "Of contacts at rest: None takes closed contacts as springs and dashpots along their "
               "normals; Sliding adds the tangent of friction at the speed of sliding, which is not "
               "symmetric and can make a motion grow.")
-      .integer("Spot Checks", 3, deck::Range::nonNegative(),
-               "Points at which the full model is solved beside the reduced one.")
+      .integer(
+          "Spot Checks", 3, deck::Range::nonNegative(),
+          "Points at which the full model is solved beside the reduced one; of a response also at "
+          "the highest peak of each output, unless 0.")
       .expert()
       .choice("Axis", std::string("z"), {"x", "y", "z"},
               "Axis of the rotation: tells forward from backward whirl and directs unbalance. That "

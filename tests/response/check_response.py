@@ -8,6 +8,7 @@ full, the limit at rest, refusals, ranks.
 import csv
 import json
 import pathlib
+import subprocess
 import sys
 
 import h5py
@@ -340,6 +341,14 @@ def string():
     close("string: two ranks give the same table", two["frequency"], alone["frequency"], 1e-9)
 
 
+def pictures():
+    """Both kinds of results are drawn; a folder without either is told."""
+    for folder, name in (("nelson", "campbell"), ("laval_response", "response"), ("chain", "response"), (".", None)):
+        done = subprocess.run([sys.executable, str(SOURCES / "tools/plot_response.py"), folder], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        drawn = name is not None and (pathlib.Path(folder) / f"{name}.png").stat().st_size > 10000
+        expect(f"picture of {folder}", (done.returncode == 0 and drawn) if name else "neither campbell.h5" in done.stderr, done.stderr)
+
+
 def refusals():
     for name, words, command, settings in (
         ("no list", "has no list Campbell", "campbell", []),
@@ -357,6 +366,7 @@ def refusals():
         ("no unbalance", "no mass off its axis", ["!Response/Unbalance"]),
         ("unbalance by frequency", "no sense for an unbalance", ["!Response/Highest Speed", "Response/Highest Frequency=10"]),
         ("order of an unbalance", "has the order 1", ["Response/Order=2"]),
+        ("speed of the other sweep", "has no effect in a sweep by speed", ["Response/Rotary Speed=3"]),
         ("no load", "Loads holds no load", ["Response/Excitation=Harmonic"]),
         ("node", "no such node", ["Response/Outputs/x/Node=5"]),
         ("component", "have the components", ["Response/Outputs/x/Component=w"]),
@@ -369,7 +379,7 @@ def refusals():
 
 
 if sys.argv[4] == "rotors":
-    for check in (laval, overhung, bearing, nelson, transfer, shaft, walls, refusals):
+    for check in (laval, overhung, bearing, nelson, transfer, shaft, walls, pictures, refusals):
         check()
 else:
     string()
