@@ -58,7 +58,7 @@ def exact(drive, times, start, bit=BIT):
         pipe = STIFFNESS * (y[0] - y[1]) + DAMPING * (y[2] - y[3])
         excess = (force - wanted) / kp if ki else 0.0
         return [y[2], y[3], (force - pipe) / J1, (pipe - bit.torque(y[3])) / J2, excess]
-    return solve_ivp(rates, (0.0, times[-1]), [*start, 0.0], method="Radau", rtol=1e-10, atol=1e-11, t_eval=times, max_step=0.01).y
+    return solve_ivp(rates, (0.0, times[-1]), [*start, 0.0], method="Radau", rtol=1e-10, atol=1e-11, t_eval=times, max_step=0.05).y
 
 
 def stick_slip(program):

@@ -87,8 +87,8 @@ class TorsionalString:
             force[0] += torque - kp * speed[0] - ki * theta[0]
             force[-1] -= bit.torque(omega(t) + speed[-1])
             return np.concatenate([speed, self.inverse @ force])
-        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="Radau", rtol=1e-9, atol=1e-10, t_eval=times,
-                          max_step=0.02)
+        found = solve_ivp(rates, (0.0, times[-1]), np.zeros(2 * n), method="DOP853", rtol=1e-9, atol=1e-10, t_eval=times,
+                          max_step=0.05)
         return found.y[:n].T, found.y[n:].T
 
 
