@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of runs, studies and tables, opened in a browser: check_report.py PROGRAM [MPIEXEC]
+"""Reports of runs, studies and tables, opened in a browser: check_report.py PROGRAM MPIEXEC pages|folders
 
 Each page has its figures, says nothing wrong on the console, asks nothing of a network, fits into 400 px, is below 5 MB, and its 3-D view is
 drawn and moves with its slider. The numbers in it are those of the results. What cannot be reported on ends with a sentence and exit code 5.
-Without Chromium the pages are only read.
+"pages" are those of a string, of parts and of a study; without Chromium they are only read. "folders" are those of runs that leave less, failed,
+were interrupted or damaged, and the end of a run.
 """
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -172,14 +174,13 @@ def string_numbers(folder, text):
 
 
 def strings(chromium):
-    """Runs of a string: 20 s of motion, at rest, and without what a deck may leave out."""
+    """Runs of a string: 20 s of motion with the tables of other commands beside it, and at rest."""
     run("string", STRING, "--set", "Transient/End Time=20", "--set", "Transient/Sampling Interval=0.005")
-    path, text = page("string", "string", RUN)
-    string_numbers("string", text)
-    expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
     tooljoint("torque-drag", STRING, "--output", "string", "--set", "Torque and Drag/Depths={40, 42}")
     tooljoint("modes", STRING, "--output", "string", "--count", "6")
-    path, text = page("string with tables", "string", RUN | {"hook-load", "surface-torque", "buckling-1", "mode-errors"})
+    path, text = page("string", "string", RUN | {"hook-load", "surface-torque", "buckling-1", "mode-errors"})
+    string_numbers("string", text)
+    expect("string: the deck has its overrides", re.search(r"<td[^>]*>End Time</td><td>20</td>", text) is not None)
     if chromium:
         look("string", path, chromium)
     run("rest", STRING, "--without", "Transient")
@@ -187,6 +188,10 @@ def strings(chromium):
     expect("string at rest: no motion is made up", "orbit-1" not in figures(text) and "time" not in scene_of(text))
     if chromium:
         look("string at rest", path, chromium, moves=False)
+
+
+def lesser_strings():
+    """Runs without what a deck may leave out; "full" is what other tests damage."""
     for name, arguments in {"bare": ["--set", "Output/Fields={}"], "free": ["--without", "Contact", "--without", "Mud"], "full": ["--without", "Reduction", "--without", "Substructures"]}.items():
         run(name, STRING, *arguments)
         page(f"string, {name}", name, WITHOUT_MOTION - {"side"})
@@ -252,11 +257,10 @@ def end_of_run():
     os.environ["TOOLJOINT_REPORT"] = "off"
     run("ended", STRING)
     expect("TOOLJOINT_REPORT=off: no report", not path.exists())
-    if len(sys.argv) > 2:
-        done = tooljoint("report", "ended", "--output", "two.html", ranks=2)
-        expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
-        done = tooljoint("report", "nowhere", ranks=2)
-        expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
+    done = tooljoint("report", "ended", "--output", "two.html", ranks=2)
+    expect("two ranks write one report", done.returncode == 0 and pathlib.Path("two.html").is_file() and done.stdout.count("report  ") == 1, done.stderr)
+    done = tooljoint("report", "nowhere", ranks=2)
+    expect("and end alike", done.returncode == 5 and done.stderr.count("is no folder") == 1, f"({done.returncode}) {done.stderr}")
 
 
 def refuse(what, folder, sentence, *arguments):
@@ -316,21 +320,20 @@ def interrupted():
     expect("an interrupted run: the page says so first", re.search(r'<ul class="notes"><li>The run was interrupted: Interrupted at [0-9.]+ s', text) is not None)
 
 
+def pages():
+    if browser.program() is None:
+        print("Chromium is not installed: the pages are read, not opened.")
+        chromium = contextlib.nullcontext()
+    else:
+        chromium = browser.Browser(120 * TIME_FACTOR)
+    with chromium as opened:
+        for part in (strings, parts, studies):
+            part(opened)
+
+
 def main():
     os.environ["TOOLJOINT_REPORT"] = "off"
-    chromium = browser.Browser(120 * TIME_FACTOR) if browser.program() else None
-    if chromium is None:
-        print("Chromium is not installed: the pages are read, not opened.")
-    else:
-        chromium.__enter__()
-    try:
-        strings(chromium)
-        parts(chromium)
-        studies(chromium)
-    finally:
-        if chromium:
-            chromium.__exit__()
-    for part in (tables_alone, old_results, end_of_run, refusals, failed, interrupted):
+    for part in [pages] if sys.argv[3] == "pages" else [lesser_strings, tables_alone, old_results, end_of_run, refusals, failed, interrupted]:
         part()
     return finish()
 
