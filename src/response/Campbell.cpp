@@ -12,6 +12,7 @@
 #include "response/ModeTracker.hpp"
 #include "response/NodeDofs.hpp"
 #include "response/SweepParameters.hpp"
+#include "response/SweepProgress.hpp"
 
 namespace tooljoint::response {
 
@@ -88,12 +89,14 @@ class Diagram {
   CampbellDiagram compute() {
     const auto checked =
         spread(settings_.speeds.size(), rotating_.reduced() ? settings_.spotChecks : 0);
+    SweepProgress progress("campbell", settings_.speeds.size());
     for (std::size_t i = 0; i < settings_.speeds.size(); ++i) {
       const auto before = tracker_.now();
       tracker_.advance(settings_.speeds[i]);
       addRows();
       if (i > 0) addCrossings(settings_.speeds[i - 1], before);
       if (contains(checked, i)) addChecks();
+      progress.done(i + 1);
     }
     std::stable_sort(out_.crossings.begin(), out_.crossings.end(),
                      [](const Crossing& a, const Crossing& b) {

@@ -13,6 +13,7 @@
 #include "linalg/DynamicStiffness.hpp"
 #include "model/SteadyRotation.hpp"
 #include "response/SweepParameters.hpp"
+#include "response/SweepProgress.hpp"
 
 namespace tooljoint::response {
 
@@ -138,9 +139,12 @@ class Sweep {
   HarmonicResponse compute() {
     HarmonicResponse out;
     out.loads = caseNames();
-    for (std::size_t i = 0; i < settings_.points(); ++i)
+    SweepProgress progress("response", settings_.points());
+    for (std::size_t i = 0; i < settings_.points(); ++i) {
       out.points.push_back(
           at(settings_.bySpeed() ? settings_.speeds[i] : settings_.frequencies[i]));
+      progress.done(i + 1);
+    }
     const auto cases = static_cast<int>(out.loads.size()), outputs = sizeOf(settings_.outputs);
     for (int load = 0; load < cases; ++load)
       for (int output = 0; output < outputs; ++output) addPeaks(load, output, out);

@@ -321,7 +321,7 @@ def string():
     expect("string: the error of the response is the one estimated", np.all(good), np.c_[checks["full"], checks["error"], checks["estimate"]])
     # a smooth start: neither speed nor acceleration at t = 0
     ramp = ["Rotary Speed/Law=Ramp", "Rotary Speed/Ramp/Final Speed=120 rpm", "Rotary Speed/Ramp/Duration=1"]
-    campbell = [*ramp, "Campbell/Highest Speed=120 rpm", "Campbell/Points=3", "Campbell/Modes=6", "Campbell/Friction=Sliding"]
+    campbell = [*ramp, "Campbell/Highest Speed=120 rpm", "Campbell/Points=2", "Campbell/Modes=6", "Campbell/Orders={1}", "Campbell/Friction=Sliding"]
     run("campbell", STRING, "string", *campbell)
     estimates("string")
     done = tooljoint("modes", STRING, "--count", "30", "--time", "0", "--output", "string_modes", *(word for one in ramp for word in ("--set", one)))
@@ -336,7 +336,7 @@ def string():
     rows = modes_at(table("string", "campbell"), 0.0)
     apart = [np.min(np.abs(still["coupled_im"][vibrating] - f) + np.abs(still["coupled_damping"][vibrating] - d)) for f, d in zip(rows["frequency"], rows["damping"])]
     expect("string: the modes at rest are those of `modes` at Omega = 0", np.max(apart) < 1e-6, apart)
-    run("campbell", STRING, "string_2", *campbell, ranks=2)
+    run("campbell", STRING, "string_2", *campbell, "Campbell/Spot Checks=0", ranks=2)
     alone, two = table("string", "campbell"), table("string_2", "campbell")
     close("string: two ranks give the same table", two["frequency"], alone["frequency"], 1e-9)
 
