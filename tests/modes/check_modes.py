@@ -128,7 +128,10 @@ def damped():
             structure.C = alpha * structure.M + beta * structure.K
             _, rows, _, cpu = modes(f"{name}_{kind}", structure, 12)
             if rows:
-                expect(f"{name}, {kind}: values", *same(values(rows), proportional(structure, alpha, beta, 40), tolerance))
+                exact = proportional(structure, alpha, beta, 40)
+                if kind == "critical":  # rounding makes two real values or one complex one of each of the two lowest modes
+                    exact = np.append(exact, [-first, -first])
+                expect(f"{name}, {kind}: values", *same(values(rows), exact, tolerance))
                 expect(f"{name}, {kind}: the lowest ones", abs(values(rows)[-1]) <= abs(proportional(structure, alpha, beta, 14 if kind == "critical" else 12)[-1]) * (1 + 1e-6))  # double values split either way
                 expect(f"{name}, {kind}: time", cpu < SECONDS, f"{cpu:.1f} s for {structure.M.shape[0]} dofs")
     # 600 dofs with a range of four decades between the lowest frequency and the stiffest element
