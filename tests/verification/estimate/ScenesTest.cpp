@@ -261,6 +261,8 @@ TEST(MotionTolerance, IsMetAtTheStartOfEveryOtherScene) {
   ASSERT_GE(scenes().size(), 2u);
   for (const auto& file : scenes()) {
     if (file == "helical_170m.xml") continue;
+    if (file == "stick_slip_2500m.xml")
+      continue;  // laws with states have no estimate of the motion
     const Case c(file, {"Transient/End Time=0.2", "Transient/Progress=false",
                         "Transient/Step Error Limit=1000"});
     std::printf("%s, 0.2 s: ", file.c_str());
