@@ -145,8 +145,8 @@ TEST(Version, NamesEverythingARunStandsOn) {
   EXPECT_EQ(mpiVersion().find('\n'), std::string::npos);
   EXPECT_NE(gitHash(), "");
   const std::string text = versionText();
-  for (const std::string& version :
-       {programVersion(), gitHash(), trilinosVersion(), mpiVersion(), hdf5Version(), blasLibrary()}) {
+  for (const std::string& version : {programVersion(), gitHash(), trilinosVersion(), mpiVersion(),
+                                     hdf5Version(), blasLibrary()}) {
     EXPECT_NE(text.find(version), std::string::npos);
   }
 }
