@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures long strings, large parts and many rows, and writes docs/scale.md with its figure.
 
-    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--short]
+    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--short]
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
 in the work folder already are not run again. --short takes the smallest of each and prints the tables only.
@@ -10,6 +10,7 @@ in the work folder already are not run again. --short takes the smallest of each
 import argparse
 import csv
 import json
+import math
 import os
 import pathlib
 import platform
@@ -31,7 +32,7 @@ HEAD = """# Scale
 
 What the program takes for long strings, large parts and many rows. Written by
 
-    tools/scale.py --program build/release/tooljoint
+    tools/scale.py --program build/release/tooljoint --most {most}
 
 Machine: {cpu}, {count} cores; {blas}. Times are of one run each; ratios within a table are what lasts. Memory is the
 peak of the largest process.
@@ -156,17 +157,19 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--work", default="results/scale")
     parser.add_argument("--mpiexec", default="mpiexec")
+    parser.add_argument("--most", type=int, default=200000, help="dofs of the largest block")
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    blocks, found = solids(options, BLOCKS[:2] if options.short else BLOCKS)
+    chosen = [counts for counts in BLOCKS if 3 * math.prod(n + 1 for n in counts) <= options.most]
+    blocks, found = solids(options, chosen[:2] if options.short else chosen)
     text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS) + "\n" + rows(options, 3 if options.short else 15)
     print(text)
     if not options.short:
         blas = os.popen(f"{options.program} --version").read()
         blas = re.search(r"BLAS +(\S+)", blas)
         draw(found)
-        head = HEAD.format(cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
+        head = HEAD.format(most=options.most, cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
         figure = f"![Reduction of a solid part](figures/{FIGURE.name})\n\n"
         at = text.index("\n| dofs") + 1
         DOCUMENT.write_text(head + text[:at] + figure + text[at:], encoding="utf-8")

@@ -7,7 +7,7 @@
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
 "effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
-"files" for the list of files; tables and figures of an analysis (ANALYSES) are those of its own command. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
+"files" for the list of files; tables and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names where two have the table. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
 import argparse
@@ -58,8 +58,9 @@ class Runs:
     def value(self, overrides, key, scene):
         command = next((word for word in ANALYSES if key in ANALYSES[word] or key.startswith(word + ".")), "study" if scene == STUDY else "run")
         folder = self.folder(overrides, scene, command)
-        if key.startswith("file:"):
-            return (folder / key[5:]).read_bytes()
+        file = key.removeprefix(f"{command}.")
+        if file.startswith("file:"):
+            return (folder / file[5:]).read_bytes()
         if key == "size":
             return (folder / "results.h5").stat().st_size
         value = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
