@@ -114,9 +114,11 @@ def strings(options, chosen):
 
 
 def rows(options, end):
-    """The study of the tests on one rank and, rows over ranks, on two."""
+    """The study of the tests with many steps, on one rank and, rows over ranks, on two."""
+    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 54))
     deck = PROJECT / "tests/study/study.xml"
-    common = ["study", str(deck), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Study/Repeats=1"]
+    common = ["study", str(deck), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Study/Repeats=1",
+              "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]
     one = measured(options, "rows_1", common)
     two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
     counts = []
@@ -125,7 +127,7 @@ def rows(options, end):
         counts.append(sum(1 for _ in csv.DictReader(open(path, encoding="utf-8"))) if path.exists() else 0)
     lines = [(ranks, count, *times(row)) for ranks, count, row in ((1, counts[0], one), (2, counts[1], two))]
     ratio = one["wall_s"] / two["wall_s"] if one["code"] == two["code"] == 0 else float("nan")
-    return (f"## Rows over ranks\n\nThe study of `tests/study` over {end} s, `--ranks-per-row 1` on two ranks: {ratio:.2f} times the rows per hour of one.\n\n" +
+    return (f"## Rows over ranks\n\nThe study of `tests/study` with more steps over {end} s, `--ranks-per-row 1` on two ranks: {ratio:.2f} times the rows per hour of one.\n\n" +
             table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
 
 
