@@ -115,7 +115,7 @@ def strings(options, chosen):
 
 def rows(options, end):
     """The study of the tests with many steps, on one rank and, rows over ranks, on two."""
-    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 54))
+    steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 54)) + ", 1 ms"
     deck = PROJECT / "tests/study/study.xml"
     common = ["study", str(deck), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Study/Repeats=1",
               "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]

@@ -11,7 +11,6 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
-#include "linalg/blocks/ChainFactor.hpp"
 
 namespace tooljoint::linalg {
 
@@ -19,6 +18,8 @@ namespace {
 
 /// Below it KLU2 is as fast for solids: 0.1 s.
 constexpr int fewRows = 2000;
+/// Entries of a row of a string: its node and two neighbours, six dofs each. Solids have 81.
+constexpr int entriesOfAString = 18;
 /// Columns solved at a time: enough for level-3 BLAS, little memory beside the factors.
 constexpr int blockOfColumns = 64;
 /// Room beside the estimate of the analysis that pivoting may take [%], at first and at most.
@@ -173,7 +174,9 @@ long MumpsFactor::entries() const {
 
 int MumpsFactor::negativePivots() const { return impl_->info(12); }
 
-bool suitsMumps(const Sparse& A) { return A.rows() >= fewRows && !ChainFactor::isChain(A); }
+bool suitsMumps(const Sparse& A) {
+  return A.rows() >= fewRows && A.nonZeros() > entriesOfAString * A.rows();
+}
 
 bool isDefinite(const Sparse& A, double tolerance) {
   Sparse lowered = A;

@@ -36,7 +36,8 @@ class MumpsFactor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// So large a matrix, and no chain of nodes, that its factors by KLU2 would fill much more.
+/// So many rows with so many entries, more than those of a string, that its factors by KLU2 would
+/// fill much more.
 bool suitsMumps(const Sparse& A);
 
 /// x'(A - tolerance diag(A)) x > 0 for all x and symmetric A with a positive diagonal: no pivot of

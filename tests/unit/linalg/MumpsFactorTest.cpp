@@ -50,6 +50,18 @@ Sparse grid(bool free = false, double skew = 0.0) {
   return sparse(edge * edge * edge, edge * edge * edge, entries);
 }
 
+/// Three of them that share their springs: grid x [2 1 1; 1 2 1; 1 1 2], with the eigenvalues of
+/// the grid times 4, 1 and 1.
+Sparse solid(bool free = false) {
+  Triplets entries;
+  forEachEntry(grid(free), [&](int row, int column, double value) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        entries.emplace_back(3 * row + i, 3 * column + j, (i == j ? 2 : 1) * value);
+  });
+  return sparse(3 * edge * edge * edge, 3 * edge * edge * edge, entries);
+}
+
 int eigenvaluesOfGridBelow(double bound) {
   int below = 0;
   const auto one = [](int i) { return 2 - 2 * std::cos(i * constants::pi / (edge + 1)); };
@@ -96,9 +108,13 @@ TEST(MumpsFactor, countsEigenvalues) {
     MumpsFactor factor;
     ASSERT_TRUE(factor.factor(shifted(grid(), bound), Symmetry::Indefinite));
     EXPECT_EQ(factor.negativePivots(), eigenvaluesOfGridBelow(bound)) << bound;
-    Sparse one(edge * edge * edge, edge * edge * edge);
+  }
+  for (const double bound : {0.3, 3.05}) {
+    Sparse one(solid().rows(), solid().rows());
     one.setIdentity();
-    EXPECT_EQ(eigenvaluesBelow(grid(), one, bound), eigenvaluesOfGridBelow(bound)) << bound;
+    EXPECT_EQ(eigenvaluesBelow(solid(), one, bound),
+              eigenvaluesOfGridBelow(bound / 4) + 2 * eigenvaluesOfGridBelow(bound))
+        << bound;
   }
 }
 
@@ -109,27 +125,27 @@ TEST(MumpsFactor, tellsWhatIsDefinite) {
   EXPECT_FALSE(MumpsFactor().factor(shifted(grid(), 1.0), Symmetry::Definite));
 }
 
-TEST(MumpsFactor, isForLargeMatricesThatAreNoChains) {
-  EXPECT_TRUE(suitsMumps(grid()));
+TEST(MumpsFactor, isForLargeMatricesWithLongRows) {
+  EXPECT_TRUE(suitsMumps(solid()));
   Triplets entries;
   for (int i = 0; i < 6000; ++i)  // nodes of six dofs, each joined with the next
     for (int j = std::max(0, i - i % 6 - 6); j < std::min(6000, i - i % 6 + 12); ++j)
       entries.emplace_back(i, j, i == j ? 2.0 : -0.1);
   EXPECT_FALSE(suitsMumps(sparse(6000, 6000, entries)));
-  EXPECT_FALSE(suitsMumps(grid().topLeftCorner(100, 100)));
+  EXPECT_FALSE(suitsMumps(solid().topLeftCorner(100, 100)));
   EXPECT_TRUE(isExactlySymmetric(grid()));
   EXPECT_FALSE(isExactlySymmetric(grid(false, 1e-15)));
 }
 
 /// The direct solver of such a matrix: its solution is as good, and what moves freely is named.
 TEST(MumpsFactor, standsBehindTheDirectSolver) {
-  const Matrix b = scatteredNumbers(edge * edge * edge, 130, 5);
-  const DirectSolver solver(grid());
-  EXPECT_LT(backwardError(grid(), solver.solve(b), b), 1e-13);
+  const Matrix b = scatteredNumbers(solid().rows(), 130, 5);
+  const DirectSolver solver(solid());
+  EXPECT_LT(backwardError(solid(), solver.solve(b), b), 1e-13);
   EXPECT_LT(solver.lastResidual(), 1e-13);
   try {
-    const DirectSolver free(grid(true));
-    FAIL() << "a free grid was factored";
+    const DirectSolver free(solid(true));
+    FAIL() << "a free solid was factored";
   } catch (const ModelError& error) {
     EXPECT_NE(std::string(error.what()).find("nothing resists a motion"), std::string::npos)
         << error.what();
