@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures long strings, large parts and many rows, and writes docs/scale.md with its figure.
 
-    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--short]
+    tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
 in the work folder already are not run again. --short takes the smallest of each and prints the tables only.
@@ -117,7 +117,7 @@ def rows(options, end):
     """The study of the tests with many steps, on one rank and, rows over ranks, on two."""
     steps = ", ".join(f"{0.2 + 0.01 * i:.2f} ms" for i in range(8 if options.short else 54)) + ", 1 ms"
     deck = PROJECT / "tests/study/study.xml"
-    common = ["study", str(deck), "--output", "out", "--set", f"Transient/End Time={end}", "--set", "Study/Repeats=1",
+    common = ["study", str(deck), "--output", "out", "--set", f"Study/End Time={end}", "--set", "Study/Repeats=1",
               "--set", f"Study/Methods/Generalized-alpha, full/Sweep/step/Values={{{steps}}}"]
     one = measured(options, "rows_1", common)
     two = measured(options, "rows_2", [*common, "--ranks-per-row", "1", "--timing", "shared"], ranks=2)
@@ -160,12 +160,15 @@ def main():
     parser.add_argument("--work", default="results/scale")
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--most", type=int, default=200000, help="dofs of the largest block")
+    parser.add_argument("--rows", action="store_true", help="a study of 65 rows on one and two ranks, too: minutes of a machine without other work")
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
     chosen = [counts for counts in BLOCKS if 3 * math.prod(n + 1 for n in counts) <= options.most]
     blocks, found = solids(options, chosen[:2] if options.short else chosen)
-    text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS) + "\n" + rows(options, 3 if options.short else 15)
+    text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS)
+    if options.rows:
+        text += "\n" + rows(options, 3 if options.short else 15)
     print(text)
     if not options.short:
         blas = os.popen(f"{options.program} --version").read()
