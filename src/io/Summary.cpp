@@ -112,6 +112,7 @@ const std::vector<std::string>& documentedKeys() {
       "transient.strategies.bracketing",
       "transient.wall_s",
       "transient.cpu_s",
+      "transient.ranks",
       "transient.real_time_factor",
       "transient.bit_speed_rpm.min",
       "transient.bit_speed_rpm.max",

@@ -23,12 +23,14 @@ struct Checkpoint {
   std::string program;  ///< version and commit of the program that wrote it
   std::string integrator;  ///< its name in the deck
   std::string model;       ///< modelIdentity() of the model and the options
-  State state;             ///< in positions of the compiled model
+  State state;             ///< in positions of the compiled model; of a divided motion (RankShare)
+                           ///< its time only, and each rank's state stands before its memory
   Counters counters;
   long contactEvaluations = 0;
   long samples = 0;            ///< samples handed out so far
   int runawaySamples = 0;      ///< samples in a row with an energy balance that is wrong
   std::vector<double> memory;  ///< of the model, the integrator, the point batches and the ledger
+  std::vector<int> shares;  ///< of a divided motion: numbers of each rank in `memory`; else empty
   std::vector<double>
       recorder;  ///< of the sink of the samples, set by whoever keeps the checkpoint
   std::map<std::string, std::uint64_t> rows;  ///< rows of each time series of the results, likewise

@@ -6,6 +6,18 @@
 
 namespace tooljoint::transient {
 
+void State::save(std::vector<double>& memory) const {
+  memory.push_back(t);
+  for (const Vector* each : {&q, &v, &a, &x, &xDot})
+    memory.insert(memory.end(), each->begin(), each->end());
+}
+
+void State::restore(const double*& memory) {
+  t = *memory++;
+  for (Vector* each : {&q, &v, &a, &x, &xDot})
+    for (double& number : *each) number = *memory++;
+}
+
 void Counters::accept(double h) {
   minStep = steps == 0 ? h : std::min(minStep, h);
   maxStep = steps == 0 ? h : std::max(maxStep, h);

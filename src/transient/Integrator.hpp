@@ -29,6 +29,9 @@ struct State {
     for (Vector* each : {&q, &v, &a}) each->setZero(n);
     for (Vector* each : {&x, &xDot}) each->setZero(states);
   }
+  /// Append / take back, sizes as they are.
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
 };
 
 /// What was done, counted; nothing is hidden.
@@ -65,6 +68,10 @@ class Integrator {
   /// Whether steps carry the states of point laws: `to.x` and `to.xDot` from those of `from`. A
   /// model with states is refused otherwise.
   virtual bool carriesPointStates() const { return false; }
+
+  /// Whether steps are right on a CompiledModel that is one rank's share: sums, maxima and
+  /// decisions are taken over CompiledModel::cut(). Other motions are computed by all ranks alike.
+  virtual bool dividesAmongRanks() const { return false; }
 
   /// Every how many steps the energy ledger has to look, for steps that are short beside what
   /// moves.

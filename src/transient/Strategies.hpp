@@ -25,16 +25,18 @@ enum class Strategy : std::size_t {
 constexpr std::size_t strategyCount = 9;
 
 struct StrategyName {
-  const char* deck;     ///< in the parameter Leave Out
-  const char* summary;  ///< key in summary.json
+  const char* deck;      ///< in the parameter Leave Out
+  const char* summary;   ///< key in summary.json
+  bool ofPoint = false;  ///< used at one point, on the rank that has it
 };
 constexpr std::array<StrategyName, strategyCount> strategyNames{{
     {"Relaxation", "relaxation"},            // of the point forces, with a factor kept over steps
     {"Near Solves", "near_solves"},          // of what a few points reach, instead of all
-    {"Points Alone", "points_alone"},        // those whose force jumps, each with its own Newton
-    {"Point Paths", "point_paths"},          // pseudo-time and path following at such a point
+    {"Points Alone", "points_alone", true},  // those whose force jumps, each with its own Newton
+    {"Point Paths", "point_paths", true},    // pseudo-time and path following at such a point
     {"Turns", "turns"},                      // every fourth point moves while the others stand
-    {"Resting Impacts", "resting_impacts"},  // on walls too stiff for the step, without rebound
+    {"Resting Impacts", "resting_impacts",
+     true},                                  // on walls too stiff for the step, without rebound
     {"Newton", "newton"},                    // for the whole model, with renewed tangents
     {"Troubled Points", "troubled_points"},  // of its line search, solved together
     {"Bracketing", "bracketing"},            // of a jump along the Newton direction

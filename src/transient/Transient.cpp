@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <exception>
 #include <iomanip>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
+#include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
 #include "common/report/EvaluationCounters.hpp"
@@ -20,6 +22,7 @@
 #include "common/report/Progress.hpp"
 #include "transient/ModelIdentity.hpp"
 #include "transient/accuracy/StepError.hpp"
+#include "transient/ranks/RankShare.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -45,17 +48,24 @@ double cpuSeconds() {
 /// Hands out samples at start + k * interval from accepted steps.
 class Sampler {
  public:
-  Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink, long done)
+  /// \param share  null for a model that is whole
+  Sampler(const CompiledModel& model, const RankShare* share, const TransientOptions& options,
+          SampleSink& sink, long done)
       : model_(model),
+        share_(share),
         begin_(options.start),
         end_(options.end),
         interval_(options.sampling),
         sink_(sink),
         count_(done) {
     middle_.resize(model.size(), model.stateSize());
-    for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.size());
+    for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.wholeSize());
+    dofs_.setZero(model.size());
   }
   long count() const { return count_; }
+  /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
+  /// the run asks all of them and then throws on all.
+  const std::exception_ptr& failure() const { return failure_; }
 
   /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.
   void step(const State& from, const State& to) {
@@ -85,20 +95,36 @@ class Sampler {
     return middle_;
   }
   void give(double t, const State& state) {
-    model_.toDofs(state.q, q_);
-    model_.toDofs(state.v, v_);
-    model_.toDofs(state.a, a_);
+    toWhole(state.q, q_);
+    toWhole(state.v, v_);
+    toWhole(state.a, a_);
+    ++count_;
+    if (share_ == nullptr) return pass(t, state);
+    if (failure_) return;
+    try {
+      pass(t, state);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+  void pass(double t, const State& state) {
     if (model_.stateSize() > 0) sink_.states(state.x);
     sink_.sample(t, q_, v_, a_);
-    ++count_;
+  }
+  void toWhole(const Vector& positions, Vector& dofs) {
+    if (share_ == nullptr) return model_.toDofs(positions, dofs);
+    model_.toDofs(positions, dofs_);
+    share_->gather(dofs_, dofs);
   }
 
   const CompiledModel& model_;
+  const RankShare* share_;
   double begin_, end_, interval_;
   SampleSink& sink_;
   long count_;
   State middle_;
-  Vector q_, v_, a_;
+  Vector q_, v_, a_, dofs_;
+  std::exception_ptr failure_;
 };
 
 /// Not a number, infinite or absurdly large: say when and where.
@@ -108,14 +134,19 @@ void checkFinite(const CompiledModel& model, const Integrator& integrator, const
     throw ConvergenceError("A state of a point law is not a number after the step from t = " +
                            formatNumber(from.t) + " s. " + integrator.advice() + ".");
   const double size = to.q.cwiseAbs().sum() + to.v.cwiseAbs().sum() * 1e-6;
-  if (std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp)) return;
+  const bool good = std::isfinite(size) && (size < blowUp || to.q.cwiseAbs().maxCoeff() < blowUp);
+  if (!model.cut().any(!good)) return;
   const int q = worstPosition(to.q);
   const int v = worstPosition(to.v);
-  const int worst = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]) ? v : q;
+  const bool velocity = std::isfinite(to.q[q]) && !std::isfinite(to.v[v]);
+  const int worst = velocity ? v : q;
+  const double reached = velocity ? to.v[worst] : to.q[worst];
+  std::ostringstream where;
+  where << model.dofName(worst) << " reached " << reached;
   std::ostringstream text;
   text << "The motion blew up in the step from t = " << from.t << " s to " << to.t
-       << " s: " << model.dofName(worst) << " reached " << (worst == q ? to.q[worst] : to.v[worst])
-       << ". " << integrator.advice()
+       << " s: " << model.cut().ofLargest(std::abs(reached), where.str()) << ". "
+       << integrator.advice()
        << "; if it happens however small, the model itself is unstable there.";
   throw ConvergenceError(text.str());
 }
@@ -123,7 +154,37 @@ void checkFinite(const CompiledModel& model, const Integrator& integrator, const
 long contactEvaluations(const CompiledModel& model) {
   long sum = 0;
   for (const auto& batch : model.points()) sum += batch.evaluations();
-  return sum;
+  return std::lround(model.cut().sum(static_cast<double>(sum)));
+}
+
+bool hasPointStates(const model::SecondOrderModel& model) {
+  return std::any_of(model.points.begin(), model.points.end(),
+                     [](const auto& set) { return model::stateful(*set.law) != nullptr; });
+}
+
+/// Models with fewer dofs are computed by all ranks alike: a step takes less time than the messages
+/// of a divided one win back.
+constexpr int fewestToDivide = 1500;
+
+/// The share of this rank, or null where all ranks do the same.
+std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
+                                   const TransientOptions& options, const Integrator& integrator) {
+  const bool wanted = options.ranks == RankUse::Divide ||
+                      (options.ranks == RankUse::Automatic && model.size() >= fewestToDivide);
+  if (!wanted || parallel::size() == 1) return nullptr;
+  if (!integrator.dividesAmongRanks() || hasPointStates(model)) {
+    if (options.ranks == RankUse::Divide)
+      log::warn("The motion is computed by all ranks alike: " +
+                (hasPointStates(model)
+                     ? std::string("a point law has states.")
+                     : "the integrator \"" + options.integrator + "\" does not divide it."));
+    return nullptr;
+  }
+  auto share = RankShare::of(model);
+  if (!share && options.ranks == RankUse::Divide)
+    log::warn("The motion is computed by all ranks alike: the model cannot be cut into " +
+              std::to_string(parallel::size()) + " pieces.");
+  return share;
 }
 
 /// Part of the integral of a law of time that fixed steps may miss without a warning.
@@ -159,9 +220,12 @@ class Run {
       const RunHooks& hooks)
       : options_(options),
         hooks_(hooks),
-        model_(model),
+        whole_(model),
         integrator_(make()),
-        sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
+        share_(shareOf(model, options, *integrator_)),
+        model_(share_ ? CompiledModel(*share_) : CompiledModel(model)),
+        sampler_(model_, share_.get(), options, sink,
+                 hooks.resume != nullptr ? hooks.resume->samples : 0) {
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
   }
@@ -174,11 +238,17 @@ class Run {
     const bool interrupted = loop();
     TransientReport report;
     report.integrator = options_.integrator;
-    report.size = model_.size();
+    report.size = model_.wholeSize();
+    report.ranks = model_.cut().ranks();
     report.start = options_.start;
     report.end = state_.t;
     report.interrupted = interrupted;
     report.counters = integrator_->counters();
+    for (std::size_t i = 0; i < strategyCount; ++i)
+      if (strategyNames[i].ofPoint) {
+        long& uses = report.counters.strategies[i];
+        uses = std::lround(model_.cut().sum(static_cast<double>(uses)));
+      }
     if (stepError_) report.stepError = stepError_->value();
     report.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     report.samples = sampler_.count();
@@ -220,7 +290,7 @@ class Run {
     checkFinite(model_, *integrator_, state_, state_);
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
     sampler_.first(state_);
-    if (hooks_.keep && !integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
+    if (!integrator_->goesOnFromAnywhere()) keepCheckpoint();
   }
 
   void startStates() {
@@ -242,33 +312,86 @@ class Run {
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
                       "\", the deck asks for \"" + options_.integrator +
                       "\". Restart with the same deck.");
-    if (point.state.q.size() != model_.size() || point.state.x.size() != model_.stateSize() ||
-        point.model != identity())
+    requireSameRanks(point);
+    const bool fits = share_ || (point.state.q.size() == model_.size() &&
+                                 point.state.x.size() == model_.stateSize());
+    if (!fits || point.model != identity())
       throw DeckError(
           "The checkpoint belongs to another model, or to other steps, than this deck describes. "
           "Restart with the same deck.");
-    state_ = point.state;
     runawaySamples_ = point.runawaySamples;
     const double* memory = point.memory.data();
+    const double* end = memory + point.memory.size();
+    if (share_) {
+      const auto rank = static_cast<std::size_t>(parallel::rank());
+      for (std::size_t r = 0; r < rank; ++r) memory += point.shares[r];
+      end = memory + point.shares[rank];
+      state_.restore(memory);
+    } else {
+      state_ = point.state;
+    }
+    const double* first = memory;
     model_.restore(memory);
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
     if (options_.ledger) ledger_.restore(model_, integrator_->ledgerStride(), memory);
     if (stepError_) stepError_->restore(memory);
-    if (memory != point.memory.data() + point.memory.size())
+    if (memory != end)
       throw FileError(
           "The checkpoint holds another amount of memory than this program reads. Go on with the "
           "program that wrote it.");
-    memory = point.memory.data();
+    memory = first;
     model_.restore(memory);  // the others have taken it to other times
     // what was done again to get here is not counted twice
     integrator_->counters() = point.counters;
     evaluationsBefore_ = point.contactEvaluations - contactEvaluations(model_);
   }
 
+  /// Each rank of a divided motion has a memory of its own.
+  void requireSameRanks(const Checkpoint& point) const {
+    const std::size_t ranks = share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 1;
+    const std::size_t wrote = std::max<std::size_t>(point.shares.size(), 1);
+    if (ranks == wrote) return;
+    const auto text = [](std::size_t n) {
+      return n == 1 ? std::string("all ranks alike") : std::to_string(n) + " ranks";
+    };
+    throw DeckError(
+        "The motion of the checkpoint was computed by " + text(wrote) + ", this one by " +
+        text(ranks) + ". Restart with " +
+        (wrote == 1 ? "Transient/Ranks = Alike"
+                    : "mpirun -np " + std::to_string(wrote) + " and Transient/Ranks = Divide") +
+        ".");
+  }
+
   const std::string& identity() {
-    if (identity_.empty()) identity_ = modelIdentity(model_.source(), options_);
+    if (identity_.empty()) identity_ = modelIdentity(whole_, options_);
     return identity_;
+  }
+
+  /// Hand a checkpoint to whoever keeps it.
+  void keepCheckpoint() {
+    if (!hooks_.keep) return;
+    const auto point = checkpoint();
+    if (!share_) return hooks_.keep(point);
+    try {
+      hooks_.keep(point);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+  }
+
+  /// An error that one rank has met outside the steps is thrown on all of them.
+  void throwFailures() const {
+    if (!share_) return;
+    const auto& failure = failure_ ? failure_ : sampler_.failure();
+    if (!model_.cut().any(failure != nullptr)) return;
+    parallel::agree([&failure] {
+      if (failure) std::rethrow_exception(failure);
+    });
+  }
+
+  bool isStopped() const {
+    return model_.cut().any(hooks_.stop ? hooks_.stop() : interruptRequested());
   }
 
   Checkpoint checkpoint() {
@@ -276,7 +399,10 @@ class Run {
     point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
     point.model = identity();
-    point.state = state_;
+    if (share_)
+      point.state.t = state_.t, state_.save(point.memory);
+    else
+      point.state = state_;
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();
@@ -286,6 +412,10 @@ class Run {
     integrator_->save(point.memory);
     if (options_.ledger) ledger_.save(point.memory);
     if (stepError_) stepError_->save(point.memory);
+    if (share_) {
+      const auto mine = std::move(point.memory);
+      RankShare::gatherArrays(mine, point.memory, point.shares);
+    }
     return point;
   }
 
@@ -296,8 +426,10 @@ class Run {
       bar = std::make_unique<Progress>(hooks_.title, options_.end, options_.start);
     long intervals = checkpointIntervals(state_.t);
     while (state_.t < options_.end) {
-      if (hooks_.stop ? hooks_.stop() : interruptRequested()) {
-        if (hooks_.keep && integrator_->goesOnFromAnywhere()) hooks_.keep(checkpoint());
+      throwFailures();
+      if (isStopped()) {
+        if (integrator_->goesOnFromAnywhere()) keepCheckpoint();
+        throwFailures();
         return true;
       }
       if (stepError_) stepError_->before(*integrator_, state_);
@@ -312,10 +444,11 @@ class Run {
       if (state_.t < options_.end && checkpointIntervals(state_.t) > intervals) {
         intervals = checkpointIntervals(state_.t);
         integrator_->forgetHistory();
-        if (hooks_.keep) hooks_.keep(checkpoint());
+        keepCheckpoint();
       }
       if (bar && bar->due()) bar->update(state_.t, suffix());
     }
+    throwFailures();
     if (bar) bar->finish();
     if (options_.ledger) judgeEnergy();
     judgeSteps();
@@ -411,8 +544,10 @@ class Run {
 
   TransientOptions options_;
   const RunHooks& hooks_;
-  CompiledModel model_;
+  const model::SecondOrderModel& whole_;
   std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<RankShare> share_;  ///< null: all ranks do the same
+  CompiledModel model_;
   Sampler sampler_;
   EnergyLedger ledger_;
   std::optional<StepError> stepError_;  ///< of equal steps
@@ -420,6 +555,7 @@ class Run {
   long evaluationsBefore_ = 0;
   int runawaySamples_ = 0;
   std::string identity_;
+  std::exception_ptr failure_;  ///< of a checkpoint on this rank
 };
 
 /// A force that joins parts, with -flexibility for stiffness and a mass: an eigenvalue omega^2 < 0.

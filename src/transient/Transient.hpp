@@ -35,6 +35,7 @@ class SampleSink {
 struct TransientReport {
   std::string integrator;
   int size = 0;      ///< dofs of the model
+  int ranks = 1;     ///< that shared the motion
   double start = 0;  ///< [s]
   double end = 0;    ///< time reached [s]
   bool interrupted = false;

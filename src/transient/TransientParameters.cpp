@@ -35,6 +35,11 @@ deck::ListSpec parameters() {
             "Simulated time between two states saved for a restart; 0 saves one only when the run "
             "is interrupted. The integrators of SUNDIALS begin "
             "anew at each of them and go on only from there.")
+      .expert()
+      .choice("Ranks", std::string("Automatic"), {"Automatic", "Divide", "Alike"},
+              "Of several MPI ranks: each computes a piece of the model (Divide), or all do the "
+              "same (Alike). Automatic divides models of 1500 dofs and more that can be divided: "
+              "by Generalized-alpha, without states of point laws.")
       .expert();
   const TransientOptions usual;
   spec.real("Step Error Warning", "", usual.stepErrorWarning, deck::Range::positive(),
@@ -105,6 +110,10 @@ TransientOptions readOptions(const Teuchos::ParameterList& given) {
   options.progress = list.get<bool>("Progress");
   options.ledger = list.get<bool>("Energy Ledger");
   options.checkpointInterval = list.get<double>("Checkpoint Interval");
+  const auto& ranks = list.get<std::string>("Ranks");
+  options.ranks = ranks == "Divide"  ? RankUse::Divide
+                  : ranks == "Alike" ? RankUse::Alike
+                                     : RankUse::Automatic;
   options.stepErrorWarning = list.get<double>("Step Error Warning");
   options.stepErrorLimit = list.get<double>("Step Error Limit");
   options.energyResidualWarning = list.get<double>("Energy Residual Warning");

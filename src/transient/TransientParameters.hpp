@@ -13,6 +13,9 @@ namespace tooljoint::transient {
 /// Description of the list `Transient`, with one sublist per registered integrator.
 deck::ListSpec parameters();
 
+/// How several ranks compute one motion.
+enum class RankUse { Automatic, Divide, Alike };
+
 /// The list as values.
 struct TransientOptions {
   std::string integrator = "Generalized-alpha";
@@ -27,6 +30,7 @@ struct TransientOptions {
   /// A run warns beyond the first, and is refused beyond the second.
   double stepErrorWarning = 0.05, stepErrorLimit = 1.0;
   double energyResidualWarning = 0.05, energyResidualLimit = 0.2;
+  RankUse ranks = RankUse::Automatic;
   Teuchos::ParameterList own;  ///< the integrator's sublist
 };
 

@@ -117,6 +117,7 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
     for (std::size_t i = 0; i < transient::strategyCount; ++i)
       summary.set(std::string("transient.strategies.") + transient::strategyNames[i].summary,
                   c.strategies[i]);
+  summary.set("transient.ranks", report.ranks);
   summary.set("transient.wall_s", report.wall);
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);

@@ -53,7 +53,7 @@ TOOLJOINT_INLINED void downwards(const std::vector<std::uint64_t>& bits, const A
 /// processor two independent sweeps.
 void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
                         std::vector<std::vector<int>>& later) const {
-  const int n = pattern.blocks();
+  const int n = pattern.blocks(), interior = pattern.interiorBlocks();
   std::vector<std::set<int>> graph(at(n));
   for (int b = 0; b < n; ++b)
     for (int e = pattern.rowBegin(b); e < pattern.rowBegin(b + 1); ++e)
@@ -66,7 +66,7 @@ void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
   };
   std::set<std::tuple<long, int, int>> queue;  // work, waiting since, block
   std::vector<std::tuple<long, int, int>> key(at(n));
-  for (int b = 0; b < n; ++b) queue.insert(key[at(b)] = {work(b), b, b});
+  for (int b = 0; b < interior; ++b) queue.insert(key[at(b)] = {work(b), b, b});
   later.assign(at(n), {});
   for (int clock = n; !queue.empty(); ++clock) {
     const int b = std::get<2>(*queue.begin());
@@ -79,10 +79,12 @@ void BlockFactor::order(const BlockPattern& pattern, std::vector<int>& sequence,
         if (i != j) graph[at(i)].insert(j);
     }
     for (int i : later[at(b)]) {
+      if (i >= interior) continue;
       queue.erase(key[at(i)]);
       queue.insert(key[at(i)] = {work(i), clock, i});
     }
   }
+  for (int b = interior; b < n; ++b) sequence.push_back(b);
 }
 
 BlockFactor::BlockFactor(const BlockPattern& pattern) {
@@ -123,6 +125,12 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
     pivots_.push_back(pivot);
     eliminations_.push_back(elimination);
   }
+  eliminated_ = at(pattern.interiorBlocks());
+  size_ = pattern.size();
+  if (pattern.cut().isDivided()) {
+    cut_ = std::make_unique<CutFactor>(pattern.sharedCut());
+    listCut(pattern, fill);
+  }
   pack();
   findEarlier();
   far_ = storage > kernel::nearCache;
@@ -133,6 +141,20 @@ BlockFactor::BlockFactor(const BlockPattern& pattern) {
   work_.assign(at(widest), 0.0);
   const std::size_t inverted = at(std::min(widest, kernel::largestInverse));
   panel_.assign(std::max(panel, inverted * inverted), 0.0);
+}
+
+/// Blocks of two blocks of the cut: those of the pattern and the fill between them.
+void BlockFactor::listCut(const BlockPattern& pattern,
+                          const std::map<std::pair<int, int>, std::size_t>& fill) {
+  const auto add = [&](int i, int j, std::size_t offset) {
+    if (i >= static_cast<int>(eliminated_) && j >= static_cast<int>(eliminated_))
+      cutBlocks_.push_back(
+          {offset, pattern.start(i), pattern.start(j), pattern.width(i), pattern.width(j)});
+  };
+  for (int i = static_cast<int>(eliminated_); i < pattern.blocks(); ++i)
+    for (int e = pattern.rowBegin(i); e < pattern.rowBegin(i + 1); ++e)
+      add(i, pattern.column(e), pattern.offset(e));
+  for (const auto& [blocks, offset] : fill) add(blocks.first, blocks.second, offset);
 }
 
 /// The way down reads L pivot by pivot, the way up D^-1 and W from the last pivot to the first.
@@ -177,10 +199,15 @@ void BlockFactor::findEarlier() {
 
 bool BlockFactor::Pivot::inverted() const { return width <= kernel::largestInverse; }
 
-TOOLJOINT_CLONES int BlockFactor::factor() {
+int BlockFactor::factor() {
+  const int bad = factorInterior();
+  return cut_ ? factorCut(bad) : bad;
+}
+
+TOOLJOINT_CLONES int BlockFactor::factorInterior() {
   double* values = values_.data();
   std::fill(values + patternStorage_, values + values_.size(), 0.0);
-  for (std::size_t k = 0; k < pivots_.size(); ++k) {  // size of each row before elimination
+  for (std::size_t k = 0; k < eliminated_; ++k) {  // size of each row before elimination
     const Pivot& p = pivots_[k];
     const double* D = values + eliminations_[k].diagonal;
     for (int i = 0; i < p.width; ++i) {
@@ -190,7 +217,7 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
       scale_[at(p.start + i)] = size;
     }
   }
-  for (std::size_t k = 0; k < pivots_.size(); ++k) {
+  for (std::size_t k = 0; k < eliminated_; ++k) {
     const Pivot& p = pivots_[k];
     double* D = values + eliminations_[k].diagonal;
     const int bad = kernel::factorBlock(p.width, D, &scale_[at(p.start)], workScale_.data(),
@@ -199,6 +226,16 @@ TOOLJOINT_CLONES int BlockFactor::factor() {
     eliminate(k);
   }
   return -1;
+}
+
+int BlockFactor::factorCut(int bad) {
+  cut_->clear();
+  for (const CutBlock& block : cutBlocks_)
+    for (int j = 0; j < block.columns; ++j)
+      for (int i = 0; i < block.rows; ++i)
+        cut_->at(block.row + i, block.column + j) = values_[block.offset + at(j * block.rows + i)];
+  if (cut_->factor(bad >= 0)) return -1;
+  return bad >= 0 ? bad : size_;
 }
 
 /// W_kj = D_k^-1 A_kj;  A_ij -= A_ik W_kj;  L_ik = A_ik D_k^-1
@@ -277,8 +314,9 @@ TOOLJOINT_INLINED void BlockFactor::sweepUp(const Pivot& p, double* x) const {
 }
 
 TOOLJOINT_CLONES void BlockFactor::solve(double* x) const {
-  for (const Pivot& p : pivots_) sweepDown(p, x);
-  for (auto p = pivots_.rbegin(); p != pivots_.rend(); ++p) sweepUp(*p, x);
+  for (std::size_t k = 0; k < eliminated_; ++k) sweepDown(pivots_[k], x);
+  if (cut_) cut_->solve(x);
+  for (std::size_t k = eliminated_; k-- > 0;) sweepUp(pivots_[k], x);
 }
 
 TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
@@ -297,15 +335,20 @@ TOOLJOINT_CLONES void BlockFactor::solveNear(double* x, std::vector<int>& live,
   upwards(
       reached_, [&](std::size_t k) __attribute__((always_inline)) {
         const Pivot& p = pivots_[k];
+        if (k >= eliminated_) return;
         if (isSmall(p, true)) return drop(k);
         sweepDown(p, x);
         for (int c = p.couplingBegin; c < p.couplingEnd; ++c)
           set(reached_, at(pivotOf_[at(couplings_[at(c)].block)]));
       });
+  if (cut_) {
+    cut_->solve(x);
+    for (std::size_t k = eliminated_; k < pivots_.size(); ++k) set(reached_, k);
+  }
   live.clear();
   downwards(
       reached_, [&](std::size_t k) __attribute__((always_inline)) {
-        sweepUp(pivots_[k], x);
+        if (k < eliminated_) sweepUp(pivots_[k], x);
         if (isSmall(pivots_[k], false)) return drop(k);
         live.push_back(pivots_[k].block);
         for (int e = earlierBegin_[k]; e < earlierBegin_[k + 1]; ++e)
@@ -331,7 +374,15 @@ void BlockFactor::invert(const std::vector<char>& wanted) {
   for (const Pivot& p : pivots_)
     if (needed[at(p.block)])
       for (int c = p.couplingBegin; c < p.couplingEnd; ++c) needed[at(couplings_[at(c)].block)] = 1;
-  for (std::size_t k = pivots_.size(); k-- > 0;)
+  if (cut_) {
+    cut_->invert();
+    for (const CutBlock& block : cutBlocks_)
+      for (int j = 0; j < block.columns; ++j)
+        for (int i = 0; i < block.rows; ++i)
+          inverse_[block.offset + at(j * block.rows + i)] =
+              cut_->inverse(block.row + i, block.column + j);
+  }
+  for (std::size_t k = eliminated_; k-- > 0;)
     if (needed[at(pivots_[k].block)]) invertPivot(k);
 }
 

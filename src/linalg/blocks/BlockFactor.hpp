@@ -5,12 +5,23 @@
 /// work first, so a chain becomes a block-tridiagonal sweep from both ends, modes that hang between
 /// two nodes are eliminated before the sweep, a loop or a star costs its own small fill, and any
 /// other graph still factors correctly.
+///
+/// Of a matrix that is divided among ranks (RankCut), each rank eliminates its interior; what is
+/// left at the cut is summed over the ranks and factored by all of them alike. factor() and the
+/// solutions are then collective, with right-hand sides that are partial at the cut:
+///
+///     S = sum over the ranks of A_CC - A_CI A_II^-1 A_IC,
+///     S x_C = sum of b_C - A_CI A_II^-1 b_I,   x_I = A_II^-1 (b_I - A_IC x_C)
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "linalg/blocks/BlockSparse.hpp"
+#include "linalg/blocks/CutFactor.hpp"
 
 namespace tooljoint::linalg {
 
@@ -26,7 +37,8 @@ class BlockFactor {
   double* values() { return values_.data(); }
 
   /// Factor what stands in values() (destroyed). Returns -1, or the position of the dof whose pivot
-  /// vanished (nothing usable is left then).
+  /// vanished, the number of positions when it vanished on another rank (nothing usable is left
+  /// then).
   int factor();
 
   /// x := A^-1 x, in positions.
@@ -89,6 +101,16 @@ class BlockFactor {
     int updateBegin, updateEnd;
   };
 
+  /// Of two blocks of the cut, in values_ and in the inverse.
+  struct CutBlock {
+    std::size_t offset;
+    int row, column;  ///< first positions
+    int rows, columns;
+  };
+  void listCut(const BlockPattern& pattern, const std::map<std::pair<int, int>, std::size_t>& fill);
+  int factorInterior();
+  int factorCut(int bad);
+
   void pack();
   void eliminate(std::size_t k);
   void sweepDown(const Pivot& pivot, double* x) const;
@@ -98,7 +120,8 @@ class BlockFactor {
   void order(const BlockPattern& pattern, std::vector<int>& sequence,
              std::vector<std::vector<int>>& later) const;
 
-  std::vector<Pivot> pivots_;
+  std::vector<Pivot> pivots_;   ///< those of the interior, then the blocks of the cut
+  std::size_t eliminated_ = 0;  ///< pivots of the interior
   std::vector<Coupling> couplings_;
   std::vector<Elimination> eliminations_;  ///< of pivots_
   std::vector<Place> places_;              ///< of couplings_
@@ -117,6 +140,9 @@ class BlockFactor {
   mutable std::vector<double> work_;
   std::vector<double> panel_;
   std::vector<int> swaps_;
+  std::unique_ptr<CutFactor> cut_;  ///< null where nothing is divided
+  std::vector<CutBlock> cutBlocks_;
+  int size_ = 0;
   std::size_t patternStorage_ = 0;
   bool far_ = false;  ///< sweeps read more than a near cache holds
   double solveWork_ = 0;

@@ -128,6 +128,11 @@ BlockPattern::BlockPattern(BlockPartition partition, const std::vector<const Spa
       }
 }
 
+int BlockPattern::interiorBlocks() const {
+  const int interior = cut_->interior(size());
+  return interior < size() ? blockOf(interior) : blocks();
+}
+
 int BlockPattern::find(int row, int column) const {
   const auto begin = column_.begin() + rowBegin(row);
   const auto end = column_.begin() + rowBegin(row + 1);
@@ -153,7 +158,8 @@ void BlockPattern::add(const Sparse& matrix, double factor, BlockValues& values)
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions) {
   std::vector<BlockRange> runs;
   for (int b = 0; b < pattern.blocks(); ++b) {
-    if (runs.empty() || pattern.start(b + 1) - pattern.start(runs.back().begin) > positions)
+    if (runs.empty() || b == pattern.interiorBlocks() ||
+        pattern.start(b + 1) - pattern.start(runs.back().begin) > positions)
       runs.push_back({b, b});
     runs.back().end = b + 1;
   }

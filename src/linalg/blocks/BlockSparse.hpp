@@ -10,10 +10,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "common/Types.hpp"
 #include "linalg/blocks/LargePages.hpp"
+#include "linalg/blocks/RankCut.hpp"
 
 namespace tooljoint::linalg {
 
@@ -65,6 +67,14 @@ class BlockPattern {
   /// Address of a scalar entry given by positions, which must be in the pattern.
   std::size_t address(int rowPosition, int columnPosition) const;
 
+  /// From now on this is what one rank has of a pattern that is divided among ranks; the blocks of
+  /// the cut are the last ones.
+  void divide(RankCut cut) { cut_ = std::make_shared<const RankCut>(std::move(cut)); }
+  const RankCut& cut() const { return *cut_; }
+  const std::shared_ptr<const RankCut>& sharedCut() const { return cut_; }
+  /// Blocks before those of the cut.
+  int interiorBlocks() const;
+
   /// values += factor * matrix (in dofs, not positions).
   void add(const Sparse& matrix, double factor, BlockValues& values) const;
 
@@ -75,6 +85,7 @@ class BlockPattern {
   std::vector<int> column_;
   std::vector<std::size_t> offset_;
   std::size_t storage_ = 0;
+  std::shared_ptr<const RankCut> cut_ = std::make_shared<const RankCut>();
 };
 
 /// Blocks begin ... end - 1.
@@ -83,7 +94,7 @@ struct BlockRange {
 };
 
 /// Blocks in runs of about so many positions, a length at which several vectors stay in a near
-/// cache.
+/// cache. Blocks of the cut are no part of a run with others.
 std::vector<BlockRange> blockRuns(const BlockPattern& pattern, int positions);
 
 /// y += A x for matrices on one pattern; which blocks are zero or diagonal, and whether all is

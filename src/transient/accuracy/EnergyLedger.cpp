@@ -31,7 +31,8 @@ void EnergyLedger::allocate(CompiledModel& model) {
     account_.dampingNames.push_back(model.damping().terms()[i].name);
   }
   account_.damping.resize(dissipative_.size(), 0.0);
-  dissipated_.assign(dissipative_.size(), 0.0);
+  sums_.assign(fewestSums + dissipative_.size(), 0.0);
+  conservative_ = !model.cut().any(!model.stiffness().isConservative());
 }
 
 template <class Power>
@@ -44,7 +45,9 @@ EnergyLedger::Powers EnergyLedger::sumPowers(CompiledModel& model, const Power& 
     sum.friction += each.friction;
     sum.drive += each.drive;
   }
-  return sum;
+  double sums[4] = {sum.stored, sum.damping, sum.friction, sum.drive};
+  model.cut().reduce(nullptr, 0, sums, 4);
+  return {sums[0], sums[1], sums[2], sums[3]};
 }
 
 void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
@@ -59,7 +62,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   x_ = middle_ = rate_ = state.x;
   time_ = reached_ = state.t;
   longest_ = 0;
-  strain_ = 0.5 * state.q.dot(internal_);
+  strain_ = 0.5 * model.dot(state.q, internal_);
   model.bindStates(state.x.data());
   stored_ = sumPowers(model, [&](auto& batch) {
               return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
@@ -82,16 +85,16 @@ void EnergyLedger::book(CompiledModel& model, const State& to) {
 
 /// Of stiffness: q'K q / 2 now, and its work since the last entry, (K_n q_n + K_{n+1} q_{n+1}) / 2
 /// . dq, which is the change of q'K q / 2 for a constant symmetric K; the rest is circulatory. Of
-/// each damping term: dq' C_i dq.
-EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const State& to) {
-  const bool conservative = model.stiffness().isConservative();
+/// each damping term: dq' C_i dq. To sums_, after `loads`.
+void EnergyLedger::formWorks(const CompiledModel& model, const State& to, double loads) {
   const auto& terms = model.damping().terms();
   double strain = 0, work = 0;
-  std::fill(dissipated_.begin(), dissipated_.end(), 0.0);
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  double* dissipated = sums_.data() + fewestSums;
   for (const auto& run : model.runs()) {
     const int begin = model.pattern().start(run.begin),
               length = model.pattern().start(run.end) - begin;
-    if (conservative) {
+    if (conservative_) {
       strain += 0.5 * model.stiffness().form(to.q.data(), run);
     } else {
       const auto step = step_.segment(begin, length);
@@ -105,10 +108,11 @@ EnergyLedger::Works EnergyLedger::formWorks(const CompiledModel& model, const St
     for (std::size_t i = 0; i < dissipative_.size(); ++i) {
       const auto& term = terms[dissipative_[i]];
       if (model.damping().factor(dissipative_[i]) != 0.0)
-        dissipated_[i] += term.product.form(term.values.data(), step_.data(), run);
+        dissipated[i] += term.product.form(term.values.data(), step_.data(), run);
     }
   }
-  return {strain, conservative ? strain - strain_ : work};
+  sums_[0] = loads, sums_[1] = strain, sums_[2] = work;
+  model.cut().reduce(nullptr, 0, sums_.data(), static_cast<int>(sums_.size()));
 }
 
 void EnergyLedger::enter(CompiledModel& model, const State& to) {
@@ -131,13 +135,14 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
     loads += 0.5 * (load_[i] + load[i]) * step_[i];
     load_[i] = load[i];
   }
-  entry(account_.loads, loads);
-  const auto [strain, work] = formWorks(model, to);
+  formWorks(model, to, loads);
+  entry(account_.loads, sums_[0]);
+  const double strain = sums_[1], work = conservative_ ? strain - strain_ : sums_[2];
   entry(account_.circulatory, work - (strain - strain_));
   exchanged += std::abs(strain - strain_);
   strain_ = strain;
   for (std::size_t i = 0; i < dissipative_.size(); ++i)
-    entry(account_.damping[i], model.damping().factor(dissipative_[i]) * dissipated_[i] / h);
+    entry(account_.damping[i], model.damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h);
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
   // the end of a step that meets a wall is not what it went in with)
   if (!model.points().empty()) {

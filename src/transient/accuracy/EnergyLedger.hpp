@@ -66,11 +66,8 @@ class EnergyLedger {
   struct Powers {
     double stored = 0, damping = 0, friction = 0, drive = 0;
   };
-  struct Works {
-    double strain, stiffness;
-  };
   void allocate(CompiledModel& model);
-  Works formWorks(const CompiledModel& model, const State& to);
+  void formWorks(const CompiledModel& model, const State& to, double loads);
   /// Sum of power(batch) over all batches.
   template <class Power>
   static Powers sumPowers(CompiledModel& model, const Power& power);
@@ -79,7 +76,10 @@ class EnergyLedger {
 
   EnergyAccount account_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
-  std::vector<double> dissipated_;        ///< dq' C_i dq of each
+  static constexpr std::size_t fewestSums = 3;
+  std::vector<double> sums_;   ///< work of the loads, q'K q / 2, work of stiffness, dq' C_i dq of
+                               ///< each dissipative term
+  bool conservative_ = false;  ///< stiffness is constant and symmetric
   void enter(CompiledModel& model, const State& to);
 
   int stride_ = 1;

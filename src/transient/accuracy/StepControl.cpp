@@ -37,9 +37,12 @@ void MassNorm::bind(const CompiledModel& model) {
     for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
       moved += it.value() * it.value();
   }
+  double mass = source.mass.diagonal().sum();
+  double sums[2] = {moved, mass};
+  model.cut().reduce(nullptr, 0, sums, 2);
+  moved = sums[0], mass = sums[1];
   if (components > 0 && source.recovery.rows() > 0)
     moved /= static_cast<double>(source.recovery.rows() / components);
-  const double mass = source.mass.diagonal().sum();
   mass_ = moved > 0 ? mass / moved : mass;
 }
 

@@ -40,22 +40,10 @@ Sparse translationsOf(const CompiledModel& model) {
     for (model::SharedSparse::InnerIterator it(source.recovery, row); it; ++it)
       entries.emplace_back(static_cast<int>(row), position[at(it.col())], it.value());
   }
-  if (entries.empty()) return {};
+  if (entries.empty()) return Sparse(0, n);
   Sparse result(source.recovery.rows(), n);
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
-}
-
-void save(const State& state, std::vector<double>& memory) {
-  memory.push_back(state.t);
-  for (const Vector* x : {&state.q, &state.v, &state.a, &state.x, &state.xDot})
-    memory.insert(memory.end(), x->begin(), x->end());
-}
-
-void restore(State& state, const double*& memory) {
-  state.t = *memory++;
-  for (Vector* vector : {&state.q, &state.v, &state.a, &state.x, &state.xDot})
-    for (double& x : *vector) x = *memory++;
 }
 
 }  // namespace
@@ -76,9 +64,10 @@ StepError::StepError(CompiledModel& model, const Integrator& run,
       state_(start),
       to_(start),
       difference_(start.q) {
+  translated_ = model.cut().any(translations_.rows() > 0);
   product_.setZero(translations_.rows());
   run.saveHistory(history_);  // nothing is allocated in the step loop
-  for (const auto& set : model.source().points) points_.emplace_back(set, model.pattern());
+  points_ = model.makePoints();
   for (const auto& batch : points_) scales_.resize(scales_.size() + at(batch.points()));
   Window halves = window;
   halves.sampling = h_;  // of which steps of a half are a whole part
@@ -107,9 +96,14 @@ void StepError::plan() {
 }
 
 double StepError::square(const Vector& q) const {
-  if (translations_.rows() == 0) return q.squaredNorm();
+  const auto& cut = model_->cut();
+  if (!translated_) {
+    double sum = 0;
+    for (int i = 0; i < q.size(); ++i) sum += cut.owns(i) ? q[i] * q[i] : 0.0;
+    return cut.sum(sum);
+  }
   product_.noalias() = translations_ * q;
-  return product_.squaredNorm();
+  return cut.sum(product_.squaredNorm());
 }
 
 void StepError::before(const Integrator& run, const State& from) {
@@ -173,7 +167,7 @@ bool StepError::retake() {
     } catch (const ConvergenceError&) {
     }
   });
-  return solved && state_.q.allFinite();
+  return solved && !model_->cut().any(!state_.q.allFinite());
 }
 
 void StepError::retakeUntil(double t) {
@@ -198,7 +192,7 @@ void StepError::save(std::vector<double>& memory) const {
                 {static_cast<double>(seen_), static_cast<double>(end_), most_,
                  static_cast<double>(count_), errors_, moved_, sizes_, speeds_, offsets_, looked_});
   if (end_ >= 0) {
-    transient::save(from_, memory);
+    from_.save(memory);
     memory.insert(memory.end(), first_.begin(), first_.end());
     memory.push_back(static_cast<double>(history_.size()));
     memory.insert(memory.end(), history_.begin(), history_.end());
@@ -216,7 +210,7 @@ void StepError::restore(const double*& memory) {
   for (double* sum : {&errors_, &moved_, &sizes_, &speeds_, &offsets_, &looked_}) *sum = *memory++;
   plan();
   if (end_ >= 0) {
-    transient::restore(from_, memory);
+    from_.restore(memory);
     for (double& x : first_) x = *memory++;
     history_.resize(static_cast<std::size_t>(*memory++));
     for (double& x : history_) x = *memory++;

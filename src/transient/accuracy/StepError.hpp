@@ -55,7 +55,8 @@ class StepError {
   std::unique_ptr<Integrator> second_;
   std::vector<PointBatch> points_;    ///< of the second object
   CompiledModel::Snapshot snapshot_;  ///< of the run
-  Sparse translations_;               ///< of the nodes; empty: coordinates are taken as lengths
+  Sparse translations_;               ///< of the nodes
+  bool translated_ = false;           ///< there are some; else coordinates are taken as lengths
   mutable Vector product_;
   double begin_, h_, turning_;  ///< start of the run, step, T [s]
   Vector start_;                ///< q(0)

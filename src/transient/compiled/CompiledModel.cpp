@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 #include "common/Index.hpp"
+#include "transient/Integrator.hpp"
+#include "transient/compiled/ModelPattern.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -15,87 +16,6 @@ namespace {
 /// Ten vectors of this length (160 kB) stay in a second-level cache, and matrices are read in long
 /// runs.
 constexpr int positionsPerRun = 2048;
-
-/// Which dofs the tangents of each point couple: its first dof with all others, and one dof per
-/// entity with one of every other entity, which is all the partition into blocks needs to know.
-Sparse pointCoupling(const model::PointSet& set, const std::vector<int>& group) {
-  const int width = set.law->width();
-  const auto n = static_cast<Eigen::Index>(group.size());
-  Triplets triplets;
-  std::map<int, int> dofOfGroup;
-  for (int p = 0; p < set.law->size(); ++p) {
-    dofOfGroup.clear();
-    int first = -1;
-    for (int r = p * width; r < (p + 1) * width; ++r)
-      for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
-        if (it.value() == 0.0) continue;
-        const int dof = static_cast<int>(it.col());
-        if (first < 0) first = dof;
-        triplets.emplace_back(first, dof, 1.0);
-        dofOfGroup.emplace(group[at(dof)], dof);
-      }
-    for (const auto& [groupA, a] : dofOfGroup)
-      for (const auto& [groupB, b] : dofOfGroup) triplets.emplace_back(a, b, 1.0);
-  }
-  Sparse coupling(n, n);
-  coupling.setFromTriplets(triplets.begin(), triplets.end());
-  return coupling;
-}
-
-/// Group and kind per dof: the dofs of a node are one group. Modes of a part are as many as there
-/// are families that neither matrices nor point laws couple among each other: lateral modes of one
-/// run between two kept nodes, torsional ones, ...
-struct Groups {
-  std::vector<int> group, kind;
-};
-
-Groups groupDofs(const model::SecondOrderModel& model) {
-  const int n = model.size();
-  std::vector<int> parent(at(n));
-  for (int i = 0; i < n; ++i) parent[at(i)] = i;
-  const auto root = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
-  const auto isModal = [&](int i) {
-    return model.dofs[at(i)].kind == model::DofLabel::Kind::Modal;
-  };
-  const auto join = [&](int i, int j) {
-    if (model.dofs[at(i)].entity != model.dofs[at(j)].entity) return;
-    const int a = root(i), b = root(j);
-    parent[at(std::max(a, b))] = std::min(a, b);
-  };
-  const auto joinModes = [&](const Sparse& matrix) {
-    for (int i = 0; i < n; ++i)
-      if (isModal(i))
-        for (Sparse::InnerIterator it(matrix, i); it; ++it)
-          if (it.value() != 0.0 && isModal(static_cast<int>(it.col())))
-            join(i, static_cast<int>(it.col()));
-  };
-  joinModes(model.mass);
-  for (const auto* terms : {&model.damping, &model.stiffness})
-    for (const auto& term : *terms) joinModes(term.matrix);
-  std::map<std::int64_t, int> first;  // per part: the first of its modes a point hangs on
-  for (const auto& set : model.points)
-    for (int p = 0; p < set.law->size(); ++p) {
-      first.clear();
-      for (int r = p * set.law->width(); r < (p + 1) * set.law->width(); ++r)
-        for (Sparse::InnerIterator it(set.rows, r); it; ++it) {
-          const int dof = static_cast<int>(it.col());
-          if (it.value() != 0.0 && isModal(dof))
-            join(first.emplace(model.dofs[at(dof)].entity, dof).first->second, dof);
-        }
-    }
-  Groups groups;
-  std::map<std::tuple<int, std::int64_t, int>, int> entities;
-  for (int i = 0; i < n; ++i) {
-    const auto& label = model.dofs[at(i)];
-    groups.kind.push_back(static_cast<int>(label.kind));
-    const auto key = std::make_tuple(groups.kind.back(), label.entity, isModal(i) ? root(i) : 0);
-    groups.group.push_back(entities.emplace(key, static_cast<int>(entities.size())).first->second);
-  }
-  return groups;
-}
 
 bool isSkew(const Sparse& matrix) {
   const Sparse transposed = matrix.transpose();
@@ -144,7 +64,7 @@ MatrixSum::MatrixSum(const std::vector<model::MatrixTerm>& terms,
     terms_[i].values.assign(pattern.storage(), 0.0);
     pattern.add(matrices[i], 1.0, terms_[i].values);
     terms_[i].product = linalg::BlockProduct(pattern, {&terms_[i].values}, &like);
-    terms_[i].skew = isSkew(matrices[i]);
+    terms_[i].skew = !pattern.cut().any(!isSkew(matrices[i]));
   }
   for (const auto& term : terms_) samples.push_back(&term.values);
   product_ = linalg::BlockProduct(pattern, samples, &like);
@@ -223,18 +143,17 @@ void MatrixSum::combine(double factor, double* values, std::size_t storage) cons
   for (std::size_t k = 0; k < storage; ++k) values[k] += factor * mine[k];
 }
 
-CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(model) {
+CompiledModel::CompiledModel(const model::SecondOrderModel& model)
+    : CompiledModel(model, nullptr) {}
+
+CompiledModel::CompiledModel(const RankShare& share) : CompiledModel(share.model(), &share) {}
+
+CompiledModel::CompiledModel(const model::SecondOrderModel& model, const RankShare* share)
+    : model_(model), share_(share) {
   model.validate();
   const int n = model.size();
-  const auto [group, kind] = groupDofs(model);
-  std::vector<Sparse> couplings;
-  for (const auto& set : model.points) couplings.push_back(pointCoupling(set, group));
-  std::vector<const Sparse*> matrices{&model.mass.sparse()};
-  for (const auto& term : model.damping) matrices.push_back(&term.matrix.sparse());
-  for (const auto& term : model.stiffness) matrices.push_back(&term.matrix.sparse());
-  for (const auto& coupling : couplings) matrices.push_back(&coupling);
-  pattern_ = linalg::BlockPattern(linalg::partitionDofs(matrices, group, kind), matrices);
-
+  pattern_ = share != nullptr ? share->pattern() : modelPattern(model);
+  countWhole();
   runs_ = linalg::blockRuns(pattern_, positionsPerRun);
 
   mass_.assign(pattern_.storage(), 0.0);
@@ -258,10 +177,27 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model) : model_(mode
   lastLoadLaws_.assign(loads_.size(), std::numeric_limits<double>::quiet_NaN());
   load_ = Vector::Zero(n);
   lawValues_.assign(model.laws.size(), 0.0);
-  for (const auto& set : model.points) {
-    points_.emplace_back(set, pattern_);
-    if (const auto* states = points_.back().states()) stateSize_ += states->size();
-  }
+  points_ = makePoints();
+  for (auto& batch : points_)
+    if (const auto* states = batch.states()) stateSize_ += states->size();
+}
+
+void CompiledModel::countWhole() {
+  const auto& cut = pattern_.cut();
+  double counts[2] = {0, 0};
+  for (int p = 0; p < size(); ++p) counts[0] += cut.owns(p) ? 1 : 0;
+  for (int b = 0; b < pattern_.blocks(); ++b) counts[1] += cut.owns(pattern_.start(b)) ? 1 : 0;
+  cut.reduce(nullptr, 0, counts, 2);
+  wholeSize_ = static_cast<int>(counts[0]);
+  wholeBlocks_ = static_cast<int>(counts[1]);
+}
+
+std::vector<PointBatch> CompiledModel::makePoints() const {
+  std::vector<PointBatch> batches;
+  for (std::size_t s = 0; s < model_.points.size(); ++s)
+    batches.emplace_back(model_.points[s], pattern_,
+                         share_ != nullptr ? &share_->points()[s] : nullptr);
+  return batches;
 }
 
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
@@ -277,6 +213,24 @@ void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
 std::string CompiledModel::dofName(int position) const {
   return model::describe(model_.dofs[at(pattern_.partition().dof[at(position)])],
                          model_.componentNames);
+}
+
+std::string CompiledModel::worstName(const Vector& x) const {
+  const int worst = worstPosition(x);
+  return pattern_.cut().ofLargest(std::abs(x[worst]), dofName(worst));
+}
+
+std::string CompiledModel::pivotName(int position) const {
+  const bool mine = position >= 0 && position < size();
+  return pattern_.cut().ofLargest(mine ? 1.0 : 0.0, mine ? dofName(position) : "");
+}
+
+double CompiledModel::dot(const Vector& x, const Vector& partial) const {
+  return pattern_.cut().sum(x.dot(partial));
+}
+
+double CompiledModel::largest(const Vector& x) const {
+  return pattern_.cut().largest(x.cwiseAbs().maxCoeff());
 }
 
 void CompiledModel::setTime(double t) {
@@ -341,6 +295,7 @@ void CompiledModel::diagonal(double m, double c, double k, double* out) const {
     const std::size_t a = diagonalAddress_[p];
     out[p] = m * mass_[a] + c * damping_.entry(a) + k * stiffness_.entry(a);
   }
+  pattern_.cut().complete(out);
 }
 
 void CompiledModel::initialStates(double t, const double* q, const double* v, double* x) {

@@ -6,6 +6,10 @@
 ///
 /// Vectors are raw arrays in *positions* (dofs renumbered block by block); toPositions()/toDofs()
 /// translate.
+///
+/// The model may be one rank's share of a motion that several compute (RankShare). Products, point
+/// forces and loads are then partial at the cut, states are the same on all ranks that hold them,
+/// and sums, maxima and norms are those of the whole (linalg::RankCut).
 #pragma once
 
 #include <string>
@@ -15,6 +19,7 @@
 #include "linalg/blocks/BlockSparse.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/compiled/PointBatch.hpp"
+#include "transient/ranks/RankShare.hpp"
 
 namespace tooljoint::transient {
 
@@ -85,6 +90,8 @@ class CompiledModel {
  public:
   /// Throws ModelError when the model is inconsistent.
   explicit CompiledModel(const model::SecondOrderModel& model);
+  /// That of one rank; the share must outlive it. Collective.
+  explicit CompiledModel(const RankShare& share);
   CompiledModel(const CompiledModel&) = delete;
   CompiledModel& operator=(const CompiledModel&) = delete;
 
@@ -96,6 +103,18 @@ class CompiledModel {
   void toDofs(const Vector& positions, Vector& dofs) const;
   /// "theta_z of node 17".
   std::string dofName(int position) const;
+  /// Where x is largest, or not a number; x the same on all ranks that share it. Collective.
+  std::string worstName(const Vector& x) const;
+  /// Of what BlockFactor::factor() returned. Collective.
+  std::string pivotName(int position) const;
+
+  const linalg::RankCut& cut() const { return pattern_.cut(); }
+  /// Positions and blocks of the model of all ranks.
+  int wholeSize() const { return wholeSize_; }
+  int wholeBlocks() const { return wholeBlocks_; }
+  /// x'y of an x that is the same on all ranks and a partial y; max |x_i|. Collective.
+  double dot(const Vector& x, const Vector& partial) const;
+  double largest(const Vector& x) const;
 
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);
@@ -126,8 +145,8 @@ class CompiledModel {
   void addMass(const double* x, double* y) const { addMass(x, y, all()); }
   void addDamping(const double* x, double* y) const { addDamping(x, y, all()); }
   void addStiffness(const double* x, double* y) const { addStiffness(x, y, all()); }
-  /// x' M x.
-  double massForm(const double* x) const { return massProduct_.form(mass_.data(), x); }
+  /// x' M x. Collective.
+  double massForm(const double* x) const { return cut().sum(massProduct_.form(mass_.data(), x)); }
   /// The same for the rows of some blocks, M times a factor.
   void addMass(const double* x, double* y, linalg::BlockRange rows, double factor = 1.0) const {
     massProduct_.addTo(mass_.data(), x, y, factor, rows);
@@ -149,11 +168,13 @@ class CompiledModel {
   void addChangeSince(const std::vector<double>& then, double c, const double* x, double* y);
   /// values = m M + c C(t) + k K(t) on the pattern (storage() doubles).
   void combine(double m, double c, double k, double* values) const;
-  /// Diagonal of the same sum.
+  /// Diagonal of the same sum. Collective.
   void diagonal(double m, double c, double k, double* out) const;
 
   const MatrixSum& damping() const { return damping_; }
   const MatrixSum& stiffness() const { return stiffness_; }
+  /// Batches of its own for somebody who evaluates points beside the motion.
+  std::vector<PointBatch> makePoints() const;
   std::vector<PointBatch>& points() { return points_; }
   const std::vector<PointBatch>& points() const { return points_; }
 
@@ -182,9 +203,13 @@ class CompiledModel {
   void addPointForces(double t, const double* q, const double* v, double* y);
 
  private:
+  CompiledModel(const model::SecondOrderModel& model, const RankShare* share);
+  void countWhole();
   linalg::BlockRange all() const { return {0, pattern_.blocks()}; }
 
   const model::SecondOrderModel& model_;
+  const RankShare* share_ = nullptr;  ///< null: the whole model
+  int wholeSize_ = 0, wholeBlocks_ = 0;
   linalg::BlockPattern pattern_;
   std::vector<linalg::BlockRange> runs_;
   linalg::BlockValues mass_;

@@ -19,14 +19,14 @@ constexpr double lookAhead = 32;
 
 }  // namespace
 
-ContactBroadPhase::ContactBroadPhase(int points, int width, int reach,
+ContactBroadPhase::ContactBroadPhase(const std::vector<int>& points, int width, int reach,
                                      const std::vector<int>& rowBegin,
                                      const std::vector<int>& column,
                                      const std::vector<double>& value,
                                      const linalg::BlockPattern& pattern)
-    : reach_(reach), isActive_(at(points), 1) {
+    : reach_(reach), all_(points), isActive_((rowBegin.size() - 1) / at(width), 1) {
   std::map<std::vector<int>, std::vector<int>> byBlocks;  // points that hang on the same blocks
-  for (int p = 0; p < points; ++p) {
+  for (int p : all_) {
     std::vector<int> blocks;
     for (int i = rowBegin[at(p * width)]; i < rowBegin[at((p + 1) * width)]; ++i)
       blocks.push_back(pattern.blockOf(column[at(i)]));
@@ -54,15 +54,15 @@ ContactBroadPhase::ContactBroadPhase(int points, int width, int reach,
     group.points = std::move(members);
     groups_.push_back(std::move(group));
   }
-  active_.reserve(at(points));
-  activated_.reserve(at(points));
+  active_.reserve(all_.size());
+  activated_.reserve(all_.size());
   collect();
 }
 
 void ContactBroadPhase::collect() {
   active_.clear();
-  for (std::size_t p = 0; p < isActive_.size(); ++p)
-    if (isActive_[p]) active_.push_back(static_cast<int>(p));
+  for (int p : all_)
+    if (isActive_[at(p)]) active_.push_back(p);
 }
 
 /// B(q) = sqrt(sum_c (sum_j r_cj |q_j - q_0j|)^2)

@@ -20,11 +20,11 @@ namespace tooljoint::transient {
 class ContactBroadPhase {
  public:
   ContactBroadPhase() = default;
-  /// Rows (point * width + coordinate) as CSR in positions; clearances change by no more than the
-  /// length of the change of the first `reach` coordinates.
-  ContactBroadPhase(int points, int width, int reach, const std::vector<int>& rowBegin,
-                    const std::vector<int>& column, const std::vector<double>& value,
-                    const linalg::BlockPattern& pattern);
+  /// Of these points; rows (point * width + coordinate) as CSR in positions; clearances change by
+  /// no more than the length of the change of the first `reach` coordinates.
+  ContactBroadPhase(const std::vector<int>& points, int width, int reach,
+                    const std::vector<int>& rowBegin, const std::vector<int>& column,
+                    const std::vector<double>& value, const linalg::BlockPattern& pattern);
 
   /// Points to measure, increasing.
   const std::vector<int>& active() const { return active_; }
@@ -54,6 +54,7 @@ class ContactBroadPhase {
 
   int reach_ = 0;
   std::vector<Group> groups_;
+  std::vector<int> all_;
   std::vector<char> isActive_;
   std::vector<int> active_, activated_;
 };

@@ -12,11 +12,11 @@ namespace tooljoint::transient {
 
 class MassFactor {
  public:
-  /// The model must outlive this.
+  /// The model must outlive this. Collective, as are the solutions.
   explicit MassFactor(const CompiledModel& model);
 
-  /// Position of a dof with mass at which M is singular, -1 for none. Where there is one, M^-1 is
-  /// not defined.
+  /// What BlockFactor::factor() returned: the position of a dof with mass at which M is singular,
+  /// -1 for none. Where there is one, M^-1 is not defined.
   int singularAt() const { return singularAt_; }
   bool regular() const { return singularAt_ < 0; }
 
@@ -26,12 +26,19 @@ class MassFactor {
   /// a is not. What falls below the part `negligible` of max |a_i / M_ii| is dropped: in a chain of
   /// consistent masses M^-1 falls by 3.7 from node to node.
   void solveNear(Vector& a, std::vector<int>& blocks, double negligible) const;
+  /// M^-1 on the pattern, where points touch it, zero where there is no mass; null for a singular
+  /// M, or a model without points.
+  const double* inverse() const { return inverse_; }
 
  private:
+  void invert(const CompiledModel& model);
+
   const linalg::BlockPattern& pattern_;
   linalg::BlockFactor factor_;
   Vector perUnit_;             ///< 1 / M_ii
   std::vector<char> missing_;  ///< per position: no mass
+  linalg::BlockValues values_;
+  const double* inverse_ = nullptr;
   int singularAt_ = -1;
 };
 

@@ -17,7 +17,8 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
-PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern)
+PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern,
+                       const std::vector<int>* own)
     : name_(set.name),
       law_(set.law),
       entities_(set.entities),
@@ -77,7 +78,13 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
       pairBegin_.push_back(static_cast<int>(pairOffset_.size()));
     }
   }
-  watch_ = ContactBroadPhase(points_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
+  if (own != nullptr) {
+    all_ = *own;
+  } else {
+    all_.resize(at(points_));
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+  watch_ = ContactBroadPhase(all_, width_, law_->reach(), rowBegin_, column_, value_, pattern);
   small_.assign(at(width_), 0.0);
   own_.assign(at(2 * width_), 0.0);
   active_.reserve(at(points_));
@@ -85,7 +92,6 @@ PointBatch::PointBatch(const model::PointSet& set, const linalg::BlockPattern& p
   isActive_.assign(at(points_), 0);
   hasActed_.assign(at(points_), 0);
   acted_.reserve(at(points_));
-  for (int p = 0; p < points_; ++p) all_.push_back(p);
   isFrozen_.assign(at(points_), 0);
   scale_.assign(at(points_), 1.0);
   for (auto* array : {&d_, &v_, &f_}) array->assign(at(rows), 0.0);
@@ -198,7 +204,7 @@ void PointBatch::look(double t, double h, const double* q) {
 
 void PointBatch::listActive() {
   active_.clear();
-  for (int p = 0; p < points_; ++p)
+  for (int p : all_)
     if (isActive_[at(p)]) active_.push_back(p), hasActed_[at(p)] = 1;
 }
 
@@ -224,7 +230,7 @@ model::PointLaw::Power PointBatch::callPower(double t, const std::vector<int>& p
 
 const std::vector<int>& PointBatch::acted() {
   acted_.clear();
-  for (int p = 0; p < points_; ++p)
+  for (int p : all_)
     if (hasActed_[at(p)]) acted_.push_back(p);
   return acted_;
 }
@@ -232,7 +238,7 @@ const std::vector<int>& PointBatch::acted() {
 void PointBatch::bookPowers() { hasActed_ = isActive_; }
 
 bool PointBatch::addMissed(const double* q, double t) {
-  if (static_cast<int>(active_.size()) == points_) return false;
+  if (active_.size() == all_.size()) return false;
   measure(q, check_);
   checkTime_ = t;
   bool any = false;

@@ -23,7 +23,9 @@ namespace tooljoint::transient {
 
 class PointBatch {
  public:
-  PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern);
+  /// \param own  points to evaluate, increasing; null for all
+  PointBatch(const model::PointSet& set, const linalg::BlockPattern& pattern,
+             const std::vector<int>* own = nullptr);
 
   int points() const { return points_; }
   int width() const { return width_; }
@@ -133,7 +135,7 @@ class PointBatch {
   /// The same in the middle of the chord `step` that ends at q after h seconds, at its velocity.
   model::PointLaw::Power chordPower(double t, double h, const double* q, const double* step,
                                     const std::vector<int>& points);
-  /// All points, and those that were active since the last bookPowers().
+  /// All points evaluated here, and those that were active since the last bookPowers().
   const std::vector<int>& everyPoint() const { return all_; }
   const std::vector<int>& acted();
   /// What is booked up to now is not looked at again.

@@ -17,7 +17,7 @@ namespace {
 constexpr double slowestRate = 0.5;
 /// Points wrong by less than this part of what is allowed stay as they are when few are left, and
 /// what is dropped then.
-constexpr double rightEnough = 0.25, negligible = 1e-4;
+constexpr double rightEnough = 0.25, negligible = 1e-5;
 /// Few: as many points as there are this many positions.
 constexpr int positionsPerPoint = 100;
 
@@ -212,7 +212,14 @@ double ContactForceIteration::join(double t, double c, const Vector& delta, doub
     for (int p : set.points)
       if (!(set.error[at(p)] <= worst)) worst = set.error[at(p)];  // keeps a NaN
   }
-  return worst;
+  return largestOfAll(worst, force);
+}
+
+double ContactForceIteration::largestOfAll(double worst, double& force) const {
+  double both[2] = {worst, force};
+  model_->cut().reduce(both, 2, nullptr, 0);
+  force = both[1];
+  return both[0];
 }
 
 void ContactForceIteration::place(Set& set, PointBatch& batch, double t, double c, bool tangent) {
@@ -243,7 +250,7 @@ double ContactForceIteration::evaluate(double t, double c, const Vector& delta, 
     for (int p : isNear_&& allMoved_ ? set.points : batch.active())
       if (!(set.error[at(p)] <= worst)) worst = set.error[at(p)];  // keeps a NaN
   }
-  return worst;
+  return largestOfAll(worst, force);
 }
 
 /// The points corrected, whose small change may have ended where it began, and those that
@@ -299,8 +306,11 @@ double ContactForceIteration::wrongShare() const {
         wrong += error * error, whole += force * force;
       }
   }
-  return wrong == 0 ? 0.0
-                    : std::sqrt(wrong / whole);  // infinite where all that was expected is gone
+  double sums[2] = {wrong, whole};
+  model_->cut().reduce(nullptr, 0, sums, 2);
+  return sums[0] == 0
+             ? 0.0
+             : std::sqrt(sums[0] / sums[1]);  // infinite where all that was expected is gone
 }
 
 void ContactForceIteration::guess(double t, double c, const Vector& v) {
@@ -379,10 +389,13 @@ void ContactForceIteration::solveNear(const linalg::BlockFactor& factor, double 
   }
   factor.solveNear(near_.data(), live_, weight_.data(), negligible * small);
   const auto& pattern = model_->pattern();
-  for (int b : live_)
+  double reached = 0;
+  for (int b : live_) {
     for (int i = pattern.start(b); i < pattern.start(b + 1); ++i)
       delta[i] += near_[i], near_[i] = 0;
-  nearShare_ = static_cast<double>(live_.size()) / pattern.blocks();
+    reached += model_->cut().owns(pattern.start(b)) ? 1 : 0;
+  }
+  nearShare_ = model_->cut().sum(reached) / model_->wholeBlocks();
   isNear_ = true;
 }
 
@@ -414,8 +427,9 @@ bool ContactForceIteration::isWrong(const Set& set, int point, double small) con
   return !(set.error[at(point)] <= rightEnough * small);
 }
 
-bool ContactForceIteration::isFew(long points) const {
-  return positionsPerPoint * points < model_->size();
+bool ContactForceIteration::isFew(long here) const {
+  const long points = std::lround(model_->cut().sum(static_cast<double>(here)));
+  return positionsPerPoint * points < model_->wholeSize();
 }
 
 /// p += B defect, or to where the point is alone in equilibrium.
@@ -440,7 +454,7 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
   long wrong = 0;
   for (const Set& set : sets_)  // what was not evaluated is not wrong
     for (int p : set.points) wrong += isWrong(set, p, small) ? 1 : 0;
-  const bool few = !all && isFew(wrong) && strategies_->has(Strategy::NearSolves);
+  const bool few = !all && strategies_->has(Strategy::NearSolves) && isFew(wrong);
   allMoved_ = true;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
@@ -459,7 +473,9 @@ bool ContactForceIteration::correct(double t, double c, double small, bool all) 
 }
 
 bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, int colour) {
-  long moved = 0, place = 0;
+  long moved = 0, looked = 0;
+  for (const auto& batch : model_->points()) looked += static_cast<long>(batch.active().size());
+  long place = std::lround(model_->cut().before(static_cast<double>(looked)));
   allMoved_ = false;
   for (std::size_t b = 0; b < sets_.size(); ++b) {
     Set& set = sets_[b];
@@ -473,7 +489,7 @@ bool ContactForceIteration::sweepEveryFourth(double t, double c, double small, i
       ++moved;
     }
   }
-  return isFew(moved) && strategies_->has(Strategy::NearSolves);
+  return strategies_->has(Strategy::NearSolves) && isFew(moved);
 }
 
 }  // namespace tooljoint::transient

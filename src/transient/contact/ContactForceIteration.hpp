@@ -117,7 +117,8 @@ class ContactForceIteration {
   void measure(Set& set, PointBatch& batch, double small, double& force);
   void move(Set& set, PointBatch& batch, int point, double t, double c);
   bool isWrong(const Set& set, int point, double small) const;
-  bool isFew(long points) const;
+  bool isFew(long here) const;
+  double largestOfAll(double worst, double& force) const;
 
   CompiledModel* model_ = nullptr;
   Strategies* strategies_ = nullptr;

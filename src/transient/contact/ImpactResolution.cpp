@@ -26,8 +26,6 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double quiet = 1e-4;
 /// Steps from one look at the energy of the motion to the next: a look costs a product with M.
 constexpr long lookStride = 8;
-/// Residuals of the mobility of a point beside its own that are left out.
-constexpr double negligible = 1e-4;
 
 /// Largest part that depends on where in a step the wall is met, likewise. The force of a wall with
 /// damping c sets in with a jump c v; met up to half a step early or late, it takes W c h of the
@@ -44,23 +42,20 @@ double reboundLoss(double wh, double r) {
 
 void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double radius) {
   model_ = &model;
-  mass_ = &mass;
   radius_ = radius;
   norm_.bind(model);
   sets_.clear();
   std::size_t widest = 0;
   for (const auto& batch : model.points()) {
     const std::size_t rows = at(batch.points()) * at(batch.width());
-    sets_.push_back({std::vector<double>(rows, 0.0),
-                     std::vector<double>(rows * at(batch.width()), 0.0),
-                     std::vector<char>(at(batch.points()), 0)});
+    const int w = batch.width();
+    sets_.push_back({std::vector<double>(rows, 0.0), std::vector<double>(rows * at(w), 0.0)});
     for (int p : batch.active())
-      std::copy_n(batch.force() + p * batch.width(), batch.width(),
-                  &sets_.back().force[at(p * batch.width())]);
+      std::copy_n(batch.force() + p * w, w, &sets_.back().force[at(p * w)]);
+    for (int p : batch.everyPoint())
+      batch.project(p, mass.inverse(), &sets_.back().mobility[at(p * w * w)]);
     widest = std::max(widest, at(batch.width()));
   }
-  column_.setZero(model.size());
-  blocks_.reserve(4 * at(model.pattern().blocks()));
   f_.assign(widest, 0.0);
   dfdd_.assign(widest * widest, 0.0);
   dfdv_ = dfdd_;
@@ -70,24 +65,9 @@ void ImpactResolution::bind(CompiledModel& model, const MassFactor& mass, double
   recovering_ = false;
 }
 
-/// R M^-1 R', solved near the point.
-const double* ImpactResolution::mobility(int b, int point) {
-  Set& set = sets_[at(b)];
-  const PointBatch& batch = model_->points()[at(b)];
-  const int w = batch.width();
-  double* W = &set.mobility[at(point * w * w)];
-  if (set.known[at(point)]) return W;
-  const auto& pattern = model_->pattern();
-  for (int k = 0; k < w; ++k) {
-    blocks_.clear();
-    batch.appendBlocks(point, blocks_);
-    batch.addRow(point * w + k, 1.0, column_.data());
-    mass_->solveNear(column_, blocks_, negligible);
-    for (int j = 0; j < w; ++j) W[j * w + k] = batch.rowTimesVector(point * w + j, column_.data());
-    for (int block : blocks_) column_.segment(pattern.start(block), pattern.width(block)).setZero();
-  }
-  set.known[at(point)] = 1;
-  return W;
+const double* ImpactResolution::mobility(int b, int point) const {
+  const int w = model_->points()[at(b)].width();
+  return &sets_[at(b)].mobility[at(point * w * w)];
 }
 
 /// What is met at the end of a step is a little force at a high speed: both count.
@@ -175,17 +155,29 @@ bool ImpactResolution::resolves(const Wall& wall, double change, double h) const
   return scatter(wh, damping) * change * change / wall.mobility <= 4 * mostMisplaced * square();
 }
 
+/// Whether the step has changed the velocity of a point by what is worth a look.
+bool ImpactResolution::anyMatters(double h) {
+  for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
+    const PointBatch& batch = model_->points()[at(b)];
+    for (int p : batch.active()) {
+      const auto [change, speed] = bound(b, p, h, &sets_[at(b)].force[at(p * batch.width())]);
+      if (matters(change * (change + 2 * speed))) return true;
+    }
+  }
+  return false;
+}
+
 int ImpactResolution::halvings(const State& from, const State& to, double h) {
   int most = 0;
   current_ = 0;
+  if (!model_->cut().any(anyMatters(h))) return 0;
+  current_ = model_->massForm(to.v.data());
   for (int b = 0; b < static_cast<int>(sets_.size()); ++b) {
     PointBatch& batch = model_->points()[at(b)];
     const int w = batch.width();
     for (int p : batch.active()) {
       const double* last = &sets_[at(b)].force[at(p * w)];
       const auto [change, speed] = bound(b, p, h, last);
-      if (!matters(change * (change + 2 * speed))) continue;
-      if (current_ == 0) current_ = model_->massForm(to.v.data());
       if (!matters(change * (change + 2 * speed))) continue;
       const Wall met = wall(b, p, to.t, change + speed, h);
       if (met.frequency == 0) continue;
@@ -202,6 +194,7 @@ int ImpactResolution::halvings(const State& from, const State& to, double h) {
       most = std::max(most, count);
     }
   }
+  most = static_cast<int>(model_->cut().largest(most));
   if (most > 0) {
     recovering_ = true;
     calm_ = 0;
@@ -225,11 +218,12 @@ double ImpactResolution::calmNeeded(const State& to, double h) {
         fastest = std::max(fastest, std::abs(batch.rowTimesVector(k, to.v.data())));
       const Wall met = wall(b, p, to.t, fastest, h);
       if (met.frequency * h <= resolved) continue;
-      if (!resolves(met, 2 * along(b, p, to.v), h)) return unbounded;
-      needed = std::max(needed, constants::pi / met.frequency);
+      needed =
+          std::max(needed, resolves(met, 2 * along(b, p, to.v), h) ? constants::pi / met.frequency
+                                                                   : unbounded);
     }
   }
-  return needed;
+  return model_->cut().largest(needed);
 }
 
 int ImpactResolution::nextLevel(const State& to, double h, const StepGrid& grid) {

@@ -38,7 +38,7 @@ class ImpactResolution {
   /// cut only as far as it takes to find it.
   static constexpr int mostHalvings = 16, atATime = 3;
 
-  /// For the scheme of spectral radius r; the mass must outlive this.
+  /// For the scheme of spectral radius r and a regular mass.
   void bind(CompiledModel& model, const MassFactor& mass, double radius);
 
   /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0
@@ -57,7 +57,6 @@ class ImpactResolution {
   struct Set {
     std::vector<double> force;     ///< rows, at the end of the last step kept
     std::vector<double> mobility;  ///< R M^-1 R' per point, width x width, row-major
-    std::vector<char> known;       ///< per point: its mobility
   };
   /// Where a point meets its wall.
   struct Wall {
@@ -71,18 +70,18 @@ class ImpactResolution {
     double change = 0;  ///< h W |f_{n+1} - f_n|
     double speed = 0;
   };
-  const double* mobility(int batch, int point);
+  const double* mobility(int batch, int point) const;
   Bound bound(int batch, int point, double h, const double* before);
   Wall wall(int batch, int point, double t, double speed, double h);
   bool resolves(const Wall& wall, double change, double h) const;
   double calmNeeded(const State& to, double h);
   double square() const;
   bool matters(double change) const;
+  bool anyMatters(double h);
   /// Component along the normal of the last wall().
   double along(int batch, int point, const Vector& v) const;
 
   CompiledModel* model_ = nullptr;
-  const MassFactor* mass_ = nullptr;
   double radius_ = 1;
   std::vector<Set> sets_;
   MassNorm norm_;
@@ -92,8 +91,6 @@ class ImpactResolution {
   long kept_ = 0;                  ///< steps
   bool recovering_ = false;        ///< steps are short because of an impact
   double calm_ = 0;                ///< time for which closed contact has been without motion [s]
-  Vector column_;
-  std::vector<int> blocks_;
   std::vector<double> normal_, deeper_;  ///< n of the last wall() and a place behind it, in rows
   std::vector<double> f_, dfdd_, dfdv_;  ///< at that place
 };

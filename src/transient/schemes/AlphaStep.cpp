@@ -69,7 +69,7 @@ void AlphaStep::start(CompiledModel& model, State& state, Counters& counters) {
   if (mass_->regular()) {
     mass_->solve(state.a);
   } else {
-    log::warn("The mass matrix is singular at " + model.dofName(mass_->singularAt()) +
+    log::warn("The mass matrix is singular at " + model.pivotName(mass_->singularAt()) +
               " although there is mass on it: the motion starts without acceleration, with an "
               "error of first order in the step.");
     state.a.setZero();
@@ -169,7 +169,8 @@ void AlphaStep::findImpacts() {
   clear(impacts_);
   for (const auto& batch : model_->points())
     if (batch.isScaled()) batch.addScaledForce(impacts_.a.data(), impacts_.blocks);
-  if (!impacts_.blocks.empty()) mass_->solveNear(impacts_.a, impacts_.blocks, negligible);
+  if (model_->cut().any(!impacts_.blocks.empty()))
+    mass_->solveNear(impacts_.a, impacts_.blocks, negligible);
 }
 
 void AlphaStep::keep() {

@@ -137,6 +137,7 @@ class GeneralizedAlpha final : public Integrator {
   }
 
   bool carriesPointStates() const override { return true; }
+  bool dividesAmongRanks() const override { return true; }
   /// Two steps of one length are booked together.
   int ledgerStride() const override { return controlled_ ? 1 : 2; }
   std::string advice() const override {
@@ -301,8 +302,8 @@ std::string GeneralizedAlpha::stepAdvice() const {
     text << " The iteration tolerance (Transient/Generalized-alpha/Tolerance = " << tolerance_
          << ") adds to the error.";
   const auto& points = model_->points();
-  const bool hits =
-      std::any_of(points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); });
+  const bool hits = model_->cut().any(std::any_of(
+      points.begin(), points.end(), [](const auto& batch) { return batch.isScaled(); }));
   if (hits && !resolveImpacts_)
     text << " Contact is too stiff for this step and has no rebound. Leave "
             "Transient/Generalized-alpha/Resolve Impacts switched on.";
@@ -314,7 +315,7 @@ std::string GeneralizedAlpha::describeFailure(double t, double h) const {
   text << "Newton did not converge in the step from t = " << t << " s (length " << h << " s after "
        << grid_.level() << " halvings): the residual is " << scheme_->equation().relativeError()
        << " of the largest force, tolerance " << tolerance_ << ", worst at "
-       << model_->dofName(scheme_->equation().worstPosition()) << ".";
+       << scheme_->equation().worstName() << ".";
   return text.str();
 }
 
@@ -330,7 +331,7 @@ void GeneralizedAlpha::giveUpAccuracy(const State& from, double h) {
   std::ostringstream text;
   text << "Generalized-alpha needs a step below " << h << " s at t = " << from.t
        << " s: the displacement is wrong by " << error_ << " m in one step, tolerance "
-       << stepTolerance_ << " m, most at " << model_->dofName(worstPosition(scheme_->lastError()))
+       << stepTolerance_ << " m, most at " << model_->worstName(scheme_->lastError())
        << ". Raise Transient/Generalized-alpha/Step Tolerance, or allow a shorter "
           "Transient/Generalized-alpha/Smallest Step.";
   throw ConvergenceError(text.str());

@@ -42,13 +42,14 @@ void rowSums(const linalg::BlockPattern& pattern, const double* values, Vector& 
         for (int i = 0; i < pattern.width(b); ++i)
           rows[pattern.start(b) + i] +=
               std::abs(values[pattern.offset(e) + at(j * pattern.width(b) + i)]);
+  pattern.cut().complete(rows.data());
 }
 
 /// max_i w_i sum_j |A_ij|
 double rowNorm(const linalg::BlockPattern& pattern, const double* values, const Vector& weight,
                Vector& rows) {
   rowSums(pattern, values, rows);
-  return rows.cwiseProduct(weight).maxCoeff();
+  return pattern.cut().largest(rows.cwiseProduct(weight).maxCoeff());
 }
 
 /// 1 on the diagonal of rows without an entry: what has damping alone has no acceleration to
@@ -56,7 +57,7 @@ double rowNorm(const linalg::BlockPattern& pattern, const double* values, const 
 void determineEmptyRows(const linalg::BlockPattern& pattern, double* values, Vector& rows) {
   rowSums(pattern, values, rows);
   for (int i = 0; i < rows.size(); ++i)
-    if (rows[i] == 0.0) values[pattern.address(i, i)] = 1.0;
+    if (rows[i] == 0.0 && pattern.cut().owns(i)) values[pattern.address(i, i)] = 1.0;
 }
 
 }  // namespace
@@ -71,6 +72,7 @@ void ImplicitStep::bind(CompiledModel& model, const Options& options) {
         &drift_,   &rowSize_,  &inertia_, &correction_, &filtered_, &acceleration_})
     x->setZero(n);
   predicted_.resize(n, model.stateSize());
+  atCut_.setZero(n - model.cut().interior(n));
   factorLaws_.assign(model.lawValues().size(), 0.0);
   strategies_.leaveOut(options.without);
   nodal_.bind(model, strategies_);
@@ -88,7 +90,7 @@ void ImplicitStep::scale(const StepScheme& scheme, double t) {
   model_->setTime(t);
   scaleTime_ = t;
   model_->diagonal(scheme.acceleration, scheme.velocity, 1.0, weight_.data());
-  const double smallest = 1e-12 * weight_.cwiseAbs().maxCoeff();
+  const double smallest = 1e-12 * model_->largest(weight_);
   for (double& w : weight_) w = 1.0 / std::max(std::abs(w), smallest);
   model_->diagonal(1.0, 0.0, 0.0, inertia_.data());
   inertia_ = inertia_.cwiseProduct(weight_);
@@ -113,24 +115,40 @@ void ImplicitStep::linearResidual(const State& to, From from) {
   const CompiledModel& model = *model_;
   const Eigen::Map<const Vector> load(model.load(), model.size());
   const double ahead = from == From::Rest ? scheme_.acceleration / scheme_.velocity : 0.0;
-  double size = 0, floor = 0;
+  const int interior = model.cut().interior(model.size());
+  double sizes[2] = {0, 0};  // of forces, and of the rounding in them
+  const auto measureSizes = [&](int begin, int length, const auto& internal) {
+    const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
+    const auto forces = part(weight_) * internal.abs();
+    const auto inertia = part(inertia_) * (part(to.a) + ahead * part(to.v)).abs();
+    sizes[0] = std::max(sizes[0], forces.max(inertia).maxCoeff());
+    sizes[1] = std::max(sizes[1], (part(rowSize_) * part(to.q).abs()).maxCoeff());
+  };
   for (const auto& run : model.runs()) {
     const int begin = model.pattern().start(run.begin),
               length = model.pattern().start(run.end) - begin;
-    const auto part = [begin, length](const auto& x) { return x.segment(begin, length).array(); };
     auto sum = linear_.segment(begin, length).array();
+    const auto acting = load.segment(begin, length).array();
     sum.setZero();
     model.addStiffness(to.q.data(), linear_.data(), run);
-    const auto forces = part(weight_) * sum.abs().max(part(load).abs());
-    const auto inertia = part(inertia_) * (part(to.a) + ahead * part(to.v)).abs();
-    size = std::max(size, forces.max(inertia).maxCoeff());
-    floor = std::max(floor, (part(rowSize_) * part(to.q).abs()).maxCoeff());
+    if (begin < interior)
+      measureSizes(begin, length, sum.abs().max(acting.abs()));
+    else
+      atCut_.segment(begin - interior, length) = sum;
     model.addMass(to.a.data(), linear_.data(), run);
-    sum -= part(load);
+    sum -= acting;
     if (from == From::Motion) model.addDamping(to.v.data(), linear_.data(), run);
   }
-  linearReference_ = reference_ = size;
-  floor_ = floor;
+  if (model.cut().isDivided()) {
+    model.cut().completeCut(atCut_.data());
+    const auto length = static_cast<int>(atCut_.size());
+    if (length > 0)
+      measureSizes(interior, length,
+                   atCut_.array().abs().max(load.segment(interior, length).array().abs()));
+    model.cut().reduce(sizes, 2, nullptr, 0);
+  }
+  linearReference_ = reference_ = sizes[0];
+  floor_ = sizes[1];
 }
 
 /// From q, a where v = 0 to those of the predicted v.
@@ -152,8 +170,9 @@ bool ImplicitStep::solve(State& to, const StepScheme& scheme, Counters& counters
   prepare(scheme, to.t);
   model_->setTime(to.t);
   linearResidual(to, From::Rest);
-  const double stop = scheme_.acceleration / scheme_.velocity *
-                      (inertia_.array().abs() * to.v.array().abs()).maxCoeff();
+  const double stop =
+      scheme_.acceleration / scheme_.velocity *
+      model_->cut().largest((inertia_.array().abs() * to.v.array().abs()).maxCoeff());
   mostForce_ = mostGrowth * std::max(reference_, stop);
   error_ = INFINITY;
   return (relaxes_ && relax(to)) || (strategies_.use(Strategy::Newton) && finish(to));
@@ -200,7 +219,7 @@ bool ImplicitStep::relax(State& to) {
     q0_ = to.q + delta_;
     bool missed = false;
     for (auto& batch : model_->points()) missed = batch.addMissed(q0_.data(), to.t) || missed;
-    if (!missed) break;
+    if (!model_->cut().any(missed)) break;
   }
   to.q.swap(q0_);
   const double c = scheme_.velocity, a = scheme_.acceleration;
@@ -236,7 +255,7 @@ void ImplicitStep::guess(const State& to, double norm) {
   relaxation_.guess(to.t, c, to.v);
   if (!(norm > 0)) return;
   guess_ = to.v / c;
-  if (norm * guess_.cwiseAbs().maxCoeff() > 0.1 * tolerance())
+  if (norm * model_->largest(guess_) > 0.1 * tolerance())
     findDrift();
   else
     guess_.setZero(), drift_.setZero();
@@ -283,7 +302,8 @@ bool ImplicitStep::settle(State& to, bool again) {
       phase = false;
       changed = true;
     }
-    if (norm > 0 && norm * (delta_ - guess_).cwiseAbs().maxCoeff() > negligible) {
+    if (norm > 0 &&
+        norm * model_->cut().largest((delta_ - guess_).cwiseAbs().maxCoeff()) > negligible) {
       guess_ = delta_;
       findDrift();
       debt_ += driftPrice;
@@ -322,7 +342,7 @@ double ImplicitStep::relaxOnce(const State& to, bool near, double norm) {
   if (near) {
     strategies_.count(Strategy::NearSolves);
     relaxation_.solveNear(factor_, tolerance(), delta_);
-    work = relaxation_.nearShare() + nearPrice / model_->pattern().blocks();
+    work = relaxation_.nearShare() + nearPrice / model_->wholeBlocks();
   } else {
     relaxation_.solve(factor_, otherForces(norm), delta_);
   }
@@ -389,9 +409,9 @@ void ImplicitStep::buildFactor() {
 /// Impacts are of first order anyway, and their acceleration is not one to be filtered.
 bool ImplicitStep::correctsPhase() const {
   if (scheme_.phase == 0.0) return false;
-  for (const auto& batch : model_->points())
-    if (batch.isScaled()) return false;
-  return true;
+  const auto& points = model_->points();
+  return !model_->cut().any(std::any_of(points.begin(), points.end(),
+                                        [](const auto& batch) { return batch.isScaled(); }));
 }
 
 /// correction_ = k M (I - F) (a + ca delta), F = s ca (s ca M + K - R' df/dd R)^-1 M. Taken once,
@@ -418,8 +438,10 @@ double ImplicitStep::relativeError() const {
   return error_ / std::max(std::min(reference_, mostForce_), 1e-300);
 }
 
-int ImplicitStep::worstPosition() const {
-  return transient::worstPosition(residual_.cwiseProduct(weight_));
+std::string ImplicitStep::worstName() const {
+  Vector residual = residual_;
+  model_->cut().complete(residual.data());
+  return model_->worstName(residual.cwiseProduct(weight_));
 }
 
 void ImplicitStep::save(std::vector<double>& memory) const {

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "linalg/blocks/BlockFactor.hpp"
@@ -57,7 +58,7 @@ class ImplicitStep {
   bool isFinite() const { return std::isfinite(merit_); }
   /// max |w R| over the largest scaled force, and where, at the end of the last solve().
   double relativeError() const;
-  int worstPosition() const;
+  std::string worstName() const;
 
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
@@ -132,7 +133,8 @@ class ImplicitStep {
   Vector base_, saved_, savedChange_;
   Vector q0_, v0_, a0_, linear0_;  ///< iterate to go back to in the line search
   Vector weight_, rowSize_, scratch_;
-  Vector inertia_;                                     ///< w_i M_ii
+  Vector atCut_;    ///< forces at the cut of a model that is divided among ranks
+  Vector inertia_;  ///< w_i M_ii
   std::vector<double> dampingNorms_, stiffnessNorms_;  ///< max_i w_i sum_j |A_ij| per term
   double error_ = 0;                                   ///< max |w R|
   double merit_ = 0;                                   ///< |w R|_2

@@ -28,24 +28,27 @@ double ImplicitStep::measure(const State& to) {
     batch.evaluate(to.t, to.q.data(), to.v.data());
     batch.addForce(1.0, scratch_.data());
   }
-  double largest = 0;
-  double square = 0;
-  double force = linearReference_;
-  const int n = model_->size();
-  const double* f = scratch_.data();
-  const double* linear = linear_.data();
-  const double* w = weight_.data();
-  double* r = residual_.data();
-  for (int i = 0; i < n; ++i) {
-    r[i] = linear[i] - f[i];
-    const double scaled = w[i] * r[i];
-    largest = std::max(largest, std::abs(scaled));
-    square += scaled * scaled;
-    force = std::max(force, std::abs(w[i] * f[i]));
+  residual_ = linear_ - scratch_;
+  const int n = model_->size(), interior = model_->cut().interior(n);
+  double largest[2] = {0, linearReference_}, square = 0;
+  const auto look = [&](int i, double residual, double force, bool counts) {
+    const double scaled = weight_[i] * residual;
+    largest[0] = std::max(largest[0], std::abs(scaled));
+    largest[1] = std::max(largest[1], std::abs(weight_[i] * force));
+    if (counts) square += scaled * scaled;
+  };
+  for (int i = 0; i < interior; ++i) look(i, residual_[i], scratch_[i], true);
+  if (model_->cut().isDivided()) {
+    atCut_ = residual_.tail(n - interior);
+    model_->cut().completeCut(atCut_.data());
+    model_->cut().complete(scratch_.data());
+    for (int i = interior; i < n; ++i)
+      look(i, atCut_[i - interior], scratch_[i], model_->cut().owns(i));
+    model_->cut().reduce(largest, 2, &square, 1);
   }
-  error_ = std::isfinite(square) ? largest : square;
+  error_ = std::isfinite(square) ? largest[0] : square;
   merit_ = std::sqrt(square);
-  reference_ = force;
+  reference_ = largest[1];
   return merit_;
 }
 
@@ -75,10 +78,11 @@ bool ImplicitStep::backtrack(State& to) {
   for (int cut = 0; cut < (fresh_ ? 5 : 3); ++cut, fraction *= 0.5) {
     place(to, fraction);
     if (converged() || merit_ <= (1 - 0.1 * fraction) * before) return true;
-    if (delta_.dot(residual_) > 0) beyond = fraction;
+    if (model_->dot(delta_, residual_) > 0) beyond = fraction;
   }
-  if (fresh_ && rescues_++ < maxRescues && strategies_.use(Strategy::TroubledPoints) &&
-      solveTroubledPoints(to, before))
+  // the points of one rank alone know nothing of those of others
+  if (fresh_ && !model_->cut().isDivided() && rescues_++ < maxRescues &&
+      strategies_.use(Strategy::TroubledPoints) && solveTroubledPoints(to, before))
     return true;
   if (fresh_ && beyond > 0 && strategies_.use(Strategy::Bracketing)) return bracket(to, beyond);
   place(to, 0);
@@ -122,7 +126,7 @@ bool ImplicitStep::bracket(State& to, double beyond) {
     const double middle = 0.5 * (low + high);
     place(to, middle);
     if (converged()) return true;
-    (delta_.dot(residual_) > 0 ? high : low) = middle;
+    (model_->dot(delta_, residual_) > 0 ? high : low) = middle;
   }
   return std::isfinite(merit_);
 }
@@ -146,7 +150,7 @@ bool ImplicitStep::iterate(State& to) {
     if (converged()) {
       bool missed = false;
       for (auto& batch : model_->points()) missed = batch.addMissed(to.q.data(), to.t) || missed;
-      if (!missed) return true;
+      if (!model_->cut().any(missed)) return true;
       measure(to);
       if (converged()) return true;
     }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the ranks of a divided matrix have left at the cut, as one dense matrix that all of them
+/// hold and factor alike: of a chain of p pieces, p - 1 nodes.
+#pragma once
+
+#include <Eigen/LU>
+#include <memory>
+
+#include "common/Types.hpp"
+#include "linalg/blocks/RankCut.hpp"
+
+namespace tooljoint::linalg {
+
+class CutFactor {
+ public:
+  explicit CutFactor(std::shared_ptr<const RankCut> cut);
+
+  /// Start with zero, add the entries of this rank by positions, then factor. Collective; false on
+  /// all ranks where a pivot vanishes, or when one of them says that it has failed before.
+  void clear() { sum_.setZero(); }
+  double& at(int row, int column) { return sum_(cut_->number(row), cut_->number(column)); }
+  bool factor(bool failed);
+  /// x at the cut of a whole vector: partial sums -> the solution. Collective.
+  void solve(double* x) const;
+  /// The inverse, by positions, after invert().
+  void invert();
+  double inverse(int row, int column) const {
+    return inverse_(cut_->number(row), cut_->number(column));
+  }
+  const RankCut& cut() const { return *cut_; }
+
+ private:
+  std::shared_ptr<const RankCut> cut_;
+  Matrix sum_, inverse_;
+  Eigen::PartialPivLU<Matrix> factor_;
+  mutable Vector right_, solution_;
+};
+
+}  // namespace tooljoint::linalg
