@@ -23,8 +23,7 @@ struct Checkpoint {
   std::string program;  ///< version and commit of the program that wrote it
   std::string integrator;  ///< its name in the deck
   std::string model;       ///< modelIdentity() of the model and the options
-  State state;             ///< in positions of the compiled model; of a divided motion (RankShare)
-                           ///< its time only, and each rank's state stands before its memory
+  State state;             ///< in dofs of the model
   Counters counters;
   long contactEvaluations = 0;
   long samples = 0;            ///< samples handed out so far

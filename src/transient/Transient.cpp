@@ -279,16 +279,18 @@ class Run {
     model_.toPositions(source.initialVelocity, state_.v);
     model_.setTime(state_.t);
     if (model_.stateSize() > 0) startStates();
-    const Window window{options_.start, options_.end, options_.sampling, options_.step};
+    const Checkpoint* point = hooks_.resume;
+    if (point != nullptr) requireFitting(*point);
+    const bool anew = point != nullptr && point->shares.size() != shares();
+    if (anew) takeState(*point);
+    const Window window{state_.t, options_.end, options_.sampling, options_.step};
     integrator_->prepare(model_, window, state_);
     if (integrator_->equalStep() > 0)
       stepError_.emplace(model_, *integrator_, make(), window, state_);
-    if (hooks_.resume != nullptr) {
-      resume(*hooks_.resume);
-      return;
-    }
+    if (point != nullptr && !anew) return resume(*point);
     checkFinite(model_, *integrator_, state_, state_);
     if (options_.ledger) ledger_.start(model_, state_, integrator_->ledgerStride());
+    if (anew) return countOn(*point);
     sampler_.first(state_);
     if (!integrator_->goesOnFromAnywhere()) keepCheckpoint();
   }
@@ -307,30 +309,46 @@ class Run {
     return "";
   }
 
-  void resume(const Checkpoint& point) {
+  void requireFitting(const Checkpoint& point) {
     if (point.integrator != options_.integrator)
       throw DeckError("The checkpoint was written by the integrator \"" + point.integrator +
                       "\", the deck asks for \"" + options_.integrator +
                       "\". Restart with the same deck.");
-    requireSameRanks(point);
-    const bool fits = share_ || (point.state.q.size() == model_.size() &&
-                                 point.state.x.size() == model_.stateSize());
-    if (!fits || point.model != identity())
+    if (point.state.q.size() != model_.wholeSize() || point.state.x.size() != model_.stateSize() ||
+        point.model != identity())
       throw DeckError(
           "The checkpoint belongs to another model, or to other steps, than this deck describes. "
           "Restart with the same deck.");
+  }
+
+  /// Ranks with a memory of their own.
+  std::size_t shares() const { return share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 0; }
+
+  /// Of a motion that was divided otherwise: what the integrator and the points remember belongs to
+  /// the ranks that wrote it, so the motion begins anew at the state.
+  void takeState(const Checkpoint& point) {
+    const auto text = [](std::size_t n) {
+      return n == 0 ? std::string("undivided") : "divided among " + std::to_string(n) + " ranks";
+    };
+    log::warn("The motion of the checkpoint is " + text(point.shares.size()) + ", this one is " +
+              text(shares()) + ": it begins anew at t = " + formatNumber(point.state.t) +
+              " s, with another error of its first steps than a run that is not stopped, and its "
+              "energy and step error are those from there on.");
+    setState(point.state);
+    model_.setTime(state_.t);
+  }
+
+  void resume(const Checkpoint& point) {
+    setState(point.state);
     runawaySamples_ = point.runawaySamples;
-    const double* memory = point.memory.data();
-    const double* end = memory + point.memory.size();
+    const double* first = point.memory.data();
+    const double* end = first + point.memory.size();
     if (share_) {
       const auto rank = static_cast<std::size_t>(parallel::rank());
-      for (std::size_t r = 0; r < rank; ++r) memory += point.shares[r];
-      end = memory + point.shares[rank];
-      state_.restore(memory);
-    } else {
-      state_ = point.state;
+      for (std::size_t r = 0; r < rank; ++r) first += point.shares[r];
+      end = first + point.shares[rank];
     }
-    const double* first = memory;
+    const double* memory = first;
     model_.restore(memory);
     for (auto& batch : model_.points()) batch.restore(memory);
     integrator_->restore(memory);
@@ -342,25 +360,36 @@ class Run {
           "program that wrote it.");
     memory = first;
     model_.restore(memory);  // the others have taken it to other times
-    // what was done again to get here is not counted twice
+    countOn(point);
+  }
+
+  /// What was done again to get here is not counted twice.
+  void countOn(const Checkpoint& point) {
     integrator_->counters() = point.counters;
     evaluationsBefore_ = point.contactEvaluations - contactEvaluations(model_);
   }
 
-  /// Each rank of a divided motion has a memory of its own.
-  void requireSameRanks(const Checkpoint& point) const {
-    const std::size_t ranks = share_ ? static_cast<std::size_t>(model_.cut().ranks()) : 1;
-    const std::size_t wrote = std::max<std::size_t>(point.shares.size(), 1);
-    if (ranks == wrote) return;
-    const auto text = [](std::size_t n) {
-      return n == 1 ? std::string("all ranks alike") : std::to_string(n) + " ranks";
+  /// From dofs of the whole model.
+  void setState(const State& whole) {
+    state_.t = whole.t;
+    const auto set = [this](const Vector& dofs, Vector& positions) {
+      model_.toPositions(share_ ? share_->pick(dofs) : dofs, positions);
     };
-    throw DeckError(
-        "The motion of the checkpoint was computed by " + text(wrote) + ", this one by " +
-        text(ranks) + ". Restart with " +
-        (wrote == 1 ? "Transient/Ranks = Alike"
-                    : "mpirun -np " + std::to_string(wrote) + " and Transient/Ranks = Divide") +
-        ".");
+    set(whole.q, state_.q);
+    set(whole.v, state_.v);
+    set(whole.a, state_.a);
+    state_.x = whole.x, state_.xDot = whole.xDot;
+  }
+  State wholeState() const {
+    State whole = state_;
+    const auto set = [this](const Vector& positions, Vector& dofs) {
+      model_.toDofs(positions, dofs);
+      if (share_) share_->gather(Vector(dofs), dofs);
+    };
+    set(state_.q, whole.q);
+    set(state_.v, whole.v);
+    set(state_.a, whole.a);
+    return whole;
   }
 
   const std::string& identity() {
@@ -399,10 +428,7 @@ class Run {
     point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
     point.model = identity();
-    if (share_)
-      point.state.t = state_.t, state_.save(point.memory);
-    else
-      point.state = state_;
+    point.state = wholeState();
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();

@@ -255,9 +255,16 @@ std::unique_ptr<RankShare> RankShare::of(const model::SecondOrderModel& whole) {
   }
   for (int i = 0; i < static_cast<int>(dofs.size()); ++i)
     if (share->pattern_.cut().owns(i)) share->counted_.push_back(i);
+  share->dofs_ = std::move(dofs);
   share->mine_.resize(share->counted_.size());
   share->all_.resize(at(next));
   return share;
+}
+
+Vector RankShare::pick(const Vector& whole) const {
+  Vector mine(static_cast<Eigen::Index>(dofs_.size()));
+  for (std::size_t i = 0; i < dofs_.size(); ++i) mine[static_cast<int>(i)] = whole[dofs_[i]];
+  return mine;
 }
 
 void RankShare::gather(const Vector& mine, Vector& whole) const {

@@ -33,6 +33,8 @@ class RankShare {
   /// Dofs of the whole model.
   int wholeSize() const { return static_cast<int>(place_.size()); }
 
+  /// From dofs of the whole to dofs of model().
+  Vector pick(const Vector& whole) const;
   /// A vector in dofs of model() from all ranks -> in dofs of the whole, on all ranks. Collective.
   void gather(const Vector& mine, Vector& whole) const;
   /// Arrays of any length, one after the other, with their lengths. Collective.
@@ -45,6 +47,7 @@ class RankShare {
   model::SecondOrderModel model_;
   linalg::BlockPattern pattern_;
   std::vector<std::vector<int>> points_;
+  std::vector<int> dofs_;  ///< of the whole, per dof of model()
   // gather(): what each rank counts, one rank after the other
   std::vector<int> counted_;          ///< dofs of model() that this rank counts
   std::vector<int> counts_, begins_;  ///< per rank

@@ -6,10 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <random>
 
 namespace tooljoint::transient {
 namespace {
+
+std::vector<int> upTo(int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 /// Points of three coordinates (two of them lengths) on one block of coordinates, clearance = gap -
 /// |(d_0, d_1)|.
@@ -38,7 +45,9 @@ struct Cloud {
   double clearance(int p, const Vector& q) const {
     return 1.0 + 0.05 * p - (rows.middleRows(p * width, 2) * q).norm();
   }
-  ContactBroadPhase watch() const { return {points, width, 2, rowBegin, column, value, pattern}; }
+  ContactBroadPhase watch() const {
+    return {upTo(points), width, 2, rowBegin, column, value, pattern};
+  }
 };
 
 struct Walk {
@@ -138,7 +147,7 @@ TEST(ContactBroadPhase, ThePointThatGoesStraightToTheWallIsLookedAtInTime) {
   const Sparse full = Matrix::Ones(coordinates, coordinates).sparseView();
   const std::vector<int> group(coordinates, 0);
   const linalg::BlockPattern pattern(linalg::partitionDofs({&full}, group, group), {&full});
-  ContactBroadPhase watch(points, width, width, rowBegin, column, value, pattern);
+  ContactBroadPhase watch(upTo(points), width, width, rowBegin, column, value, pattern);
   const auto at = [](double way) {
     return Vector(Vector::Constant(coordinates, way / (5.0 * coordinates)));
   };
@@ -160,7 +169,7 @@ TEST(ContactBroadPhase, CheapPointsStayAwake) {
   const std::vector<double> value{1.0, 1.0};
   const Sparse full = Matrix::Ones(2, 2).sparseView();
   const linalg::BlockPattern pattern(linalg::partitionDofs({&full}, {0, 0}, {0, 0}), {&full});
-  ContactBroadPhase watch(2, 1, 1, rowBegin, column, value, pattern);
+  ContactBroadPhase watch(upTo(2), 1, 1, rowBegin, column, value, pattern);
   const double q[2] = {0.0, 0.0}, clearance[2] = {1.0, 1.0};
   watch.activate(q);
   watch.deactivate(q, clearance);
