@@ -64,7 +64,7 @@ const std::vector<std::pair<std::string, model::SecondOrderModel>>& shapes() {
 }
 
 TransientOptions divided(RankUse ranks = RankUse::Divide) {
-  auto o = options("Generalized-alpha", 0.1, 1e-3, 5e-3);
+  auto o = options("Generalized-alpha", 0.04, 1e-3, 5e-3);
   o.ranks = ranks;
   acceptCoarseSteps(o);
   return o;
@@ -182,7 +182,7 @@ TEST(DividedMotion, TakesTheSameSteps) {
   addFloor(hard, 1e9, 0.0, 7e11);
   for (const bool controlled : {false, true}) {
     auto o = divided(RankUse::Alike);
-    o.end = 0.05;
+    o.end = 0.02;
     if (controlled) o.own.set("Step Tolerance", 1e-6);
     Keep apart, alike;
     const auto one = integrate(hard, o, alike);
@@ -248,7 +248,7 @@ TEST(DividedMotion, GoesOnFromACheckpointBitByBit) {
   const auto& model = shapes()[0].second;
   Keep whole, rest;
   integrate(model, divided(), whole);
-  const auto point = stopped(model, divided(), 42);
+  const auto point = stopped(model, divided(), 21);
   EXPECT_EQ(point.shares.size(),
             parallel::size() > 1 ? static_cast<std::size_t>(parallel::size()) : 0U);
   RunHooks hooks;
@@ -266,12 +266,12 @@ TEST(DividedMotion, GoesOnFromACheckpointOfOtherRanks) {
   integrate(smooth, divided(), whole);
   for (const auto& [wrote, goesOn] : {std::make_pair(RankUse::Divide, RankUse::Alike),
                                       std::make_pair(RankUse::Alike, RankUse::Divide)}) {
-    const auto point = stopped(smooth, divided(wrote), 50);
+    const auto point = stopped(smooth, divided(wrote), 20);
     RunHooks hooks;
     hooks.resume = &point;
     Keep rest;
     const auto report = integrate(smooth, divided(goesOn), rest, hooks);
-    EXPECT_EQ(report.counters.steps, 100);
+    EXPECT_EQ(report.counters.steps, 40);
     EXPECT_EQ(report.samples, static_cast<long>(whole.q.size()));
     expectNear(rest.q.back(), whole.q.back(), 2e-3);
   }
