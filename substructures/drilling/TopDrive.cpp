@@ -8,6 +8,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "model/laws/PointLawRegistry.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drilling/BitLaw.hpp"
 
 namespace tooljoint::drilling {
@@ -15,8 +16,6 @@ namespace {
 
 using deck::Optional;
 using deck::Range;
-
-constexpr int torsional = 5;  // theta_z of a node
 
 struct Control {
   DriveControl control;
@@ -145,10 +144,12 @@ PointOnString driveOnString(const TopDrive& drive, double staticTorque) {
       .set("Integral Gain", drive.integralGain)
       .set("Initial Force", drive.torqueGiven ? drive.torque : staticTorque);
   if (drive.torqueLimit > 0.0) own.set("Force Limit", drive.torqueLimit);
-  return onString(
-      topDriveSet, 0,
-      {{torsional, {}, {"top_drive_torque", "N m", "Torque of the top drive on the string"}, 1.0}},
-      model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
+  return onString(topDriveSet, 0,
+                  {{beam::nodal::thetaZ,
+                    {},
+                    {"top_drive_torque", "N m", "Torque of the top drive on the string"},
+                    1.0}},
+                  model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
 }
 
 std::string describe(const TopDrive& drive) {
