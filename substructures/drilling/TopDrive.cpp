@@ -53,11 +53,11 @@ void checkParameters(const Teuchos::ParameterList& list, const Control& control)
     if (!list.isParameter(needed))
       throw DeckError(list.name() + "/" + needed + " is missing: the control " +
                       inQuotes(control.name) + " needs it.");
-  for (const char* name : {"Inertia", "Torque", "Proportional Gain", "Integral Gain",
-                           "Tuning Frequency", "Impedance Ratio", "Torque Limit"})
-    if (list.isParameter(name) && !contains(control.takes, std::string(name)))
-      throw DeckError(list.name() + "/" + name + " is not used by the control " +
-                      inQuotes(control.name) + ". Leave it out, or choose another control.");
+  for (const auto& other : controls())
+    for (const auto& name : other.takes)
+      if (list.isParameter(name) && !contains(control.takes, name))
+        throw DeckError(list.name() + "/" + name + " is not used by the control " +
+                        inQuotes(control.name) + ". Leave it out, or choose another control.");
 }
 
 }  // namespace
