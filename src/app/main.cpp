@@ -237,6 +237,19 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
   compareCommand->callback([&] { command = [&] { tooljoint::app::compare(comparison); }; });
 }
 
+/// What the program says without a command.
+constexpr const char* firstWords =
+    "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
+    "Begin with a folder of your own:\n\n"
+    "  tooljoint new my_well           a deck that runs, its survey and a README\n"
+    "  cd my_well\n"
+    "  tooljoint check my_well.xml     what is modelled\n"
+    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n\n"
+    "or with a deck to edit:\n\n"
+    "  tooljoint template well > mine.xml\n\n"
+    "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
+    "tooljoint doc the parameters of a deck.\n";
+
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
   CLI::App program{
@@ -249,7 +262,8 @@ int run(int argc, char** argv) {
   app::RunOptions options;
   std::string topic;
   std::string format = "md";
-  std::string kind;
+  std::string kind, folder;
+  bool all = false;
   std::function<void()> command;
 
   addRun(program, options, command);
@@ -267,8 +281,18 @@ int run(int argc, char** argv) {
 
   auto* templateCommand =
       program.add_subcommand("template", "print a commented deck to start from");
-  templateCommand->add_option("KIND", kind, "scene or components")->required();
-  templateCommand->callback([&] { command = [&] { say(std::cout, app::deckTemplate(kind)); }; });
+  templateCommand
+      ->add_option("KIND", kind,
+                   "well, parts, part (the file of parts), study, scene (every list) or components")
+      ->required();
+  templateCommand->add_flag("--all", all, "of scene: parameters for experts, too");
+  templateCommand->callback(
+      [&] { command = [&] { say(std::cout, app::deckTemplate(kind, all)); }; });
+
+  auto* newCommand = program.add_subcommand(
+      "new", "write a folder with a deck that runs, its survey and a README");
+  newCommand->add_option("NAME", folder, "folder to make; its deck has the same name")->required();
+  newCommand->callback([&] { command = [&] { app::newFolder(folder); }; });
 
   if (const auto ended = parse(program, argc, argv)) return code(*ended);
   if (version) {
@@ -276,7 +300,7 @@ int run(int argc, char** argv) {
     return code(ExitCode::Done);
   }
   if (!command) {
-    say(std::cerr, program.help());
+    say(std::cerr, firstWords);
     return code(ExitCode::Usage);
   }
   std::vector<std::string> edits;
