@@ -90,6 +90,8 @@ std::string manual(const std::string& topic, const std::string& format);
 /// "scene" (every list, with `all` the parameters for experts too) or "components". UsageError for
 /// another kind, and for `all` beside another than "scene".
 std::string deckTemplate(const std::string& kind, bool all);
+/// The kinds of deckTemplate().
+const std::vector<std::string>& templateKinds();
 /// `tooljoint new`: a folder with a deck of the name of the folder, survey.csv and README.md.
 /// UsageError: no name of a deck; FileError: the folder holds something, or cannot be written.
 /// Collective.

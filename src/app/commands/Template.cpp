@@ -6,6 +6,7 @@
 #include "app/commands/Commands.hpp"
 #include "app/commands/Templates.hpp"
 #include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "substructures/drillstring/Components.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 
@@ -53,6 +54,12 @@ std::string wellAlone() {
 
 }  // namespace
 
+const std::vector<std::string>& templateKinds() {
+  static const std::vector<std::string> kinds{"well",  "parts", "part",
+                                              "study", "scene", "components"};
+  return kinds;
+}
+
 std::string deckTemplate(const std::string& kind, bool all) {
   if (all && kind != "scene")
     throw UsageError("--all belongs to the template \"scene\"; \"" + kind +
@@ -64,9 +71,8 @@ std::string deckTemplate(const std::string& kind, bool all) {
   if (kind == "scene") return everyList(all);
   if (kind == "components")
     return deck::templateXml(drillstring::libraryParameters(), "my_components");
-  throw UsageError("There is no template \"" + kind +
-                   "\". Available: \"well\", \"parts\", \"part\", \"study\", \"scene\" and "
-                   "\"components\".");
+  throw UsageError("There is no template " + inQuotes(kind) +
+                   ". Available: " + quotedList(templateKinds()) + ".");
 }
 
 }  // namespace tooljoint::app
