@@ -3,19 +3,21 @@
 # under share/tooljoint.
 include(CMakePackageConfigHelpers)
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tooljoint)
 foreach(target toolkit drillstring)
   if(TARGET tooljoint_${target})
     set_property(TARGET tooljoint_${target} PROPERTY EXPORT_NAME ${target})
-    install(TARGETS tooljoint_${target} EXPORT TooljointTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    install(TARGETS tooljoint_${target} EXPORT TooljointTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_COMPONENT dev
       INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint)  # for clients; for the headers among themselves
   endif()
 endforeach()
 if(TARGET tooljoint)
   install(TARGETS tooljoint RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  include(cmake/Pages.cmake)
 endif()
-install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp" PATTERN app EXCLUDE)
-install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp" PATTERN app EXCLUDE)
+install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 # As in the source tree, so that the documents find what they link to.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
 install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE)
@@ -27,8 +29,10 @@ foreach(script ${scripts})
   configure_file(${script} ${PROJECT_BINARY_DIR}/share/tooljoint/${script} COPYONLY)
 endforeach()
 
-install(EXPORT TooljointTargets NAMESPACE Tooljoint:: DESTINATION ${package_dir})
+install(EXPORT TooljointTargets NAMESPACE Tooljoint:: DESTINATION ${package_dir} COMPONENT dev)
 configure_package_config_file(cmake/TooljointConfig.cmake.in ${PROJECT_BINARY_DIR}/TooljointConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/TooljointConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/TooljointConfig.cmake ${PROJECT_BINARY_DIR}/TooljointConfigVersion.cmake cmake/TooljointTrilinos.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT dev)
+
+include(cmake/Debian.cmake)

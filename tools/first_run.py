@@ -128,7 +128,7 @@ bit speed           {bit['mean']:7.1f} rpm   {bit['min']:.1f} to {bit['max']:.1f
 worst check         {verdict}: {check['name']} {check['value']:.1e}, bound {check['bound']:.0e}
 
 Open    {output / 'reduced' / 'report.html'} (in a browser: figures, plots, the motion in space), or results.png beside it
-Type    {program} template scene > mine.xml && {program} run mine.xml"""
+Type    {program} new my_well && {program} run my_well/my_well.xml"""
 
 
 def main():

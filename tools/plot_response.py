@@ -6,21 +6,15 @@ Campbell diagram: frequencies and damping ratios against the rotary speed, forwa
 critical speeds marked. Response: amplitude and phase of every output, largest amplitudes marked. Needs h5py, numpy and matplotlib; reads
 campbell.h5 or response.h5 alone.
 """
-import argparse
-import pathlib
 import sys
 
 try:
-    import h5py
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     import numpy as np
+
+    from plots import RPM, draw_folder, plt
 except ImportError as missing:
     sys.exit(f"{missing}: plot_response.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
-RPM = 30 / np.pi
 CLEAR_WHIRL = 0.1  # of a circle; less is drawn grey
 
 
@@ -80,23 +74,5 @@ def draw_response(results):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, help="folder of tooljoint campbell or tooljoint response")
-    parser.add_argument("--output", type=pathlib.Path, help="picture (default: campbell.png or response.png in the folder)")
-    options = parser.parse_args()
-    for name, draw in (("campbell", draw_campbell), ("response", draw_response)):
-        file = options.folder / f"{name}.h5"
-        if not file.exists():
-            continue
-        with h5py.File(file, "r") as results:
-            figure = draw(results)
-        output = options.output or options.folder / f"{name}.png"
-        figure.savefig(output, dpi=150)
-        print(f"drawn {output}")
-        return 0
-    return f"{options.folder} holds neither campbell.h5 nor response.h5. Give the folder of tooljoint campbell or tooljoint response."
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    draw_folder(__doc__, "folder of tooljoint campbell or tooljoint response", {"campbell.h5": draw_campbell, "response.h5": draw_response})

@@ -6,19 +6,13 @@ Of a string: its well coloured by contact force, static radial displacement and 
 the bit speed over time. Of a scene of parts, for each component: displacement at the start and largest displacement of all nodes, and the
 motion of the node that moves most; recorded forces between parts. Needs h5py, numpy and matplotlib; reads results.h5 alone.
 """
-import argparse
-import pathlib
 import sys
 
 try:
     import h5py
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
     import numpy as np
 
-    from plots import COLOURS, MAP, RPM, use_style
+    from plots import COLOURS, MAP, RPM, draw_folder, plt
 except ImportError as missing:
     sys.exit(f"{missing}: plot_results.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
@@ -130,19 +124,5 @@ def draw_parts(results):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path, help="results folder of a run")
-    parser.add_argument("--output", type=pathlib.Path, help="picture (default: DIR/results.png)")
-    options = parser.parse_args()
-    if not (options.folder / "results.h5").is_file():
-        sys.exit(f"{options.folder} holds no results.h5: name the folder of a run that ended.")
-    use_style()
-    with h5py.File(options.folder / "results.h5") as results:
-        figure = draw_parts(results) if "/model/part_names" in results else draw_string(results)
-    figure.savefig(options.output or options.folder / "results.png", dpi=110)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    draw_folder(__doc__, "folder of a run that ended", {"results.h5": lambda results: draw_parts(results) if "/model/part_names" in results else draw_string(results)})

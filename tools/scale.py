@@ -35,7 +35,7 @@ What the program takes for long strings, large parts and many rows. Written by
     tools/scale.py --program build/release/tooljoint --most {most}
 
 Machine: {cpu}, {count} cores; {blas}. Times are of one run each; ratios within a table are what lasts. Memory is the
-peak of the largest process.
+peak of the largest process.{note}
 
 """
 
@@ -161,6 +161,7 @@ def main():
     parser.add_argument("--mpiexec", default="mpiexec")
     parser.add_argument("--most", type=int, default=200000, help="dofs of the largest block")
     parser.add_argument("--rows", action="store_true", help="a study of 65 rows on one and two ranks, too: minutes of a machine without other work")
+    parser.add_argument("--note", default="", help="a sentence about the circumstances, for the head of the document")
     parser.add_argument("--short", action="store_true")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
@@ -174,7 +175,7 @@ def main():
         blas = os.popen(f"{options.program} --version").read()
         blas = re.search(r"BLAS +(\S+)", blas)
         draw(found)
-        head = HEAD.format(most=options.most, cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
+        head = HEAD.format(most=options.most, note=f" {options.note}" if options.note else "", cpu=machine(), count=os.cpu_count(), blas=f"BLAS {blas.group(1)}" if blas else "BLAS unknown")
         figure = f"![Reduction of a solid part](figures/{FIGURE.name})\n\n"
         at = text.index("\n| dofs") + 1
         DOCUMENT.write_text(head + text[:at] + figure + text[at:], encoding="utf-8")

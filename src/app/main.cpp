@@ -13,6 +13,7 @@
 #include <string>
 
 #include "app/commands/Commands.hpp"
+#include "app/commands/Pages.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
@@ -57,22 +58,26 @@ enum class Output { None, Wanted, Always };
 /// \param suffix of the default folder
 void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output,
                     const std::string& suffix = "") {
-  command.add_option("DECK", options.deck, "scene in Teuchos XML")->required();
+  command.add_option("DECK", options.deck, "scene in Teuchos XML")->type_name("FILE")->required();
   command
       .add_option("--set", options.overrides,
                   "override one parameter: PATH=VALUE, e.g. --set \"Transient/End Time=5\"")
+      ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   command
       .add_option("--without", options.without,
                   "take a list out of the deck before --set, e.g. --without Mud: what it describes "
                   "is not modelled")
+      ->type_name("LIST")
       ->allow_extra_args(false);
   if (output != Output::None)
-    command.add_option(
-        "--output,-o", options.output,
-        output == Output::Always
-            ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
-            : "folder for the tables (default: none are written)");
+    command
+        .add_option(
+            "--output,-o", options.output,
+            output == Output::Always
+                ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
+                : "folder for the tables (default: none are written)")
+        ->type_name("DIR");
 }
 
 /// What is wrong with a command line that holds words or options no command takes.
@@ -129,10 +134,14 @@ void addStudy(CLI::App& program, tooljoint::app::RunOptions& options,
           "alone: refuse to time rows that share a machine; shared: time them all the same")
       ->check(CLI::IsMember({"alone", "shared"}));
   auto* output = study->get_option("--output");
-  auto* plan = study->add_option("--plan", options.plan,
-                                 "run nothing: write one command for each row into this folder");
-  auto* collect = study->add_option("--collect", options.collect,
-                                    "run nothing: tables and plots of the rows in this folder");
+  auto* plan = study
+                   ->add_option("--plan", options.plan,
+                                "run nothing: write one command for each row into this folder")
+                   ->type_name("DIR");
+  auto* collect = study
+                      ->add_option("--collect", options.collect,
+                                   "run nothing: tables and plots of the rows in this folder")
+                      ->type_name("DIR");
   auto* row =
       study->add_option("--row", options.row,
                         "run this row only: \"reference\", or its number (the commands of --plan)");
@@ -150,8 +159,10 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
   report
       ->add_option("DIR", options.reported,
                    "folder of run or study, or the --output of torque-drag or modes")
+      ->type_name("DIR")
       ->required();
-  report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)");
+  report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")
+      ->type_name("FILE");
   report->callback(
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
@@ -162,8 +173,8 @@ void addRun(CLI::App& program, tooljoint::app::RunOptions& options,
   auto* runCommand = program.add_subcommand(
       "run", "path, static state, reduction, transient: from deck to results");
   addDeckOptions(*runCommand, options, Output::Always);
-  runCommand->add_option("--restart", options.restart,
-                         "folder of an interrupted run to go on from");
+  runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from")
+      ->type_name("DIR");
   runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
 }
 
@@ -223,9 +234,12 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
                 std::function<void()>& command) {
   auto* compareCommand = program.add_subcommand(
       "compare", "errors eps_t, eps_n and the vibration error of one run against a reference run");
-  compareCommand->add_option("DIR", comparison.folder, "results folder")->required();
+  compareCommand->add_option("DIR", comparison.folder, "results folder")
+      ->type_name("DIR")
+      ->required();
   compareCommand
       ->add_option("REFERENCE", comparison.reference, "results folder of the reference run")
+      ->type_name("DIR")
       ->required();
   compareCommand->add_option("--from", comparison.begin, "start of the window [s]");
   compareCommand->add_option("--to", comparison.end, "end of the window [s] (default 3)");
@@ -236,6 +250,19 @@ void addCompare(CLI::App& program, tooljoint::app::CompareOptions& comparison,
   compareCommand->add_flag("--json", comparison.json, "print the errors and the window as JSON");
   compareCommand->callback([&] { command = [&] { tooljoint::app::compare(comparison); }; });
 }
+
+/// What the program says without a command.
+constexpr const char* firstWords =
+    "Tooljoint: component mode synthesis, and the drillstring simulator built on it.\n\n"
+    "Begin with a folder of your own:\n\n"
+    "  tooljoint new my_well           a deck that runs, its survey and a README\n"
+    "  cd my_well\n"
+    "  tooljoint check my_well.xml     what is modelled\n"
+    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n\n"
+    "or with a deck to edit:\n\n"
+    "  tooljoint template well > mine.xml\n\n"
+    "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
+    "tooljoint doc the parameters of a deck.\n";
 
 int run(int argc, char** argv) {
   namespace app = tooljoint::app;
@@ -249,7 +276,8 @@ int run(int argc, char** argv) {
   app::RunOptions options;
   std::string topic;
   std::string format = "md";
-  std::string kind;
+  std::string kind, folder;
+  bool all = false;
   std::function<void()> command;
 
   addRun(program, options, command);
@@ -260,15 +288,40 @@ int run(int argc, char** argv) {
   addCompare(program, comparison, command);
   addReport(program, options, command);
 
-  auto* docCommand = program.add_subcommand("doc", "print the parameter manual");
-  docCommand->add_option("TOPIC", topic, "a list of the deck, e.g. Contact, or units");
-  docCommand->add_option("--format", format, "md or json")->check(CLI::IsMember({"md", "json"}));
-  docCommand->callback([&] { command = [&] { say(std::cout, app::manual(topic, format)); }; });
+  auto* docCommand = program.add_subcommand(
+      "doc", "print the parameter manual, or what describes the command line");
+  docCommand->add_option("TOPIC", topic,
+                         "a list of the deck, e.g. Contact, or units; of man a command");
+  docCommand
+      ->add_option("--format", format,
+                   "md or json: parameters; man: manual page; bash or zsh: completion function")
+      ->check(CLI::IsMember({"md", "json", "man", "bash", "zsh"}));
+  docCommand->callback([&] {
+    command = [&] {
+      say(std::cout, app::isPageFormat(format) ? app::page(program, topic, format)
+                                               : app::manual(topic, format));
+    };
+  });
 
   auto* templateCommand =
       program.add_subcommand("template", "print a commented deck to start from");
-  templateCommand->add_option("KIND", kind, "scene or components")->required();
-  templateCommand->callback([&] { command = [&] { say(std::cout, app::deckTemplate(kind)); }; });
+  templateCommand
+      ->add_option(
+          "KIND", kind,
+          "a surveyed well, parts, the part file of parts, a study, a scene with every list, "
+          "or a library of components")
+      ->type_name("{" + tooljoint::join(app::templateKinds(), ",") + "}")
+      ->required();
+  templateCommand->add_flag("--all", all, "of scene: parameters for experts, too");
+  templateCommand->callback(
+      [&] { command = [&] { say(std::cout, app::deckTemplate(kind, all)); }; });
+
+  auto* newCommand = program.add_subcommand(
+      "new", "write a folder with a deck that runs, its survey and a README");
+  newCommand->add_option("NAME", folder, "folder to make; its deck has the same name")
+      ->type_name("DIR")
+      ->required();
+  newCommand->callback([&] { command = [&] { app::newFolder(folder); }; });
 
   if (const auto ended = parse(program, argc, argv)) return code(*ended);
   if (version) {
@@ -276,7 +329,7 @@ int run(int argc, char** argv) {
     return code(ExitCode::Done);
   }
   if (!command) {
-    say(std::cerr, program.help());
+    say(std::cerr, firstWords);
     return code(ExitCode::Usage);
   }
   std::vector<std::string> edits;

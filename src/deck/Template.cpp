@@ -48,7 +48,7 @@ std::string remark(const std::string& text) {
 
 class Writer {
  public:
-  explicit Writer(const Examples& examples) : examples_(examples) {}
+  Writer(const Examples& examples, Level most) : examples_(examples), most_(most) {}
 
   std::string write(const ListSpec& root, const std::string& name) {
     text_ = remark(root.doc()) + "\n";
@@ -139,6 +139,7 @@ class Writer {
                       const std::string& path, int depth, bool active) {
     const bool required = std::holds_alternative<Required>(parameter.value);
     const bool stands = required || example(path + parameter.name) != nullptr;
+    if (!stands && most_ == Level::Basic && parameter.level == Level::Expert) return;
     std::string note = describe(parameter);
     if (parameter.level == Level::Expert) note += "; for experts";
     if (required) note += "; required";
@@ -153,13 +154,15 @@ class Writer {
   }
 
   const Examples& examples_;
+  Level most_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string templateXml(const ListSpec& root, const std::string& name, const Examples& examples) {
-  return Writer(examples).write(root, name);
+std::string templateXml(const ListSpec& root, const std::string& name, const Examples& examples,
+                        Level most) {
+  return Writer(examples, most).write(root, name);
 }
 
 std::string uncommented(const std::string& templateText) {

@@ -20,9 +20,10 @@ using Examples = std::map<std::string, std::string>;
 /// it (the list of a variant that is chosen and needs values stands too). What `examples` name
 /// stands with the value there, and so do the lists it is in; among lists with names of one's own
 /// they name one. It reads without errors of the phases 1 and 2, as it is and, without examples,
-/// with every commented line taken in.
+/// with every commented line taken in. `most`: with Level::Basic optional parameters for experts
+/// are left out.
 std::string templateXml(const ListSpec& root, const std::string& name,
-                        const Examples& examples = {});
+                        const Examples& examples = {}, Level most = Level::Expert);
 
 /// A template with every commented-out line taken in.
 std::string uncommented(const std::string& templateText);

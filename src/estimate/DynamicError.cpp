@@ -30,7 +30,8 @@ ComplexMatrix rows(const ComplexMatrix& x, const std::vector<int>& positions) {
   return part;
 }
 
-ComplexVector answer(const ResidualFlexibility& flexibility, const ComplexVector& r) {
+/// F r of a complex residual.
+ComplexVector deformation(const ResidualFlexibility& flexibility, const ComplexVector& r) {
   const Matrix y = flexibility.apply((Matrix(r.size(), 2) << r.real(), r.imag()).finished());
   return y.col(0).cast<Complex>() + Complex(0, 1) * y.col(1).cast<Complex>();
 }
@@ -40,7 +41,8 @@ class TruncatedMotion {
  public:
   TruncatedMotion(const ResidualFlexibility& flexibility, const Sparse& mass,
                   const ComplexVector& r, Complex s)
-      : first_(answer(flexibility, r)), next_(-s * s * answer(flexibility, times(mass, first_))) {}
+      : first_(deformation(flexibility, r)),
+        next_(-s * s * deformation(flexibility, times(mass, first_))) {}
 
   /// l' (F - s^2 F M F ...) r: the two first terms of the expansion of the truncated dynamic
   /// flexibility, summed as a geometric series.
@@ -169,9 +171,10 @@ ComplexVector DynamicError::ofModes(const std::vector<Linearised>& matrices, con
                        .work(rows(l, interior));
     }
   }
+  ComplexVector error = ComplexVector::Zero(count);
   for (Eigen::Index j = 0; j < count; ++j)
-    work[j] = slope[j] != 0.0 ? -work[j] / slope[j] : Complex(0);
-  return work;
+    if (slope[j] != 0.0) error[j] = -work[j] / slope[j];
+  return error;
 }
 
 ComplexMatrix DynamicError::ofResponses(const std::vector<Linearised>& matrices, Complex s,

@@ -6,6 +6,7 @@
 #include <dmumps_c.h>
 #include <fstream>
 #include <mpi.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ constexpr int initialise = -1, finish = -2, analyse = 1, decompose = 2, substitu
 /// Of its errors (Users' guide 5.5, section 8).
 constexpr int noRoom = -9, realRoom = -8, noMemory = -13, singular = -10, notDefinite = -40;
 
-/// Memory that is free, as Linux says [MB]; 0 where it does not.
-long freeMegabytes() {
+/// Memory that is free, as Linux says [MB]; none where it does not.
+std::optional<long> freeMegabytes() {
   std::ifstream in("/proc/meminfo");
   for (std::string word; in >> word;)
     if (word == "MemAvailable:") {
@@ -39,13 +40,15 @@ long freeMegabytes() {
       in >> kilobytes;
       return kilobytes / 1024;
     }
-  return 0;
+  return {};
 }
 
-[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, long available) {
+[[noreturn]] void refuseMemory(Eigen::Index rows, long needed, std::optional<long> available) {
   throw ModelError("The factors of a matrix of " + std::to_string(rows) + " rows need " +
-                   std::to_string(needed) + " MB of memory, and " + std::to_string(available) +
-                   " MB are free. Cut the part into smaller ones, or use a machine with more.");
+                   std::to_string(needed) + " MB of memory" +
+                   (available ? ", and " + std::to_string(*available) + " MB are free"
+                              : ", more than there is") +
+                   ". Cut the part into smaller ones, or use a machine with more.");
 }
 
 }  // namespace
@@ -57,9 +60,11 @@ struct MumpsFactor::Impl {
   std::vector<int> outer, inner;  ///< pattern that was analysed
   std::vector<int> rows, columns;
   std::vector<double> values;
+  std::optional<long> memory;  ///< [MB] given, instead of what is free
 
   ~Impl() { close(); }
 
+  std::optional<long> available() const { return memory ? memory : freeMegabytes(); }
   int& control(int number) { return id.icntl[number - 1]; }
   int status() const { return id.infog[0]; }
   int info(int number) const { return id.infog[number - 1]; }
@@ -114,7 +119,7 @@ struct MumpsFactor::Impl {
   }
 
   [[noreturn]] void fail() const {
-    if (status() == noMemory) refuseMemory(id.n, std::max(info(16), info(17)), freeMegabytes());
+    if (status() == noMemory) refuseMemory(id.n, std::max(info(16), info(17)), available());
     throw ModelError("MUMPS could not factor a matrix of " + std::to_string(id.n) +
                      " rows: error " + std::to_string(status()) + " (" + std::to_string(info(2)) +
                      ").");
@@ -125,13 +130,15 @@ struct MumpsFactor::Impl {
     if (status() < 0) fail();
     outer.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.outerSize() + 1);
     inner.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
-    const long needed = info(16),
-               available = freeMegabytes();  // INFOG(16): MB of the factorisation
-    if (available > 0 && needed > available) refuseMemory(A.rows(), needed, available);
+    const long needed = info(16);  // INFOG(16): MB of the factorisation
+    const auto most = available();
+    if (most && needed > *most) refuseMemory(A.rows(), needed, most);
   }
 };
 
-MumpsFactor::MumpsFactor() : impl_(std::make_unique<Impl>()) {}
+MumpsFactor::MumpsFactor(std::optional<long> memory) : impl_(std::make_unique<Impl>()) {
+  impl_->memory = memory;
+}
 MumpsFactor::~MumpsFactor() = default;
 MumpsFactor::MumpsFactor(MumpsFactor&&) noexcept = default;
 MumpsFactor& MumpsFactor::operator=(MumpsFactor&&) noexcept = default;

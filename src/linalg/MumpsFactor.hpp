@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "common/Types.hpp"
 
@@ -15,7 +16,8 @@ class MumpsFactor {
   /// L U, L D L' with pivots of order one and two, or L D L' with D > 0 (no pivoting).
   enum class Symmetry { None, Indefinite, Definite };
 
-  MumpsFactor();
+  /// `memory` [MB]: what the factors may take at most; without it, what Linux says is free.
+  explicit MumpsFactor(std::optional<long> memory = {});
   ~MumpsFactor();
   MumpsFactor(MumpsFactor&&) noexcept;
   MumpsFactor& operator=(MumpsFactor&&) noexcept;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 #include "cases/CaseLists.hpp"
 #include "common/Constants.hpp"
@@ -18,8 +20,8 @@ using deck::Range;
 using Teuchos::ParameterList;
 
 /// Parameters of the other kind of sweep.
-constexpr const char* bySpeedNot[] = {"Lowest Frequency", "Rotary Speed"};
-constexpr const char* byFrequencyNot[] = {"Lowest Speed", "Order"};
+constexpr const char* notBySpeed[] = {"Lowest Frequency", "Rotary Speed"};
+constexpr const char* notByFrequency[] = {"Lowest Speed", "Order"};
 
 constexpr const char* excitations[] = {"Unbalance", "Harmonic", "Transfer"};
 
@@ -64,7 +66,7 @@ void readSweep(const ParameterList& list, ResponseSettings& settings) {
     throw DeckError(list.name() + " has " + (bySpeed ? "both" : "neither") + " Highest Speed " +
                     (bySpeed ? "and" : "nor") +
                     " Highest Frequency. Give one: the sweep is by rotary speed or by frequency.");
-  for (const char* other : bySpeed ? bySpeedNot : byFrequencyNot)
+  for (const char* other : bySpeed ? notBySpeed : notByFrequency)
     if (list.get<double>(other) != (std::string(other) == "Order" ? 1.0 : 0.0))
       throw DeckError(list.name() + "/" + other + " has no effect in a sweep by " +
                       (bySpeed ? "speed" : "frequency") + ". Leave it out.");
@@ -154,8 +156,8 @@ ListSpec responseParameters() {
 ResponseSettings readResponse(const ParameterList& list) {
   ResponseSettings settings;
   const auto excitation = list.get<std::string>("Excitation");
-  while (excitation != excitations[static_cast<int>(settings.excitation)])
-    settings.excitation = static_cast<Excitation>(static_cast<int>(settings.excitation) + 1);
+  const auto* const found = std::find(std::begin(excitations), std::end(excitations), excitation);
+  settings.excitation = static_cast<Excitation>(found - std::begin(excitations));
   readSweep(list, settings);
   forEachList(list, "Loads", [&](const std::string& name, const ParameterList& one) {
     settings.loads.push_back(

@@ -43,6 +43,10 @@ constexpr std::array<StrategyName, strategyCount> strategyNames{{
 }};
 
 using StrategySet = std::bitset<strategyCount>;
+/// Whether `one` is in the set.
+inline bool holds(const StrategySet& set, Strategy one) {
+  return set[static_cast<std::size_t>(one)];
+}
 /// Uses of each in a run.
 using StrategyCounts = std::array<long, strategyCount>;
 
@@ -52,7 +56,7 @@ class Strategies {
   void leaveOut(const StrategySet& left) { left_ = left; }
   /// Uses are added here from now on.
   void countIn(StrategyCounts& counts) { counts_ = &counts; }
-  bool has(Strategy one) const { return !left_[static_cast<std::size_t>(one)]; }
+  bool has(Strategy one) const { return !holds(left_, one); }
   void count(Strategy one) {
     if (counts_ != nullptr) ++(*counts_)[static_cast<std::size_t>(one)];
   }

@@ -5,13 +5,9 @@
 
 #include "deck/Deck.hpp"
 #include "deck/Variants.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::drilling {
-namespace {
-
-constexpr int axial = 2, torsional = 5;  // w and theta_z of a node
-
-}  // namespace
 
 deck::ListSpec bitParameters() {
   deck::ListSpec spec("Bit",
@@ -20,6 +16,14 @@ deck::ListSpec bitParameters() {
   deck::declareVariants<BitLaw, const Teuchos::ParameterList&>(spec, "Law", deck::Required{},
                                                                "The law.");
   return spec;
+}
+
+deck::ListSpec turningBitParameters(const std::string& name, const std::string& doc) {
+  return deck::ListSpec(name, doc)
+      .radius("Radius", deck::Required{}, deck::Range::positive(), "Radius of the bit.")
+      .real("Sticking Speed", "rad/s", 1e-2, deck::Range::positive(),
+            "The rock resists fully from this speed on; a bit that sticks creeps at less.")
+      .expert();
 }
 
 BitSettings readBit(const Teuchos::ParameterList& list) {
@@ -32,14 +36,14 @@ PointOnString bitOnString(const BitSettings& bit, int node, const loads::RotaryS
                           double feed, double weightOnBit) {
   std::vector<StringCoordinate> coordinates;
   if (bit.law->givesWeight())
-    coordinates.push_back({axial,
+    coordinates.push_back({beam::nodal::w,
                            [feed](double t) {
                              return FramePosition{feed * t, feed};
                            },
                            {"weight_on_bit", "N", "Weight on bit, positive in compression"},
                            -1.0});
   coordinates.push_back(
-      {torsional,
+      {beam::nodal::thetaZ,
        [rotary](double t) {
          return FramePosition{rotary.angle(t), rotary.speed(t)};
        },
@@ -54,7 +58,7 @@ BitLoad steadyLoad(const PointOnString& bit, double t) {
   bit.law->evaluate(t, {0}, still.data(), still.data(), force.data());
   BitLoad load;
   for (std::size_t c = 0; c < force.size(); ++c)
-    (bit.components[c] == axial ? load.weight : load.torque) = -force[c];
+    (bit.components[c] == beam::nodal::w ? load.weight : load.torque) = -force[c];
   return load;
 }
 

@@ -35,6 +35,10 @@ class BitLaw {
 /// name -> law, from its own list.
 using BitLaws = deck::Registry<BitLaw, const Teuchos::ParameterList&>;
 
+/// A list of parameters with those that laws of a turning bit share: Radius and, for experts,
+/// Sticking Speed.
+deck::ListSpec turningBitParameters(const std::string& name, const std::string& doc);
+
 /// Registers a law that is made from its own list, which has the name of the law.
 template <class Law>
 bool addBitLaw(const deck::ListSpec& parameters) {

@@ -41,12 +41,12 @@ class Cutting final : public BitLaw {
 };
 
 const bool registered = addBitLaw<Cutting>(
-    deck::ListSpec("Cutting",
-                   "Weight and torque by the depth of cut, measured from what the blade before has "
-                   "left, and by friction of the wear flats (E. Detournay and P. Defourny 1992; T. "
-                   "Richard, C. Germay and E. Detournay, J. Sound Vib. 305 (2007) 432-456).")
+    turningBitParameters(
+        "Cutting",
+        "Weight and torque by the depth of cut, measured from what the blade before has "
+        "left, and by friction of the wear flats (E. Detournay and P. Defourny 1992; T. "
+        "Richard, C. Germay and E. Detournay, J. Sound Vib. 305 (2007) 432-456).")
         .integer("Blades", Required{}, Range::atLeast(1), "Number n of blades.")
-        .radius("Radius", Required{}, Range::positive(), "Radius a of the bit.")
         .real("Specific Energy", "Pa", 60e6, Range::positive(),
               "Energy eps to remove a volume of rock [J/m3]: 10 to 100 MPa, near the compressive "
               "strength.")
@@ -60,9 +60,6 @@ const bool registered = addBitLaw<Cutting>(
               "bit.")
         .real("Contact Velocity", "m/s", 1e-5, Range::positive(),
               "Advance from which the wear flats carry their full stress.")
-        .expert()
-        .real("Sticking Speed", "rad/s", 1e-2, Range::positive(),
-              "The rock resists fully from this speed on; a bit that sticks creeps at less.")
         .expert()
         .integer("Samples", 256, Range::atLeast(8),
                  "Samples of the surface between two blades that are kept.")

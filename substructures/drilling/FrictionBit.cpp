@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "common/Text.hpp"
+#include "deck/RequireAtMost.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "substructures/drilling/BitLaw.hpp"
 
@@ -11,7 +12,6 @@ namespace tooljoint::drilling {
 namespace {
 
 using deck::Range;
-using deck::Required;
 
 /// T = c w + W R [mu_d + (mu_s - mu_d) exp(-|w|/w_s)] sign w
 class Stribeck final : public BitLaw {
@@ -23,10 +23,8 @@ class Stribeck final : public BitLaw {
         decay_(list.get<double>("Decay Speed")),
         viscous_(list.get<double>("Viscous Damping")),
         sticking_(list.get<double>("Sticking Speed")) {
-    if (dynamic_ > static_)
-      throw DeckError(list.name() + "/Dynamic Coefficient is " + formatNumber(dynamic_) +
-                      ", above the Static Coefficient of " + formatNumber(static_) +
-                      ". Friction that weakens with speed needs it at or below.");
+    deck::requireAtMost(list, "Dynamic Coefficient", "Static Coefficient",
+                        "Friction that weakens with speed needs it at or below.");
   }
   bool givesWeight() const override { return false; }
   std::shared_ptr<const model::PointLaw> make(double weightOnBit) const override {
@@ -48,22 +46,19 @@ class Stribeck final : public BitLaw {
 };
 
 const bool registered = addBitLaw<Stribeck>(
-    deck::ListSpec("Stribeck",
-                   "Torque by friction under the Weight On Bit of Loads that weakens with the "
-                   "speed of the bit (E. M. Navarro-Lopez and D. Cortes, J. Sound Vib. 307 (2007) "
-                   "152-171).")
+    turningBitParameters(
+        "Stribeck",
+        "Torque by friction under the Weight On Bit of Loads that weakens with the "
+        "speed of the bit (E. M. Navarro-Lopez and D. Cortes, J. Sound Vib. 307 (2007) "
+        "152-171).")
         .real("Static Coefficient", "", 0.8, Range::positive(),
               "Friction coefficient mu_s of a bit that starts to turn.")
         .real("Dynamic Coefficient", "", 0.5, Range::nonNegative(),
               "Friction coefficient mu_d of a fast bit; at most the static one.")
-        .radius("Radius", Required{}, Range::positive(), "Radius R of the bit.")
         .real("Decay Speed", "rad/s", 1.1, Range::positive(),
               "Speed over which the coefficient falls from the one to the other by e.")
         .real("Viscous Damping", "N m s/rad", 0.0, Range::nonNegative(),
-              "Coefficient c of a torque that grows with the speed.")
-        .real("Sticking Speed", "rad/s", 1e-2, Range::positive(),
-              "Friction is full from this speed on; a bit that sticks creeps at less.")
-        .expert());
+              "Coefficient c of a torque that grows with the speed."));
 
 }  // namespace
 }  // namespace tooljoint::drilling

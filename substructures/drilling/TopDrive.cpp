@@ -8,6 +8,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "model/laws/PointLawRegistry.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drilling/BitLaw.hpp"
 
 namespace tooljoint::drilling {
@@ -15,8 +16,6 @@ namespace {
 
 using deck::Optional;
 using deck::Range;
-
-constexpr int torsional = 5;  // theta_z of a node
 
 struct Control {
   DriveControl control;
@@ -54,11 +53,11 @@ void checkParameters(const Teuchos::ParameterList& list, const Control& control)
     if (!list.isParameter(needed))
       throw DeckError(list.name() + "/" + needed + " is missing: the control " +
                       inQuotes(control.name) + " needs it.");
-  for (const char* name : {"Inertia", "Torque", "Proportional Gain", "Integral Gain",
-                           "Tuning Frequency", "Impedance Ratio", "Torque Limit"})
-    if (list.isParameter(name) && !contains(control.takes, std::string(name)))
-      throw DeckError(list.name() + "/" + name + " is not used by the control " +
-                      inQuotes(control.name) + ". Leave it out, or choose another control.");
+  for (const auto& other : controls())
+    for (const auto& name : other.takes)
+      if (list.isParameter(name) && !contains(control.takes, name))
+        throw DeckError(list.name() + "/" + name + " is not used by the control " +
+                        inQuotes(control.name) + ". Leave it out, or choose another control.");
 }
 
 }  // namespace
@@ -145,10 +144,12 @@ PointOnString driveOnString(const TopDrive& drive, double staticTorque) {
       .set("Integral Gain", drive.integralGain)
       .set("Initial Force", drive.torqueGiven ? drive.torque : staticTorque);
   if (drive.torqueLimit > 0.0) own.set("Force Limit", drive.torqueLimit);
-  return onString(
-      topDriveSet, 0,
-      {{torsional, {}, {"top_drive_torque", "N m", "Torque of the top drive on the string"}, 1.0}},
-      model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
+  return onString(topDriveSet, 0,
+                  {{beam::nodal::thetaZ,
+                    {},
+                    {"top_drive_torque", "N m", "Torque of the top drive on the string"},
+                    1.0}},
+                  model::PointLawRegistry::instance().make("Speed Control", own, {1, 1}));
 }
 
 std::string describe(const TopDrive& drive) {

@@ -47,4 +47,10 @@ class ArcChain : public Trajectory {
   Vector3 endTangent_;
 };
 
+/// Stations from the numbers of a deck, three for each: measured depth, inclination and azimuth in
+/// these units. Throws DeckError with one line "path:station: sentence" per fault, as
+/// readSurveyTable.
+std::vector<Station> surveyStations(const std::vector<double>& numbers, const std::string& path,
+                                    const std::string& depthUnit, const std::string& angleUnit);
+
 }  // namespace tooljoint::well

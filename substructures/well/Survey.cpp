@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>
 
 #include "common/InputFile.hpp"
@@ -27,6 +28,16 @@ std::unique_ptr<ArcChain> chainOf(const std::vector<Station>& stations) {
 
 std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
                                      const std::string& folder) {
+  const auto &depthUnit = list.get<std::string>("Depth Unit"),
+             &angleUnit = list.get<std::string>("Angle Unit");
+  const bool inDeck = list.isParameter("Stations");
+  if (inDeck == list.isParameter("File"))
+    throw DeckError(list.name() + " has " + (inDeck ? "both" : "neither") + " File " +
+                    (inDeck ? "and" : "nor") +
+                    " Stations. Give one: the file of a survey, or its stations.");
+  if (inDeck)
+    return chainOf(surveyStations(list.get<Teuchos::Array<double>>("Stations").toVector(),
+                                  list.name() + "/Stations", depthUnit, angleUnit));
   const auto& name = list.get<std::string>("File");
   const std::string file =
       name.empty() || name[0] == '/' || folder.empty() ? name : folder + "/" + name;
@@ -34,8 +45,7 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
   if (!reason.empty())
     throw DeckError(list.name() + "/File names a file, but " + file + " cannot be read: " + reason +
                     ".");
-  const SurveyTable survey = readSurveyTable(file, list.get<std::string>("Depth Unit"),
-                                             list.get<std::string>("Angle Unit"));
+  const SurveyTable survey = readSurveyTable(file, depthUnit, angleUnit);
   auto chain = chainOf(survey.stations);
   for (const std::string& remark : survey.remarks) chain->addRemark(remark);
   return chain;
@@ -44,14 +54,17 @@ std::unique_ptr<Trajectory> fromList(const Teuchos::ParameterList& list,
 const bool registered = TrajectoryRegistry::instance().add(
     "Survey",
     {"Survey stations joined by circular arcs (minimum curvature method).",
-     deck::ListSpec("Survey", "Survey stations from a CSV file, joined by minimum curvature.")
-         .text("File", deck::Required{},
+     deck::ListSpec("Survey", "Survey stations, joined by minimum curvature.")
+         .text("File", deck::Optional{},
                "Table of measured depth, inclination and azimuth, relative to the deck; cells "
-               "separated by commas, semicolons or tabs.")
+               "separated by commas, semicolons or tabs. This or Stations.")
+         .realArray("Stations", "", deck::Optional{}, deck::Range::any(),
+                    "Measured depth, inclination and azimuth of one station after the other, in "
+                    "the units below: a short survey without a file.")
          .choice("Depth Unit", std::string("m"), {"m", "ft", "km"},
-                 "Unit of the measured depth where the header gives none.")
+                 "Unit of the measured depth where no header gives one.")
          .choice("Angle Unit", std::string("deg"), {"deg", "rad"},
-                 "Unit of inclination and azimuth where the header gives none."),
+                 "Unit of inclination and azimuth where no header gives one."),
      fromList});
 
 }  // namespace

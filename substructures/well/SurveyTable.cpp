@@ -69,11 +69,19 @@ class SurveyReader {
   SurveyTable read() {
     const DelimitedText text = split();
     for (const DelimitedRow& row : text.rows) take(row);
-    if (table_.stations.size() < 2 && faults_.empty())
-      fault("a survey needs at least two stations.");
-    raise();
+    finish();
     remark(text);
     return std::move(table_);
+  }
+
+  /// Of depth, inclination and azimuth of one station after the other.
+  std::vector<Station> take(const std::vector<double>& numbers) {
+    for (std::size_t i = 0; i + kinds.size() <= numbers.size(); i += kinds.size()) {
+      ++line_;
+      add({numbers[i] * factor_[0], numbers[i + 1] * factor_[1], numbers[i + 2] * factor_[2]});
+    }
+    finish();
+    return std::move(table_.stations);
   }
 
  private:
@@ -89,6 +97,12 @@ class SurveyReader {
 
   static std::string expected(const ColumnKind& kind) {
     return "Available: " + quotedList(deck::unitsLike(kind.si));
+  }
+
+  void finish() {
+    if (table_.stations.size() < 2 && faults_.empty())
+      fault("a survey needs at least two stations.");
+    raise();
   }
 
   void fault(const std::string& sentence) {
@@ -228,6 +242,10 @@ class SurveyReader {
       if (!read) return;
       value[k] = *read;
     }
+    add(value);
+  }
+
+  void add(const std::array<double, 3>& value) {
     auto& stations = table_.stations;
     if (stations.empty() && value[0] != 0.0)
       fault(
@@ -288,6 +306,14 @@ class SurveyReader {
 SurveyTable readSurveyTable(const std::string& file, const std::string& depthUnit,
                             const std::string& angleUnit) {
   return SurveyReader(file, depthUnit, angleUnit).read();
+}
+
+std::vector<Station> surveyStations(const std::vector<double>& numbers, const std::string& path,
+                                    const std::string& depthUnit, const std::string& angleUnit) {
+  if (numbers.size() % kinds.size() != 0)
+    throw DeckError(path + " has " + std::to_string(numbers.size()) +
+                    " numbers. Give three for each station: measured depth, inclination, azimuth.");
+  return SurveyReader(path, depthUnit, angleUnit).take(numbers);
 }
 
 std::vector<Station> readSurvey(const std::string& file, const std::string& depthUnit,

@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
 
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
-COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template")
+COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "campbell", "response")
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 
@@ -107,7 +107,7 @@ def pictures():
             narrow(f"the run {folder}", done)
         drawn = subprocess.run([PLOTTER, folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         picture = pathlib.Path(folder, "results.png")
-        expect(f"{folder}: a picture is drawn", drawn.returncode == 0 and drawn.stdout == "" and picture.is_file(), drawn.stdout[-600:])
+        expect(f"{folder}: a picture is drawn", drawn.returncode == 0 and drawn.stdout == f"drawn {picture}\n" and picture.is_file(), drawn.stdout[-600:])
         if picture.is_file():
             white, shape = white_share(picture)
             expect(f"{folder}: there is something in it", 0.3 < white < 0.97 and min(shape[:2]) > 400, f"({white}, {shape})")

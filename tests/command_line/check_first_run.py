@@ -66,7 +66,7 @@ def main():
     check("vibration error", found["vibration_error"], 1e-6, 0.01)
     check("speed-up", found["speed_up"], 1.5, 20)
     for words in ("vibration error", "times as fast", "hook load", "surface torque", "largest side force", "string stabiliser", "bit speed",
-                  "worst check", "results.png", "template scene"):
+                  "worst check", "results.png", "new my_well"):
         if words not in said.stdout:
             faults.append(f"it does not print \"{words}\"")
     if not (out / "reduced" / "results.png").is_file():

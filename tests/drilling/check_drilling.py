@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Laws of bits and top drives in runs of the program, beside integrations of scipy and characteristic equations (models.py).
 
-    check_drilling.py PROGRAM [NAME ...]     NAME: some of the checks
+    check_drilling.py PROGRAM [NAME ...]           NAME: some of the checks
+    check_drilling.py PROGRAM stick_slip_2500m     the tables of docs/drilling.md and what it says of them
 """
 import math
 import pathlib
@@ -14,6 +15,7 @@ from scipy.integrate import solve_ivp
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parents[1] / "tests" / "support"), str(HERE.parents[1] / "tests/stability/hard_cases")]
 import models
+import scene_2500m
 from checks import expect, finish
 from program import Program
 from scenes import parts_deck
@@ -284,12 +286,13 @@ def cutting(program):
 
 
 CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting)}
+ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m}
 
 
 def main():
     program = Program(sys.argv[1], "drilling")
     for name in sys.argv[2:] or CHECKS:
-        CHECKS[name](program)
+        {**CHECKS, **ON_REQUEST}[name](program)
     return finish()
 
 

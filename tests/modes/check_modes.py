@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tooljoint modes` on structures nobody tuned it for: check_modes.py PROGRAM
+"""`tooljoint modes` on structures nobody tuned it for: check_modes.py PROGRAM MPIEXEC
 
 Free and pinned beams (closed forms), frames and solids with repeated frequencies, undamped, lightly, proportionally and strongly damped, and rotors:
 values against scipy's dense solver of the companion form, counts and times against what the documentation promises.
@@ -11,16 +11,18 @@ import resource
 import subprocess
 import sys
 
+import h5py
 import numpy as np
 from scipy import sparse
 from scipy.linalg import eig, eigh
+from scipy.sparse.linalg import eigsh
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools"))
 import structures as st  # noqa: E402
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from checks import expect, finish  # noqa: E402
+from checks import expect, finish, tooljoint  # noqa: E402
 
 PROGRAM = sys.argv[1]
 TWO_PI = 2 * np.pi
@@ -256,8 +258,56 @@ def sliding_string():
         expect("sliding string: stability is judged by the damped modes", "damped modes listed" in done.stdout)
 
 
+BLOCKS = """<ParameterList name="blocks"><ParameterList name="Parts"><ParameterList name="Imported">
+  <ParameterList name="short"><Parameter name="File" type="string" value="short.h5"/>
+    <Parameter name="Fixed" type="Array(string)" value="{root}"/><Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
+  <ParameterList name="long"><Parameter name="File" type="string" value="long.h5"/>
+    <Parameter name="Fixed" type="Array(string)" value="{root}"/><Parameter name="Retained" type="Array(string)" value="{tip}"/></ParameterList>
+</ParameterList></ParameterList>
+<ParameterList name="Coupling"><Parameter name="Node Numbers" type="string" value="Own"/></ParameterList>
+<ParameterList name="Reduction"><ParameterList name="Mode Selection"><Parameter name="Modes" type="int" value="12"/></ParameterList></ParameterList></ParameterList>
+"""
+
+
+def clamped_frequencies(path, count):
+    """The lowest ones of a part file whose set `root` is held [Hz], and rows and entries of its stiffness."""
+    with h5py.File(path, "r") as file:
+        n = len(file["dofs"])
+        K, M = (sparse.csr_matrix((file[name]["value"], (file[name]["row"], file[name]["column"])), shape=(n, n)) for name in ("stiffness", "mass"))
+        free = np.flatnonzero(~np.isin(file["dofs"][:, 0], file["interfaces/root"]))
+    K, M = K[free][:, free].tocsc(), M[free][:, free].tocsc()
+    return np.sqrt(eigsh(K, count, M, sigma=0)[0]) / TWO_PI, len(free), K.nnz
+
+
+def solids_on_two_ranks():
+    """Two solid parts whose matrices MUMPS factors, one on each rank: frequencies against scipy, and those of one rank."""
+    block = ROOT / "examples" / "12_solid_block" / "make_block.py"
+    exact = []
+    for name, counts, length in (("short", ("24", "6", "3"), "0.8"), ("long", ("26", "6", "3"), "0.9")):
+        subprocess.run([sys.executable, block, *counts, "--size", length, "0.2", "0.1", "--joined", "6", "--out", f"{name}.h5"], check=True)
+        hertz, rows, entries = clamped_frequencies(f"{name}.h5", 6)
+        expect(f"{name} block: large and filling", rows >= 2000 and entries > 18 * rows, f"{rows} rows, {entries} entries")
+        exact += list(hertz)
+    exact = np.sort(exact)[:6]
+    pathlib.Path("blocks.xml").write_text(BLOCKS, encoding="utf-8")
+    tables = {}
+    for ranks in (1, 2):
+        done = tooljoint("modes", "blocks.xml", "--count", "6", "--output", f"blocks_{ranks}", ranks=ranks)
+        expect(f"blocks on {ranks} ranks: exit code 0", done.returncode == 0, done.stderr[-600:])
+        if done.returncode != 0:
+            return
+        with open(f"blocks_{ranks}/modes.csv", encoding="utf-8") as file:
+            tables[ranks] = np.array([[float(row["full [Hz]"]), float(row["coupled [Hz]"])] for row in csv.DictReader(file)])
+    expect("blocks: full frequencies are those of scipy", np.allclose(tables[2][:, 0], exact, rtol=1e-7, atol=0), f"{tables[2][:, 0]}, {exact}")
+    above = tables[2][:, 1] / exact - 1
+    expect("blocks: reduced frequencies lie above, by 1e-3 at most", above.min() > -1e-9 and above.max() < 1e-3, f"{above}")
+    expect("blocks: two ranks give the numbers of one", np.allclose(tables[1], tables[2], rtol=1e-9, atol=0),
+           f"{np.abs(tables[1] / tables[2] - 1).max():.1e}")
+
+
 undamped()
 damped()
+solids_on_two_ranks()
 sliding_string()
 gyroscopic()
 reduced()

@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "support")]
 from checks import expect, finish  # noqa: E402
 import plots  # noqa: E402
-from report import checks, deck, quantities, results, scene3d, tables  # noqa: E402
+from report import checks, deck, of_run, quantities, results, scene3d, tables  # noqa: E402
 
 
 class Bar:
@@ -124,6 +124,15 @@ def judged():
     measured = {name: value for name, value, _ in checks.measured(summary)}
     expect("checks of stages that did not run are left out", measured == {"balance of torque": 0.003, "residual of the static state": 1e-9, "step error": 0.1}, measured)
     expect("the worst check is the one closest to its bound", checks.worst(summary)[0] == "step error" and checks.worst({}) is None)
+
+    class Parts:
+        is_string, value = False, results.Run.value
+
+        def __init__(self, residual):
+            self.summary = {"transient": {"energy_residual": residual}}
+
+    for residual, bad in ((0.02, 2), (-0.02, 2), (0.005, 0)):
+        expect(f"the card of the energy has the bound of its check: {residual}", of_run.headline(Parts(residual)).count("card bad") == bad)
 
 
 def view():

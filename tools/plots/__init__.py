@@ -4,9 +4,13 @@
 Every axis has a label with its unit, depth points downwards, maps have north up and east to the right, and axes of lengths in space are
 equal. The colours are those of Okabe and Ito (2008), which all can tell apart, darkened where they are too light for thin lines.
 """
+import argparse
 import io
+import pathlib
 import re
+import sys
 
+import h5py
 import matplotlib
 
 matplotlib.use("Agg")
@@ -29,6 +33,25 @@ WIDE = 6.2
 
 def use_style():
     plt.rcParams.update(STYLE)
+
+
+def draw_folder(description, kind, files):
+    """The main of a tool that draws the folder a command has left: the first of `files` (name.h5 -> function of the open file that makes a
+    figure) in it gives name.png there, or the picture of --output. `kind`: the folder, in words. Ends with a sentence where none is there."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, help=kind)
+    parser.add_argument("--output", type=pathlib.Path, help=f"picture (default: {' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)")
+    options = parser.parse_args()
+    found = next((name for name in files if (options.folder / name).is_file()), None)
+    if found is None:
+        missing = f"neither {' nor '.join(files)}" if len(files) > 1 else f"no {next(iter(files))}"
+        sys.exit(f"{options.folder} holds {missing}. Give the {kind}.")
+    use_style()
+    with h5py.File(options.folder / found, "r") as results:
+        made = files[found](results)
+    output = options.output or (options.folder / found).with_suffix(".png")
+    made.savefig(output)
+    print(f"drawn {output}")
 
 
 def tick(value, _=None):

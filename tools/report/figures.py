@@ -169,7 +169,6 @@ def draw_spectrum(axes, values, interval, **line):
     frequency, power = plots.spectrum(values, interval)
     if len(frequency) > 2 and power[1:].max() > 0:
         axes.plot(frequency[1:], np.maximum(power[1:], FLOOR * power[1:].max()), linewidth=0.9, **line)
-    return len(frequency) > 2
 
 
 def spectra(run, motion, chosen):
@@ -177,15 +176,19 @@ def spectra(run, motion, chosen):
     interval = float(np.median(np.diff(run.time)))
     found = []
     made, axes = frequency_axes("lateral displacement [mm²/Hz]")
-    drawn = False
     for number, node in enumerate(chosen):
-        drawn |= draw_spectrum(axes, 1e3 * motion.histories[half, number, 0], interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m")
-    plots.legend_above(axes)
-    if drawn and axes.lines:
+        draw_spectrum(axes, 1e3 * motion.histories[half, number, 0], interval, color=COLOURS[number], label=f"{run.s[node]:.0f} m")
+    if axes.lines:
+        plots.legend_above(axes)
         found.append(Figure("lateral-spectrum", made, "Spectra of the lateral displacement u at the nodes of the orbits, second half of the motion.", True))
+    else:
+        plots.plt.close(made)
     bit = run.bit_speed()
     if bit is not None:
         made, axes = frequency_axes("bit speed [rpm²/Hz]")
-        if draw_spectrum(axes, RPM * bit[half], interval, color=BLUE) and axes.lines:
+        draw_spectrum(axes, RPM * bit[half], interval, color=BLUE)
+        if axes.lines:
             found.append(Figure("bit-spectrum", made, "Spectrum of the bit speed, likewise.", True))
+        else:
+            plots.plt.close(made)
     return found

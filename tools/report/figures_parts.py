@@ -11,7 +11,8 @@ from report.figures import Figure, draw_spectrum, frequency_axes
 
 def components(run):
     """(number, name, unit) of the components of a node."""
-    return list(zip(range(99), results.texts(run.file["/model/components"]), results.texts(run.file["/model/component_units"])))
+    pairs = zip(results.texts(run.file["/model/components"]), results.texts(run.file["/model/component_units"]))
+    return [(number, name, unit) for number, (name, unit) in enumerate(pairs)]
 
 
 def label(name, unit):
@@ -56,7 +57,6 @@ def displacements(run):
         plots.legend_above(axes)
         found.append(Figure(f"nodes-{c + 1}", made, f"Component {name} of all nodes.", True))
     return found
-
 
 
 def histories(run):

@@ -32,7 +32,7 @@ def headline(run):
         found.append(("Worst check", "met" if value <= bound else "NOT MET", f"{value:.2g}", f"{name}, bound {bound:g}", value > bound))
     energy = run.value("transient.energy_residual")
     if energy is not None:
-        found.append(("Energy balance", percent(energy), "", "lost (> 0) or made (< 0) by the integration", abs(energy) > 0.05))
+        found.append(("Energy balance", percent(energy), "", "lost (> 0) or made (< 0) by the integration", abs(energy) > checks.ENERGY))
     return cards(found) if found else ""
 
 

@@ -80,7 +80,7 @@ def scaled(value, *factors):
 
 
 def basis_table(folder):
-    """Vectors of the bases, those around the cut first."""
+    """The first BASIS_ROWS vectors of the bases, in the order of basis.csv."""
     if not (folder / "basis.csv").is_file():
         return ""
     rows = read_table(folder / "basis.csv")

@@ -207,7 +207,8 @@ def precession(u, v, time):
 
 
 def chosen_nodes(run, rms, most=4):
-    """Nodes (from 0) worth a look, with why: the one that shakes most, most contact force, middle of the bottom-hole assembly, above the bit."""
+    """At most `most` nodes (from 0) worth a look, by depth, with why: the largest lateral vibration, the largest static side force, above the
+    bit, then quarters of the length."""
     found = {}
 
     def add(node, why):
@@ -222,7 +223,7 @@ def chosen_nodes(run, rms, most=4):
     for share, why in ((0.25, "quarter of the length"), (0.5, "middle"), (0.75, "three quarters of the length")):
         if len(found) < most:
             add(int(np.searchsorted(run.s, share * run.s[-1])), why)
-    return dict(sorted(found.items())[:most]) if len(found) > most else dict(sorted(found.items()))
+    return dict(sorted(found.items()))
 
 
 def merits(run, motion):

@@ -86,7 +86,15 @@ void report(const std::string& folder, const std::string& output);
 void reportOfRun(const std::string& folder, bool wanted);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);
-/// `tooljoint template`: a commented deck ("scene" or "components").
-std::string deckTemplate(const std::string& kind);
+/// `tooljoint template`: a deck to start from: "well", "parts" (of the file "part"), "study",
+/// "scene" (every list, with `all` the parameters for experts too) or "components". UsageError for
+/// another kind, and for `all` beside another than "scene".
+std::string deckTemplate(const std::string& kind, bool all);
+/// The kinds of deckTemplate().
+const std::vector<std::string>& templateKinds();
+/// `tooljoint new`: a folder with a deck of the name of the folder, survey.csv and README.md.
+/// UsageError: no name of a deck; FileError: the folder holds something, or cannot be written.
+/// Collective.
+void newFolder(const std::string& path);
 
 }  // namespace tooljoint::app

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/Template.hpp"
 
+#include <sstream>
+
 #include "app/commands/Commands.hpp"
+#include "app/commands/Templates.hpp"
 #include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "substructures/drillstring/Components.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 
 namespace tooljoint::app {
 
-std::string deckTemplate(const std::string& kind) {
-  // A string of pipes that hangs in a vertical hole: what nobody can guess from types and ranges.
+namespace {
+
+/// All lists of a scene, with a string of pipes that hangs in a vertical hole: what nobody can
+/// guess from types and ranges.
+std::string everyList(bool experts) {
   const deck::Examples hanging{{"Well/Trajectory", "Vertical"},
                                {"Well/Bore Radius", "0.108"},
                                {"Well/Vertical/Length", "100"},
@@ -18,11 +25,54 @@ std::string deckTemplate(const std::string& kind) {
                                {"Drillstring/Components/pipe/Inner Radius", "0.0543"},
                                {"Drillstring/Assembly", "{10*pipe}"},
                                {"Loads/Gravity", "9.81"}};
-  if (kind == "scene") return deck::templateXml(drillstring::sceneSpec(), "my_scene", hanging);
+  return deck::templateXml(drillstring::sceneSpec(), "my_scene", hanging,
+                           experts ? deck::Level::Expert : deck::Level::Basic);
+}
+
+/// The numbers of survey.csv, whose first line is a remark and whose second one its header.
+std::string stations() {
+  std::istringstream rows(templateFiles().at("survey.csv"));
+  std::string all, row;
+  for (int line = 1; std::getline(rows, row); ++line)
+    if (line > 2) all += (all.empty() ? "" : ",   ") + row;
+  return all;
+}
+
+/// The deck of `tooljoint new` with its survey inside, so that it needs no file.
+std::string wellAlone() {
+  const std::string file = R"(<Parameter name="File" type="string" value="survey.csv"/>)";
+  std::string text = templateFiles().at("well.xml");
+  const auto at = text.find(file);
+  if (at == std::string::npos)
+    throw Error(ExitCode::Internal, "The template of a well names no survey.csv.");
+  const std::string inDeck =
+      R"~(<Parameter name="Stations" type="Array(double)" value="{)~" + stations() + R"~(}"/>
+      <!-- measured depth, inclination and azimuth of each; or File, a table -->
+      <Parameter name="Depth Unit" type="string" value="ft"/>)~";
+  return text.replace(at, file.size(), inDeck);
+}
+
+}  // namespace
+
+const std::vector<std::string>& templateKinds() {
+  static const std::vector<std::string> kinds{"well",  "parts", "part",
+                                              "study", "scene", "components"};
+  return kinds;
+}
+
+std::string deckTemplate(const std::string& kind, bool all) {
+  if (all && kind != "scene")
+    throw UsageError("--all belongs to the template \"scene\"; \"" + kind +
+                     "\" has no other parameters.");
+  if (kind == "well") return wellAlone();
+  if (kind == "parts") return templateFiles().at("parts.xml");
+  if (kind == "part") return templateFiles().at("bar.json");
+  if (kind == "study") return templateFiles().at("study.xml");
+  if (kind == "scene") return everyList(all);
   if (kind == "components")
     return deck::templateXml(drillstring::libraryParameters(), "my_components");
-  throw UsageError("There is no template \"" + kind +
-                   "\". Available: \"scene\" and \"components\".");
+  throw UsageError("There is no template " + inQuotes(kind) +
+                   ". Available: " + quotedList(templateKinds()) + ".");
 }
 
 }  // namespace tooljoint::app

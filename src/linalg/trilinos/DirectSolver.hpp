@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Rank-local sparse direct solver for square unsymmetric systems: long chains of nodes by blocks,
-/// others that are large by MUMPS, the rest by KLU2 (through Amesos2, on Teuchos::SerialComm).
+/// Rank-local sparse direct solver, symmetric or not: long chains of nodes by blocks, matrices of
+/// 2000 rows and more with over 18 entries a row by MUMPS, the rest by KLU2 (Amesos2, SerialComm).
 #pragma once
 
 #include <functional>

@@ -2,8 +2,7 @@
 // Dry friction that weakens with speed: belts, brakes, bits.
 #include <cmath>
 
-#include "common/Error.hpp"
-#include "common/Text.hpp"
+#include "deck/RequireAtMost.hpp"
 #include "model/laws/Coulomb.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 
@@ -20,10 +19,8 @@ struct Stribeck : Formula<1> {
         Fd(list.get<double>("Dynamic Force")),
         vs(list.get<double>("Decay Velocity")),
         vr(list.get<double>("Slip Velocity")) {
-    if (Fd > Fs)
-      throw DeckError(list.name() + "/Dynamic Force is " + formatNumber(Fd) +
-                      ", above the Static Force of " + formatNumber(Fs) +
-                      ". Friction that weakens with speed needs it at or below.");
+    deck::requireAtMost(list, "Dynamic Force", "Static Force",
+                        "Friction that weakens with speed needs it at or below.");
   }
 
   template <class T>

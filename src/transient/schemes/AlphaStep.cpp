@@ -47,8 +47,7 @@ void AlphaStep::setPhaseCorrection() {
 StepScheme AlphaStep::scheme(double h) const {
   const double ca = (1 - alphaM_) / ((1 - alphaF_) * beta_ * h * h);
   const bool rests =
-      mass_->regular() &&
-      !parameters_.equations.without[static_cast<std::size_t>(Strategy::RestingImpacts)];
+      mass_->regular() && !holds(parameters_.equations.without, Strategy::RestingImpacts);
   return {h, gamma_ / (beta_ * h), ca, filter_, phase_, rests ? 0.5 * h * h * ca : 1.0};
 }
 

@@ -8,6 +8,7 @@
 #include "cases/ListText.hpp"
 #include "io/TextFile.hpp"
 #include "parts/ReducedPart.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
@@ -50,7 +51,7 @@ class RestingString : public cases::RestingCase {
       m.clearance[static_cast<std::size_t>(points.node[i] - 1)] = points.clearance[i];
     }
     m.wall = kContactSet;
-    m.speedRow = kNodeDofs * count - 1;  // theta_z of the last node
+    m.speedRow = kNodeDofs * (count - 1) + beam::nodal::thetaZ;
     const auto rotary = scene_.rotary;
     m.turning = [rotary](double t) { return rotary.speed(t); };
     return m;

@@ -13,6 +13,7 @@
 #include "parts/PartsParameters.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/selection/ModeSelection.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
@@ -20,6 +21,8 @@
 #include "transient/Integrator.hpp"
 
 namespace tooljoint::drillstring {
+
+namespace nodal = beam::nodal;
 
 deck::ListSpec sceneSpec() {
   deck::ListSpec scene(
@@ -56,8 +59,8 @@ double Scene::weightOnBit() const {
 
 std::vector<char> Scene::heldAtRest() const {
   auto all = held;
-  if (topDrive.constantHookLoad) all[2] = 1;
-  if (topDrive.turnsFreely()) all[5] = 1;
+  if (topDrive.constantHookLoad) all[nodal::w] = 1;
+  if (topDrive.turnsFreely()) all[nodal::thetaZ] = 1;
   return all;
 }
 
@@ -105,7 +108,7 @@ void checkBit(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
   const auto& law = *scene.bit->law;
   const std::string name = inQuotes(scene.bit->name);
-  const auto end = scene.held.end();
+  const int dof = law.givesWeight() ? nodal::w : nodal::thetaZ;
   if (law.givesWeight() && scene.weightOnBit() != 0.0)
     faults.add("Loads/Weight On Bit",
                "is given, but the law " + name + " of Bit gives the weight on bit. Leave it out.");
@@ -116,9 +119,8 @@ void checkBit(const Scene& scene, Faults& faults) {
   if (list.isSublist("Loads") && list.sublist("Loads").get<double>("Torque On Bit") != 0.0)
     faults.add("Loads/Torque On Bit",
                "is given, but the law " + name + " of Bit gives the torque on bit. Leave it out.");
-  if (law.givesWeight() ? *(end - 4) != 0 : *(end - 1) != 0)
-    faults.add("Bit/Law", "is " + name + ", but the Supports hold " +
-                              (law.givesWeight() ? "w" : "theta_z") +
+  if (scene.held[at(kNodeDofs * (scene.string.nodeCount() - 1) + dof)] != 0)
+    faults.add("Bit/Law", "is " + name + ", but the Supports hold " + componentNames()[at(dof)] +
                               " of the bit, on which it acts. Release it.");
 }
 
@@ -129,7 +131,7 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
   if (!drive.turnsFreely() && drive.blockSpeed == 0.0 && !drive.constantHookLoad)
     faults.add("Top Drive",
                "is stiff and stands, as without the list. Choose a Control, or leave it out.");
-  if (drive.turnsFreely() && scene.held[5] != 0)
+  if (drive.turnsFreely() && scene.held[nodal::thetaZ] != 0)
     faults.add("Top Drive/Control",
                "turns the top of the string, but the Supports hold theta_z of node 1. Leave "
                "theta_z out of Supports/Top, or set Control to \"Stiff\".");
@@ -145,7 +147,7 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
     faults.add("Top Drive/Hook",
                "is \"Constant Load\", but no Bit law gives the weight on bit: nothing would hold "
                "the string along the well.");
-  if (drive.constantHookLoad && scene.held[2] != 0)
+  if (drive.constantHookLoad && scene.held[nodal::w] != 0)
     faults.add("Top Drive/Hook",
                "is \"Constant Load\", but the Supports hold w of node 1. Leave w out of "
                "Supports/Top.");
@@ -192,10 +194,6 @@ void crossCheck(const Scene& scene, Faults& faults) {
                "hold every dof of the string; nothing is left to compute. Release some.");
 }
 
-}  // namespace
-
-namespace {
-
 /// 6 flags per node: held by a support, or since no element at the node has the dof.
 std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string) {
   std::vector<char> held = supports.held(string.nodeCount());
@@ -236,10 +234,6 @@ std::vector<reduction::PartOutline> reductionOutlines(const Scene& scene) {
   return parts;
 }
 
-}  // namespace
-
-namespace {
-
 /// With the gains for the uppermost component.
 drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillString& string) {
   std::vector<std::pair<beam::Section, double>> pieces;
@@ -250,8 +244,8 @@ drilling::TopDrive tunedToPipe(const drilling::TopDrive& drive, const DrillStrin
 
 /// The dofs of the top that its drive moves are not among those held by default.
 void releaseTop(const drilling::TopDrive& drive, SupportSettings& supports) {
-  if (drive.constantHookLoad) supports.top[2] = false;
-  if (drive.turnsFreely()) supports.top[5] = false;
+  if (drive.constantHookLoad) supports.top[nodal::w] = false;
+  if (drive.turnsFreely()) supports.top[nodal::thetaZ] = false;
 }
 
 /// What can be said of parts and basis before the static state.

@@ -14,10 +14,13 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "statics/NoxSolver.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
+
+namespace nodal = beam::nodal;
 
 namespace {
 
@@ -102,8 +105,6 @@ ContactBatch contactInMotion(const Scene& scene) {
   return contact;
 }
 
-constexpr int axial = 2, torsional = 5;  // w and theta_z of a node
-
 /// The law of the bit in motion; none without it.
 std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
   if (!scene.bit) return {};
@@ -115,8 +116,8 @@ std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
 void addBitAtRest(const Scene& scene, PathEquations& equations) {
   for (const auto& bit : bitInMotion(scene)) {
     const auto load = drilling::steadyLoad(bit, startTime(scene));
-    equations.load(kNodeDofs * bit.node + axial) -= load.weight;
-    equations.load(kNodeDofs * bit.node + torsional) -= load.torque;
+    equations.load(kNodeDofs * bit.node + nodal::w) -= load.weight;
+    equations.load(kNodeDofs * bit.node + nodal::thetaZ) -= load.torque;
   }
 }
 
@@ -124,9 +125,9 @@ void addBitAtRest(const Scene& scene, PathEquations& equations) {
 void addDriveInertia(const Scene& scene, StringModel& model) {
   const double J = scene.topDrive.inertia;
   if (J == 0.0) return;
-  model.mass.front()(torsional, torsional) += J;
+  model.mass.front()(nodal::thetaZ, nodal::thetaZ) += J;
   Vector load = Vector::Zero(kNodeDofs * model.nodes);
-  load(torsional) = -J;
+  load(nodal::thetaZ) = -J;
   model.loads.push_back(
       {"drive spin-up", model.lawIndex(scene.rotary.scalar("dOmega/dt")), std::move(load)});
 }
@@ -151,12 +152,12 @@ void addDrilling(const Scene& scene, StringModel& model) {
   const auto& drive = scene.topDrive;
   if (drive.constantHookLoad) {
     Vector load = Vector::Zero(kNodeDofs * model.nodes);
-    load(axial) = reactionAtTop(model, startTime(scene), axial);
+    load(nodal::w) = reactionAtTop(model, startTime(scene), nodal::w);
     model.loads.push_back({"hook load", model.lawIndex(model::ScalarLaw::one()), std::move(load)});
   }
   if (drive.turnsFreely())
     model.drilling.push_back(
-        drilling::driveOnString(drive, reactionAtTop(model, startTime(scene), torsional)));
+        drilling::driveOnString(drive, reactionAtTop(model, startTime(scene), nodal::thetaZ)));
 }
 
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
@@ -168,7 +169,7 @@ void requireHeld(const Scene& scene, StringModel equations) {
   for (int i = 0; i < scene.contactPoints.size(); ++i)
     for (std::size_t dof = 0; dof < model.dofs.size(); ++dof)
       if (model.dofs[dof].entity == scene.contactPoints.node[static_cast<std::size_t>(i)] &&
-          model.dofs[dof].component < 2)
+          model.dofs[dof].component < nodal::w)
         walls.emplace_back(static_cast<int>(dof), static_cast<int>(dof),
                            scene.contactPoints.stiffness[static_cast<std::size_t>(i)]);
   Sparse wall(model.size(), model.size());
@@ -188,7 +189,8 @@ struct FreeMotion {
   int component;
   const char* does;
 };
-constexpr FreeMotion freeMotions[] = {{2, "slides along the well"}, {5, "turns about its axis"}};
+constexpr FreeMotion freeMotions[] = {{nodal::w, "slides along the well"},
+                                      {nodal::thetaZ, "turns about its axis"}};
 
 /// A string whose w (or theta_z) no support holds is singular in a straight well only: where it
 /// curves, walls and bending resist sliding, but by far too little for the weight. Said when that
@@ -310,11 +312,11 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
 
 void judgeStretch(const Scene& scene, const StaticStage& stage) {
   constexpr double worthAWarning = 0.02;  // [rad]: 1.2 deg
-  constexpr int axial = 2;
   const auto depths = scene.string.depths();
   double turn = 0.0, depth = 0.0, shift = 0.0;
   for (std::size_t node = 0; node < depths.size(); ++node) {
-    const double w = stage.state.displacement[static_cast<Eigen::Index>(kNodeDofs * node) + axial];
+    const double w =
+        stage.state.displacement[static_cast<Eigen::Index>(kNodeDofs * node) + nodal::w];
     const double angle = std::abs(w) * scene.well.trajectory().at(depths[node]).curvature.norm();
     if (angle > turn) turn = angle, depth = depths[node], shift = w;
   }
@@ -374,7 +376,7 @@ NodeState nodeState(const Scene& scene, const StaticStage& stage) {
       if (const int dof = kNodeDofs * one.node + component;
           !scene.held[static_cast<std::size_t>(dof)])
         loaded.insert(dof);
-  if (scene.topDrive.constantHookLoad) loaded.insert(axial);
+  if (scene.topDrive.constantHookLoad) loaded.insert(nodal::w);
   nodes.loadedDofs.assign(loaded.begin(), loaded.end());
   return nodes;
 }

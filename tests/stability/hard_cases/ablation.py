@@ -18,7 +18,7 @@ import sys
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
 import contact
 import report
 from program import FULL, ROOT, Program

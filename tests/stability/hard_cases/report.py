@@ -68,8 +68,9 @@ def strategies(rows):
     for name in dict.fromkeys(key for counters in used for key in counters):
         if name == "steps":
             continue
-        rates = [counters.get(name, 0) / counters["steps"] for counters in used]
-        texts.append(f"{name} {span(rates)}")
+        rates = [(counters.get(name) or 0) / counters["steps"] for counters in used]
+        if any(rates):
+            texts.append(f"{name.replace('_', ' ')} {span(rates)}")
     return "per step: " + ", ".join(texts) if texts else ""
 
 
@@ -111,24 +112,47 @@ def draw(plot, path):
     plt.close(figure)
 
 
-def write(path, results, short=False):
-    """`results`: case number -> (rows, plots)."""
+def numbers(cases):
+    """1, 2 and 5 to 7, of increasing numbers."""
+    runs = []
+    for n in cases:
+        if runs and n == runs[-1][1] + 1:
+            runs[-1][1] = n
+        else:
+            runs.append([n, n])
+    texts = [f"{a}" if a == b else f"{a}, {b}" if b == a + 1 else f"{a} to {b}" for a, b in runs]
+    return " and ".join([*([", ".join(texts[:-1])] if texts[1:] else []), *texts[-1:]])
+
+
+def extent(results):
+    """What the heading says of the rows: which cases are whole."""
+    short = [n for n, (_, _, part) in sorted(results.items()) if part]
+    whole = [n for n in sorted(results) if n not in short]
+    if not short:
+        return ""
+    text = "a few points of each range, near its easy end"
+    if not whole:
+        return f"This is the short version: {text}.\n\n"
+    return (f"Case{'s' if short[1:] else ''} {numbers(short)}: the short version, {text}. "
+            f"Case{'s' if whole[1:] else ''} {numbers(whole)}: the whole sweep.\n\n")
+
+
+def write(path, results):
+    """`results`: case number -> (rows, plots, whether they are the short version)."""
     figures = path.parent / "figures"
     figures.mkdir(exist_ok=True)
-    for _, plots in results.values():
+    for _, plots, _ in results.values():
         for plot in plots:
             draw(plot, figures / f"hard_{plot.name}.svg")
     overview = []
-    for n, (rows, _) in sorted(results.items()):
+    for n, (rows, _, _) in sorted(results.items()):
         case = CASES[n]
         anchor = re.sub(r"[^a-z0-9 -]", "", f"{n}. {case.title}".lower()).replace(" ", "-")
         overview.append((n, f"[{case.title}](#{anchor})", case.sweep, case.must, happened(rows),
                          span([row.cost for row in rows]), strategies(rows)))
-    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n"
-    if short:
-        text += "This is the short version: a few points of each range, near its easy end.\n\n"
+    text = HEAD + f"Machine: {platform.machine()}, {platform.system()}.\n\n" + extent(results)
     text += "## Overview\n\n"
     text += table(("case", "", "range", "must happen", "what happened", "cost over the easy variant",
                    "strategies used"), overview)
-    text += "".join("\n" + details(CASES[n], *results[n]) for n in sorted(results))
+    text += "".join("\n" + details(CASES[n], *results[n][:2]) for n in sorted(results))
     path.write_text(text, encoding="utf-8")

@@ -15,7 +15,7 @@ import pathlib
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))  # structures
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "tools"))  # structures
 import program as tooljoint
 import report
 import rows as table
@@ -44,14 +44,13 @@ def stored(path):
 
 
 def results(case, options, program):
-    """Rows and plots of a case, from the work folder or by running it."""
+    """Rows and plots of a case, from the work folder or by running it, and whether they are the short version."""
     paths = {short: program.work / f"case_{case.number:02d}{'_short' if short else ''}.json" for short in (False, True)}
     path = paths[options.short]
     if path.exists() and not options.fresh:
-        return stored(path)
+        return *stored(path), options.short
     if options.no_run:
-        found, plots = stored(paths[True]) if paths[True].exists() else ([], [])
-        return [dataclasses.replace(row, variant=f"(short version) {row.variant}") for row in found], plots
+        return *(stored(paths[True]) if paths[True].exists() else ([], [])), True
     print(f"case {case.number}: {case.title}", flush=True)
     begin, found = time.monotonic(), []
     for item in case.function(program, options.short):
@@ -63,7 +62,7 @@ def results(case, options, program):
     path.write_text(json.dumps({"rows": [dataclasses.asdict(row) for row in rows],
                                 "plots": [dataclasses.asdict(plot) for plot in plots]}), encoding="utf-8")
     print(f"case {case.number}: {time.monotonic() - begin:.1f} s", flush=True)
-    return rows, plots
+    return rows, plots, options.short
 
 
 def main():
@@ -85,10 +84,10 @@ def main():
     program = tooljoint.Program(options.program, options.work, options.mpiexec)
     found = {n: results(table.CASES[n], options, program) for n in chosen}
     if options.write:
-        report.write(pathlib.Path(options.write), found, options.short)
-    everything = [(n, row) for n, (rows, _) in found.items() for row in rows]
+        report.write(pathlib.Path(options.write), found)
+    everything = [(n, row) for n, (rows, _, _) in found.items() for row in rows]
     faults = [(n, row) for n, row in everything if row.failed]
-    faults += [(n, None) for n, (rows, _) in found.items() if not rows]
+    faults += [(n, None) for n, (rows, _, _) in found.items() if not rows]
     print(f"\n{len(everything)} rows, {len(faults)} failed")
     for n, row in faults:
         print(f"  case {n}: " + ("no rows" if row is None else f"{row.variant}, {row.parameter}: {row.verdict} {row.note[:200]}"))

@@ -227,6 +227,14 @@ TEST(Template, ReadsAsItIs) {
   EXPECT_FALSE(deck.list().isSublist("Contact"));
 }
 
+TEST(Template, LeavesOutWhatIsForExpertsWhereItShould) {
+  const std::string whole = templateXml(listWithExpert(), "steps"),
+                    basic = templateXml(listWithExpert(), "steps", {}, Level::Basic);
+  EXPECT_NE(whole.find("for experts"), std::string::npos);
+  EXPECT_EQ(basic.find("for experts"), std::string::npos);
+  EXPECT_LT(basic.size(), whole.size());
+}
+
 TEST(Template, ReadsWithEveryCommentedLineTakenIn) {
   const std::string text = uncommented(templateXml(smallScene(), "my_well"));
   const Deck deck = Deck::parse(text, "template.xml", smallScene());

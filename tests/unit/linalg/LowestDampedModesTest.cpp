@@ -3,6 +3,7 @@
 /// The damped modes nearest zero, found by Krylov subspaces, against all of them found dense.
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 
 namespace {
@@ -279,6 +281,74 @@ TEST(LowestDampedModes, InfiniteValuesAreNoModes) {
         EXPECT_LT(modes.residuals[j], 1e-10) << g << turned << j;
       }
     }
+}
+
+/// All finite s with Im s >= 0, by |s|, of a pencil whose dofs have mass, only damping, or neither:
+/// the last ones are condensed, x_l = -K_ll^-1 K_lr x_r, and (x_m, x_m', x_d) obey equations of
+/// first order.
+std::vector<std::complex<double>> finiteValues(const Matrix& M, const Matrix& C, const Matrix& K) {
+  std::vector<Eigen::Index> heavy, damped, light, rest;
+  for (Eigen::Index i = 0; i < M.rows(); ++i)
+    (M(i, i) > 0 ? heavy : C(i, i) > 0 ? damped : light).push_back(i);
+  rest = heavy;
+  rest.insert(rest.end(), damped.begin(), damped.end());
+  const Matrix k =
+      K(rest, rest) - K(rest, light) * Matrix(K(light, light)).lu().solve(Matrix(K(light, rest)));
+  const Matrix c = C(rest, rest);
+  const auto h = static_cast<Eigen::Index>(heavy.size()),
+             d = static_cast<Eigen::Index>(damped.size());
+  // C_dd x_d' = -C_dm x_m' - K_dm x_m - K_dd x_d, put into M x_m'' = -C_mm x_m' - C_md x_d' - ...
+  const Eigen::PartialPivLU<Matrix> viscous(c.bottomRightCorner(d, d));
+  Matrix slow(d, 2 * h + d), A = Matrix::Zero(2 * h + d, 2 * h + d);
+  slow << k.bottomLeftCorner(d, h), c.bottomLeftCorner(d, h), k.bottomRightCorner(d, d);
+  A.bottomRows(d) = -viscous.solve(slow);
+  A.block(0, h, h, h).setIdentity();
+  Matrix force(h, 2 * h + d);
+  force << k.topLeftCorner(h, h), c.topLeftCorner(h, h), k.topRightCorner(h, d);
+  force += c.topRightCorner(h, d) * A.bottomRows(d);
+  A.middleRows(h, h) = -Matrix(M(heavy, heavy)).lu().solve(force);
+  const Eigen::VectorXcd all = Eigen::EigenSolver<Matrix>(A).eigenvalues();
+  std::vector<std::complex<double>> values;
+  for (const auto& s : all)
+    if (s.imag() >= 0) values.push_back(s);
+  std::sort(values.begin(), values.end(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
+  return values;
+}
+
+// A dof with damping alone has one finite value, its neighbour with neither has none. Those of the
+// damped one are real where it relaxes alone, and lie as far out as its damping is small.
+TEST(LowestDampedModes, OfMasslessDofsTheDampedOnesHaveFiniteValues) {
+  for (const int n : {6, 50})
+    for (const double damping : {0.1, 1.0, 50.0})
+      for (const bool turned : {false, true}) {
+        const Shaft s = shaft(n, 0.4, 0.05, false);
+        Matrix M = s.M, C = s.C, K = s.K;
+        const std::array<int, 4> light{2, 3, 2 * n - 4, 2 * n - 3};
+        for (const int i : light) M(i, i) = 0, C.row(i).setZero(), C.col(i).setZero();
+        for (const int i : {4, 7}) {  // beside undamped ones and beside masses
+          M(i, i) = 0, C.row(i).setZero(), C.col(i).setZero();
+          C(i, i) = damping;
+        }
+        C(4, 7) = C(7, 4) = -0.3 * damping;
+        const auto exact = finiteValues(M, C, K);
+        ASSERT_EQ(std::count_if(exact.begin(), exact.end(), [](auto z) { return z.imag() == 0; }),
+                  2);
+        if (turned) {  // the directions without mass are combinations of dofs
+          const Matrix T = Matrix::Identity(2 * n, 2 * n) + 0.1 / n *
+                                                                Vector::LinSpaced(2 * n, -1, 1) *
+                                                                Vector::Ones(2 * n).transpose();
+          for (Matrix* A : {&M, &C, &K}) *A = T.transpose() * *A * T;
+        }
+        const auto count = n == 6 ? exact.size() : 15;
+        const auto modes = lowestDampedModes(sparse(M), sparse(C), sparse(K), n == 6 ? 2 * n : 15);
+        const auto where = ::testing::Message() << n << " masses, " << damping << ", " << turned;
+        ASSERT_EQ(at(modes.values.size()), count) << where;
+        for (std::size_t j = 0; j < count; ++j) {
+          const auto found = modes.values[static_cast<Eigen::Index>(j)];
+          EXPECT_LT(std::abs(found - exact[j]), 1e-7 * std::abs(exact[j]))
+              << where << ": " << found << " is not " << exact[j];
+        }
+      }
 }
 
 // Without damping the stage has nothing to do but to repeat the undamped modes: s = i omega, and

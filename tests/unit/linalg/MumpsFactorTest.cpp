@@ -118,6 +118,31 @@ TEST(MumpsFactor, countsEigenvalues) {
   }
 }
 
+/// Before the factorisation, with a sentence of the rows and of both amounts of memory. A limit of
+/// what the factors need suffices.
+TEST(MumpsFactor, refusesFactorsBeyondTheMemory) {
+  const Sparse A = solid();
+  const auto refusal = [&](long megabytes) -> std::string {
+    MumpsFactor factor(megabytes);
+    try {
+      factor.factor(A, Symmetry::Definite);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string text = refusal(1);
+  const std::string begin = "The factors of a matrix of 8232 rows need ";
+  ASSERT_EQ(text.substr(0, begin.size()), begin);
+  EXPECT_NE(text.find(" MB of memory, and 1 MB are free. Cut the part"), std::string::npos) << text;
+  const long needed = std::stol(text.substr(begin.size()));
+  MumpsFactor enough(needed);
+  ASSERT_TRUE(enough.factor(A, Symmetry::Definite));
+  EXPECT_GE(8 * enough.entries(), 500000L * needed / 2) << "a quarter of it is the factors";
+  EXPECT_LE(8 * enough.entries(), 1048576L * needed) << "and they fit";
+  EXPECT_NE(refusal(needed - 1), "");
+}
+
 TEST(MumpsFactor, tellsWhatIsDefinite) {
   const double lowest = 6 - 6 * std::cos(constants::pi / (edge + 1));
   EXPECT_TRUE(isDefinite(grid(), 0.99 * lowest / 6));  // of the diagonal, 6

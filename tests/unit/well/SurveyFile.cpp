@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "common/Constants.hpp"
+#include "substructures/well/ArcChain.hpp"
 #include "substructures/well/Trajectory.hpp"
 
 using namespace tooljoint;
@@ -197,6 +198,21 @@ TEST(SurveyFile, RefusesWhatIsNotANumber) {
     EXPECT_NE(errorOf("0,0,0\n100," + std::string(cell) + ",0\n").find("F:2: the inclination"),
               std::string::npos)
         << cell;
+}
+
+TEST(SurveyStations, AreThoseOfAFileWithTheSameNumbers) {
+  const CsvFile file("0,0,0\n500,2.5,10\n1000,15,30\n");
+  const auto read = readSurvey(file.name(), "ft", "deg");
+  const auto given = surveyStations({0, 0, 0, 500, 2.5, 10, 1000, 15, 30}, "S", "ft", "deg");
+  ASSERT_EQ(given.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(given[i].depth, read[i].depth);
+    EXPECT_EQ(given[i].inclination, read[i].inclination);
+    EXPECT_EQ(given[i].azimuth, read[i].azimuth);
+  }
+  EXPECT_NEAR(given[2].depth, 304.8, 1e-12);
+  EXPECT_THROW(surveyStations({0, 0, 0}, "S", "m", "deg"), DeckError);
+  EXPECT_THROW(surveyStations({0, 0, 0, 10, 190, 0}, "S", "m", "deg"), DeckError);
 }
 
 TEST(SurveyFile, OtherFaultsHaveTheirOwnSentence) {

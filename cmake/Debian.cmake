@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# cpack: the Debian packages tooljoint (program, libraries, documents, scenes) and libtooljoint-dev (headers, find_package). What depends on
+# what is looked up by dpkg-shlibdeps; cmake/DebianFiles.cmake brings the installed files into the form of the distribution.
+if(NOT UNIX OR APPLE)
+  return()
+endif()
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME tooljoint)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "component mode synthesis and drillstring simulator")
+set(CPACK_PACKAGE_VENDOR "The Tooljoint developers")
+set(TOOLJOINT_MAINTAINER "The Tooljoint developers <tooljoint@example.org>" CACHE STRING "Who answers for the Debian packages")
+set(CPACK_PACKAGE_CONTACT "${TOOLJOINT_MAINTAINER}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL program dev)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
+set(CPACK_TOOLJOINT_CHANGES ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+set(CPACK_TOOLJOINT_LICENCE ${PROJECT_SOURCE_DIR}/LICENSE)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME tooljoint)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
+# What others that link to the libraries depend on, and the cache of the loader.
+set(control ${PROJECT_BINARY_DIR}/debian)
+file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
+file(WRITE ${control}/shlibs "")
+foreach(library toolkit drillstring)
+  file(APPEND ${control}/shlibs
+    "libtooljoint_${library} ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} tooljoint (= ${PROJECT_VERSION})\n")
+endforeach()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA ${control}/triggers ${control}/shlibs)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-h5py, python3-matplotlib, libjs-three, openmpi-bin, libopenblas0-serial")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Tooljoint computes the motion of structures from reduced parts. From one
+deck it bends a drillstring into its well, finds the equilibrium in contact
+with the wall, reduces the parts and integrates the motion. Parts of other
+structures are imported from files.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libtooljoint-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+  "tooljoint (= ${PROJECT_VERSION}), libopenmpi-dev, libhdf5-openmpi-dev, trilinos-all-dev, libptscotch-dev, libeigen3-dev")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers of the libraries behind Tooljoint and the files with which CMake
+finds them: find_package(Tooljoint).")
+include(CPack)

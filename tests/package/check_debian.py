@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
+
+Packs what is built, unpacks both packages into an empty root, and uses them from there: the program makes a folder and runs its deck, the
+installed report answers, a client is configured with the headers. The libraries of the distribution are those of this machine. Lintian, where
+it is installed, finds no error.
+"""
+import gzip
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish, of_ranks  # noqa: E402
+
+CPACK, BUILD, VERSION, CMAKE = sys.argv[1:5]
+CLIENT = pathlib.Path(__file__).resolve().parent
+PACKED, ROOT = pathlib.Path("packed").resolve(), pathlib.Path("root").resolve()
+
+
+def command(*words, **options):
+    return subprocess.run([str(word) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=240, **options)
+
+
+def pack():
+    """The files of both packages by their name."""
+    for folder in (PACKED, ROOT):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+    done = command(CPACK, "--config", f"{BUILD}/CPackConfig.cmake", "-G", "DEB", "-B", PACKED)
+    found = {path.name.split("_")[0]: path for path in PACKED.glob("*.deb")}
+    expect("cpack makes both packages", done.returncode == 0 and set(found) == {"tooljoint", "libtooljoint-dev"}, done.stdout[-600:] + done.stderr[-600:])
+    return found
+
+
+def control(package):
+    """Fields of the control file; continued lines are joined."""
+    text = command("dpkg-deb", "-f", package).stdout
+    return dict(re.findall(r"^([\w-]+): (.*(?:\n .*)*)", text, re.M))
+
+
+def fields(packages):
+    program, dev = (control(packages[name]) for name in ("tooljoint", "libtooljoint-dev"))
+    needed = {word.strip().split(" ")[0] for word in program.get("Depends", "").split(",")}
+    wanted = ("libc6", "libstdc++6", "libopenmpi", "libhdf5-openmpi", "libmumps", "libxml2", "libtrilinos-tpetra", "libtrilinos-nox", "libtrilinos-amesos2")
+    expect("the program depends on the libraries it is linked to", all(any(name.startswith(word) for name in needed) for word in wanted), str(sorted(needed)))
+    expect("and on no package of headers", not any(name.endswith("-dev") for name in needed), str(sorted(needed)))
+    expect("its report is recommended", "python3-h5py" in program.get("Recommends", "") and "libjs-three" in program.get("Recommends", ""))
+    expect("the headers depend on this program", f"tooljoint (= {VERSION})" in dev.get("Depends", "") and "trilinos-all-dev" in dev["Depends"], dev.get("Depends"))
+    for name, one in (("tooljoint", program), ("libtooljoint-dev", dev)):
+        expect(f"{name}: name, version, maintainer and description", one["Package"] == name and one["Version"] == VERSION and "@" in one["Maintainer"] and
+               len(one["Description"].splitlines()) > 2, str(one))
+
+
+def unpack(packages):
+    for package in packages.values():
+        done = command("dpkg-deb", "-x", package, ROOT)
+        expect(f"{package.name} is unpacked", done.returncode == 0, done.stderr)
+    for name in ("tooljoint", "libtooljoint-dev"):
+        folder = ROOT / "usr/share/doc" / name
+        copyright_ = (folder / "copyright").read_text(encoding="utf-8")
+        expect(f"{name}: copyright", "License: BSD-3-clause" in copyright_ and "Redistribution and use" in copyright_ and "\n\n \n" not in copyright_)
+        changes = gzip.decompress((folder / "changelog.gz").read_bytes()).decode()
+        expect(f"{name}: changelog", changes.startswith(f"tooljoint ({VERSION}) "), changes)
+    page = gzip.decompress((ROOT / "usr/share/man/man1/tooljoint-run.1.gz").read_bytes()).decode()
+    expect("manual pages, compressed", ".SH SYNOPSIS" in page and not list(ROOT.glob("usr/share/man/man1/*.1")))
+    for path in ("usr/share/bash-completion/completions/tooljoint", "usr/share/zsh/vendor-completions/_tooljoint", "usr/share/tooljoint/docs/user-manual.md"):
+        expect(f"{path} is there", (ROOT / path).is_file())
+
+
+def use():
+    libraries = next(ROOT.glob("usr/lib/**/libtooljoint_toolkit.so.*")).parent
+    environment = {**of_ranks(1), "LD_LIBRARY_PATH": str(libraries), "TOOLJOINT_REPORT": "off"}
+    program = ROOT / "usr/bin/tooljoint"
+    for file in (program, *(path for path in libraries.glob("libtooljoint_*.so.*") if not path.is_symlink())):
+        paths = re.findall(r"\((?:RPATH|RUNPATH)\)", command("readelf", "-d", file).stdout)
+        expect(f"{file.name}: no path of this machine in it", not paths, str(paths))
+    loaded = command("ldd", program, env=environment).stdout
+    own = re.findall(r"libtooljoint_\S+ => (\S+)", loaded)
+    expect("its libraries are those of the package, and none is missing", "not found" not in loaded and len(own) == 2 and
+           all(pathlib.Path(path).parent == libraries for path in own), loaded)
+    version = command(program, "--version", env=environment)
+    expect("tooljoint --version", version.returncode == 0 and version.stdout.startswith(f"tooljoint {VERSION}"), version.stderr)
+    shutil.rmtree("my_well", ignore_errors=True)
+    made = command(program, "new", "my_well", env=environment)
+    done = command(program, "run", "my_well.xml", "--without", "Transient", env=environment, cwd="my_well") if made.returncode == 0 else made
+    expect("a new deck runs", done.returncode == 0 and json.loads(pathlib.Path("my_well/results/my_well/summary.json").read_text(encoding="utf-8"))["status"] == "finished",
+           done.stderr[-400:])
+    told = command(program, "report", "nowhere", env=environment)
+    expect("the report of the package answers", told.returncode == 5 and '"nowhere" is no folder' in told.stderr, told.stderr)
+
+
+def develop():
+    """find_package of the unpacked headers; the client is configured, not built."""
+    done = command(CMAKE, "-S", CLIENT, "-B", "client", "--fresh", "-D", f"CMAKE_PREFIX_PATH={ROOT}/usr", env=os.environ)
+    cache = pathlib.Path("client/CMakeCache.txt").read_text(encoding="utf-8") if done.returncode == 0 else ""
+    expect("a client finds the package", f"Tooljoint_DIR:PATH={ROOT}/usr/lib" in cache, done.stderr[-600:])
+
+
+def judge(packages):
+    if not shutil.which("lintian"):
+        print("lintian is not installed: not run")
+        return
+    done = command("lintian", "--allow-root", "--fail-on", "error", *packages.values())
+    expect("lintian finds no error", done.returncode == 0, done.stdout[-2000:] + done.stderr[-300:])
+
+
+def main():
+    packages = pack()
+    if len(packages) == 2:
+        fields(packages)
+        unpack(packages)
+        use()
+        develop()
+        judge(packages)
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
