@@ -115,40 +115,49 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
   return std::nullopt;
 }
 
-/// The command `study` with its options; they exclude each other where one has no effect beside
-/// another.
-void addStudy(CLI::App& program, tooljoint::app::RunOptions& options,
-              std::function<void()>& command) {
+/// Options of the commands that run many rows; they exclude each other where one has no effect
+/// beside another. `row` says what a row is.
+void addRowOptions(CLI::App& command, tooljoint::app::RunOptions& options, const std::string& row) {
+  auto* fresh = command.add_flag("--fresh", options.fresh,
+                                 "forget the rows an earlier command left in the folder");
+  auto* width = command
+                    .add_option("--ranks-per-row", options.ranksPerRow,
+                                "ranks that work on a row together; the others take other rows")
+                    ->check(CLI::PositiveNumber);
+  auto* output = command.get_option("--output");
+  auto* plan = command
+                   .add_option("--plan", options.plan,
+                               "run nothing: write one command for each row into this folder")
+                   ->type_name("DIR");
+  auto* collect = command
+                      .add_option("--collect", options.collect,
+                                  "run nothing: tables and plots of the rows in this folder")
+                      ->type_name("DIR");
+  auto* only = command.add_option("--row", options.row, "run this row only: " + row);
+  plan->excludes(collect)->excludes(only)->excludes(fresh)->excludes(output);
+  collect->excludes(only)->excludes(fresh)->excludes(output);
+  only->excludes(fresh)->excludes(width);
+}
+
+/// The commands `study` and `map`.
+void addStudies(CLI::App& program, tooljoint::app::RunOptions& options,
+                std::function<void()>& command) {
   auto* study = program.add_subcommand(
       "study", "speed against error: the runs of the deck's Study list against its reference run");
-  addDeckOptions(*study, options, Output::Always);
-  auto* fresh = study->add_flag("--fresh", options.fresh,
-                                "forget the runs an earlier study left in the folder");
-  auto* width = study
-                    ->add_option("--ranks-per-row", options.ranksPerRow,
-                                 "ranks that work on a row together; the others take other rows")
-                    ->check(CLI::PositiveNumber);
+  addDeckOptions(*study, options, Output::Always, "_study");
+  addRowOptions(*study, options, "\"reference\", or its number (the commands of --plan)");
   study
       ->add_option(
           "--timing", options.timing,
           "alone: refuse to time rows that share a machine; shared: time them all the same")
       ->check(CLI::IsMember({"alone", "shared"}));
-  auto* output = study->get_option("--output");
-  auto* plan = study
-                   ->add_option("--plan", options.plan,
-                                "run nothing: write one command for each row into this folder")
-                   ->type_name("DIR");
-  auto* collect = study
-                      ->add_option("--collect", options.collect,
-                                   "run nothing: tables and plots of the rows in this folder")
-                      ->type_name("DIR");
-  auto* row =
-      study->add_option("--row", options.row,
-                        "run this row only: \"reference\", or its number (the commands of --plan)");
-  plan->excludes(collect)->excludes(row)->excludes(fresh)->excludes(output);
-  collect->excludes(row)->excludes(fresh)->excludes(output);
-  row->excludes(fresh)->excludes(width);
   study->callback([&] { command = [&] { tooljoint::app::study(options); }; });
+
+  auto* map = program.add_subcommand(
+      "map", "figures over a grid of parameters: the deck's Map list as table and coloured maps");
+  addDeckOptions(*map, options, Output::Always, "_map");
+  addRowOptions(*map, options, "its number in map.csv (the commands of --plan)");
+  map->callback([&] { command = [&] { tooljoint::app::map(options); }; });
 }
 
 /// The command `report` with its options.
@@ -281,7 +290,7 @@ int run(int argc, char** argv) {
   std::function<void()> command;
 
   addRun(program, options, command);
-  addStudy(program, options, command);
+  addStudies(program, options, command);
 
   addAnalyses(program, options, command);
   app::CompareOptions comparison;

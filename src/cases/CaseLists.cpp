@@ -5,6 +5,7 @@
 
 #include "cases/PartsExport.hpp"
 #include "cases/ReductionRules.hpp"
+#include "cases/figures/FigureWindow.hpp"
 #include "common/Text.hpp"
 #include "reduction/ReductionParameters.hpp"
 #include "transient/TransientParameters.hpp"
@@ -75,6 +76,8 @@ CommonLists readCommonLists(const Teuchos::ParameterList& deck, Faults& faults) 
 
 void checkCommonLists(const Teuchos::ParameterList& deck, const CommonLists& common,
                       const std::vector<std::string>& parts, Faults& faults) {
+  if (deck.isSublist("Transient"))
+    faults.attempt([&] { figureWindow(common.output.figures, deck.sublist("Transient")); });
   if (common.output.exportFormat != io::ExportFormat::None)
     faults.attempt([&] { exportedFiles(parts, common.output.exportFormat); });
   const auto assembly = common.coupling ? common.coupling->assembly : coupling::Assembly::Primal;

@@ -10,6 +10,7 @@
 
 #include "common/Types.hpp"
 #include "io/Csv.hpp"
+#include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Summary.hpp"
 #include "io/Xdmf.hpp"
@@ -23,6 +24,7 @@ struct Sample {
   const Vector& qDot;
   const Vector& displacement;  ///< rows of the recovery: offset + Phi q
   const Vector& velocity;      ///< Phi q'
+  const Vector& acceleration;  ///< Phi q''
   const Vector& states;        ///< of the point laws, set by set; empty where no law has some
 };
 
@@ -62,6 +64,9 @@ class MotionRecord {
   /// The figures a person asks for first, as summary keys and as one line of the log.
   virtual void summarise(io::Summary& summary) const = 0;
   virtual std::string describe() const = 0;
+  /// Figures of merit of nodes: groups of results.h5 behind the motion, and tables beside it.
+  virtual void write(io::ResultsFile& file) const { (void)file; }
+  virtual void stageTables(io::OutputFolder& folder) const { (void)folder; }
   /// Doubts about the motion, one sentence each.
   virtual std::vector<std::string> warnings() const { return {}; }
 

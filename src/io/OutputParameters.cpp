@@ -12,6 +12,44 @@ bool OutputSettings::hasField(const std::string& name) const {
   return std::find(fields.begin(), fields.end(), name) != fields.end();
 }
 
+namespace {
+
+deck::ListSpec figureParameters() {
+  using deck::Range;
+  deck::ListSpec list("Figures",
+                      "Figures of merit of the motion in summary.json: stick-slip, accelerations, "
+                      "whirl, contact, bending cycles. They are those of the samples of a window.");
+  list.real("Begin", "s", deck::Optional{}, Range::any(),
+            "Begin of the window; by default the middle of the motion.")
+      .real("End", "s", deck::Optional{}, Range::any(),
+            "End of the window; by default that of the motion.")
+      .real("Stuck Speed", "rad/s", FigureSettings().stuckSpeed, Range::positive(),
+            "The bit counts as stuck where its speed is smaller.");
+  deck::ListSpec line("S-N Line",
+                      "Life of the pipe under bending: N = Cycles (Stress Range/S)^Slope cycles of "
+                      "the stress range S at the outer wall. The damage of all cycles is their sum "
+                      "of 1/N, without an effect of the mean stress.");
+  line.real("Slope", "", deck::Required{}, Range::positive(), "Exponent m of the line.")
+      .real("Stress Range", "Pa", deck::Required{}, Range::positive(),
+            "Stress range (peak less valley) at one point of the line.")
+      .real("Cycles", "", deck::Required{}, Range::positive(), "Life there.");
+  return list.list(line);
+}
+
+FigureSettings readFigures(const Teuchos::ParameterList& list) {
+  FigureSettings s;
+  if (list.isParameter("Begin")) s.begin = list.get<double>("Begin");
+  if (list.isParameter("End")) s.end = list.get<double>("End");
+  if (list.isParameter("Stuck Speed")) s.stuckSpeed = list.get<double>("Stuck Speed");
+  if (!list.isSublist("S-N Line")) return s;
+  const auto& line = list.sublist("S-N Line");
+  s.snLine = SnLine{line.get<double>("Slope"), line.get<double>("Stress Range"),
+                    line.get<double>("Cycles")};
+  return s;
+}
+
+}  // namespace
+
 deck::ListSpec parameters() {
   using deck::Range;
   const OutputSettings defaults;
@@ -46,7 +84,8 @@ deck::ListSpec parameters() {
           "superelement of the OpenFAST module ExtPtfm.")
       .integer("Compression", defaults.compression, Range::between(0, 9),
                "Deflate level of the time series in results.h5; 0 is off and fastest.")
-      .expert();
+      .expert()
+      .list(figureParameters());
 }
 
 OutputSettings readOutput(const Teuchos::ParameterList& list) {
@@ -69,6 +108,7 @@ OutputSettings readOutput(const Teuchos::ParameterList& list) {
                    : kind == "ExtPtfm"       ? ExportFormat::ExtPtfm
                                              : ExportFormat::None;
   s.compression = list.get<int>("Compression");
+  if (list.isSublist("Figures")) s.figures = readFigures(list.sublist("Figures"));
   return s;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,20 @@ namespace tooljoint::io {
 
 /// How reduced parts are written.
 enum class ExportFormat { None, Hdf5, MatrixMarket, NastranDmig, ExtPtfm };
+
+/// Life of a section under cycles of one stress range S: N = cycles (stressRange/S)^slope.
+struct SnLine {
+  double slope = 0.0;        ///< m
+  double stressRange = 0.0;  ///< [Pa]
+  double cycles = 0.0;
+};
+
+/// What the figures of merit of a motion are taken over and measured by.
+struct FigureSettings {
+  std::optional<double> begin, end;  ///< [s]; the second half of the motion unless given
+  double stuckSpeed = 0.5;           ///< the bit sticks below it [rad/s]
+  std::optional<SnLine> snLine;
+};
 
 struct OutputSettings {
   std::string folder;  ///< "" when the deck names none; the command line goes first
@@ -24,6 +39,7 @@ struct OutputSettings {
   bool reducedBases = false;
   ExportFormat exportFormat = ExportFormat::None;
   int compression = 0;
+  FigureSettings figures;
 
   bool hasField(const std::string& name) const;
 };

@@ -21,26 +21,6 @@ std::string describe(const std::string& parameter, const std::string& value) {
   return numeric ? split(parameter, '/').back() + " " + value : value;
 }
 
-void addProduct(const Method& method, const PlannedRun& base, std::vector<PlannedRun>& runs) {
-  std::size_t count = 1;
-  for (const auto& dimension : method.sweep) count *= dimension.values.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    PlannedRun run = base;
-    std::size_t rest = count, index = i;
-    for (const auto& dimension : method.sweep) {
-      rest /= dimension.values.size();
-      const auto& value = dimension.values[index / rest];
-      index %= rest;
-      run.sweep.emplace_back(dimension.parameter, value);
-      run.overrides.push_back(
-          {dimension.parameter + "=" + value, base.source + "/Sweep/" + dimension.name});
-      run.label += ", " + describe(dimension.parameter, value);
-      if (&dimension != &method.sweep.back()) run.line = run.label;
-    }
-    runs.push_back(std::move(run));
-  }
-}
-
 }  // namespace
 
 std::string kindName(RunKind kind) {
@@ -57,6 +37,28 @@ std::string kindName(RunKind kind) {
   return "method";
 }
 
+std::vector<PlannedRun> product(const std::vector<Dimension>& dimensions, const PlannedRun& base,
+                                const std::string& place) {
+  std::vector<PlannedRun> runs;
+  std::size_t count = 1;
+  for (const auto& dimension : dimensions) count *= dimension.values.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    PlannedRun run = base;
+    std::size_t rest = count, index = i;
+    for (const auto& dimension : dimensions) {
+      rest /= dimension.values.size();
+      const auto& value = dimension.values[index / rest];
+      index %= rest;
+      run.sweep.emplace_back(dimension.parameter, value);
+      run.overrides.push_back({dimension.parameter + "=" + value, place + "/" + dimension.name});
+      run.label += (run.label.empty() ? "" : ", ") + describe(dimension.parameter, value);
+      if (&dimension != &dimensions.back()) run.line = run.label;
+    }
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
 std::vector<PlannedRun> expand(const StudySettings& settings, const ReductionLists& reduction) {
   std::vector<PlannedRun> runs;
   for (const auto& method : settings.methods) {
@@ -66,7 +68,8 @@ std::vector<PlannedRun> expand(const StudySettings& settings, const ReductionLis
     base.reduced = method.reduced;
     if (!method.reduced) takeOut(reduction, base);
     for (const auto& text : method.set) base.overrides.push_back({text, base.source + "/Set"});
-    addProduct(method, base, runs);
+    for (auto& run : product(method.sweep, base, base.source + "/Sweep"))
+      runs.push_back(std::move(run));
   }
   return runs;
 }

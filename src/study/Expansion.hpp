@@ -40,6 +40,11 @@ using ReductionLists = std::vector<std::string>;
 std::vector<PlannedRun> expand(const StudySettings& settings,
                                const ReductionLists& reduction = {"Substructures", "Reduction"});
 
+/// The product of the values of `dimensions`, the last one varying first. Labels are that of `base`
+/// and the values. \param place path of the list that holds the dimensions
+std::vector<PlannedRun> product(const std::vector<Dimension>& dimensions, const PlannedRun& base,
+                                const std::string& place);
+
 /// The reference run, its check, and the perturbed one unless the perturbation is 0.
 std::vector<PlannedRun> references(const StudySettings& settings,
                                    const ReductionLists& reduction = {"Substructures",

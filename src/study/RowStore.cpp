@@ -74,11 +74,25 @@ void RowStore::clear() const {
   for (const auto& path : ours) std::filesystem::remove(path);
 }
 
+std::optional<std::string> RowStore::restoreText(const std::string& key) const {
+  if (!active_ || !std::filesystem::exists(rowFile(key))) return std::nullopt;
+  try {
+    return io::readText(rowFile(key));
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+void RowStore::keepText(const std::string& key, const std::string& text) const {
+  if (active_) io::writeText(rowFile(key), text);
+}
+
 bool RowStore::restore(const std::string& key, StudyRow& row) const {
-  if (!active_ || !std::filesystem::exists(rowFile(key))) return false;
+  const auto text = restoreText(key);
+  if (!text) return false;
   StudyRow stored = row;
   try {
-    stored.fromJson(io::readText(rowFile(key)));
+    stored.fromJson(*text);
   } catch (const FileError&) {
     return false;
   }
@@ -87,7 +101,7 @@ bool RowStore::restore(const std::string& key, StudyRow& row) const {
 }
 
 void RowStore::keep(const std::string& key, const StudyRow& row) const {
-  if (active_) io::writeText(rowFile(key), row.toJson());
+  keepText(key, row.toJson());
 }
 
 std::optional<RecordedHistory> RowStore::restoreHistory(const std::string& key) const {

@@ -42,6 +42,9 @@ class RowStore {
   /// Forget everything.
   void clear() const;
 
+  /// A row as the text it was kept as.
+  std::optional<std::string> restoreText(const std::string& key) const;
+  void keepText(const std::string& key, const std::string& text) const;
   bool restore(const std::string& key, StudyRow& row) const;
   void keep(const std::string& key, const StudyRow& row) const;
   std::optional<RecordedHistory> restoreHistory(const std::string& key) const;

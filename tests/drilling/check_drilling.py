@@ -241,6 +241,25 @@ def matched(program):
         expect(f"{name}: a root 2 % off would show", misfit(t[later], angle[later], wrong) > 0.02, "")
 
 
+def figures(run, feed):
+    """Figures of merit of a bit that cuts, of the second half of the motion: the work of weight and torque over the rock that is gone."""
+    found = run.motion["figures"]
+    window = run.time() > 1.0 - 1e-9
+    weight, torque = (run.data(f"transient/{name}_on_bit")[window] for name in ("weight", "torque"))
+    speed = run.data("transient/speed")[window] + run.nodes(THETA_Z, "velocity")[window, -1]
+    advance = feed + run.nodes(W, "velocity")[window, -1]
+    for name, values in (("weight_on_bit", weight), ("torque_on_bit", torque)):
+        for key, value in (("mean", values.mean()), ("rms", np.sqrt(np.mean(values ** 2))), ("min", values.min()), ("max", values.max())):
+            near(f"figures: {name}.{key}", found[name][key], value, 1e-9 * abs(value))
+    area = math.pi * models.BORE ** 2
+    energy = np.sum(weight * advance + torque * speed) / (area * advance.sum())
+    near("figures: rate of penetration", found["rate_of_penetration"], advance.mean(), 1e-12)
+    near("figures: mechanical specific energy", found["specific_energy"], energy, 1e-9 * energy)
+    # pure cutting: the torque gives the specific energy of the bit on the face of the bit, W v is small beside it
+    near("figures: it is that of the bit", found["specific_energy"] / 1e6 * (models.BORE / 0.108) ** 2, 1.0, 0.1)
+    near("figures: stick-slip index", found["stick_slip_index"], np.ptp(speed) / (2 * speed.mean()), 1e-9)
+
+
 def cutting(program):
     """A bit that cuts, axial and torsional loop together: static state, and the motion against an integration of its own with
     the delay solved for; full against reduced; both integrators; a free hook."""
@@ -268,6 +287,7 @@ def cutting(program):
             moved = run.nodes(component)[:, -1] - run.nodes(component)[0, -1]
             near(f"{name}: {what} of the bit over its change", np.abs(moved - exact_).max() / np.ptp(exact_), 0.0, 0.01)
         near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+    figures(runs["reduced"], feed)
     hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
     near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)
     # the hook load and the weight of the string balance the weight on bit of the start

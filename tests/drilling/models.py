@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 PIPE = {"Length": 300.0, "Elements": 3, "Outer Radius": 0.0635, "Inner Radius": 0.054}
 COLLAR = {"Length": 100.0, "Elements": 1, "Outer Radius": 0.0795, "Inner Radius": 0.0355}
 STEEL = {"Density": 7850.0, "Young Modulus": 2.1e11, "Poisson Ratio": 0.3}
+BORE = 0.2  # radius of the hole [m]
 DENSITY, YOUNG, SHEAR = 7850.0, 2.1e11, 2.1e11 / 2.6
 
 
@@ -54,7 +55,7 @@ def string_deck(pieces, **lists):
         components[name] = part
         assembly.append(f"{count}*{name}")
         length += count * part["Length"]
-    base = {"Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": 0.2},
+    base = {"Well": {"Trajectory": "Vertical", "Vertical": {"Length": length}, "Bore Radius": BORE},
             "Drillstring": {"Assembly": assembly, "Components": components, "Material": STEEL},
             "Supports": {"Dofs": "axial torsional"}}
     return {**base, **lists}

@@ -6,7 +6,7 @@
 
 effects.json holds one row per parameter: {"parameter": path as in `tooljoint doc --format json` with * for names of the user's own,
 "set": overrides, "base": overrides of the run it is compared with (the scene as it is when absent), "key": what is looked at,
-"effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
+"effect": "up", "down", "changes" or "same", "scene": a deck beside this file other than scene.xml}. Rows of the Study list run `tooljoint study` on tests/study/study.xml, those of the Map list `tooljoint map` on tests/study/map.xml. Keys are dotted paths into summary.json, or "file:NAME" for the content of a file, or
 "files" for the list of files; tables and figures of an analysis (ANALYSES) are those of its own command, which "COMMAND.file:NAME" names where two have the table. A parameter of the manual without a row, or a row of no parameter, fails; "exempt" gives a reason where
 an effect cannot be seen in a run, and names the test that shows it.
 """
@@ -19,6 +19,8 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 STUDY = "../study/study.xml"
+MAP = "../study/map.xml"
+COMMANDS = {STUDY: "study", MAP: "map"}  # of decks that are not run
 ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
     "torque-drag": ["file:torque_drag.csv"],
     "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv"],
@@ -56,7 +58,7 @@ class Runs:
         return self.done[key]
 
     def value(self, overrides, key, scene):
-        command = next((word for word in ANALYSES if key in ANALYSES[word] or key.startswith(word + ".")), "study" if scene == STUDY else "run")
+        command = next((word for word in ANALYSES if key in ANALYSES[word] or key.startswith(word + ".")), COMMANDS.get(scene, "run"))
         folder = self.folder(overrides, scene, command)
         file = key.removeprefix(f"{command}.")
         if file.startswith("file:"):
@@ -95,7 +97,7 @@ def main():
     rows = table["effects"][shard - 1::shards]
     for row in rows:
         try:
-            scene = STUDY if row["parameter"].startswith("Study/") else row.get("scene", "scene.xml")
+            scene = {"Study": STUDY, "Map": MAP}.get(row["parameter"].split("/")[0], row.get("scene", "scene.xml"))
             before = runs.value(row.get("base", []), row["key"], scene)
             after = runs.value(row.get("base", []) + row["set"], row["key"], scene)
         except (RuntimeError, KeyError, TypeError, OSError) as problem:

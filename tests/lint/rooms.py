@@ -20,7 +20,7 @@ TOOLKIT = {
     "estimate": (f"{MODELS} transient", "errors of a reduced model, without the full one"),
     "stability": (f"{MODELS} estimate", "whether a state at rest is stable"),
     "cases": (CASES, "a case; run, record, restart, check"),
-    "study": (f"{CASES} cases", "speed against error over many runs"),
+    "study": (f"{CASES} cases", "speed against error over many runs, maps over parameters"),
     "response": (f"{CASES} cases", "Campbell diagrams and harmonic responses of any case"),
     "app": (f"{CASES} cases response study", "the program, a file for each command"),
 }
@@ -36,7 +36,8 @@ DRILLSTRING = {
     "softstring": ("beam well", GROUND, "torque and drag of a string without bending stiffness"),
     "equilibrium": ("beam contact", GROUND, "the static state"),
     "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
-    "drillstring/case": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
+    "drillstring/figures": ("", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
+    "drillstring/case": ("beam contact drilling drillstring drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
     "drillstring/analyses": ("beam contact drilling drillstring drillstring/case loads mud softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 

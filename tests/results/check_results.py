@@ -83,7 +83,8 @@ def check_motion(title, file, speed_error, acceleration_error):
 
 def check_string(rows, written):
     folder = run(ROOT / "tests" / "effects" / "scene.xml", "string", "Output/Fields={displacement, velocity, acceleration, normal_force}",
-                 "Output/Reduced Bases=true", "Output/XDMF=true", "Output/XDMF Interval=0.05", "Transient/Sampling Interval=0.001")
+                 "Output/Reduced Bases=true", "Output/XDMF=true", "Output/XDMF Interval=0.05", "Transient/Sampling Interval=0.001", "Output/Figures/S-N Line/Slope=4",
+                 "Output/Figures/S-N Line/Stress Range=100 MPa", "Output/Figures/S-N Line/Cycles=1e6", "Output/Figures/Stuck Speed=12")
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     with h5py.File(folder / "results.h5") as file:
         nodes = len(file["/model/s"])
@@ -100,6 +101,8 @@ def check_string(rows, written):
     check_contact(data)
     check_tables(folder, data)
     check_summary(summary, data)
+    check_figures(summary["transient"]["figures"], folder, data)
+    check_bending(summary["transient"]["figures"], data)
     check_pictures(data)
 
 
@@ -188,6 +191,70 @@ def check_summary(summary, data):
     near("summary: model.length", summary["model"]["length"], data["/model/s"][-1], 1e-12)
 
 
+def check_figures(figures, folder, data):
+    """Figures of merit against the histories of the same run, over the second half of the motion."""
+    time = data["/transient/time"]
+    window = time > 0.15 - 1e-9
+    near("figures: window", data["/figures/window"], [0.15, 0.3], 1e-9)
+    expect("figures: samples", figures["samples"] == np.count_nonzero(window), figures["samples"])
+    omega = bit_speed(data)[window]
+    index = (omega.max() - omega.min()) / (2 * omega.mean())
+    for key, value in [("stick_slip_index", index), ("stuck_share", np.mean(np.abs(omega) < 12.0)), ("stuck_speed_rpm", 12.0 * 30 / np.pi)]:
+        near(f"figures: {key}", figures[key], value, 1e-9)
+    d, v, a = (data[f"/transient/{name}"][window] for name in ("displacement", "velocity", "acceleration"))
+    nodes = table(folder / "figures_nodes.csv", ["node", "s [m]", "axial_rms [m/s2]", "axial_peak [m/s2]", "lateral_rms [m/s2]", "lateral_peak [m/s2]",
+                                                 "precession [rad/s]", "forward_share", "backward_share", "forward_contact_share", "backward_contact_share",
+                                                 "contact_duty", "contact_force_mean [N]", "contact_force_peak [N]"])
+    for name, size in [("axial", np.abs(a[:, :, 2])), ("lateral", np.hypot(a[:, :, 0], a[:, :, 1]))]:
+        rms = np.sqrt(np.mean(size ** 2, axis=0))
+        near(f"figures: {name} rms", nodes[f"{name}_rms"], rms, 1e-9)
+        near(f"figures: {name} peak", nodes[f"{name}_peak"], size.max(axis=0), 1e-9)
+        found = figures[f"{name}_acceleration"]
+        near(f"figures: {name} acceleration in the summary", [found["rms"], found["peak"], found["worst_rms"]],
+             [np.sqrt(np.mean(size ** 2)), size.max(), rms.max()], 1e-9)
+        expect(f"figures: worst node of the {name} acceleration", found["worst_rms_node"] == np.argmax(rms) + 1
+               and found["worst_rms_depth"] == data["/model/s"][np.argmax(rms)])
+    moment = d[:, :, 0] * v[:, :, 1] - d[:, :, 1] * v[:, :, 0]
+    radius = d[:, :, 0] ** 2 + d[:, :, 1] ** 2
+    total = radius.sum(axis=0)
+    near("figures: precession", nodes["precession"], np.divide(moment.sum(axis=0), total, out=np.zeros_like(total), where=total > 0), 1e-9)
+    whirls = np.abs(moment) >= 0.1 * data["/transient/speed"][window, None] * radius
+    touches = data["/transient/normal_force"][window] > 0
+    for name, sense in [("forward", moment > 0), ("backward", moment < 0)]:
+        near(f"figures: share of {name} whirl", nodes[f"{name}_share"], np.mean(sense & whirls, axis=0), 1e-9)
+        contact = np.mean(sense & whirls & touches, axis=0)
+        expect(f"figures: {name} whirl in contact", np.allclose(nodes[f"{name}_contact_share"], contact, atol=1e-12))
+    force = data["/transient/normal_force"][window]
+    near("figures: contact duty", nodes["contact_duty"], touches.mean(axis=0), 1e-9)
+    near("figures: mean contact force", nodes["contact_force_mean"], np.maximum(force, 0).mean(axis=0), 1e-9)
+    near("figures: largest contact force", [figures["contact"]["force_peak"]], [force.max()], 1e-9)
+
+
+def check_bending(figures, data):
+    """The largest range of a rainflow count is that of the whole history; the moment is E I times the turn of the tangents."""
+    time = data["/transient/time"]
+    window = time > 0.15 - 1e-9
+    frames, d = data["/model/frame"], data["/transient/displacement"][window]
+    x, y, z = frames[:, :, 0], frames[:, :, 1], frames[:, :, 2]
+    tangent = z + d[:, :, 4, None] * x - d[:, :, 3, None] * y
+    curvature = np.diff(tangent, axis=1) / np.diff(data["/model/s"])[:, None]
+    mean = [0.5 * (axis[1:] + axis[:-1]) for axis in (x, y)]
+    rigidity = data["/model/young_modulus"] * np.pi / 4 * (data["/model/outer_radius"] ** 4 - data["/model/inner_radius"] ** 4)
+    moments = [rigidity * np.einsum("tej,ej->te", curvature, axis) for axis in mean]
+    t = time[window]
+    angle = 4 * np.pi * (t - 0.1 * (1 - np.exp(-t / 0.1)))[:, None] + 0.5 * (d[:, 1:, 5] + d[:, :-1, 5])
+    ranges = [np.ptp(moments[0] * np.cos(angle + p * np.pi / 4) + moments[1] * np.sin(angle + p * np.pi / 4), axis=0) for p in range(4)]
+    found = data["/figures/bending_range"]
+    # the worst plane is the one with the largest damage, nearly always that with the largest range
+    near("figures: bending ranges", found, np.max(ranges, axis=0), 0.02)
+    expect("figures: the worst element", figures["bending"]["range"] == found.max() and figures["bending"]["range_element"] == np.argmax(found) + 1)
+    # one cycle of the largest range at least, two such half cycles at least
+    stress = found * data["/model/outer_radius"] / (rigidity / data["/model/young_modulus"])
+    least = 0.5 * (stress / 100e6) ** 4 / 1e6 * 3600 / (t[-1] - t[0])
+    damage = data["/figures/damage_per_hour"]
+    expect("figures: damage", np.all(damage >= least * (1 - 1e-9)) and np.all(damage <= least * 2 * (data["/figures/bending_cycles"] + 1)))
+
+
 def check_pictures(data):
     """Vectors of the pictures are those of the samples turned by the nodal frames."""
     at = np.searchsorted(data["/transient/time"], data["/xdmf/time"] - 1e-9)
@@ -252,10 +319,27 @@ def check_parts(rows, written):
         gap = np.ravel(file["/transient/plug/stop_gap"][:])
         near("parts: the gap of a stop", gap, file["/transient/displacement"][:, tip, names.index("v")] - 1e-5, 1e-9)
         expect("parts: stops push", np.ravel(file["/transient/plug/stop_force"][:])[gap < 0].min() > 0)
+        check_parts_figures(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["transient"]["figures"], file, names)
         largest = np.abs(file["/transient/displacement"][:]).max(axis=1)
     motion = table(folder / "motion.csv", ["time [s]"] + [f"max_{name} [{'rad' if name.startswith('theta') else 'm'}]" for name in names])
     for c, name in enumerate(names):
         near(f"parts: motion.csv: max_{name}", motion[f"max_{name}"], largest[:, c], 1e-12)
+
+
+def check_parts_figures(figures, file, names):
+    """Lengths of displacements and accelerations of the nodes over the second half of the motion."""
+    time = file["/transient/time"][:]
+    window = time > 0.5 * (time[0] + time[-1]) - 1e-9
+    lengths = [c for c, name in enumerate(names) if not name.startswith("theta")]
+    for field in ("displacement", "acceleration"):
+        size = np.linalg.norm(file[f"/transient/{field}"][window][:, :, lengths], axis=2)
+        near(f"parts: figures: {field} rms of the nodes", file[f"/figures/{field}_rms"][:], np.sqrt(np.mean(size ** 2, axis=0)), 1e-9)
+        near(f"parts: figures: {field} peak of the nodes", file[f"/figures/{field}_peak"][:], size.max(axis=0), 1e-9)
+        near(f"parts: figures: {field}", [figures[field]["rms"], figures[field]["peak"]], [np.sqrt(np.mean(size ** 2)), size.max()], 1e-9)
+        worst = np.argmax(size.max(axis=0))
+        part = file["/model/part_names"][file["/model/part"][worst] - 1]
+        expect(f"parts: figures: place of the largest {field}", figures[field]["peak_part"] == (part.decode() if isinstance(part, bytes) else part)
+               and figures[field]["peak_node"] == file["/model/node"][worst])
 
 
 def check_places(file):

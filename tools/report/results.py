@@ -242,4 +242,22 @@ def merits(run, motion):
     node = int(np.argmax(rms))
     rows.append(("Largest lateral vibration", f"{1e3 * rms[node]:.2f} mm rms", f"at {run.s[node]:.1f} m, {run.component_at(node) or f'node {node + 1}'}"))
     rows.append(("Axial vibration of the bit", f"{1e3 * motion.rms[-1, 2]:.3g} mm rms", ""))
+    return rows + figures_of_summary(run)
+
+
+def figures_of_summary(run):
+    """Those that need more than the histories of the nodes, from summary.json, over the window it names."""
+    found = run.value("transient.figures") or {}
+    if not found.get("whirl") or found["lateral_acceleration"]["rms"] is None:
+        return []
+    lateral, whirl, bending = found["lateral_acceleration"], found["whirl"], found["bending"]
+    window = f"{found['begin']:g} to {found['end']:g} s"
+    rows = [("Lateral acceleration", f"{lateral['worst_rms']:.3g} m/s2 rms", f"at {lateral['worst_rms_depth']:.1f} m; {lateral['peak']:.3g} m/s2 at most; {window}"),
+            ("Backward whirl in contact", f"{100 * whirl['worst_backward_contact_share']:.1f} % of the time",
+             f"at {whirl['worst_backward_share_depth']:.1f} m, {whirl['worst_precession_rpm']:.0f} rpm"),
+            ("Largest range of the bending moment", f"{bending['range'] / 1e3:.3g} kN m", f"at {bending['range_depth']:.1f} m, in a plane that turns with the pipe")]
+    if bending["damage_per_hour"] is not None:
+        rows.append(("Fatigue damage", f"{bending['damage_per_hour']:.2e} 1/h", f"at {bending['damage_per_hour_depth']:.1f} m"))
+    if found["specific_energy"] is not None:
+        rows.append(("Mechanical specific energy", f"{found['specific_energy'] / 1e6:.3g} MPa", f"at {3600 * found['rate_of_penetration']:.3g} m/h"))
     return rows

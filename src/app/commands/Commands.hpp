@@ -21,12 +21,12 @@ struct RunOptions {
   std::string output;                  ///< results folder; empty: results/<name of the deck>
   bool cost = false;    ///< `check` also solves for the state at rest and reduces, to compare
                         ///< the cost of a step
-  bool fresh = false;   ///< `study` forgets the runs it has done before
-  int ranksPerRow = 0;  ///< of `study`; 0: all
+  bool fresh = false;   ///< `study` and `map` forget the runs they have done before
+  int ranksPerRow = 0;  ///< of `study` and `map`; 0: all
   std::string timing = "alone";  ///< of `study`: "alone" or "shared"
-  std::string plan;              ///< folder in which `study` writes its commands and runs nothing
-  std::string collect;           ///< folder whose rows `study` makes tables of
-  std::string row;               ///< the only one that `study` runs
+  std::string plan;              ///< folder for the commands of the rows of `study` or `map`
+  std::string collect;           ///< folder of rows that tables are made of
+  std::string row;               ///< the only one that `study` or `map` runs
   std::string reported;          ///< folder that `report` is made of
   std::string restart;           ///< folder of an interrupted run; empty: start anew
   int modeCount = 20;            ///< frequencies listed by `modes`
@@ -51,6 +51,9 @@ void run(const RunOptions& options);
 /// `tooljoint study`: many runs of one deck against a reference run; study.csv, study.h5,
 /// summary.json and plots of speed against error.
 void study(const RunOptions& options);
+/// `tooljoint map`: numbers of summary.json over a grid of parameters of the deck; map.csv, map.h5,
+/// summary.json and pictures.
+void map(const RunOptions& options);
 /// `tooljoint check`: validates, prints what will and will not be modelled, sizes and estimates;
 /// runs nothing. With options.cost: path, static state and reduction are computed, and the cost of
 /// a step of both models predicted.

@@ -101,7 +101,15 @@ class RestingParts : public RestingCase {
   }
 
   std::unique_ptr<MotionRecord> record(const model::SecondOrderModel& model) const override {
-    return std::make_unique<ImportedRecord>(model, lists_->common.output.hasField("normal_force"));
+    const auto& output = lists_->common.output;
+    const auto names = [joined = joined_](std::int64_t number) {
+      const auto& name = joined->scene.nodes.at(number).front();
+      return std::pair{joined->scene.parts[static_cast<std::size_t>(name.part)].name,
+                       static_cast<long>(name.node)};
+    };
+    return std::make_unique<ImportedRecord>(
+        model, output.hasField("normal_force"),
+        figureWindow(output.figures, lists_->list().sublist("Transient")), names);
   }
   std::vector<parts::PartContent> contents(const std::vector<model::Substructure>&) const override {
     return joined_->scene.contents;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
+#include "cases/imported/MeasuredComponents.hpp"
 #include "coupling/input/ComponentAxes.hpp"
 
 namespace tooljoint::cases {
@@ -30,8 +32,16 @@ std::string unitOf(const std::string& component) {
   }
 }
 
-ImportedRecord::ImportedRecord(const model::SecondOrderModel& model, bool forces)
-    : components_(model.componentNames), row_(model.componentNames.size() + 1, 0.0) {
+ImportedRecord::ImportedRecord(const model::SecondOrderModel& model, bool forces,
+                               const FigureWindow& window, NodeNames names)
+    : model_(model),
+      components_(model.componentNames),
+      row_(model.componentNames.size() + 1, 0.0),
+      window_(window),
+      names_(std::move(names)),
+      measured_(measuredComponents(model.componentNames)),
+      displacement_(static_cast<Eigen::Index>(model.recoveryNodes.size())),
+      acceleration_(displacement_) {
   if (!forces) return;
   for (const auto& set : model.points) points_.emplace_back(model, set);
 }
@@ -72,14 +82,77 @@ void ImportedRecord::sample(const Sample& sample) {
   }
   largest_ = std::max(largest_, *std::max_element(row_.begin() + 1, row_.end()));
   for (auto& points : points_) points.sample(sample);
+  if (window_.contains(sample.t)) measure(sample);
 }
 
-void ImportedRecord::save(std::vector<double>& memory) const { memory.push_back(largest_); }
+void ImportedRecord::measure(const Sample& sample) {
+  if (samples_ == 0) first_ = sample.t;
+  last_ = sample.t;
+  ++samples_;
+  const auto width = static_cast<Eigen::Index>(components_.size());
+  const auto magnitudes = [&](const Vector& motion) {
+    Vector out = Vector::Zero(motion.size() / width);
+    for (Eigen::Index node = 0; node < out.size(); ++node)
+      for (int c : measured_) out[node] += motion[width * node + c] * motion[width * node + c];
+    return Vector(out.cwiseSqrt());
+  };
+  displacement_.add(magnitudes(sample.displacement));
+  acceleration_.add(magnitudes(sample.acceleration));
+}
 
-void ImportedRecord::restore(const double*& memory) { largest_ = *memory++; }
+void ImportedRecord::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {largest_, static_cast<double>(samples_), first_, last_});
+  displacement_.save(memory);
+  acceleration_.save(memory);
+}
+
+void ImportedRecord::restore(const double*& memory) {
+  largest_ = *memory++;
+  samples_ = static_cast<long>(*memory++);
+  first_ = *memory++;
+  last_ = *memory++;
+  displacement_.restore(memory);
+  acceleration_.restore(memory);
+}
 
 void ImportedRecord::summarise(io::Summary& summary) const {
   summary.set("transient.max_displacement", largest_);
+  if (samples_ == 0 || displacement_.peak().size() == 0) return;
+  summary.set("transient.figures.begin", first_);
+  summary.set("transient.figures.end", last_);
+  summary.set("transient.figures.samples", samples_);
+  summarise("transient.figures.displacement", displacement_, summary);
+  summarise("transient.figures.acceleration", acceleration_, summary);
+}
+
+void ImportedRecord::summarise(const std::string& key, const MagnitudeFigures& figures,
+                               io::Summary& summary) const {
+  const auto peak = worst(figures.peak());
+  const auto [part, node] = names_(model_.recoveryNodes[static_cast<std::size_t>(peak.row)]);
+  summary.set(key + ".rms", figures.overallRms());
+  summary.set(key + ".peak", peak.value);
+  summary.set(key + ".peak_part", part);
+  summary.set(key + ".peak_node", node);
+}
+
+void ImportedRecord::write(io::ResultsFile& file) const {
+  if (samples_ == 0) return;
+  const std::string group = "/figures/";
+  file.write(group + "window", {first_, last_}, {2}, "s", "First and last sample of the window");
+  const auto write = [&](const std::string& name, const Vector& values, const char* unit,
+                         const char* text) {
+    file.write(group + name, values, {static_cast<std::size_t>(values.size())}, unit, text);
+  };
+  // without translations all components count
+  const bool lengths = unitOf(components_[static_cast<std::size_t>(measured_.front())]) == "m";
+  write("displacement_rms", displacement_.rms(), lengths ? "m" : "m, rad",
+        "Root mean square of the displacement of a node");
+  write("displacement_peak", displacement_.peak(), lengths ? "m" : "m, rad",
+        "Largest displacement of a node");
+  write("acceleration_rms", acceleration_.rms(), lengths ? "m/s2" : "m/s2, rad/s2",
+        "Root mean square of the acceleration of a node");
+  write("acceleration_peak", acceleration_.peak(), lengths ? "m/s2" : "m/s2, rad/s2",
+        "Largest acceleration of a node");
 }
 
 std::string ImportedRecord::describe() const {

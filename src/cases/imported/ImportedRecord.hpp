@@ -4,11 +4,16 @@
 /// laws and the largest displacements.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/MotionRecord.hpp"
 #include "cases/PointRecord.hpp"
+#include "cases/figures/FigureWindow.hpp"
+#include "cases/figures/SignalFigures.hpp"
 #include "model/SecondOrderModel.hpp"
 
 namespace tooljoint::cases {
@@ -19,8 +24,13 @@ std::string unitOf(const std::string& component);
 
 class ImportedRecord : public MotionRecord {
  public:
+  /// Name of the part of a node and its number there, by its number in the model.
+  using NodeNames = std::function<std::pair<std::string, long>(std::int64_t)>;
+
   /// `model` must outlive the record. \param forces record the channels of the point laws
-  ImportedRecord(const model::SecondOrderModel& model, bool forces);
+  /// \param window that of the figures of merit
+  ImportedRecord(const model::SecondOrderModel& model, bool forces, const FigureWindow& window,
+                 NodeNames names);
 
   void sample(const Sample& sample) override;
   std::array<FieldText, 3> fields() const override;
@@ -32,12 +42,24 @@ class ImportedRecord : public MotionRecord {
   void restore(const double*& memory) override;
   void summarise(io::Summary& summary) const override;
   std::string describe() const override;
+  void write(io::ResultsFile& file) const override;
 
  private:
+  void measure(const Sample& sample);
+  void summarise(const std::string& key, const MagnitudeFigures& figures,
+                 io::Summary& summary) const;
+
+  const model::SecondOrderModel& model_;
   const model::ComponentNames& components_;
   std::vector<PointRecord> points_;
   std::vector<double> row_;
   double largest_ = 0.0;
+  FigureWindow window_;
+  NodeNames names_;
+  std::vector<int> measured_;  ///< components in the magnitudes
+  long samples_ = 0;           ///< in the window
+  double first_ = 0.0, last_ = 0.0;
+  MagnitudeFigures displacement_, acceleration_;
 };
 
 }  // namespace tooljoint::cases

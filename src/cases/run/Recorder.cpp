@@ -20,9 +20,8 @@ constexpr double flushFraction = 0.1;
 Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
                    const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file)
     : record_(std::move(record)),
-      model_(model),
       file_(file),
-      recovery_(model.recovery),
+      recovery_(model),
       time_(file.series("/transient/time", {}, "s", "Time of the samples")),
       table_(record_->columns()),
       flushInterval_(flushFraction * (span.end - span.start)),
@@ -62,30 +61,26 @@ void Recorder::addTable() {
 }
 
 void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
-  // D = offset + Phi q, D' = Phi q'
-  recovery_.multiply(q, displacement_);
-  displacement_ += model_.recoveryOffset;
-  recovery_.multiply(qDot, velocity_);
-  if (accelerationSeries_) recovery_.multiply(qDDot, acceleration_);
-  record_->sample({t, q, qDot, displacement_, velocity_, states_});
+  const auto sample = recovery_.recover(t, q, qDot, qDDot);
+  record_->sample(sample);
   table_.row(record_->row());
   tableSeries_->append(record_->row().data());
   time_.append(t);
-  if (displacementSeries_) displacementSeries_->append(displacement_.data());
-  if (velocitySeries_) velocitySeries_->append(velocity_.data());
-  if (accelerationSeries_) accelerationSeries_->append(acceleration_.data());
+  if (displacementSeries_) displacementSeries_->append(sample.displacement.data());
+  if (velocitySeries_) velocitySeries_->append(sample.velocity.data());
+  if (accelerationSeries_) accelerationSeries_->append(sample.acceleration.data());
   for (const auto& channel : channels_) channel.series->append(channel.values);
-  if (pictures_ && pictures_->due(t)) pictures_->append(frame(t));
+  if (pictures_ && pictures_->due(t)) pictures_->append(frame(sample));
   if (t >= nextFlush_) file_.flush();
   while (t >= nextFlush_) nextFlush_ += flushInterval_;
 }
 
-io::XdmfFrame Recorder::frame(double t) const {
+io::XdmfFrame Recorder::frame(const Sample& sample) const {
   io::XdmfFrame out;
-  out.time = t;
-  out.displacement = displacement_.data();
-  out.velocity = velocity_.data();
-  record_->complete(t, out);
+  out.time = sample.t;
+  out.displacement = sample.displacement.data();
+  out.velocity = sample.velocity.data();
+  record_->complete(sample.t, out);
   return out;
 }
 
@@ -97,8 +92,8 @@ void Recorder::save(std::vector<double>& memory) const {
 void Recorder::restore(const double*& memory) {
   record_->restore(memory);
   // only which fields a picture has matters here
-  displacement_ = velocity_ = Vector::Zero(1);
-  if (pictures_) pictures_->restore(memory, frame(0.0));
+  const Vector any = Vector::Zero(1);
+  if (pictures_) pictures_->restore(memory, frame({0.0, any, any, any, any, any, any}));
 }
 
 void Recorder::stagePictures(io::OutputFolder& folder) const {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cases/MotionRecord.hpp"
+#include "cases/run/SampleRecovery.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/OutputParameters.hpp"
-#include "linalg/blocks/GroupedRows.hpp"
 #include "model/SecondOrderModel.hpp"
 #include "transient/Transient.hpp"
 
@@ -34,7 +34,7 @@ class Recorder : public transient::SampleSink {
            const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file);
 
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
-  void states(const Vector& x) override { states_ = x; }
+  void states(const Vector& x) override { recovery_.states(x); }
   void save(std::vector<double>& memory) const;
   void restore(const double*& memory);
 
@@ -50,13 +50,11 @@ class Recorder : public transient::SampleSink {
     const double* values;
   };
   void addTable();
-  io::XdmfFrame frame(double t) const;
+  io::XdmfFrame frame(const Sample& sample) const;
 
   std::unique_ptr<MotionRecord> record_;
-  const model::SecondOrderModel& model_;
   io::ResultsFile& file_;
-  linalg::GroupedRows recovery_;
-  Vector displacement_, velocity_, acceleration_, states_;
+  SampleRecovery recovery_;
   io::TimeSeries& time_;
   io::TimeSeries* displacementSeries_ = nullptr;
   io::TimeSeries* velocitySeries_ = nullptr;

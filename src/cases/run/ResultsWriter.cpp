@@ -48,6 +48,8 @@ void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
   table.stage(folder.file("basis.csv"));
 }
 
+namespace {
+
 void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis,
                int reducedDofs, double wall, io::Summary& summary) {
   summary.set("reduction.start_misfit", startMisfit(parts));
@@ -90,6 +92,15 @@ void summarise(const estimate::Outcome& outcome, const std::vector<model::Substr
     summary.append("reduction.estimate.frequencies", row);
   }
   summary.set("reduction.estimate.frequency_error", estimate::largestError(outcome.frequencies));
+}
+
+}  // namespace
+
+void summarise(const ReducedCase& reduced, const std::string& basis, double wall,
+               io::Summary& summary) {
+  summarise(reduced.parts(), basis, reduced.model().size(), wall, summary);
+  summarise(reduced.coupled(), summary);
+  summarise(reduced.outcome, reduced.unreduced.parts, summary);
 }
 
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/ReducedCase.hpp"
 #include "deck/Deck.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "io/OutputFolder.hpp"
@@ -26,10 +27,8 @@ void writeBases(const std::vector<reduction::ReducedSubstructure>& parts, io::Re
 void stageBasisTable(const std::vector<reduction::ReducedSubstructure>& parts,
                      io::OutputFolder& folder);
 
-void summarise(const std::vector<reduction::ReducedSubstructure>& parts, const std::string& basis,
-               int reducedDofs, double wall, io::Summary& summary);
-void summarise(const coupling::Coupling& coupled, io::Summary& summary);
-void summarise(const estimate::Outcome& outcome, const std::vector<model::Substructure>& parts,
+/// Parts, coupling and estimates of a reduction that took `wall` seconds; `basis` is its name.
+void summarise(const ReducedCase& reduced, const std::string& basis, double wall,
                io::Summary& summary);
 void summarise(const estimate::MotionEstimate& error, io::Summary& summary);
 /// Counts and times of a transient.

@@ -109,14 +109,12 @@ class Run {
       log::info(estimate::frequencyTable(outcome.frequencies, parts));
     if (case_.moves()) warnOfStart(reduced_.parts());
     auto& summary = files_.summary();
-    summarise(reduced_.parts(), case_.reduction().get<std::string>("Basis"), dofs, wall, summary);
+    summarise(reduced_, case_.reduction().get<std::string>("Basis"), wall, summary);
     if (case_.moves()) {
       double ratio = 0.0;
       log::info(predictCost(case_, rest_->full().model, reduced_.model(), &ratio));
       summary.set("reduction.cost_ratio", ratio);
     }
-    summarise(reduced_.coupled(), summary);
-    summarise(outcome, parts, summary);
     if (case_.output().exportFormat != io::ExportFormat::None)
       exportParts(rest_->contents(parts), reduced_.parts(), case_.output().exportFormat,
                   (std::filesystem::path(files_.folder().folder()) / "parts").string(),
@@ -145,7 +143,10 @@ class Run {
     files_.requireComplete(report);
     log::info(describeTransient(report, recorder_->record()));
     for (const auto& warning : recorder_->record().warnings()) log::warn(warning);
-    if (case_.output().csv) recorder_->stageTable(files_.folder());
+    recorder_->record().write(files_.results());
+    if (!case_.output().csv) return;
+    recorder_->stageTable(files_.folder());
+    recorder_->record().stageTables(files_.folder());
   }
 
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 const std::set<std::string> fileParameters{"File", "Library"};
 /// Parameters of Output that decide what is recorded.
 const std::set<std::string> recorded{"Output/Fields", "Output/XDMF", "Output/XDMF Interval"};
+constexpr const char* recordedFigures = "Output/Figures/";
 
 using Lines = std::map<std::string, std::string>;
 
@@ -58,6 +59,7 @@ class Describer {
   bool matters(const std::string& path) const {
     if (path == "Transient/Progress") return false;
     if (path == "Transient/Checkpoint Interval") return !anywhere_;
+    if (path.rfind(recordedFigures, 0) == 0) return true;
     return path.rfind("Output/", 0) != 0 || recorded.count(path) > 0;
   }
 

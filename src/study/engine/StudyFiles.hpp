@@ -36,5 +36,7 @@ std::string describeReference(const StudyResult& result);
 /// Draws the plots of the files in a folder with the installed script: names of the files made.
 /// When that is not possible, warns with the command to draw them later. Rank 0 only.
 void drawStudy(const std::string& folder);
+/// The same with any script whose pictures begin with `prefix`; those of an earlier run go.
+void drawPictures(const std::string& script, const std::string& prefix, const std::string& folder);
 
 }  // namespace tooljoint::study

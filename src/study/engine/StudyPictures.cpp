@@ -10,16 +10,19 @@
 
 namespace tooljoint::study {
 
-void drawStudy(const std::string& folder) {
+void drawStudy(const std::string& folder) { drawPictures("plot_study.py", "study_", folder); }
+
+void drawPictures(const std::string& scriptName, const std::string& prefix,
+                  const std::string& folder) {
   if (parallel::rank() != 0) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    // pictures of an earlier study are not ours
+    // pictures of an earlier run are not ours
     const auto name = entry.path().filename().string();
     const auto kind = entry.path().extension();
-    if (name.rfind("study_", 0) == 0 && (kind == ".png" || kind == ".svg"))
+    if (name.rfind(prefix, 0) == 0 && (kind == ".png" || kind == ".svg"))
       std::filesystem::remove(entry.path());
   }
-  const PythonScript script("plot_study.py");
+  const PythonScript script(scriptName);
   const auto end = script.run({folder});
   const auto later = ". Draw them later with: " + script.command({folder});
   if (!end.started) {

@@ -2,7 +2,6 @@
 #include "study/engine/StudyPlan.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "common/Text.hpp"
 #include "deck/reading/FileName.hpp"
 #include "io/TextFile.hpp"
+#include "study/engine/RunDecks.hpp"
 
 namespace tooljoint::study {
 
@@ -58,18 +58,13 @@ std::vector<std::string> vectorFiles(const cases::Case& scene) {
 
 /// "reference" is 0, "1" too.
 std::size_t numberOf(std::size_t runs, const std::string& row) {
-  if (row == "reference") return 0;
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
-  if (error != std::errc() || end != row.data() + row.size() || number < 1 || number > runs)
-    throw UsageError("--row " + row + ": the study has the rows 1 to " + std::to_string(runs) +
-                     ", and \"reference\".");
-  return number - 1;
+  return row == "reference" ? 0 : rowNumber(row, runs, "study");
 }
 
 class Planner {
  public:
-  Planner(const cases::Case& scene, const std::string& row) : scene_(scene), row_(row) {}
+  Planner(const cases::Case& scene, const std::string& row)
+      : scene_(scene), row_(row), decks_(scene) {}
 
   StudyPlan plan() {
     if (!scene_.list().isSublist("Study"))
@@ -93,19 +88,14 @@ class Planner {
       else
         plan_.runs.push_back({std::move(planned[i]), nullptr, i});
     }
-    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    decks_.raise();
     compare();
-    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    decks_.raise();
     return std::move(plan_);
   }
 
  private:
-  void fault(const std::string& path, const std::string& sentence) {
-    keep(scene_.deck().error(path, sentence));
-  }
-  void keep(const std::string& line) {
-    if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
-  }
+  void fault(const std::string& path, const std::string& sentence) { decks_.fault(path, sentence); }
 
   void span() {
     plan_.start = transientNumber(scene_, "Start Time");
@@ -125,36 +115,12 @@ class Planner {
                                 " s is shorter than Transient/Sampling Interval (" +
                                 formatNumber(transientNumber(scene_, "Sampling Interval")) +
                                 " s): no motion would be compared.");
-    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    decks_.raise();
   }
 
   void add(PlannedRun run) {
-    auto overrides = scene_.deck().overrides();
-    overrides.push_back("!Study");
-    overrides.push_back("Transient/End Time=" + formatNumber(plan_.end));
-    for (const auto& item : run.overrides) overrides.push_back(item.text);
-    try {
-      auto scene = scene_.with(overrides);
-      plan_.runs.push_back({std::move(run), std::move(scene), plan_.runs.size()});
-    } catch (const DeckError& error) {
-      for (const auto& line : split(error.what(), '\n')) relocate(run, line);
-    } catch (const ModelError& error) {
-      throw ModelError(scene_.deck().error(
-          run.source, "makes a model that cannot be built (" + run.label + "): " + error.what()));
-    }
-  }
-
-  /// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the Study list that
-  /// says so.
-  void relocate(const PlannedRun& run, const std::string& line) {
-    for (const auto& item : run.overrides) {
-      const auto place =
-          (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
-      if (line.rfind(place, 0) != 0) continue;
-      fault(item.source, "says " + inQuotes(item.text) + ": " + line.substr(place.size()));
-      return;
-    }
-    fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
+    auto scene = decks_.read(run, {"Transient/End Time=" + formatNumber(plan_.end)});
+    if (scene) plan_.runs.push_back({std::move(run), std::move(scene), plan_.runs.size()});
   }
 
   void baseline(const std::vector<PlannedRun>& planned) {
@@ -207,7 +173,7 @@ class Planner {
   const cases::Case& scene_;
   const std::string& row_;
   StudyPlan plan_;
-  std::vector<std::string> faults_;
+  RunDecks decks_;
 };
 
 const bool registered = cases::AnalysisLists::instance().add(

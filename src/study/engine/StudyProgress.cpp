@@ -10,8 +10,6 @@
 
 namespace tooljoint::study {
 
-namespace {
-
 std::string duration(double seconds) {
   char text[32];
   if (seconds < 90.0)
@@ -22,8 +20,6 @@ std::string duration(double seconds) {
     std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
   return text;
 }
-
-}  // namespace
 
 void StudyProgress::report(std::size_t run, const StudyRow& row, const std::vector<int>& timed,
                            double wall) {

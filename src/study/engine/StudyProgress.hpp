@@ -3,12 +3,16 @@
 /// What a study says while it runs: which run is done, what it gave, how long the rest will take.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "study/Row.hpp"
 #include "study/engine/StudyPlan.hpp"
 
 namespace tooljoint::study {
+
+/// "40 s", "12 min" or "3.5 h".
+std::string duration(double seconds);
 
 class StudyProgress {
  public:

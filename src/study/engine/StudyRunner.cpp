@@ -42,11 +42,12 @@ std::vector<Eigen::Index> measuredRows(const cases::Measures& measures,
 class HistoryRecorder : public transient::SampleSink {
  public:
   HistoryRecorder(const cases::Measures& measures, const model::SecondOrderModel& model,
-                  bool record, estimate::MotionEstimator* estimator)
+                  const ExecutionOptions& options, estimate::MotionEstimator* estimator)
       : measures_(measures),
         model_(model),
         rows_(measuredRows(measures, model)),
-        record_(record),
+        record_(options.record),
+        sink_(options.sink),
         estimator_(estimator) {
     history_.nodes = measures.nodes.size();
     history_.components = measures.components.size();
@@ -57,6 +58,7 @@ class HistoryRecorder : public transient::SampleSink {
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override {
     const Stopwatch watch;
     if (estimator_ != nullptr) estimator_->sample(t, q, qDot, qDDot);
+    if (sink_ != nullptr) sink_->sample(t, q, qDot, qDDot);
     if (record_) {
       displacement_ = model_.recoveryOffset;
       displacement_.noalias() += model_.recovery * q;
@@ -68,6 +70,10 @@ class HistoryRecorder : public transient::SampleSink {
     wall_ += watch.wall();
   }
 
+  void states(const Vector& x) override {
+    if (sink_ != nullptr) sink_->states(x);
+  }
+
   double cpu() const { return cpu_; }
   double wall() const { return wall_; }
   RecordedHistory& history() { return history_; }
@@ -77,6 +83,7 @@ class HistoryRecorder : public transient::SampleSink {
   const model::SecondOrderModel& model_;
   std::vector<Eigen::Index> rows_;
   bool record_;
+  transient::SampleSink* sink_;
   estimate::MotionEstimator* estimator_;
   Vector bit_, displacement_;
   RecordedHistory history_;
@@ -130,7 +137,7 @@ Execution integrate(const cases::Case& scene, const cases::Measures& measures,
   transientOptions.progress = !options.title.empty();
   transient::RunHooks hooks;
   hooks.title = options.title;
-  HistoryRecorder recorder(measures, model, options.record, estimator);
+  HistoryRecorder recorder(measures, model, options, estimator);
   Execution execution;
   double cpu = 0.0, wall = 0.0, setupCpu = 0.0, setupWall = 0.0;
   bool late = false;

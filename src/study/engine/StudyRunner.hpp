@@ -35,10 +35,11 @@ struct PreparedModel {
 };
 
 struct ExecutionOptions {
-  std::string title;                ///< of the progress bar; empty: none
-  bool record = true;               ///< keep the motion
-  double perturbation = 0.0;        ///< size of the change of the initial displacements [m]
-  std::optional<double> timeLimit;  ///< CPU time after which the run is given up [s]
+  std::string title;                      ///< of the progress bar; empty: none
+  bool record = true;                     ///< keep the motion
+  double perturbation = 0.0;              ///< size of the change of the initial displacements [m]
+  std::optional<double> timeLimit;        ///< CPU time after which the run is given up [s]
+  transient::SampleSink* sink = nullptr;  ///< sees the motion too, if there is one
 };
 
 /// What one motion gave. Times as above, without the recovery of the recorded motion, which is the

@@ -30,7 +30,7 @@ io::XdmfScene pictureOf(const Scene& scene, const StaticStage& stage) {
 
 StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
                            const model::SecondOrderModel& model)
-    : scene_(scene), row_(columns().size()) {
+    : scene_(scene), merits_(scene, stage), bit_(scene), row_(columns().size()) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
   const auto& output = scene.output;
   if (output.xdmf) picture_ = pictureOf(scene, stage);
@@ -43,7 +43,6 @@ StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
       drilling_.emplace_back(model, set);
     if (set.name != kContactSet) continue;
     for (auto entity : set.entities) watched_[static_cast<std::size_t>(entity - 1)] = 1;
-    if (!recordsForce_ && !picture_) continue;
     cases::PointRecord record(model, set);
     const int normalForce = record.find("normal_force");
     if (normalForce >= 0) contacts_.push_back({std::move(record), normalForce});
@@ -94,6 +93,7 @@ void StringRecord::sample(const cases::Sample& sample) {
   sampleContact(sample);
   measureBit(sample);
   measureWall(sample.displacement);
+  merits_.sample(sample, bit_.at(sample, drilling_), normalForce_);
 }
 
 void StringRecord::sampleContact(const cases::Sample& sample) {
@@ -136,6 +136,7 @@ void StringRecord::save(std::vector<double>& memory) const {
                                figures_.maxBitSpeed, figures_.sumBitSpeed, figures_.maxPenetration,
                                static_cast<double>(figures_.missed.size())});
   memory.insert(memory.end(), figures_.missed.begin(), figures_.missed.end());
+  merits_.save(memory);
 }
 
 void StringRecord::restore(const double*& memory) {
@@ -148,6 +149,7 @@ void StringRecord::restore(const double*& memory) {
     node = static_cast<int>(*memory++);
     watched_[static_cast<std::size_t>(node - 1)] = 1;
   }
+  merits_.restore(memory);
 }
 
 void StringRecord::summarise(io::Summary& summary) const {
@@ -158,6 +160,7 @@ void StringRecord::summarise(io::Summary& summary) const {
   summary.set("transient.bit_speed_rpm.mean",
               figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond);
   summary.set("transient.max_penetration", figures_.maxPenetration);
+  merits_.summarise(summary);
 }
 
 std::string StringRecord::describe() const {
@@ -168,7 +171,7 @@ std::string StringRecord::describe() const {
       figures_.minBitSpeed * constants::rpmPerRadianPerSecond,
       figures_.maxBitSpeed * constants::rpmPerRadianPerSecond,
       figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond, figures_.maxPenetration * 1e3);
-  return text;
+  return merits_.known() ? text + ("\n" + merits_.describe()) : text;
 }
 
 std::vector<std::string> StringRecord::warnings() const {

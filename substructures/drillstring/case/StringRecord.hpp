@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "cases/PointRecord.hpp"
+#include "substructures/drillstring/case/BitSampler.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/case/StringFigures.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -44,6 +46,8 @@ class StringRecord : public cases::MotionRecord {
   void restore(const double*& memory) override;
   void summarise(io::Summary& summary) const override;
   std::string describe() const override;
+  void write(io::ResultsFile& file) const override { merits_.write(file); }
+  void stageTables(io::OutputFolder& folder) const override { merits_.stageTables(folder); }
   std::vector<std::string> warnings() const override;
   const io::XdmfScene* picture() const override { return picture_ ? &*picture_ : nullptr; }
   void complete(double t, io::XdmfFrame& frame) const override;
@@ -59,6 +63,8 @@ class StringRecord : public cases::MotionRecord {
 
   const Scene& scene_;
   MotionFigures figures_;
+  StringFigures merits_;
+  BitSampler bit_;
   bool recordsForce_ = false;
   std::vector<Contact> contacts_;
   std::vector<cases::PointRecord> drilling_;  ///< bit and top drive

@@ -101,7 +101,7 @@ TEST(Checkpoints, sayWhatIsWrongWithAFile) {
                         std::string(200, '\0')),
                    "has the layout 5 of another version of the program; this one reads layout 12"));
   auto changed = bytes;
-  changed[20] = 12;  // the layout follows the magic
+  changed[20] = 13;  // the layout follows the magic
   EXPECT_TRUE(says(said(changed), "has the layout 13 of another version")) << said(changed);
   EXPECT_TRUE(says(said(bytes.substr(0, bytes.size() - 5)), "is damaged: its header promises"))
       << said(bytes.substr(0, bytes.size() - 5));

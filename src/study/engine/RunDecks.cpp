@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "study/engine/RunDecks.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "common/Error.hpp"
+#include "common/Text.hpp"
+
+namespace tooljoint::study {
+
+void RunDecks::fault(const std::string& path, const std::string& sentence) {
+  keep(scene_.deck().error(path, sentence));
+}
+
+void RunDecks::keep(const std::string& line) {
+  if (std::find(faults_.begin(), faults_.end(), line) == faults_.end()) faults_.push_back(line);
+}
+
+void RunDecks::raise() const {
+  if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+}
+
+std::unique_ptr<cases::Case> RunDecks::read(const PlannedRun& run,
+                                            const std::vector<std::string>& common) {
+  auto overrides = scene_.deck().overrides();
+  for (const char* name : {"Study", "Map"})
+    if (scene_.list().isSublist(name)) overrides.push_back(std::string("!") + name);
+  overrides.insert(overrides.end(), common.begin(), common.end());
+  for (const auto& item : run.overrides) overrides.push_back(item.text);
+  try {
+    return scene_.with(overrides);
+  } catch (const DeckError& error) {
+    for (const auto& line : split(error.what(), '\n')) relocate(run, line);
+  } catch (const ModelError& error) {
+    throw ModelError(scene_.deck().error(
+        run.source, "makes a model that cannot be built (" + run.label + "): " + error.what()));
+  }
+  return nullptr;
+}
+
+/// "--set Transient/Stepp=1: /scene/Transient/Stepp is ..." -> the line of the list that says so.
+void RunDecks::relocate(const PlannedRun& run, const std::string& line) {
+  for (const auto& item : run.overrides) {
+    const auto place =
+        (item.text[0] == '!' ? "--without " + item.text.substr(1) : "--set " + item.text) + ": ";
+    if (line.rfind(place, 0) != 0) continue;
+    fault(item.source, "says " + inQuotes(item.text) + ": " + line.substr(place.size()));
+    return;
+  }
+  fault(run.source, "makes a deck that is not valid (" + run.label + "): " + line);
+}
+
+std::size_t rowNumber(const std::string& row, std::size_t rows, const std::string& what) {
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), number);
+  if (error != std::errc() || end != row.data() + row.size() || number < 1 || number > rows)
+    throw UsageError("--row " + row + ": the " + what + " has the rows 1 to " +
+                     std::to_string(rows) + (what == "study" ? ", and \"reference\"." : "."));
+  return number - 1;
+}
+
+}  // namespace tooljoint::study

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a map leaves in its folder: map.csv, map.h5, summary.json and pictures.
+/// docs/file-formats.md describes all of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/OutputFolder.hpp"
+#include "io/ResultsFile.hpp"
+#include "io/Summary.hpp"
+#include "study/map/MapPlan.hpp"
+#include "study/map/MapRows.hpp"
+
+namespace tooljoint::study {
+
+/// Extremes of one value over the points that have it.
+struct MapRange {
+  std::size_t known = 0;
+  std::size_t unsafe = 0;  ///< points beyond a limit
+  double least = 0.0, largest = 0.0;
+  std::size_t leastPoint = 0, largestPoint = 0;
+};
+MapRange rangeOf(const MapValue& value, const std::vector<MapRow>& rows);
+
+void stageMapTable(const MapPlan& plan, const std::vector<MapRow>& rows, io::OutputFolder& folder);
+void writeMap(const MapPlan& plan, const std::vector<MapRow>& rows, io::ResultsFile& file);
+void summarise(const MapPlan& plan, const std::vector<MapRow>& rows, io::Summary& summary);
+
+/// Lines of the log: the range of every value, and the time per point.
+std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows);
+/// Points that failed and why, or are not there; one sentence each.
+std::vector<std::string> missingPoints(const MapPlan& plan, const std::vector<MapRow>& rows);
+
+/// Draws the maps of a folder with the installed script. When that is not possible, warns with the
+/// command to draw them later. Rank 0 only.
+void drawMap(const std::string& folder);
+
+}  // namespace tooljoint::study

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The deck list `Map`: a grid of parameters of the deck, and what is mapped over it.
+#pragma once
+
+#include <Teuchos_ParameterList.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/ListSpec.hpp"
+#include "study/StudyParameters.hpp"
+
+namespace tooljoint::study {
+
+/// One axis of the grid.
+struct MapAxis {
+  Dimension dimension;          ///< parameter of the deck and its values as texts
+  std::vector<double> numbers;  ///< the values in `unit`; empty where they are no numbers
+  std::string unit;             ///< as the deck writes it; "" for none
+};
+
+/// A numeric key of summary.json, and where it is unsafe.
+struct MapValue {
+  std::string name;  ///< of its list
+  std::string key;
+  std::optional<double> unsafeAbove, unsafeBelow;
+
+  bool unsafe(double value) const {
+    return (unsafeAbove && value > *unsafeAbove) || (unsafeBelow && value < *unsafeBelow);
+  }
+};
+
+struct MapSettings {
+  std::vector<MapAxis> axes;  ///< two at least; the last one varies first
+  std::vector<MapValue> values;
+  std::optional<double> timeLimit;  ///< CPU seconds of one point
+  bool pictures = true;
+
+  std::size_t points() const;
+};
+
+/// Description of the list `Map`.
+deck::ListSpec mapParameters();
+
+/// The list as plain values. DeckError with one line per fault: fewer than two axes, an axis with
+/// fewer than two points, a value twice, units that differ, a key that summary.json does not have.
+MapSettings readMap(const Teuchos::ParameterList& list);
+
+}  // namespace tooljoint::study

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/StringFigures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/printf.h>
+#include <utility>
+
+#include "common/Constants.hpp"
+#include "io/Csv.hpp"
+
+namespace tooljoint::drillstring {
+
+namespace {
+
+constexpr double rpm = constants::rpmPerRadianPerSecond;
+constexpr double secondsPerHour = 3600.0;
+/// Strain range of the smallest bending cycle that counts: 0.2 MPa in steel. Smaller ones are
+/// rounding errors of a string at rest.
+constexpr double leastStrainRange = 1e-6;
+
+double holeArea(const Scene& scene) {
+  const double radius = scene.well.boreRadius(scene.string.length());
+  return constants::pi * radius * radius;
+}
+
+Vector asVector(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::vector<BendingElement> bendingElements(const Scene& scene, const path::PathState& path) {
+  std::vector<BendingElement> out;
+  for (std::size_t e = 0; e < scene.string.elements.size(); ++e) {
+    const auto& section = scene.string.elements[e].section();
+    const Eigen::Matrix<double, 3, 2> axes = path.elementFrame[e].leftCols<2>();
+    BendingElement one;
+    one.length = scene.string.elements[e].length();
+    const Eigen::Vector2d curvature =
+        axes.transpose() * (path.frame[e + 1].col(2) - path.frame[e].col(2)) / one.length;
+    one.pathCurvature = {curvature[0], curvature[1]};
+    for (std::size_t end : {0, 1})
+      one.slopeRotation[end] = axes.transpose() * path.frame[e + end].leftCols<2>();
+    const double inertia = std::max(section.inertiaX(), section.inertiaY());
+    one.rigidity = section.youngModulus() * inertia;
+    one.stressPerMoment = section.outerRadius() / inertia;
+    if (section.outerRadius() > 0.0)
+      one.leastRange = leastStrainRange * one.rigidity / section.outerRadius();
+    out.push_back(one);
+  }
+  return out;
+}
+
+Vector component(const Vector& values, Eigen::Index which) {
+  return Eigen::Map<const Vector, 0, Eigen::InnerStride<kNodeDofs>>(values.data() + which,
+                                                                    values.size() / kNodeDofs);
+}
+
+}  // namespace
+
+StringFigures::StringFigures(const Scene& scene, const StaticStage& stage)
+    : scene_(scene),
+      window_(cases::figureWindow(scene.output.figures, scene.list().sublist("Transient"))),
+      nodeDepth_(asVector(scene.string.depths())),
+      bit_(scene.output.figures.stuckSpeed, holeArea(scene)),
+      axial_(nodeDepth_.size()),
+      lateral_(nodeDepth_.size()),
+      orbit_(nodeDepth_.size()),
+      bending_(bendingElements(scene, stage.path), scene.output.figures.snLine) {
+  const auto nodes = nodeDepth_.size();
+  elementDepth_ = 0.5 * (nodeDepth_.head(nodes - 1) + nodeDepth_.tail(nodes - 1));
+  for (Vector* sum : {&forceSum_, &forcePeak_, &touching_}) *sum = Vector::Zero(nodes);
+}
+
+void StringFigures::sample(const cases::Sample& sample, const BitSample& bit,
+                           const Vector& normalForce) {
+  if (!window_.contains(sample.t)) return;
+  if (samples_ == 0) first_ = sample.t;
+  last_ = sample.t;
+  ++samples_;
+  bit_.add(bit);
+  sampleNodes(sample, normalForce);
+  bending_.add(sample.displacement, scene_.rotary.angle(sample.t));
+}
+
+void StringFigures::sampleNodes(const cases::Sample& sample, const Vector& normalForce) {
+  const auto& a = sample.acceleration;
+  lateral_.add((component(a, 0).cwiseAbs2() + component(a, 1).cwiseAbs2()).cwiseSqrt());
+  axial_.add(component(a, 2).cwiseAbs());
+  std::vector<char> inContact(static_cast<std::size_t>(normalForce.size()), 0);
+  for (Eigen::Index i = 0; i < normalForce.size(); ++i) {
+    if (!(normalForce[i] > 0.0)) continue;
+    inContact[static_cast<std::size_t>(i)] = 1;
+    touching_[i] += 1.0;
+    forceSum_[i] += normalForce[i];
+    forcePeak_[i] = std::max(forcePeak_[i], normalForce[i]);
+  }
+  orbit_.add({component(sample.displacement, 0), component(sample.displacement, 1),
+              component(sample.velocity, 0), component(sample.velocity, 1), inContact,
+              scene_.rotary.speed(sample.t)});
+}
+
+double StringFigures::perHour() const {
+  return last_ > first_ ? secondsPerHour / (last_ - first_) : 0.0;
+}
+
+std::vector<StringFigures::Column> StringFigures::nodeColumns() const {
+  const double count = static_cast<double>(std::max(samples_, 1L));
+  return {{"axial_rms", "m/s2", "Root mean square of the axial acceleration", axial_.rms()},
+          {"axial_peak", "m/s2", "Largest axial acceleration", axial_.peak()},
+          {"lateral_rms", "m/s2", "Root mean square of the lateral acceleration", lateral_.rms()},
+          {"lateral_peak", "m/s2", "Largest lateral acceleration", lateral_.peak()},
+          {"precession", "rad/s", "Mean precession rate, positive turns x into y", orbit_.rate()},
+          {"forward_share", "1", "Share of time in forward whirl", orbit_.forwardShare()},
+          {"backward_share", "1", "Share of time in backward whirl", orbit_.backwardShare()},
+          {"forward_contact_share", "1", "Share of time in forward whirl and in contact",
+           orbit_.forwardContact()},
+          {"backward_contact_share", "1", "Share of time in backward whirl and in contact",
+           orbit_.backwardContact()},
+          {"contact_duty", "1", "Share of time in contact", touching_ / count},
+          {"contact_force_mean", "N", "Mean normal contact force, 0 where open", forceSum_ / count},
+          {"contact_force_peak", "N", "Largest normal contact force", forcePeak_}};
+}
+
+std::vector<StringFigures::Column> StringFigures::elementColumns() const {
+  const auto counts = bending_.counts();
+  Vector cycles(elementDepth_.size()), range(elementDepth_.size()), damage(elementDepth_.size());
+  for (Eigen::Index e = 0; e < elementDepth_.size(); ++e) {
+    const auto& one = counts[static_cast<std::size_t>(e)];
+    cycles[e] = one.cycles;
+    range[e] = one.largestRange;
+    damage[e] = one.damage * perHour();
+  }
+  std::vector<Column> out{
+      {"bending_cycles", "1", "Cycles of the bending moment by rainflow", cycles},
+      {"bending_range", "N m", "Largest range of the bending moment", range}};
+  if (bending_.hasDamage())
+    out.push_back({"damage_per_hour", "1/h", "Share of the fatigue life used in an hour", damage});
+  return out;
+}
+
+void StringFigures::summarise(io::Summary& summary) const {
+  if (!known()) return;
+  summary.set("transient.figures.begin", first_);
+  summary.set("transient.figures.end", last_);
+  summary.set("transient.figures.samples", samples_);
+  bit_.summarise(summary);
+  summariseNodes(summary);
+  summariseBending(summary);
+}
+
+void StringFigures::summariseNodes(io::Summary& summary) const {
+  const std::string key = "transient.figures.";
+  const auto place = [&](const std::string& name, const cases::WorstPlace& found) {
+    summary.set(key + name, found.value);
+    summary.set(key + name + "_node", static_cast<long>(found.row) + 1);
+    summary.set(key + name + "_depth", nodeDepth_[found.row]);
+  };
+  for (const auto& [name, figures] :
+       {std::pair{"axial_acceleration", &axial_}, {"lateral_acceleration", &lateral_}}) {
+    summary.set(key + name + ".rms", figures->overallRms());
+    place(std::string(name) + ".peak", cases::worst(figures->peak()));
+    place(std::string(name) + ".worst_rms", cases::worst(figures->rms()));
+  }
+  const Vector backward = orbit_.backwardShare();
+  summary.set(key + "whirl.forward_share", orbit_.forwardShare().mean());
+  summary.set(key + "whirl.backward_share", backward.mean());
+  summary.set(key + "whirl.backward_contact_share", orbit_.backwardContact().mean());
+  const auto most = cases::worst(backward);
+  place("whirl.worst_backward_share", most);
+  summary.set(key + "whirl.worst_backward_contact_share", orbit_.backwardContact()[most.row]);
+  summary.set(key + "whirl.worst_precession_rpm", orbit_.rate()[most.row] * rpm);
+  if (scene_.contactPoints.size() == 0) return;
+  const double count = static_cast<double>(samples_);
+  summary.set(key + "contact.duty", touching_.sum() / (count * scene_.contactPoints.size()));
+  summary.set(key + "contact.total_force_mean", forceSum_.sum() / count);
+  place("contact.force_peak", cases::worst(forcePeak_));
+}
+
+void StringFigures::summariseBending(io::Summary& summary) const {
+  const std::string key = "transient.figures.bending.";
+  const auto columns = elementColumns();
+  const auto place = [&](const std::string& name, const cases::WorstPlace& found) {
+    summary.set(key + name, found.value);
+    summary.set(key + name + "_element", static_cast<long>(found.row) + 1);
+    summary.set(key + name + "_depth", elementDepth_[found.row]);
+  };
+  const auto largest = cases::worst(columns[1].values);
+  place("range", largest);
+  summary.set(key + "cycles", columns[0].values[largest.row]);
+  if (bending_.hasDamage()) place("damage_per_hour", cases::worst(columns[2].values));
+}
+
+std::string StringFigures::describe() const {
+  if (!known()) return "";
+  const auto lateral = cases::worst(lateral_.peak());
+  const auto bending = cases::worst(elementColumns()[1].values);
+  return fmt::sprintf(
+      "figures     %.4g to %.4g s: stick-slip index %.3g, stuck %.3g %% of the time\n"
+      "            acceleration: axial %.3g m/s2 rms, lateral %.3g m/s2 rms, %.3g m/s2 at most "
+      "(%.4g m); bending range %.3g kN m (%.4g m)",
+      first_, last_, bit_.stickSlipIndex(), 100.0 * bit_.stuckShare(), axial_.overallRms(),
+      lateral_.overallRms(), lateral.value, nodeDepth_[lateral.row], bending.value / 1e3,
+      elementDepth_[bending.row]);
+}
+
+void StringFigures::write(io::ResultsFile& file) const {
+  if (!known()) return;
+  const std::string group = "/figures/";
+  file.write(group + "window", {first_, last_}, {2}, "s", "First and last sample of the window");
+  for (const auto& columns : {nodeColumns(), elementColumns()})
+    for (const auto& column : columns)
+      file.write(group + column.name, column.values,
+                 {static_cast<std::size_t>(column.values.size())}, column.unit, column.longName);
+}
+
+void StringFigures::stageTables(io::OutputFolder& folder) const {
+  if (!known()) return;
+  const auto stage = [&](const std::string& kind, const Vector& depth,
+                         const std::vector<Column>& columns) {
+    std::vector<io::Csv::Column> header{{kind, ""}, {"s", "m"}};
+    for (const auto& column : columns) header.push_back({column.name, column.unit});
+    io::Csv table(header);
+    for (Eigen::Index i = 0; i < depth.size(); ++i) {
+      std::vector<double> row{static_cast<double>(i) + 1.0, depth[i]};
+      for (const auto& column : columns) row.push_back(column.values[i]);
+      table.row(row);
+    }
+    table.stage(folder.file("figures_" + kind + "s.csv"));
+  };
+  stage("node", nodeDepth_, nodeColumns());
+  stage("element", elementDepth_, elementColumns());
+}
+
+void StringFigures::save(std::vector<double>& memory) const {
+  memory.insert(memory.end(), {static_cast<double>(samples_), first_, last_});
+  bit_.save(memory);
+  axial_.save(memory);
+  lateral_.save(memory);
+  orbit_.save(memory);
+  for (const Vector* sum : {&forceSum_, &forcePeak_, &touching_}) cases::saveVector(*sum, memory);
+  bending_.save(memory);
+}
+
+void StringFigures::restore(const double*& memory) {
+  samples_ = static_cast<long>(*memory++);
+  first_ = *memory++;
+  last_ = *memory++;
+  bit_.restore(memory);
+  axial_.restore(memory);
+  lateral_.restore(memory);
+  orbit_.restore(memory);
+  for (Vector* sum : {&forceSum_, &forcePeak_, &touching_}) cases::restoreVector(*sum, memory);
+  bending_.restore(memory);
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Figures of merit of the motion of a string over a window of time: of its bit, and of every node
+/// and element. Sums alone are kept, no histories.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cases/MotionRecord.hpp"
+#include "cases/figures/FigureWindow.hpp"
+#include "cases/figures/OrbitFigures.hpp"
+#include "cases/figures/SignalFigures.hpp"
+#include "io/OutputFolder.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/figures/BendingFigures.hpp"
+#include "substructures/drillstring/figures/BitFigures.hpp"
+
+namespace tooljoint::drillstring {
+
+class StringFigures {
+ public:
+  /// The scene must move, and outlive the object.
+  StringFigures(const Scene& scene, const StaticStage& stage);
+
+  /// Counts the sample where it lies in the window. \param normalForce per node [N]
+  void sample(const cases::Sample& sample, const BitSample& bit, const Vector& normalForce);
+
+  /// False until a sample lies in the window: there are no figures then.
+  bool known() const { return samples_ > 0; }
+  /// Sets the keys transient.figures.
+  void summarise(io::Summary& summary) const;
+  /// Lines of the log.
+  std::string describe() const;
+  /// Group /figures of results.h5.
+  void write(io::ResultsFile& file) const;
+  /// figures_nodes.csv and figures_elements.csv.
+  void stageTables(io::OutputFolder& folder) const;
+
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  /// A column of figures, one number for each node or element.
+  struct Column {
+    std::string name, unit, longName;
+    Vector values;
+  };
+  std::vector<Column> nodeColumns() const;
+  std::vector<Column> elementColumns() const;
+  void summariseNodes(io::Summary& summary) const;
+  void summariseBending(io::Summary& summary) const;
+  double perHour() const;
+  void sampleNodes(const cases::Sample& sample, const Vector& normalForce);
+
+  const Scene& scene_;
+  cases::FigureWindow window_;
+  Vector nodeDepth_, elementDepth_;  ///< [m]; elements at their middle
+  long samples_ = 0;
+  double first_ = 0.0, last_ = 0.0;  ///< samples in the window [s]
+  BitFigures bit_;
+  cases::MagnitudeFigures axial_, lateral_;  ///< accelerations [m/s2]
+  cases::OrbitFigures orbit_;
+  Vector forceSum_, forcePeak_, touching_;  ///< sum and peak [N]; samples in contact
+  BendingFigures bending_;
+};
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/figures/BitFigures.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "common/Constants.hpp"
+
+namespace tooljoint::drillstring {
+
+void BitFigures::add(const BitSample& sample) {
+  speed_.add(sample.speed);
+  if (std::abs(sample.speed) < stuckSpeed_) stuck_ += 1.0;
+  if (sample.weight) weight_.add(*sample.weight);
+  if (sample.torque) torque_.add(*sample.torque);
+  if (!sample.advance) return;
+  advance_.add(*sample.advance);
+  power_ +=
+      sample.weight.value_or(0.0) * *sample.advance + sample.torque.value_or(0.0) * sample.speed;
+}
+
+double BitFigures::stuckShare() const {
+  return speed_.samples() == 0 ? 0.0 : stuck_ / static_cast<double>(speed_.samples());
+}
+
+std::optional<double> BitFigures::rateOfPenetration() const {
+  if (advance_.samples() == 0) return std::nullopt;
+  return advance_.mean();
+}
+
+std::optional<double> BitFigures::specificEnergy() const {
+  const double advance = advance_.mean() * static_cast<double>(advance_.samples());
+  if (!(advance > 0.0) || !(area_ > 0.0)) return std::nullopt;
+  return power_ / (area_ * advance);
+}
+
+void BitFigures::summarise(io::Summary& summary) const {
+  const std::string key = "transient.figures.";
+  constexpr double rpm = constants::rpmPerRadianPerSecond;
+  speed_.summarise(key + "bit_speed_rpm", rpm, summary);
+  summary.set(key + "stick_slip_index", stickSlipIndex());
+  summary.set(key + "stuck_share", stuckShare());
+  summary.set(key + "stuck_speed_rpm", stuckSpeed_ * rpm);
+  if (weight_.samples() > 0) weight_.summarise(key + "weight_on_bit", 1.0, summary);
+  if (torque_.samples() > 0) torque_.summarise(key + "torque_on_bit", 1.0, summary);
+  if (const auto rate = rateOfPenetration()) summary.set(key + "rate_of_penetration", *rate);
+  if (const auto energy = specificEnergy()) summary.set(key + "specific_energy", *energy);
+}
+
+void BitFigures::save(std::vector<double>& memory) const {
+  for (const auto* signal : {&speed_, &weight_, &torque_, &advance_}) signal->save(memory);
+  memory.insert(memory.end(), {stuck_, power_});
+}
+
+void BitFigures::restore(const double*& memory) {
+  for (auto* signal : {&speed_, &weight_, &torque_, &advance_}) signal->restore(memory);
+  stuck_ = *memory++;
+  power_ = *memory++;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Figures of merit of the bit: stick-slip, weight and torque, mechanical specific energy.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cases/figures/SignalFigures.hpp"
+#include "io/Summary.hpp"
+
+namespace tooljoint::drillstring {
+
+/// The bit at one instant; null for what the deck does not model.
+struct BitSample {
+  double speed = 0.0;             ///< omega_b = Omega + dtheta_z/dt [rad/s]
+  std::optional<double> weight;   ///< on bit, positive in compression [N]
+  std::optional<double> torque;   ///< on bit, positive against rotation [N m]
+  std::optional<double> advance;  ///< v_b into the rock, where a law of the bit gives it [m/s]
+};
+
+class BitFigures {
+ public:
+  /// \param stuckSpeed the bit sticks below it [rad/s] \param area of the hole at the bit [m2]
+  BitFigures(double stuckSpeed, double area) : stuckSpeed_(stuckSpeed), area_(area) {}
+
+  void add(const BitSample& sample);
+
+  const cases::SignalFigures& speed() const { return speed_; }
+  const cases::SignalFigures& weight() const { return weight_; }
+  const cases::SignalFigures& torque() const { return torque_; }
+  /// (max - min)/(2 |mean|) of the bit speed.
+  double stickSlipIndex() const { return speed_.fluctuationIndex(); }
+  /// Share of the samples with |omega_b| below the threshold.
+  double stuckShare() const;
+  /// Mean v_b [m/s]; null where no law gives it.
+  std::optional<double> rateOfPenetration() const;
+  /// sum(W v_b + T omega_b)/(A sum v_b) [Pa]: work at the bit over the volume of rock (R. Teale,
+  /// Int. J. Rock Mech. Mining Sci. 2 (1965) 57-73). Null where the bit does not advance.
+  std::optional<double> specificEnergy() const;
+
+  /// Keys below transient.figures.
+  void summarise(io::Summary& summary) const;
+  void save(std::vector<double>& memory) const;
+  void restore(const double*& memory);
+
+ private:
+  double stuckSpeed_, area_;
+  cases::SignalFigures speed_, weight_, torque_, advance_;
+  double stuck_ = 0.0;  ///< samples
+  double power_ = 0.0;  ///< sum of W v_b + T omega_b [W]
+};
+
+}  // namespace tooljoint::drillstring
