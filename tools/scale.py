@@ -3,9 +3,11 @@
 """Measures long strings, large parts and many rows, and writes docs/scale.md with its figure.
 
     tools/scale.py --program build/release/tooljoint [--work results/scale] [--mpiexec mpiexec] [--most DOFS] [--rows] [--short]
+    tools/scale.py --program build/release/tooljoint --motions
 
 Every row is a run of its own, with its wall and CPU time and the peak memory of its largest process. Rows that are
-in the work folder already are not run again. --short takes the smallest of each and prints the tables only.
+in the work folder already are not run again. --short takes the smallest of each and prints the tables only. --motions
+measures motions divided among ranks alone, on a machine of two cores without other work, and renews their chapter.
 """
 import argparse
 import csv
@@ -19,7 +21,11 @@ import shutil
 import sys
 import time
 
+from same_results import datasets, difference
+
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
+os.environ.setdefault("TOOLJOINT_REPORT", "off")
+os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
 DOCUMENT = PROJECT / "docs/scale.md"
 FIGURE = PROJECT / "docs/figures/scale_solids.svg"
 BLOCK = PROJECT / "examples/12_solid_block"
@@ -28,6 +34,12 @@ BLOCKS = (8, 4, 2), (24, 6, 3), (40, 10, 5), (56, 14, 7), (80, 20, 10), (116, 29
 STRINGS = "build_hold_1400m", "vertical_5000m", "extended_reach_5000m", "vertical_10000m"
 STATIC_ONLY = ["--without", "Transient", "--without", "Reduction", "--without", "Substructures"]
 MODES, JOINED = 50, 100
+FULL = ["--without", "Reduction", "--without", "Substructures"]
+MOTIONS = [("vertical_5000m", FULL, 0.5), ("vertical_5000m", [], 1), ("extended_reach_5000m", FULL, 0.5), ("extended_reach_5000m", [], 0.5),
+           ("vertical_10000m", FULL, 0.3), ("inclined_1000m", FULL, 1), ("stress_170m", FULL, 2)]
+COUNTED = 0.02
+MESSAGE = 2e-6  # of a few numbers between two ranks of one machine [s]
+CHAPTER = "## Motions divided among ranks"
 HEAD = """# Scale
 
 What the program takes for long strings, large parts and many rows. Written by
@@ -131,6 +143,60 @@ def rows(options, end):
             table(("ranks", "rows", "wall [s]", "CPU [s]", "memory [MB]"), lines))
 
 
+def motion(options, deck, words, end, ranks, repeat):
+    """(transient of summary.json, datasets of the motion, peak memory [MB]) of a run; ranks divide the motion."""
+    name = f"motion_{deck}_{'full' if words else 'reduced'}_{ranks}_{repeat}"
+    division = ["--set", f"Transient/Ranks={'Divide' if ranks > 1 else 'Alike'}"]
+    row = measured(options, name, ["run", str(PROJECT / f"xml/{deck}.xml"), *words, *division, "--output", "out", "--set", f"Transient/End Time={end}",
+                                   "--set", "Output/XDMF=false"], ranks)
+    if row["code"] != 0:
+        raise SystemExit(f"{name}: exit {row['code']}\n{row['output'][-2000:]}")
+    folder = pathlib.Path(options.work) / name / "out"
+    values = {key: value for key, value in datasets(folder / "results.h5").items() if key.startswith("transient")}
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))["transient"], values, row["memory_mb"]
+
+
+def walls(options):
+    """One rank and two, in turns, the best of some."""
+    lines = []
+    for deck, words, end in MOTIONS[:1] if options.short else MOTIONS:
+        repeats = range(1 if options.short else 5)
+        runs = [[motion(options, deck, words, end, ranks, repeat) for ranks in (1, 2)] for repeat in repeats]
+        one, two = (min(each[i][0]["wall_s"] for each in runs) for i in (0, 1))
+        apart = max(difference(value, runs[0][1][1][key]) for key, value in runs[0][0][1].items() if value.dtype.kind == "f")
+        steps = runs[0][0][0]["steps"]
+        lines.append((deck, "full" if words else "reduced", steps, f"{1e6 * one / steps:.0f}", f"{1e6 * two / steps:.0f}", f"{one / two:.2f}", f"{apart:.1e}"))
+    return table(("scene", "model", "steps", "1 rank [us per step]", "2 ranks [us per step]", "times as fast", "largest difference"), lines)
+
+
+def counts(options):
+    """What a rank has to do and the messages, of ranks that may share cores."""
+    deck, words, _ = MOTIONS[0]
+    alone = motion(options, deck, words, COUNTED, 1, "counted")[0]
+    step, dofs = alone["wall_s"] / alone["steps"], None
+    lines = []
+    for ranks in (2,) if options.short else (2, 4, 8, 16):
+        found, _, memory = motion(options, deck, words, COUNTED, ranks, "counted")
+        dofs = dofs or 2 * found["dofs_of_rank"] - 6
+        share, messages = found["dofs_of_rank"] / dofs, found["messages"] / found["steps"]
+        efficiency = step / ranks / (share * step + messages * MESSAGE * math.log2(ranks))
+        lines.append((ranks, found["dofs_of_rank"], f"{messages:.1f}", f"{100 * efficiency:.0f} %", f"{memory:.0f}"))
+    return table(("ranks", "dofs of a rank", "messages per step", "predicted efficiency", "memory of a rank [MB]"), lines)
+
+
+def motions(options):
+    return (f"{CHAPTER}\n\nThe motion alone, wall time of the best of five runs in turns; `Transient/Ranks` = `Divide`. The last column is the largest difference of\n"
+            "a recorded value, relative to the largest of its kind.\n\n" + walls(options) +
+            f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted from them, for a step of one rank\n"
+            f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core for each rank.\n\n" + counts(options))
+
+
+def renew(chapter):
+    """The chapter of divided motions, which is the last one, in the document."""
+    text = DOCUMENT.read_text(encoding="utf-8")
+    DOCUMENT.write_text(text.split(CHAPTER)[0].rstrip() + "\n\n" + chapter, encoding="utf-8")
+
+
 def draw(found):
     import matplotlib
     matplotlib.use("Agg")
@@ -163,13 +229,21 @@ def main():
     parser.add_argument("--rows", action="store_true", help="a study of 65 rows on one and two ranks, too: minutes of a machine without other work")
     parser.add_argument("--note", default="", help="a sentence about the circumstances, for the head of the document")
     parser.add_argument("--short", action="store_true")
+    parser.add_argument("--motions", action="store_true", help="motions divided among ranks alone; renews their chapter of the document")
     options = parser.parse_args()
     options.program = str(pathlib.Path(options.program).resolve())
-    chosen = [counts for counts in BLOCKS if 3 * math.prod(n + 1 for n in counts) <= options.most]
+    if options.motions:
+        chapter = motions(options)
+        print(chapter)
+        if not options.short:
+            renew(chapter)
+        return 0
+    chosen = [each for each in BLOCKS if 3 * math.prod(n + 1 for n in each) <= options.most]
     blocks, found = solids(options, chosen[:2] if options.short else chosen)
     text = blocks + "\n" + strings(options, STRINGS[:1] if options.short else STRINGS)
     if options.rows:
         text += "\n" + rows(options, 3 if options.short else 15)
+    text += "\n" + motions(options)
     print(text)
     if not options.short:
         blas = os.popen(f"{options.program} --version").read()

@@ -113,6 +113,8 @@ const std::vector<std::string>& documentedKeys() {
       "transient.wall_s",
       "transient.cpu_s",
       "transient.ranks",
+      "transient.dofs_of_rank",
+      "transient.messages",
       "transient.real_time_factor",
       "transient.bit_speed_rpm.min",
       "transient.bit_speed_rpm.max",

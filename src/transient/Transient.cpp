@@ -240,6 +240,8 @@ class Run {
     report.integrator = options_.integrator;
     report.size = model_.wholeSize();
     report.ranks = model_.cut().ranks();
+    report.ownSize = static_cast<int>(model_.cut().largest(model_.size()));
+    report.messages = model_.cut().messages();
     report.start = options_.start;
     report.end = state_.t;
     report.interrupted = interrupted;

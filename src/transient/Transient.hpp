@@ -34,10 +34,12 @@ class SampleSink {
 /// What happened; counts and seconds of this run (a restarted run counts on from its checkpoint).
 struct TransientReport {
   std::string integrator;
-  int size = 0;      ///< dofs of the model
-  int ranks = 1;     ///< that shared the motion
-  double start = 0;  ///< [s]
-  double end = 0;    ///< time reached [s]
+  int size = 0;       ///< dofs of the model
+  int ranks = 1;      ///< that shared the motion
+  int ownSize = 0;    ///< most dofs of a rank, those of its cuts included
+  long messages = 0;  ///< that the ranks exchanged in the motion, samples aside
+  double start = 0;   ///< [s]
+  double end = 0;     ///< time reached [s]
   bool interrupted = false;
   Counters counters;
   long contactEvaluations = 0;  ///< points evaluated, summed over all force evaluations

@@ -15,8 +15,7 @@ std::string describeSteps(const transient::TransientReport& report) {
       "times real time\n",
       report.integrator.c_str(), report.start, report.end, c.steps, c.minStep, c.maxStep,
       report.wall, report.cpu, report.realTimeFactor);
-  if (report.ranks > 1)
-    text += fmt::sprintf("            divided among %d ranks\n", report.ranks);
+  if (report.ranks > 1) text += fmt::sprintf("            divided among %d ranks\n", report.ranks);
   text += fmt::sprintf(
       "            %ld Newton iterations, %ld factorisations, %ld right-hand sides, %ld halved, "
       "%ld rejected, %ld unconverged "

@@ -129,6 +129,10 @@ void summarise(const transient::TransientReport& report, bool reduced, io::Summa
       summary.set(std::string("transient.strategies.") + transient::strategyNames[i].summary,
                   c.strategies[i]);
   summary.set("transient.ranks", report.ranks);
+  if (report.ranks > 1) {
+    summary.set("transient.dofs_of_rank", report.ownSize);
+    summary.set("transient.messages", report.messages);
+  }
   summary.set("transient.wall_s", report.wall);
   summary.set("transient.cpu_s", report.cpu);
   summary.set("transient.real_time_factor", report.realTimeFactor);

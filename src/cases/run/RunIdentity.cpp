@@ -57,7 +57,7 @@ class Describer {
 
  private:
   bool matters(const std::string& path) const {
-    if (path == "Transient/Progress") return false;
+    if (path == "Transient/Progress" || path == "Transient/Ranks") return false;
     if (path == "Transient/Checkpoint Interval") return !anywhere_;
     if (path.rfind(recordedFigures, 0) == 0) return true;
     return path.rfind("Output/", 0) != 0 || recorded.count(path) > 0;

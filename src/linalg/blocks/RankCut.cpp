@@ -34,6 +34,7 @@ RankCut::RankCut(int interior, std::vector<int> number, int total, std::vector<c
 
 /// mine_ of all ranks, one after the other.
 const double* RankCut::gather(std::size_t count) const {
+  ++messages_;
   if (all_.size() < at(ranks_) * count) all_.resize(at(ranks_) * count);
   MPI_Allgather(mine_.data(), static_cast<int>(count), MPI_DOUBLE, all_.data(),
                 static_cast<int>(count), MPI_DOUBLE, parallel::communicator());

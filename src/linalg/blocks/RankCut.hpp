@@ -32,6 +32,8 @@ class RankCut {
   /// Positions before the cut; all, where nothing is divided.
   int interior(int size) const { return isDivided() ? interior_ : size; }
   int total() const { return total_; }
+  /// Messages that all ranks have exchanged up to now.
+  long messages() const { return messages_; }
   /// Whether this rank counts a position.
   bool owns(int position) const {
     return position < interior_ || !isDivided() ||
@@ -69,6 +71,7 @@ class RankCut {
   std::vector<int> number_;
   std::vector<char> own_;
   mutable std::vector<double> mine_, all_, whole_;  ///< messages
+  mutable long messages_ = 0;
 };
 
 }  // namespace tooljoint::linalg

@@ -72,11 +72,11 @@ void LargestRate::evaluatePoints(const State& state) {
     batch.gatherAll(state.q.data(), state.v.data());
     const Vector start = Eigen::Map<const Vector>(batch.d(), batch.points() * w);
     Vector d = start;
-    for (int p = 0; p < batch.points(); ++p) {
+    for (int p : batch.everyPoint()) {
       evaluate(batch, p, state.t, d);
       takeLarger(p, tangents_.back());
     }
-    for (int p = 0; p < batch.points(); ++p)
+    for (int p : batch.everyPoint())
       for (int k = p * w; k < p * w + batch.law().reach(); ++k)
         for (const double way : {1.0, -1.0}) {
           if (goToWall(batch, p, k, way, d)) {
@@ -139,7 +139,7 @@ void LargestRate::subtractPoints(std::vector<double> Tangents::*which, const Vec
   for (std::size_t b = 0; b < tangents_.size(); ++b) {
     const auto& batch = model_.points()[b];
     const int w = batch.width();
-    for (int p = 0; p < batch.points(); ++p) {
+    for (int p : batch.everyPoint()) {
       const double* J = (tangents_[b].*which).data() + p * w * w;
       for (int j = 0; j < w; ++j) {
         const double d = batch.rowTimesVector(p * w + j, x.data());
@@ -155,16 +155,20 @@ void LargestRate::subtractPoints(std::vector<double> Tangents::*which, const Vec
 /// structure, so that masses far apart in size do not hide the stiff ones.
 template <class Product>
 double LargestRate::norm(const Product& times) const {
-  const int n = model_.size(), steps = std::min(n, arnoldiSteps);
+  const int n = model_.size(), steps = std::min(model_.wholeSize(), arnoldiSteps);
   Matrix V(n, steps + 1), MV(n, steps + 1);
   Matrix H = Matrix::Zero(steps + 1, steps);
   Vector x(n), y(n);
-  for (int i = 0; i < n; ++i) x[i] = std::sin(1.0 + 12.9898 * i) + ((i % 2) == 0 ? 1.0 : -1.0);
+  for (int i = 0; i < n; ++i) {
+    const int number = model_.numberInWhole(i);
+    x[i] = std::sin(1.0 + 12.9898 * number) + ((number % 2) == 0 ? 1.0 : -1.0);
+  }
+  model_.cut().divide(x.data());
   mass_.solve(x.data());
   for (int k = 0;; ++k) {
     y.setZero();
     model_.addMass(x.data(), y.data());
-    const double length = std::sqrt(std::max(0.0, x.dot(y)));
+    const double length = std::sqrt(std::max(0.0, model_.dot(x, y)));
     if (k > 0) H(k, k - 1) = length;
     if (k == steps || !(length > negligible * std::max(1.0, H.norm()))) break;
     V.col(k) = x / length;
@@ -172,7 +176,8 @@ double LargestRate::norm(const Product& times) const {
     times(V.col(k), x);
     mass_.solve(x.data());
     for (int pass = 0; pass < 2; ++pass) {
-      const Vector h = MV.leftCols(k + 1).transpose() * x;
+      Vector h = MV.leftCols(k + 1).transpose() * x;
+      model_.cut().reduce(nullptr, 0, h.data(), k + 1);
       H.col(k).head(k + 1) += h;
       x -= V.leftCols(k + 1) * h;
     }

@@ -96,14 +96,9 @@ void StepError::plan() {
 }
 
 double StepError::square(const Vector& q) const {
-  const auto& cut = model_->cut();
-  if (!translated_) {
-    double sum = 0;
-    for (int i = 0; i < q.size(); ++i) sum += cut.owns(i) ? q[i] * q[i] : 0.0;
-    return cut.sum(sum);
-  }
+  if (!translated_) return model_->squaredNorm(q);
   product_.noalias() = translations_ * q;
-  return cut.sum(product_.squaredNorm());
+  return model_->cut().sum(product_.squaredNorm());
 }
 
 void StepError::before(const Integrator& run, const State& from) {

@@ -229,6 +229,13 @@ double CompiledModel::dot(const Vector& x, const Vector& partial) const {
   return pattern_.cut().sum(x.dot(partial));
 }
 
+double CompiledModel::squaredNorm(const Vector& x) const {
+  const int interior = cut().interior(size());
+  double sum = x.head(interior).squaredNorm();
+  for (int i = interior; i < size(); ++i) sum += cut().owns(i) ? x[i] * x[i] : 0.0;
+  return cut().sum(sum);
+}
+
 double CompiledModel::largest(const Vector& x) const {
   return pattern_.cut().largest(x.cwiseAbs().maxCoeff());
 }

@@ -115,6 +115,12 @@ class CompiledModel {
   /// x'y of an x that is the same on all ranks and a partial y; max |x_i|. Collective.
   double dot(const Vector& x, const Vector& partial) const;
   double largest(const Vector& x) const;
+  /// sum x_i^2. Collective.
+  double squaredNorm(const Vector& x) const;
+  /// Place of a position in the model of all ranks.
+  int numberInWhole(int position) const {
+    return share_ != nullptr ? share_->numbers()[static_cast<std::size_t>(position)] : position;
+  }
 
   /// Evaluate the laws at t and recombine what changed. Cheap when nothing did.
   void setTime(double t);

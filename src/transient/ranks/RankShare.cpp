@@ -94,6 +94,8 @@ class Division {
         found.push_back(pattern_.partition().dof[at(p)]);
     return found;
   }
+  /// Position of a dof in the pattern of the whole.
+  int number(int dof) const { return pattern_.partition().position[at(dof)]; }
   linalg::BlockPattern pattern(int rank, const model::SecondOrderModel& share) const;
   const model::SecondOrderModel& whole() const { return whole_; }
 
@@ -255,6 +257,7 @@ std::unique_ptr<RankShare> RankShare::of(const model::SecondOrderModel& whole) {
   }
   for (int i = 0; i < static_cast<int>(dofs.size()); ++i)
     if (share->pattern_.cut().owns(i)) share->counted_.push_back(i);
+  for (int dof : dofs) share->numbers_.push_back(division.number(dof));
   share->dofs_ = std::move(dofs);
   share->mine_.resize(share->counted_.size());
   share->all_.resize(at(next));

@@ -30,6 +30,8 @@ class RankShare {
   const linalg::BlockPattern& pattern() const { return pattern_; }
   /// Per point set: the points of this rank, increasing.
   const std::vector<std::vector<int>>& points() const { return points_; }
+  /// Per dof of model(): its position in the whole model's own pattern.
+  const std::vector<int>& numbers() const { return numbers_; }
   /// Dofs of the whole model.
   int wholeSize() const { return static_cast<int>(place_.size()); }
 
@@ -47,7 +49,7 @@ class RankShare {
   model::SecondOrderModel model_;
   linalg::BlockPattern pattern_;
   std::vector<std::vector<int>> points_;
-  std::vector<int> dofs_;  ///< of the whole, per dof of model()
+  std::vector<int> dofs_, numbers_;  ///< of the whole, per dof of model()
   // gather(): what each rank counts, one rank after the other
   std::vector<int> counted_;          ///< dofs of model() that this rank counts
   std::vector<int> counts_, begins_;  ///< per rank

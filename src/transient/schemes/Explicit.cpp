@@ -15,7 +15,7 @@ void ExplicitRightHandSide::bind(CompiledModel& model, const std::string& integr
   model.combine(1.0, 0.0, 0.0, mass_.values());
   const int bad = mass_.factor();
   if (bad >= 0)
-    throw ModelError("The mass matrix is singular at " + model.dofName(bad) +
+    throw ModelError("The mass matrix is singular at " + model.pivotName(bad) +
                      ": the explicit integrator \"" + integrator +
                      "\" needs a mass on every degree of freedom. Use \"Generalized-alpha\", or "
                      "give that degree of freedom a mass.");
@@ -45,7 +45,7 @@ void ExplicitRightHandSide::look(double t, double h, const double* q) {
 bool ExplicitRightHandSide::missed(const double* q) {
   bool any = false;
   for (auto& batch : model_->points()) any = batch.addMissed(q) || any;
-  return any;
+  return model_->cut().any(any);
 }
 
 void RungeKuttaStep::resize(const State& like) {

@@ -49,6 +49,7 @@ class RungeKutta4Adaptive final : public Integrator {
 
   bool isExplicit() const override { return true; }
   bool carriesPointStates() const override { return true; }
+  bool dividesAmongRanks() const override { return true; }
   bool judgesSteps() const override { return true; }
   std::string advice() const override {
     return "Reduce Transient/RK4 adaptive/Tolerance, or use the integrator "
@@ -102,7 +103,11 @@ class RungeKutta4Adaptive final : public Integrator {
       rhs_.accept(half_);
       stage_.take(rhs_, half_, 0.5 * h, to);
     } while (rhs_.missed(half_.q.data()) || rhs_.missed(to.q.data()));
-    return ((whole_.q - to.q).norm() + (whole_.v - to.v).norm() +
+    const auto distance = [this](const Vector& a, const Vector& b) {
+      difference_ = a - b;
+      return std::sqrt(rhs_.model().squaredNorm(difference_));
+    };
+    return (distance(whole_.q, to.q) + distance(whole_.v, to.v) +
             rhs_.model().stateDistance(whole_.x, to.x)) /
            15.0;
   }
@@ -112,14 +117,14 @@ class RungeKutta4Adaptive final : public Integrator {
     std::ostringstream text;
     if (!std::isfinite(error)) {
       text << "The motion is not finite however short the step from t = " << from.t
-           << " s, first at " << rhs_.model().dofName(worstPosition(difference_))
+           << " s, first at " << rhs_.model().worstName(difference_)
            << ": a load, a law of time or a point law gives no number there.";
       throw ConvergenceError(text.str());
     }
     text
         << "RK4 adaptive needs a step below " << smallest_ << " s at t = " << from.t
         << " s: the error " << error << " exceeds the tolerance " << tolerance_ << ", most at "
-        << rhs_.model().dofName(worstPosition(difference_))
+        << rhs_.model().worstName(difference_)
         << ". Raise Transient/RK4 adaptive/Tolerance, or use the integrator \"Generalized-alpha\".";
     throw ConvergenceError(text.str());
   }

@@ -7,7 +7,7 @@
 
 #include "common/Error.hpp"
 #include "common/Parallel.hpp"
-#include "tests/unit/transient/Models.hpp"
+#include "tests/unit/transient/StatefulModels.hpp"
 #include "transient/compiled/MassFactor.hpp"
 #include "transient/ranks/RankShare.hpp"
 
@@ -195,6 +195,27 @@ TEST(DividedMotion, TakesTheSameSteps) {
   }
 }
 
+/// The default step too is that of one rank.
+TEST(DividedMotion, IsThatOfOneRankInExplicitSteps) {
+  for (const char* integrator : {"RK4", "RK4 adaptive"}) {
+    SCOPED_TRACE(integrator);
+    auto o = divided(RankUse::Alike);
+    o.integrator = integrator;
+    o.step = 0;
+    o.end = 0.01;
+    Keep apart, alike;
+    const auto one = integrate(shapes()[1].second, o, alike);
+    o.ranks = RankUse::Divide;
+    const auto many = integrate(shapes()[1].second, o, apart);
+    EXPECT_EQ(many.ranks, parallel::size());
+    EXPECT_EQ(many.counters.steps, one.counters.steps);
+    EXPECT_EQ(many.counters.rejected, one.counters.rejected);
+    EXPECT_NEAR(many.counters.maxStep, one.counters.maxStep, 1e-9 * one.counters.maxStep);
+    expectNear(apart.q.back(), alike.q.back(), 1e-9);
+    expectNear(apart.v.back(), alike.v.back(), 1e-9);
+  }
+}
+
 /// Sentence of the error that this rank has met.
 std::string errorOf(const model::SecondOrderModel& model, const TransientOptions& options,
                     SampleSink& sink) {
@@ -281,11 +302,9 @@ TEST(DividedMotion, IsComputedByAllAlikeWhereItCannotBeDivided) {
   const auto dense = nodes(4, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}});
   Keep samples;
   EXPECT_EQ(integrate(dense, divided(), samples).ranks, 1);
-  auto explicitSteps = divided();
-  explicitSteps.integrator = "RK4";
-  explicitSteps.step = 1e-5;
-  explicitSteps.end = 1e-3;
-  EXPECT_EQ(integrate(shapes()[0].second, explicitSteps, samples).ranks, 1);
+  auto states = shapes()[0].second;
+  addStatefulLaws(states);
+  EXPECT_EQ(integrate(states, divided(), samples).ranks, 1);
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motions that ranks divide among themselves against the motion of one rank: check_ranks.py PROGRAM MPIEXEC [--all]
+
+Every scene runs on one rank and, with Transient/Ranks = Divide, on others, full and reduced. Equal must be the dofs, the steps
+and the iterations; every dataset to 1e-10 (static state) or 1e-9 (motion) of its largest entry. --all takes every scene of
+xml/ that moves, 2, 3 and 4 ranks and 0.2 s of motion; without it a few scenes, shorter. A table of the differences is printed.
+"""
+import functools
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+
+import numpy as np
+
+os.environ.setdefault("TOOLJOINT_REPORT", "off")
+ROOT = pathlib.Path(os.environ.get("TOOLJOINT_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "tools")]
+from checks import expect, finish, of_ranks, tooljoint  # noqa: E402
+from same_results import datasets, difference  # noqa: E402
+
+FULL = ["--without", "Reduction", "--without", "Substructures"]
+STATIC, MOTION = 1e-10, 1e-9
+# Velocities below this [m/s] are what iterations leave of a motion that rests.
+REST = 1e-8
+COUNTS = "steps", "newton_iterations", "factorisations", "rejected", "halved"
+# (deck, words, end of the motion [s], ranks)
+SHORT = [("helical_170m", [], 0.1, (2, 3)), ("helical_170m", FULL, 0.1, (2, 4)), ("frame", [], 0.1, (2, 3)),
+         ("vertical_5000m", [], 0.02, (2,)), ("inclined_1000m", FULL, 0.02, (2,))]
+ALL = [(name, words, 0.2, (2, 3, 4)) for name in ("helical_170m", "stress_170m", "inclined_1000m", "vertical_1000m", "build_hold_1400m",
+                                                    "vertical_5000m", "extended_reach_5000m", "vertical_10000m") for words in ([], FULL)] + \
+      [("frame", [], 0.2, (2, 3))]
+
+
+def run(deck, words, end, ranks, folder):
+    """(summary, datasets) of a run."""
+    division = ["--set", "Transient/Ranks=Divide"] if ranks > 1 else []
+    done = tooljoint("run", str(deck), *words, *division, "--output", folder, "--set", f"Transient/End Time={end}", "--set", "Output/XDMF=false",
+                     ranks=ranks, seconds=1200)
+    if done.returncode != 0:
+        raise SystemExit(f"{deck} {words} on {ranks} ranks: exit {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return json.loads(pathlib.Path(folder, "summary.json").read_text(encoding="utf-8")), datasets(pathlib.Path(folder, "results.h5"))
+
+
+def rests(name, value):
+    return "veloc" in name and np.max(np.abs(value)) < REST
+
+
+def compare(one, many):
+    """Largest difference of the static state and of the motion, each with its dataset."""
+    worst = {"static": (0.0, ""), "motion": (0.0, "")}
+    for name, value in one.items():
+        if name.startswith(("input", "deck", "run")) or value.dtype.kind != "f" or value.size == 0 or rests(name, value):
+            continue
+        kind = "motion" if name.startswith(("transient", "xdmf")) else "static"
+        worst[kind] = max(worst[kind], (difference(value, many.get(name, np.empty(0))), name))
+    return worst
+
+
+def check(name, words, end, rank_counts):
+    deck, what = ROOT / f"xml/{name}.xml", f"{name}{', full' if words else ''}"
+    summary, values = run(deck, words, end, 1, "np1")
+    for ranks in rank_counts:
+        other, found = run(deck, words, end, ranks, f"np{ranks}")
+        one, many = summary["transient"], other["transient"]
+        expect(f"{what}: {ranks} ranks divide the motion", (one["ranks"], many["ranks"]) == (1, ranks), (one["ranks"], many["ranks"]))
+        counts = [[each[key] for key in COUNTS] for each in (one, many)]
+        expect(f"{what}, {ranks} ranks: the same {', '.join(COUNTS)}", counts[0] == counts[1], counts)
+        for kind, (size, where) in compare(values, found).items():
+            bound = STATIC if kind == "static" else MOTION
+            expect(f"{what}, {ranks} ranks: {kind} to {bound:g}", size <= bound, f"{size:.1e} in {where}")
+            print(f"       {size:.1e} {where}")
+
+
+def full_disk():
+    """What one rank cannot write ends all of them, with the code of a run of one rank."""
+    codes = []
+    for ranks in 1, 2:
+        command = [sys.argv[2], "-np", str(ranks), sys.argv[1], "run", str(ROOT / "xml/helical_170m.xml"), "--output", f"full{ranks}",
+                   "--set", "Transient/Ranks=Divide", "--set", "Transient/End Time=1"]
+        limit = functools.partial(resource.setrlimit, resource.RLIMIT_FSIZE, (400_000, 400_000))
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=120, preexec_fn=limit,
+                              env=of_ranks(ranks))
+        codes.append(done.returncode)
+    expect("a full disk ends a divided motion as it ends one of one rank", codes[0] == codes[1] != 0, codes)
+
+
+def main():
+    for scene in ALL if "--all" in sys.argv[3:] else SHORT:
+        check(*scene)
+    full_disk()
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
