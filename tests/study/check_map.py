@@ -84,6 +84,10 @@ def many_ranks():
     tooljoint("map", DECK, "--output", "np1", *SHORT)
     done = tooljoint("map", DECK, "--output", "np2_groups", *SHORT, "--ranks-per-row", "1", ranks=2)
     expect("two ranks with a point each give the same table", done.returncode == 0 and np.array_equal(values("np1"), values("np2_groups")), done.stderr[-400:])
+    more = [*SHORT[:3], "Map/Grid/speed/Count=3", *SHORT[4:]]
+    done = tooljoint("map", DECK, "--output", "np2_groups", *more, "--ranks-per-row", "1", ranks=2)
+    expect("and go on with a finer grid", done.returncode == 0 and known(done) == 4 and [row["status"] for row in table("np2_groups")] == ["done"] * 6
+           and np.array_equal(values("np2_groups")[[0, 1, 4, 5]], values("np1")), done.stdout[-400:])
     done = tooljoint("map", DECK, "--output", "np2_together", *SHORT, ranks=2)
     difference = np.abs(values("np2_together") - values("np1")).max() / np.abs(values("np1")).max()
     expect("so do two ranks on every point", done.returncode == 0 and difference < 1e-8, f"({difference:.1e}) {done.stderr[-400:]}")
