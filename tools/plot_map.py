@@ -105,7 +105,7 @@ def draw(made, value, rest):
         i, j = np.nonzero(lost)
         axes.scatter(x[i], y[j], marker="x", color="#4D4D4D", label="missing")
     for axis, along, keep in ((first, axes.xaxis, order[0]), (second, axes.yaxis, order[1])):
-        along.set_ticks(axis["places"][keep], [axis["texts"][i] for i in keep] if not axis["numeric"] else [plots.tick(place) for place in axis["places"][keep]])
+        along.set_ticks(axis["places"][keep], [pathlib.PurePath(axis["texts"][i]).name for i in keep] if not axis["numeric"] else [plots.tick(place) for place in axis["places"][keep]])
     axes.set_xlabel(first["label"])
     axes.set_ylabel(second["label"])
     title = value["name"] + "".join(f", {axis['name']} {axis['texts'][i]} {axis['unit']}" for axis, i in zip(made.axes[2:], rest))

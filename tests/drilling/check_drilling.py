@@ -260,6 +260,24 @@ def figures(run, feed):
     near("figures: stick-slip index", found["stick_slip_index"], np.ptp(speed) / (2 * speed.mean()), 1e-9)
 
 
+def oscillator(program):
+    """Figures of merit of a mass on a spring: x = X cos(omega t) has the acceleration omega^2 X, 1/sqrt(2) of it rms."""
+    mass, stiffness, size = 2.0, 800.0, 1e-3
+    omega = math.sqrt(stiffness / mass)
+    part = program.part("oscillator", ["u"], np.diag([mass, mass]), stiffness * np.array([[1, -1], [-1, 1]]), np.zeros((2, 2)))
+    # symmetric: each mass swings against the middle of the spring
+    swing = math.sqrt(2) * omega
+    starts = {f"start {n}": {"Part": "string", "Node": n, "Component": "u", "Displacement": sign * size, "Velocity": 0.0} for n, sign in ((1, 1), (2, -1))}
+    period = 2 * math.pi / swing
+    deck = parts_deck(program, "oscillator", {"string": part}, {"Transient/Progress": False}, Parts={"Starts": starts})
+    run = program.run("oscillator", deck, {"Transient/Integrator": "RK4", "Transient/Step": period / 400, "Transient/Sampling Interval": period / 100,
+                                           "Transient/End Time": 12 * period, "Output/Figures/Begin": 4.01 * period})
+    found = run.motion["figures"]
+    for name, amplitude in (("displacement", size), ("acceleration", swing ** 2 * size)):
+        near(f"oscillator: peak of the {name}", found[name]["peak"], amplitude, 1e-5 * amplitude)
+        near(f"oscillator: rms of the {name}", found[name]["rms"], amplitude / math.sqrt(2), 1e-5 * amplitude)
+
+
 def cutting(program):
     """A bit that cuts, axial and torsional loop together: static state, and the motion against an integration of its own with
     the delay solved for; full against reduced; both integrators; a free hook."""
@@ -305,7 +323,7 @@ def cutting(program):
          np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting)}
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting, oscillator)}
 ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m}
 
 

@@ -84,6 +84,10 @@ def many_ranks():
     tooljoint("map", DECK, "--output", "np1", *SHORT)
     done = tooljoint("map", DECK, "--output", "np2_groups", *SHORT, "--ranks-per-row", "1", ranks=2)
     expect("two ranks with a point each give the same table", done.returncode == 0 and np.array_equal(values("np1"), values("np2_groups")), done.stderr[-400:])
+    more = [*SHORT[:3], "Map/Grid/speed/Count=3", *SHORT[4:]]
+    done = tooljoint("map", DECK, "--output", "np2_groups", *more, "--ranks-per-row", "1", ranks=2)
+    expect("and go on with a finer grid", done.returncode == 0 and known(done) == 4 and [row["status"] for row in table("np2_groups")] == ["done"] * 6
+           and np.array_equal(values("np2_groups")[[0, 1, 4, 5]], values("np1")), done.stdout[-400:])
     done = tooljoint("map", DECK, "--output", "np2_together", *SHORT, ranks=2)
     difference = np.abs(values("np2_together") - values("np1")).max() / np.abs(values("np1")).max()
     expect("so do two ranks on every point", done.returncode == 0 and difference < 1e-8, f"({difference:.1e}) {done.stderr[-400:]}")
@@ -123,6 +127,31 @@ def failures():
         expect(f"{what} is refused", refused.returncode in (1, 2) and sentence in refused.stderr, refused.stderr)
 
 
+def parts():
+    """A map of imported parts whose axes are files and a text; a part without a model is a missing cell."""
+    root = pathlib.Path(__file__).resolve().parents[1] / "decks" / "parts"
+    imported = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{root}/good"/></ParameterList>' for name in "ab")
+    axes = (f'<ParameterList name="part"><Parameter name="Parameter" type="string" value="Parts/Imported/a/File"/>'
+            f'<Parameter name="Values" type="Array(string)" value="{{{root}/good, {root}/indefinite_mass}}"/></ParameterList>'
+            '<ParameterList name="end"><Parameter name="Parameter" type="string" value="Transient/End Time"/>'
+            '<Parameter name="Values" type="Array(string)" value="{0.1, 0.2}"/></ParameterList>')
+    pathlib.Path("parts.xml").write_text(
+        f'<ParameterList name="parts"><ParameterList name="Parts"><ParameterList name="Imported">{imported}</ParameterList>'
+        '<Parameter name="Joints" type="Array(string)" value="{a:right = b:left}"/><ParameterList name="Starts"><ParameterList name="pull">'
+        '<Parameter name="Part" type="string" value="a"/><Parameter name="Node" type="int" value="1"/><Parameter name="Component" type="string" value="u"/>'
+        '<Parameter name="Velocity" type="double" value="1"/></ParameterList></ParameterList></ParameterList>'
+        '<ParameterList name="Transient"><Parameter name="Integrator" type="string" value="Generalized-alpha"/><Parameter name="Step" type="double" value="1e-4"/>'
+        '<Parameter name="End Time" type="double" value="0.1"/></ParameterList>'
+        f'<ParameterList name="Map"><ParameterList name="Grid">{axes}</ParameterList><ParameterList name="Values"><ParameterList name="acceleration">'
+        '<Parameter name="Key" type="string" value="transient.figures.acceleration.rms"/></ParameterList></ParameterList></ParameterList></ParameterList>',
+        encoding="utf-8")
+    done = tooljoint("map", "parts.xml", "--output", "parts", "--set", "Map/Pictures=false")
+    rows = table("parts") if done.returncode == 0 else []
+    expect("a model that cannot be built is a missing cell", [row["status"] for row in rows] == ["done", "done", "failed", "failed"]
+           and all("mass is indefinite" in row["reason"] and row["acceleration"] == "" for row in rows[2:]), f"({done.returncode}) {done.stderr[-400:]}")
+    expect("the others have their value", all(float(row["acceleration"]) > 0 for row in rows[:2]))
+
+
 def planned():
     done = tooljoint("map", DECK, "--plan", "plan", *SHORT)
     commands = pathlib.Path("plan/rows.txt").read_text(encoding="utf-8").splitlines()
@@ -145,12 +174,13 @@ def pictures():
 
 def main():
     # points known from an earlier test would not be computed
-    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "plan"):
+    for folder in ("one", "np1", "np2_groups", "np2_together", "killed", "failed", "limited", "parts", "plan"):
         shutil.rmtree(folder, ignore_errors=True)
     against_runs()
     many_ranks()
     killed()
     failures()
+    parts()
     planned()
     pictures()
     return finish()

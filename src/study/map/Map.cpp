@@ -65,15 +65,13 @@ class Map {
 
   void computeAll() {
     try {
-      groups_.apart([&] {
-        rows_.emplace(plan_, folder());
-        const auto known = rows_->completed();
-        if (groups_.mine() == 0 && known > 0)
-          log::info("            " + std::to_string(known) + " of " +
-                    std::to_string(plan_.points.size()) +
-                    " points are known from before (--fresh forgets them)");
-        deal();
-      });
+      // all groups look into the folder before one of them adds to it: the jobs are the same to all
+      groups_.apart([&] { rows_.emplace(plan_, folder()); });
+      if (const auto known = rows_->completed(); known > 0)
+        log::info("            " + std::to_string(known) + " of " +
+                  std::to_string(plan_.points.size()) +
+                  " points are known from before (--fresh forgets them)");
+      groups_.apart([&] { deal(); });
     } catch (const InterruptedError&) {
       rows_.emplace(plan_, folder());
       stageTable();

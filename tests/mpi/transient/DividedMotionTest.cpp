@@ -182,7 +182,7 @@ TEST(DividedMotion, TakesTheSameSteps) {
   addFloor(hard, 1e9, 0.0, 7e11);
   for (const bool controlled : {false, true}) {
     auto o = divided(RankUse::Alike);
-    o.end = 0.02;
+    o.end = 0.045;
     if (controlled) o.own.set("Step Tolerance", 1e-6);
     Keep apart, alike;
     const auto one = integrate(hard, o, alike);
