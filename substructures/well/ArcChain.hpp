@@ -4,6 +4,7 @@
 /// and survey trajectories.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "substructures/well/Trajectory.hpp"

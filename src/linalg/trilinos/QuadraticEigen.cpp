@@ -8,6 +8,7 @@
 
 #include "common/Error.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/DynamicStiffness.hpp"
 #include "linalg/GrowingKrylov.hpp"
 #include "linalg/Scientific.hpp"
 #include "linalg/trilinos/ProportionalModes.hpp"
@@ -37,6 +38,8 @@ constexpr int controlSteps = 5;
 constexpr double noFiniteValue = 1e-6, noDigits = 0.5;
 /// Others have a nu of rounding.
 constexpr double noDigitsOfNu = 1e-13;
+/// Relative change of a value by Newton's method up to which the mode is the same.
+constexpr double sameValue = 1e-6;
 /// Up to this size the inverse is formed whole.
 constexpr int denseBelow = 80;
 
@@ -205,6 +208,14 @@ void dropRepeatedZeros(std::vector<Complex>& values, std::vector<ComplexVector>&
   vectors = std::move(keptVectors);
 }
 
+/// The mode that Newton's method finds from a pair far from the shift, where (L - sigma)^-1 has few
+/// digits of it; none where that is another one.
+std::optional<DampedMode> refinedMode(const ScaledPencil& pencil, Complex s,
+                                      const ComplexVector& phi) {
+  const auto mode = refine(pencil.M, pencil.C, pencil.K, {s, phi});
+  return mode && std::abs(mode->s - s) <= sameValue * std::abs(s) ? mode : std::nullopt;
+}
+
 /// The first `wanted` pairs, without those that are infinite and repeated zeros. ConvergenceError
 /// where a finite one is not accurate.
 DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inverse,
@@ -224,11 +235,14 @@ DampedModes checkedModes(const ScaledPencil& pencil, const ShiftedInverse& inver
         pencil.rounding(better) /
         (std::norm(s - inverse.shift()) *
          std::max(size.dot(pencil.M.cwiseAbs() * size), std::numeric_limits<double>::min()));
-    if (!(error <= acceptedError + rounding))
+    const bool accurate = error <= acceptedError + rounding;
+    const auto refined = accurate ? std::nullopt : refinedMode(pencil, s, better);
+    if (!accurate && !refined)
       throw ConvergenceError("Damped mode " + std::to_string(j + 1) +
                              " (s = " + scientific(s.real()) + " + " + scientific(s.imag()) +
                              " i) has a relative error of " + scientific(error) + " where " +
                              scientific(acceptedError + rounding) + " is allowed.");
+    if (refined) s = refined->s, better = refined->shape;
     if (isZero(pencil, s, better)) {
       s = 0;
       zeros = out.values.size() + 1;
