@@ -21,8 +21,10 @@
 #include "common/report/Log.hpp"
 #include "common/report/Progress.hpp"
 #include "transient/ModelIdentity.hpp"
+#include "transient/Sampler.hpp"
+#include "transient/accuracy/LawResolution.hpp"
 #include "transient/accuracy/StepError.hpp"
-#include "transient/ranks/RankShare.hpp"
+#include "transient/ranks/MotionShare.hpp"
 
 namespace tooljoint::transient {
 namespace {
@@ -39,93 +41,14 @@ double percent(double part) {
   return std::stod(text.str());
 }
 
+/// Part of the integral of a law of time that fixed steps may miss without a warning.
+constexpr double unresolved = 0.01;
+
 double cpuSeconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
-
-/// Hands out samples at start + k * interval from accepted steps.
-class Sampler {
- public:
-  /// \param share  null for a model that is whole
-  Sampler(const CompiledModel& model, const RankShare* share, const TransientOptions& options,
-          SampleSink& sink, long done)
-      : model_(model),
-        share_(share),
-        begin_(options.start),
-        end_(options.end),
-        interval_(options.sampling),
-        sink_(sink),
-        count_(done) {
-    middle_.resize(model.size(), model.stateSize());
-    for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.wholeSize());
-    dofs_.setZero(model.size());
-  }
-  long count() const { return count_; }
-  /// What the sink of this rank has thrown. The other ranks of a divided motion do not know of it:
-  /// the run asks all of them and then throws on all.
-  const std::exception_ptr& failure() const { return failure_; }
-
-  /// All samples in (from.t, to.t]; those that fall on the end of the step are the state itself.
-  void step(const State& from, const State& to) {
-    const double h = to.t - from.t;
-    for (;;) {
-      const double t = begin_ + static_cast<double>(count_) * interval_;
-      if (t > to.t + 1e-9 * h || t > end_ + 1e-9 * interval_) return;
-      if (t > to.t - 1e-9 * h)
-        give(t, to);
-      else
-        give(t, between(from, to, (t - from.t) / h));
-    }
-  }
-  void first(const State& state) { give(state.t, state); }
-
- private:
-  /// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the
-  /// step.
-  const State& between(const State& from, const State& to, double x) {
-    const double h = to.t - from.t;
-    const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
-    const double h01 = x * x * (3 - 2 * x), h11 = x * x * (x - 1) * h;
-    middle_.q = h00 * from.q + h10 * from.v + h01 * to.q + h11 * to.v;
-    middle_.v = h00 * from.v + h10 * from.a + h01 * to.v + h11 * to.a;
-    middle_.a = (1 - x) * from.a + x * to.a;
-    model_.blendStates(from.x, to.x, x, from.x, middle_.x);
-    return middle_;
-  }
-  void give(double t, const State& state) {
-    toWhole(state.q, q_);
-    toWhole(state.v, v_);
-    toWhole(state.a, a_);
-    ++count_;
-    if (share_ == nullptr) return pass(t, state);
-    if (failure_) return;
-    try {
-      pass(t, state);
-    } catch (...) {
-      failure_ = std::current_exception();
-    }
-  }
-  void pass(double t, const State& state) {
-    if (model_.stateSize() > 0) sink_.states(state.x);
-    sink_.sample(t, q_, v_, a_);
-  }
-  void toWhole(const Vector& positions, Vector& dofs) {
-    if (share_ == nullptr) return model_.toDofs(positions, dofs);
-    model_.toDofs(positions, dofs_);
-    share_->gather(dofs_, dofs);
-  }
-
-  const CompiledModel& model_;
-  const RankShare* share_;
-  double begin_, end_, interval_;
-  SampleSink& sink_;
-  long count_;
-  State middle_;
-  Vector q_, v_, a_, dofs_;
-  std::exception_ptr failure_;
-};
 
 /// Not a number, infinite or absurdly large: say when and where.
 void checkFinite(const CompiledModel& model, const Integrator& integrator, const State& from,
@@ -157,62 +80,6 @@ long contactEvaluations(const CompiledModel& model) {
   return std::lround(model.cut().sum(static_cast<double>(sum)));
 }
 
-bool hasPointStates(const model::SecondOrderModel& model) {
-  return std::any_of(model.points.begin(), model.points.end(),
-                     [](const auto& set) { return model::stateful(*set.law) != nullptr; });
-}
-
-/// Models with fewer dofs are computed by all ranks alike: a step takes less time than the messages
-/// of a divided one win back.
-constexpr int fewestToDivide = 1500;
-
-/// The share of this rank, or null where all ranks do the same.
-std::unique_ptr<RankShare> shareOf(const model::SecondOrderModel& model,
-                                   const TransientOptions& options, const Integrator& integrator) {
-  const bool wanted = options.ranks == RankUse::Divide ||
-                      (options.ranks == RankUse::Automatic && model.size() >= fewestToDivide);
-  if (!wanted || parallel::size() == 1) return nullptr;
-  if (!integrator.dividesAmongRanks() || hasPointStates(model)) {
-    if (options.ranks == RankUse::Divide)
-      log::warn("The motion is computed by all ranks alike: " +
-                (hasPointStates(model)
-                     ? std::string("a point law has states.")
-                     : "the integrator \"" + options.integrator + "\" does not divide it."));
-    return nullptr;
-  }
-  auto share = RankShare::of(model);
-  if (!share && options.ranks == RankUse::Divide)
-    log::warn("The motion is computed by all ranks alike: the model cannot be cut into " +
-              std::to_string(parallel::size()) + " pieces.");
-  return share;
-}
-
-/// Part of the integral of a law of time that fixed steps may miss without a warning.
-constexpr double unresolved = 0.01;
-/// Steps of a run at which laws are looked at: the first ones, and as many spread over the rest.
-constexpr long lawSteps = 10000;
-
-/// Looks at a law within a step: what is shorter than the distance of two of them may be missed.
-constexpr int looksInStep = 8;
-
-/// How much of a law the steps miss: the sum of |T_h - T_{h/8}| over that of |T_{h/8}|, with T the
-/// trapezoidal sums of the law over a step and over its eighths.
-double missedPart(const model::ScalarLaw& law, double start, double end, double h) {
-  const auto steps = static_cast<long>(std::floor((end - start) / h * (1 + 1e-12)));
-  const long stride = std::max(1L, steps / lawSteps);
-  double missed = 0.0, sum = 0.0;
-  for (long i = 0; i < steps; i += i < lawSteps ? 1 : stride) {
-    const double t = start + static_cast<double>(i) * h;
-    const double whole = 0.5 * (law.value(t) + law.value(t + h));
-    double fine = whole;
-    for (int k = 1; k < looksInStep; ++k) fine += law.value(t + h * k / looksInStep);
-    fine /= looksInStep;
-    missed += std::abs(whole - fine);
-    sum += std::abs(fine);
-  }
-  return sum > 0.0 ? missed / sum : 0.0;
-}
-
 /// One run: the loop and what surrounds it.
 class Run {
  public:
@@ -224,8 +91,7 @@ class Run {
         integrator_(make()),
         share_(shareOf(model, options, *integrator_)),
         model_(share_ ? CompiledModel(*share_) : CompiledModel(model)),
-        sampler_(model_, share_.get(), options, sink,
-                 hooks.resume != nullptr ? hooks.resume->samples : 0) {
+        sampler_(model_, options, sink, hooks.resume != nullptr ? hooks.resume->samples : 0) {
     state_.resize(model_.size(), model_.stateSize());
     next_.resize(model_.size(), model_.stateSize());
   }
@@ -275,10 +141,9 @@ class Run {
   }
 
   void begin() {
-    const auto& source = model_.source();
     state_.t = options_.start;
-    model_.toPositions(source.initialDisplacement, state_.q);
-    model_.toPositions(source.initialVelocity, state_.v);
+    model_.toPositions(whole_.initialDisplacement, state_.q);
+    model_.toPositions(whole_.initialVelocity, state_.v);
     model_.setTime(state_.t);
     if (model_.stateSize() > 0) startStates();
     const Checkpoint* point = hooks_.resume;
@@ -371,27 +236,19 @@ class Run {
     evaluationsBefore_ = point.contactEvaluations - contactEvaluations(model_);
   }
 
-  /// From dofs of the whole model.
-  void setState(const State& whole) {
-    state_.t = whole.t;
-    const auto set = [this](const Vector& dofs, Vector& positions) {
-      model_.toPositions(share_ ? share_->pick(dofs) : dofs, positions);
-    };
-    set(whole.q, state_.q);
-    set(whole.v, state_.v);
-    set(whole.a, state_.a);
-    state_.x = whole.x, state_.xDot = whole.xDot;
+  /// From dofs of the model.
+  void setState(const State& dofs) {
+    state_ = dofs;
+    model_.toPositions(dofs.q, state_.q);
+    model_.toPositions(dofs.v, state_.v);
+    model_.toPositions(dofs.a, state_.a);
   }
-  State wholeState() const {
-    State whole = state_;
-    const auto set = [this](const Vector& positions, Vector& dofs) {
-      model_.toDofs(positions, dofs);
-      if (share_) share_->gather(Vector(dofs), dofs);
-    };
-    set(state_.q, whole.q);
-    set(state_.v, whole.v);
-    set(state_.a, whole.a);
-    return whole;
+  State stateInDofs() const {
+    State dofs = state_;
+    model_.toDofs(state_.q, dofs.q);
+    model_.toDofs(state_.v, dofs.v);
+    model_.toDofs(state_.a, dofs.a);
+    return dofs;
   }
 
   const std::string& identity() {
@@ -430,7 +287,7 @@ class Run {
     point.program = programVersion() + " " + gitHash();
     point.integrator = options_.integrator;
     point.model = identity();
-    point.state = wholeState();
+    point.state = stateInDofs();
     point.counters = integrator_->counters();
     point.contactEvaluations = evaluationsBefore_ + contactEvaluations(model_);
     point.samples = sampler_.count();

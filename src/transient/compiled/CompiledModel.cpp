@@ -165,9 +165,8 @@ CompiledModel::CompiledModel(const model::SecondOrderModel& model, const RankSha
   for (int p = 0; p < n; ++p) diagonalAddress_[at(p)] = pattern_.address(p, p);
 
   std::map<std::string, std::size_t> byLaw;
-  Vector vector;
   for (const auto& term : model.loads) {
-    toPositions(term.vector, vector);
+    const Vector vector = inOrder(term.vector);
     const auto [it, fresh] = byLaw.emplace(model.laws[at(term.law)].name, loads_.size());
     if (fresh)
       loads_.push_back({term.law, vector});
@@ -201,11 +200,18 @@ std::vector<PointBatch> CompiledModel::makePoints() const {
 }
 
 void CompiledModel::toPositions(const Vector& dofs, Vector& positions) const {
-  positions.resize(dofs.size());
+  positions = share_ != nullptr ? share_->pick(dofs) : inOrder(dofs);
+}
+
+/// Own dofs in the order of positions.
+Vector CompiledModel::inOrder(const Vector& dofs) const {
+  Vector positions(size());
   for (int p = 0; p < size(); ++p) positions[p] = dofs[pattern_.partition().dof[at(p)]];
+  return positions;
 }
 
 void CompiledModel::toDofs(const Vector& positions, Vector& dofs) const {
+  if (share_ != nullptr) return share_->gather(positions, dofs);
   dofs.resize(positions.size());
   for (int p = 0; p < size(); ++p) dofs[pattern_.partition().dof[at(p)]] = positions[p];
 }

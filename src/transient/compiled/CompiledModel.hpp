@@ -99,6 +99,7 @@ class CompiledModel {
   const model::SecondOrderModel& source() const { return model_; }
   const linalg::BlockPattern& pattern() const { return pattern_; }
 
+  /// From and to dofs of the model of all ranks; toDofs() is collective.
   void toPositions(const Vector& dofs, Vector& positions) const;
   void toDofs(const Vector& positions, Vector& dofs) const;
   /// "theta_z of node 17".
@@ -211,6 +212,7 @@ class CompiledModel {
  private:
   CompiledModel(const model::SecondOrderModel& model, const RankShare* share);
   void countWhole();
+  Vector inOrder(const Vector& dofs) const;
   linalg::BlockRange all() const { return {0, pattern_.blocks()}; }
 
   const model::SecondOrderModel& model_;

@@ -23,8 +23,8 @@ class RankShare {
   /// The same decision on all ranks.
   static std::unique_ptr<RankShare> of(const model::SecondOrderModel& whole);
 
-  /// Interior dofs, then those of the cuts; laws, names and points as in the whole, rows of points
-  /// of other ranks empty.
+  /// In positions of pattern(): interior dofs, then those of the cuts; laws, names and points as in
+  /// the whole, rows of points of other ranks empty.
   const model::SecondOrderModel& model() const { return model_; }
   /// Divided (BlockPattern::cut()).
   const linalg::BlockPattern& pattern() const { return pattern_; }

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transient/Sampler.hpp"
+
+namespace tooljoint::transient {
+
+Sampler::Sampler(const CompiledModel& model, const TransientOptions& options, SampleSink& sink,
+                 long done)
+    : model_(model),
+      begin_(options.start),
+      end_(options.end),
+      interval_(options.sampling),
+      sink_(sink),
+      count_(done) {
+  middle_.resize(model.size(), model.stateSize());
+  for (Vector* x : {&q_, &v_, &a_}) x->setZero(model.wholeSize());
+}
+
+void Sampler::step(const State& from, const State& to) {
+  const double h = to.t - from.t;
+  for (;;) {
+    const double t = begin_ + static_cast<double>(count_) * interval_;
+    if (t > to.t + 1e-9 * h || t > end_ + 1e-9 * interval_) return;
+    if (t > to.t - 1e-9 * h)
+      give(t, to);
+    else
+      give(t, between(from, to, (t - from.t) / h));
+  }
+}
+
+/// Cubic Hermite in q from (q, v), in v from (v, a); linear in a. x in (0, 1) is the place in the
+/// step.
+const State& Sampler::between(const State& from, const State& to, double x) {
+  const double h = to.t - from.t;
+  const double h00 = (1 + 2 * x) * (1 - x) * (1 - x), h10 = x * (1 - x) * (1 - x) * h;
+  const double h01 = x * x * (3 - 2 * x), h11 = x * x * (x - 1) * h;
+  middle_.q = h00 * from.q + h10 * from.v + h01 * to.q + h11 * to.v;
+  middle_.v = h00 * from.v + h10 * from.a + h01 * to.v + h11 * to.a;
+  middle_.a = (1 - x) * from.a + x * to.a;
+  model_.blendStates(from.x, to.x, x, from.x, middle_.x);
+  return middle_;
+}
+
+void Sampler::give(double t, const State& state) {
+  model_.toDofs(state.q, q_);
+  model_.toDofs(state.v, v_);
+  model_.toDofs(state.a, a_);
+  ++count_;
+  if (!model_.cut().isDivided()) return pass(t, state);
+  if (failure_) return;
+  try {
+    pass(t, state);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void Sampler::pass(double t, const State& state) {
+  if (model_.stateSize() > 0) sink_.states(state.x);
+  sink_.sample(t, q_, v_, a_);
+}
+
+}  // namespace tooljoint::transient
