@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -90,6 +91,7 @@ def first_rank(parent):
 def full_disk():
     """What one rank cannot write ends all of them, with a sentence and the code of bad files."""
     folder = pathlib.Path("full")
+    shutil.rmtree(folder, ignore_errors=True)  # of an earlier test
     command = [sys.argv[2], "-np", "2", sys.argv[1], "run", str(ROOT / "xml/helical_170m.xml"), "--output", str(folder), "--set", "Transient/Ranks=Divide"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=of_ranks(2)) as run_of_two:
         rank, files = 0, []
