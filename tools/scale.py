@@ -160,7 +160,7 @@ def walls(options):
     """One rank and two, in turns, the best of some."""
     lines = []
     for deck, words, end in MOTIONS[:1] if options.short else MOTIONS:
-        repeats = range(1 if options.short else 5)
+        repeats = range(1 if options.short else 3)
         runs = [[motion(options, deck, words, end, ranks, repeat) for ranks in (1, 2)] for repeat in repeats]
         one, two = (min(each[i][0]["wall_s"] for each in runs) for i in (0, 1))
         apart = max(difference(value, runs[0][1][1][key]) for key, value in runs[0][0][1].items() if value.dtype.kind == "f")
@@ -185,7 +185,7 @@ def counts(options):
 
 
 def motions(options):
-    return (f"{CHAPTER}\n\nThe motion alone, wall time of the best of five runs in turns; `Transient/Ranks` = `Divide`. The last column is the largest difference of\n"
+    return (f"{CHAPTER}\n\nThe motion alone, wall time of the best of three runs in turns; `Transient/Ranks` = `Divide`. The last column is the largest difference of\n"
             "a recorded value, relative to the largest of its kind.\n\n" + walls(options) +
             f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted from them, for a step of one rank\n"
             f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core for each rank.\n\n" + counts(options))
