@@ -13,32 +13,48 @@ import pathlib
 import re
 import sys
 
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+
 import plots
 from plots import np, plt
 
 UNSAFE = "#D55E00"
 LEAST_FOR_CONTOURS = 3  # points along an axis
+CONTOURS = 6  # intervals between contour lines, at most
+MOST_CELLS = 400  # drawn as lines and areas; more are an image
+MOST_TICKS = 9, 14  # across and up
+LONGEST_TICKS = 48  # letters of all ticks of an axis that stand side by side
 
 
 def fail(sentence):
     sys.exit(f"plot_map.py: {sentence}")
 
 
+class NoMap(Exception):
+    """A sentence on what is missing or damaged."""
+
+
 class Map:
-    """The table of a map as grids."""
+    """The table of a map as grids: `failed` and, of each value, `grid`, with nan where it is not known. `rows` are those of map.csv, by names
+    without units, in the order of the grids. NoMap: no table, or not that of the summary."""
 
     def __init__(self, folder):
         try:
-            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["map"]
+            summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
             with open(folder / "map.csv", encoding="utf-8", newline="") as file:
                 lines = list(csv.reader(file))
-        except (OSError, KeyError, ValueError) as problem:
-            fail(f"{folder} holds no map: {problem}")
+        except (OSError, ValueError) as problem:
+            raise NoMap(f"{folder} holds no map: {problem}. Name the folder of a map, or run the map again.") from problem
+        summary = summary.get("map") if isinstance(summary, dict) else None
+        if not summary or not summary.get("axes"):
+            raise NoMap(f"{folder}/summary.json is not that of a map that has ended. tooljoint map DECK --output {folder} goes on with the map, --collect {folder} makes one of the points "
+                        "that are done.")
         self.axes, self.values = summary["axes"], summary["values"]
-        rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
+        self.rows = rows = [dict(zip((re.sub(r" \[[^\]]*\]$", "", name) for name in lines[0]), line)) for line in lines[1:]]
         shape = [axis["points"] for axis in self.axes]
         if len(rows) != np.prod(shape):
-            fail(f"{folder}/map.csv has {len(rows)} rows, the grid of summary.json {np.prod(shape)} points.")
+            raise NoMap(f"{folder}/map.csv has {len(rows)} rows, the grid of summary.json {np.prod(shape)} points. Run the map again, or restore both files from a copy.")
         self.failed = np.array([row["status"] != "done" for row in rows]).reshape(shape)
         self.grid = {value["name"]: np.array([float(row[value["name"]] or "nan") for row in rows]).reshape(shape) for value in self.values}
         for k, axis in enumerate(self.axes):
@@ -47,6 +63,12 @@ class Map:
             # points that are no numbers stand in their order
             axis["places"] = np.array([float(text) for text in texts]) if axis["numeric"] else np.arange(shape[k], dtype=float)
             axis["label"] = axis["name"] + (f" [{axis['unit']}]" if axis["unit"] else "")
+
+    def pictures(self):
+        """(value, point of the axes beyond the second, name of the picture) of all pictures."""
+        for value in self.values:
+            for rest in itertools.product(*(range(axis["points"]) for axis in self.axes[2:])):
+                yield value, rest, "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(f"_{i + 1}" for i in rest)
 
 
 def edges(places):
@@ -73,14 +95,45 @@ def lines(axes, x, y, grid, value):
     if min(len(x), len(y)) < LEAST_FOR_CONTOURS or np.count_nonzero(np.isfinite(grid)) < LEAST_FOR_CONTOURS ** 2 or np.nanmin(grid) == np.nanmax(grid):
         return
     masked = np.ma.masked_invalid(grid.T)
-    drawn = axes.contour(x, y, masked, levels=5, colors="white", linewidths=0.7)
-    axes.clabel(drawn, fontsize=7, fmt=plots.tick)
-    levels = [level for level in limits(value) if np.nanmin(grid) < level < np.nanmax(grid)]
+    low, high = np.nanmin(grid), np.nanmax(grid)
+    even = [level for level in plots.ticker.MaxNLocator(CONTOURS).tick_values(low, high) if low < level < high]
+    if even:
+        # dark on the light half of the colours
+        drawn = axes.contour(x, y, masked, levels=even, colors=["white" if level < (low + high) / 2 else "black" for level in even], linewidths=0.7)
+        axes.clabel(drawn, fontsize=7, fmt=plots.tick)
+    levels = [level for level in limits(value) if low < level < high]
     if levels:
         axes.contour(x, y, masked, levels=levels, colors=UNSAFE, linewidths=1.8)
 
 
+def hatch(axes, x, y, beyond):
+    """Hatches the unsafe cells; neighbours across are one rectangle."""
+    left, low = edges(x), edges(y)
+    areas = []
+    for j, row in enumerate(beyond.T):
+        ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]])))
+        areas += [plt.Rectangle((left[first], low[j]), left[last] - left[first], low[j + 1] - low[j]) for first, last in ends.reshape(-1, 2)]
+    outline = Path.make_compound_path(*(area.get_transform().transform_path(area.get_path()) for area in areas))
+    axes.add_patch(PathPatch(outline, fill=False, hatch="///", edgecolor=UNSAFE, linewidth=0))
+    axes.scatter([], [], marker="s", facecolor="none", edgecolor=UNSAFE, hatch="////", label="unsafe")
+
+
+def tick_texts(axes, along, axis, places, order, most):
+    """Ticks at the points, or at as many of them as have room."""
+    texts = [plots.tick(place) if axis["numeric"] else pathlib.PurePath(axis["texts"][i]).name for place, i in zip(places, order)]
+    room = (places[-1] - places[0]) / most
+    kept = [0]
+    for i, place in enumerate(places):
+        if place - places[kept[-1]] >= room:
+            kept.append(i)
+    along.set_ticks(places[kept], [texts[i] for i in kept])
+    if along is axes.xaxis and sum(len(texts[i]) for i in kept) > LONGEST_TICKS:
+        plt.setp(axes.get_xticklabels(), rotation=30, ha="right", rotation_mode="anchor")
+    along.set_label_text(axis["label"])
+
+
 def draw(made, value, rest):
+    """The map of one value over the first two axes, at the point `rest` of the others."""
     first, second = made.axes[:2]
     # cells need increasing places
     order = np.argsort(first["places"]), np.argsort(second["places"])
@@ -91,23 +144,18 @@ def draw(made, value, rest):
     axes.grid(False)
     if np.isfinite(grid).any():
         whole = made.grid[value["name"]]
-        cells = axes.pcolormesh(edges(x), edges(y), np.ma.masked_invalid(grid.T), cmap=plots.MAP, vmin=np.nanmin(whole), vmax=np.nanmax(whole))
+        cells = axes.pcolormesh(edges(x), edges(y), np.ma.masked_invalid(grid.T), cmap=plots.MAP, vmin=np.nanmin(whole), vmax=np.nanmax(whole), rasterized=grid.size > MOST_CELLS)
         picture.colorbar(cells, ax=axes, label=value["key"].removeprefix("transient.figures."))
     lines(axes, x, y, grid, value)
     beyond = unsafe(value, grid)
     if beyond.any():
-        left, low = edges(x), edges(y)
-        for i, j in np.argwhere(beyond):
-            axes.add_patch(plt.Rectangle((left[i], low[j]), left[i + 1] - left[i], low[j + 1] - low[j], fill=False, hatch="///", edgecolor=UNSAFE, linewidth=0))
-        axes.scatter([], [], marker="s", facecolor="none", edgecolor=UNSAFE, hatch="////", label="unsafe")
+        hatch(axes, x, y, beyond)
     lost = failed | ~np.isfinite(grid)
     if lost.any():
         i, j = np.nonzero(lost)
         axes.scatter(x[i], y[j], marker="x", color="#4D4D4D", label="missing")
-    for axis, along, keep in ((first, axes.xaxis, order[0]), (second, axes.yaxis, order[1])):
-        along.set_ticks(axis["places"][keep], [pathlib.PurePath(axis["texts"][i]).name for i in keep] if not axis["numeric"] else [plots.tick(place) for place in axis["places"][keep]])
-    axes.set_xlabel(first["label"])
-    axes.set_ylabel(second["label"])
+    tick_texts(axes, axes.xaxis, first, x, order[0], MOST_TICKS[0])
+    tick_texts(axes, axes.yaxis, second, y, order[1], MOST_TICKS[1])
     title = value["name"] + "".join(f", {axis['name']} {axis['texts'][i]} {axis['unit']}" for axis, i in zip(made.axes[2:], rest))
     axes.set_title(title.strip(), pad=18 if beyond.any() or lost.any() else 6)
     if beyond.any() or lost.any():
@@ -119,16 +167,17 @@ def main():
     if len(sys.argv) != 2:
         fail("give the folder of a map.")
     folder = pathlib.Path(sys.argv[1])
-    made = Map(folder)
+    try:
+        made = Map(folder)
+    except NoMap as problem:
+        fail(problem)
     plots.use_style()
-    for value in made.values:
-        for rest in itertools.product(*(range(axis["points"]) for axis in made.axes[2:])):
-            name = "map_" + re.sub(r"\W+", "_", value["name"]) + "".join(f"_{i + 1}" for i in rest)
-            picture = draw(made, value, rest)
-            for kind in ("png", "svg"):
-                picture.savefig(folder / f"{name}.{kind}")
-            plt.close(picture)
-            print(f"{folder / name}.png")
+    for value, rest, name in made.pictures():
+        picture = draw(made, value, rest)
+        for kind in ("png", "svg"):
+            picture.savefig(folder / f"{name}.{kind}")
+        plt.close(picture)
+        print(f"{folder / name}.png")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laws of bits and top drives in runs of the program, beside integrations of scipy and characteristic equations (models.py).
+"""Laws of bits and top drives in runs of the program, beside integrations of scipy and characteristic equations (models.py); figures of merit of
+motions with closed forms.
 
     check_drilling.py PROGRAM [NAME ...]           NAME: some of the checks
     check_drilling.py PROGRAM stick_slip_2500m     the tables of docs/drilling.md and what it says of them
@@ -278,6 +279,33 @@ def oscillator(program):
         near(f"oscillator: rms of the {name}", found[name]["rms"], amplitude / math.sqrt(2), 1e-5 * amplitude)
 
 
+def whirl(program):
+    """Figures of whirl of two balanced collars on hinges: a force that turns at omega drives every node on a circle at omega, in the sense of
+    the force; the mass of an unbalance turns with the string."""
+    collar = {**models.COLLAR, "Length": 10.0, "Elements": 4}  # hinged at 20 m: 5.5 rad/s, so that its own motion dies within the 4 s before the window
+    speed, omega, middle = 12.0, 2 * math.pi * 3.0, collar["Elements"] + 1
+
+    def force(sense):
+        one = {"Node": middle, "Value": 500.0, "Frequency": omega / (2 * math.pi)}
+        return {"Forces": {"u": {**one, "Component": "u"}, "v": {**one, "Component": "v", "Phase": -sense * math.pi / 2}}}
+
+    for name, loads, rate in (("forward", force(1), omega), ("backward", force(-1), -omega), ("unbalance", {"Unbalance": {"mass": {"Node": middle, "Moment": 1.0}}}, speed)):
+        deck = models.string_deck(((collar, 2),), **{
+            "Loads": {"Gravity": 0.0, **loads}, "Rotary Speed": {"Law": "Constant", "Constant": {"Speed": speed}}, "Damping": {"Mass Coefficient": 8.0},
+            "Supports": {"Top": "u v w theta_z", "Bit": "u v"},
+            "Transient": {"Progress": False, "End Time": 5.0, "Sampling Interval": 0.01, "Integrator": "Generalized-alpha", "Step": 2e-3}})
+        run = program.run(f"whirl_{name}", program.deck(f"whirl_{name}", deck), {"Output/Figures/Begin": 4.0})
+        found = run.motion["figures"]["whirl"]
+        rates = run.data("figures/precession")[1:-1]
+        near(f"whirl, {name}: precession of the node farthest off", rates[np.argmax(np.abs(rates - rate))], rate, 1e-3 * abs(rate))
+        # the ends are held, and all other nodes whirl all the time
+        share = len(rates) / (len(rates) + 2)
+        for key, wanted in (("forward_share", share if rate > 0 else 0.0), ("backward_share", 0.0 if rate > 0 else share), ("backward_contact_share", 0.0)):
+            near(f"whirl, {name}: {key}", found[key], wanted, 1e-12)
+        if rate < 0:
+            near(f"whirl, {name}: worst precession", found["worst_precession_rpm"] * RPM, rate, 1e-3 * omega)
+
+
 def cutting(program):
     """A bit that cuts, axial and torsional loop together: static state, and the motion against an integration of its own with
     the delay solved for; full against reduced; both integrators; a free hook."""
@@ -323,7 +351,7 @@ def cutting(program):
          np.abs(drift + lost - impulse).max() / np.abs(impulse).max(), 0.0, 0.02)
 
 
-CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting, oscillator)}
+CHECKS = {f.__name__: f for f in (stick_slip, onset, torque_limit, strings, torque_source, steady, matched, cutting, oscillator, whirl)}
 ON_REQUEST = {"stick_slip_2500m": scene_2500m.stick_slip_2500m}
 
 

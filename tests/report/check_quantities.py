@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a report computes itself, against closed forms: check_quantities.py
 
-Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, and the numbers of the 3-D view.
+Stresses, curvatures, precession, spectra, envelopes, units, the deck with its overrides, best and worst points of maps, and the numbers of the
+3-D view.
 """
 import base64
 import pathlib
@@ -14,8 +15,9 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "tests" / "support")]
 from checks import expect, finish  # noqa: E402
+import plot_map  # noqa: E402
 import plots  # noqa: E402
-from report import checks, deck, of_run, quantities, results, scene3d, tables  # noqa: E402
+from report import checks, deck, of_map, of_run, quantities, results, scene3d, tables  # noqa: E402
 
 
 class Bar:
@@ -135,6 +137,31 @@ def judged():
         expect(f"the card of the energy has the bound of its check: {residual}", of_run.headline(Parts(residual)).count("card bad") == bad)
 
 
+def mapped():
+    """Best and worst points of a grid of 2 x 3 with a missing point."""
+    grid = np.array([[4.0, 1.0, np.nan], [2.0, 9.0, 6.0]])
+
+    class Grid:
+        rows = [None] * grid.size
+
+        def __init__(self, above=None, below=None):
+            self.values = [{"name": "x", "unsafe_above": above, "unsafe_below": below}]
+            self.grid = {"x": grid}
+
+    for limits, wanted, safe in (((5.0, None), [("best", 1), ("worst", 4)], 3), ((None, 3.0), [("best", 4), ("worst", 1)], 3), ((7.0, 1.5), [("least", 1), ("largest", 4)], 3),
+                                 ((None, None), [("least", 1), ("largest", 4)], None)):
+        made = Grid(*limits)
+        found = of_map.safe(made)
+        expect(f"best and worst points of the limits {limits}", of_map.extremes(made.values[0], grid) == wanted, of_map.extremes(made.values[0], grid))
+        expect(f"safe points of the limits {limits}", (found if safe is None else int(found.sum())) == safe, found)
+    expect("a value no point has is without extremes", of_map.extremes(Grid().values[0], np.full((2, 2), np.nan)) == [])
+    made, axes = plots.figure()
+    plot_map.hatch(axes, np.array([0.0, 1, 2, 3]), np.array([0.0, 10]), np.array([[1, 0], [1, 0], [0, 0], [1, 1]], bool))
+    box = axes.patches[0].get_path().get_extents()
+    expect("the hatched region ends with the unsafe cells", np.allclose(box.get_points(), [[-0.5, -5], [3.5, 15]]) and len(axes.patches[0].get_path().to_polygons()) == 3)
+    plots.plt.close(made)
+
+
 def view():
     axes = scene3d.to_view(np.eye(3))  # of north, east, down
     expect("the view is right-handed: east, up, south", np.array_equal(axes, [[0, 0, -1], [1, 0, 0], [0, -1, 0]]) and np.linalg.det(axes) == 1)
@@ -147,7 +174,7 @@ def view():
 
 
 def main():
-    for part in (stresses, motions, pictures, units, scenes, judged, view):
+    for part in (stresses, motions, pictures, units, scenes, judged, mapped, view):
         part()
     return finish()
 

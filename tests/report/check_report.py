@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of runs, studies and tables, opened in a browser: check_report.py PROGRAM MPIEXEC pages|folders
+"""Reports of runs, studies, maps and tables, opened in a browser: check_report.py PROGRAM MPIEXEC pages|folders
 
 Each page has its figures, says nothing wrong on the console, asks nothing of a network, fits into 400 px, is below 5 MB, and its 3-D view is
 drawn and moves with its slider. The numbers in it are those of the results. What cannot be reported on ends with a sentence and exit code 5.
-"pages" are those of a string, of parts and of a study; without Chromium they are only read. "folders" are those of runs that leave less, failed,
+"pages" are those of a string, of parts, of a study and of a map; without Chromium they are only read. "folders" are those of runs that leave less, failed,
 were interrupted or damaged, and the end of a run.
 """
 import base64
 import contextlib
+import csv
 import json
+import math
 import os
 import pathlib
 import re
@@ -29,7 +31,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 from checks import TIME_FACTOR, expect, finish, tooljoint  # noqa: E402
 
-STRING, FRAME, STUDY = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml"))
+STRING, FRAME, STUDY, MAP = (str(ROOT / path) for path in ("tests/effects/scene.xml", "xml/frame.xml", "tests/study/study.xml", "xml/map_helical_170m.xml"))
 LARGEST, SECONDS = 5_000_000, 10.0
 NAMESPACES = ("http://www.w3.org/",)
 RUN = {"section", "map", "axial", "torque", "side", "radial", "stress", "curvature", "bit-speed", "contact", "duty", "largest", "rms", "twist", "orbit-1", "lateral-spectrum",
@@ -233,6 +235,51 @@ def studies(chromium):
         look("study", path, chromium, view=False)
 
 
+def map_numbers(text):
+    """The extremes, the safe points, the unsafe ones and the failed ones are those of map.csv."""
+    with open("map/map.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    done = [row for row in rows if row["status"] == "done"]
+    expect("map: half of the points fail", len(rows) == 18 and len(done) == 9, len(done))
+    for name, limit, words in (("stick-slip index", 0.5, ("best", "worst")), ("lateral acceleration", 6.5, ("best", "worst")), ("backward whirl", math.inf, ("least", "largest"))):
+        for word, pick in zip(words, (min, max)):
+            row = pick(done, key=lambda row, name=name: float(row[name]))
+            bad = " bad" if float(row[name]) > limit else ""
+            card = (f'<div class="card{bad}"><div class="name">{name}, {word}</div><div class="value">{float(row[name]):.4g}</div>'
+                    f'<div class="field">speed {row["speed [rpm]"]} rpm, weight on bit {row["weight on bit [kN]"]} kN, iterations {row["iterations"]}</div>')
+            expect(f"map: {name}, {word}", card in text, card)
+    safe = sum(float(row["stick-slip index"]) <= 0.5 and float(row["lateral acceleration"]) <= 6.5 for row in done)
+    expect("map: points that are safe, and points that are not", f'<div class="value">{safe}</div><div class="field">of 18</div>' in text and 0 < safe < 9, safe)
+    expect("map: every point has its row", all(f'<tr><td class="number">{row["point"]}</td><td class="number">{row["speed [rpm]"]}</td>' in text for row in rows))
+    lost = [row for row in rows if row["status"] == "failed"]
+    expect("map: failed points are named with their reason", all(f"Point {row['point']} (" in text for row in lost) and text.count("<td>failed</td>") == len(lost) == text.count("</td><td>The static equilibrium did not converge"))
+    expect("map: the unsafe region is hatched, with the limit", text.count("url(#map-stick-slip-index-1-h") >= 2 and ">unsafe</text>" in text and "stroke: #d55e00; stroke-width: 1.8" in text)
+    expect("map: the title leaves out what varies", "mud 1200 kg/m3" in text and "WOB 10 kN" not in text)
+
+
+def maps(chromium):
+    """A map with a third axis, whose second point makes runs fail; tables that are sorted by a click; a map that has not ended."""
+    shutil.rmtree("map", ignore_errors=True)
+    third = '<ParameterList name="iterations"><Parameter name="Parameter" type="string" value="Static/Max Iterations"/><Parameter name="Values" type="Array(string)" value="{200, 1}"/></ParameterList>'
+    scene = pathlib.Path(MAP).read_text(encoding="utf-8").replace('"components/', f'"{pathlib.Path(MAP).parent}/components/')
+    pathlib.Path("map.xml").write_text(re.sub(r'</ParameterList>\s*<ParameterList name="Values">', third + r"\g<0>", scene), encoding="utf-8")
+    done = tooljoint("map", "map.xml", "--output", "map", "--set", "Transient/End Time=0.06", "--set", "Map/Grid/speed/Count=3", "--set", "Map/Pictures=false")
+    expect("the map succeeds", done.returncode == 0, done.stderr[-300:])
+    path, text = page("map", "map", {f"map-{name}-{point}" for name in ("stick-slip-index", "lateral-acceleration", "backward-whirl") for point in (1, 2)})
+    map_numbers(text)
+    if chromium:
+        look("map", path, chromium, view=False)
+        column = '[...document.querySelectorAll("table.sortable tbody tr")].map((row) => parseFloat(row.cells[4].textContent))'
+        click = 'document.querySelectorAll("table.sortable th button")[4].click()'
+        for order in ("up", "down"):
+            chromium.value(click)
+            shown = chromium.value(column)
+            expect(f"map: a click sorts the points {order}, those without a value last", shown == sorted(shown[:9], reverse=order == "down") + 9 * [None], shown)
+    for what, text in (("a map that has not ended", '{"status": "interrupted", "map": {"axes": null}}'), ("a map with the summary of a run", '{"status": "finished"}')):
+        pathlib.Path("map/summary.json").write_text(text, encoding="utf-8")
+        refuse(what, "map", "map/summary.json is not that of a map that has ended")
+
+
 def tables_alone():
     shutil.rmtree("tables", ignore_errors=True)
     tooljoint("torque-drag", STRING, "--output", "tables", "--set", "Torque and Drag/Depths={40, 42}")
@@ -327,7 +374,7 @@ def pages():
     else:
         chromium = browser.Browser(120 * TIME_FACTOR)
     with chromium as opened:
-        for part in (strings, parts, studies):
+        for part in (strings, parts, studies, maps):
             part(opened)
 
 

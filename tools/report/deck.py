@@ -65,11 +65,11 @@ def shown(text, unit, factor):
     return f"{float(text) * factor:.4g} {unit}"
 
 
-def conditions(deck):
-    """"120 rpm, WOB 40 kN, ..." for the title of a page."""
+def conditions(deck, varied=()):
+    """"120 rpm, WOB 40 kN, ..." for the title of a page, without the paths that are `varied`."""
     words = []
     for path, symbol, unit, factor in CONDITIONS:
-        text = value(deck, path)
+        text = value(deck, path) if path not in varied else None
         if text and text not in ("0", "0.0") and (path != SPEED or value(deck, "Rotary Speed/Law") in (None, "Constant")):
             words.append(symbol + shown(text, unit, factor))
     return ", ".join(words)

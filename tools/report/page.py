@@ -55,6 +55,10 @@ class Page:
             grid = "".join(figure_html(figure) for figure in figures)
             self.add(name, title, f'{before}<div class="plots">{grid}</div>{after}')
 
+    def sort_tables(self):
+        """Tables of the kind "sortable" are sorted by a click on a title."""
+        self.scripts.append(f"<script>{(HERE / 'sort.js').read_text(encoding='utf-8')}</script>")
+
     def view(self, data, note):
         """The 3-D view, or the reason why there is none."""
         library = viewer()

@@ -7,16 +7,17 @@ from report.quantities import percent, plain
 COUNTS = ("interior", "interface", "retained", "modes")  # dofs of a part in summary.json
 
 
-def table(titles, rows, numbers=(), caption=""):
-    """An HTML table; `numbers` are the columns that are aligned as numbers. Cells are texts."""
-    def cell(kind, column, text):
+def table(titles, rows, numbers=(), caption="", kind=""):
+    """An HTML table; `numbers` are the columns that are aligned as numbers. Cells are texts. `kind`: "sortable" by a click on a title."""
+    def cell(tag, column, text):
         aligned = ' class="number"' if column in numbers else ""
-        return f"<{kind}{aligned}>{escape(str(text))}</{kind}>"
+        return f"<{tag}{aligned}>{escape(str(text))}</{tag}>"
 
     head = "".join(cell("th", column, text) for column, text in enumerate(titles))
     body = "".join("<tr>" + "".join(cell("td", column, text) for column, text in enumerate(row)) + "</tr>" for row in rows)
     above = f"<caption>{escape(caption)}</caption>" if caption else ""
-    return f'<div class="scroll"><table>{above}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+    style = f' class="{kind}"' if kind else ""
+    return f'<div class="scroll"><table{style}>{above}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def pairs(rows):

@@ -81,8 +81,8 @@ const std::map<std::string, io::ExportFormat>& exportFormats();
 /// does not move in it; ConvergenceError: the vibration error is above options.failAbove.
 void compare(const CompareOptions& options);
 /// `tooljoint report`: report.html in `folder`, or the file `output`, of what a run, a study,
-/// `torque-drag` or `modes` left there. FileError: nothing to report on, a file that cannot be
-/// read, or no python3 with the modules that are needed. Collective.
+/// a map, `torque-drag` or `modes` left there. FileError: nothing to report on, a file that cannot
+/// be read, or no python3 with the modules that are needed. Collective.
 void report(const std::string& folder, const std::string& output);
 /// The report at the end of a run. What goes wrong is a warning with the command to write it later;
 /// TOOLJOINT_REPORT=off in the environment leaves it out. A report of an earlier run is removed.
