@@ -170,16 +170,14 @@ def walls(options):
 
 
 def counts(options):
-    """What a rank has to do and the messages, of ranks that may share cores."""
-    deck, words, _ = MOTIONS[0]
-    alone = motion(options, deck, words, COUNTED, 1, "counted")[0]
-    step, dofs = alone["wall_s"] / alone["steps"], None
+    """What a rank has to do, of ranks that may share cores; the messages of a step are those of two ranks, whose steps are the same."""
+    deck, words, end = MOTIONS[0]
+    alone, two = (motion(options, deck, words, end, ranks, 0)[0] for ranks in (1, 2))
+    step, messages, dofs = alone["wall_s"] / alone["steps"], two["messages"] / two["steps"], 2 * two["dofs_of_rank"] - 6
     lines = []
     for ranks in (2,) if options.short else (2, 4, 8, 16):
         found, _, memory = motion(options, deck, words, COUNTED, ranks, "counted")
-        dofs = dofs or 2 * found["dofs_of_rank"] - 6
-        share, messages = found["dofs_of_rank"] / dofs, found["messages"] / found["steps"]
-        efficiency = step / ranks / (share * step + messages * MESSAGE * math.log2(ranks))
+        efficiency = step / ranks / (found["dofs_of_rank"] / dofs * step + messages * MESSAGE * math.log2(ranks))
         lines.append((ranks, found["dofs_of_rank"], f"{messages:.1f}", f"{100 * efficiency:.0f} %", f"{memory:.0f}"))
     return table(("ranks", "dofs of a rank", "messages per step", "predicted efficiency", "memory of a rank [MB]"), lines)
 
