@@ -184,7 +184,7 @@ def counts(options):
 
 def motions(options):
     return (f"{CHAPTER}\n\nThe motion alone, wall time of the best of three runs in turns; `Transient/Ranks` = `Divide`. The last column is the largest difference of\n"
-            "a recorded value, relative to the largest of its kind.\n\n" + walls(options) +
+            "a recorded value, relative to the largest of its kind; contact amplifies rounding, so that it grows with time.\n\n" + walls(options) +
             f"\nWork and messages of {MOTIONS[0][0]}, full model, counted over {COUNTED} s. The efficiency is predicted from them, for a step of one rank\n"
             f"as measured here and {1e6 * MESSAGE:.0f} us log2(ranks) for a message, with a core for each rank.\n\n" + counts(options))
 
