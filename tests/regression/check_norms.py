@@ -147,8 +147,8 @@ def update(options, gold):
             if found != norm.get("value"):
                 print(f"{key}: {norm.get('value')} -> {found}")
             norm["value"] = found
-    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}', '"norms": {\n    %s\n  }') % ",\n    ".join(
-        f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
+    norms = ",\n    ".join(f"{json.dumps(key)}: {json.dumps(norm)}" for key, norm in gold["norms"].items())
+    text = json.dumps({**gold, "norms": {}}, indent=2).replace('"norms": {}', f'"norms": {{\n    {norms}\n  }}')
     options.gold.write_text(text + "\n", encoding="utf-8")
     return 0
 
