@@ -52,7 +52,9 @@ def run(program, tree, deck, overrides, end, folder):
     moves = any(child.get("name") == "Transient" for child in ET.parse(tree / deck).getroot())
     for override in overrides + ([f"Transient/End Time={end}"] if moves else []):
         command += ["--set", override]
-    done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    # a program of another tree would load the libraries of this one where both were built at the same path
+    own = {**os.environ, "LD_LIBRARY_PATH": str(pathlib.Path(program).resolve().parent)}
+    done = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, env=own)
     return done.returncode, done.stdout
 
 
