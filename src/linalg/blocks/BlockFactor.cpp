@@ -207,13 +207,14 @@ int BlockFactor::factor() {
 TOOLJOINT_CLONES int BlockFactor::factorInterior() {
   double* values = values_.data();
   std::fill(values + patternStorage_, values + values_.size(), 0.0);
-  for (std::size_t k = 0; k < eliminated_; ++k) {  // size of each row before elimination
+  for (std::size_t k = 0; k < pivots_.size(); ++k) {  // size of each row before elimination
     const Pivot& p = pivots_[k];
     const double* D = values + eliminations_[k].diagonal;
     for (int i = 0; i < p.width; ++i) {
       double size = 0;
       for (int j = 0; j < p.width; ++j) size = std::max(size, std::abs(D[j * p.width + i]));
-      if (!(size > 0)) return p.start + i;  // an empty row, or not a number
+      // an empty row, or not a number; at the cut another rank may have it
+      if (!(size > 0) && k < eliminated_) return p.start + i;
       scale_[at(p.start + i)] = size;
     }
   }
@@ -230,6 +231,9 @@ TOOLJOINT_CLONES int BlockFactor::factorInterior() {
 
 int BlockFactor::factorCut(int bad) {
   cut_->clear();
+  for (std::size_t k = eliminated_; k < pivots_.size(); ++k)
+    for (int i = pivots_[k].start; i < pivots_[k].start + pivots_[k].width; ++i)
+      cut_->sizeOf(i) = scale_[at(i)];
   for (const CutBlock& block : cutBlocks_)
     for (int j = 0; j < block.columns; ++j)
       for (int i = 0; i < block.rows; ++i)

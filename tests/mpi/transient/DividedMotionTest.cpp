@@ -142,6 +142,20 @@ TEST(RankShare, APivotThatVanishesOnOneRankIsKnownToAll) {
   EXPECT_GE(factor.factor(), 0);
 }
 
+/// A chain that nothing holds moves as a whole: what is left of its last pivot is rounding, on
+/// several ranks at the cut.
+TEST(RankShare, AMatrixThatIsSingularAsAWholeIsSoOnAnyNumberOfRanks) {
+  auto whole = springChain(41, 1.0, 0.0, 3e7);
+  for (int end : {0, 40}) whole.stiffness.own()[0].matrix.coeffRef(end, end) = 3e7;
+  const auto share = parallel::size() > 1 ? RankShare::of(whole) : nullptr;
+  const CompiledModel compiled = share ? CompiledModel(*share) : CompiledModel(whole);
+  linalg::BlockFactor factor(compiled.pattern());
+  compiled.combine(0.0, 0.0, 1.0, factor.values());
+  EXPECT_GE(factor.factor(), 0);
+  compiled.combine(1e-3, 0.0, 1.0, factor.values());  // and not any more with a little ground
+  EXPECT_EQ(factor.factor(), -1);
+}
+
 TEST(DividedMotion, IsTheMotionOfOneRank) {
   for (const auto& [name, whole] : shapes()) {
     SCOPED_TRACE(name);
