@@ -22,15 +22,14 @@ MassFactor::MassFactor(const CompiledModel& model)
       perUnit_[i] = 1.0 / diagonal[i];
     }
   singularAt_ = factor_.factor();
-  if (regular() && !model.points().empty()) invert(model);
 }
 
 void MassFactor::invert(const CompiledModel& model) {
+  if (!values_.empty()) return;
   std::vector<char> wanted(at(pattern_.blocks()), 0);
   for (const auto& batch : model.points()) batch.markBlocks(wanted);
   factor_.invert(wanted);
   values_.assign(factor_.inverse(), factor_.inverse() + pattern_.storage());
-  inverse_ = values_.data();
   for (int b = 0; b < pattern_.blocks(); ++b)
     for (int e = pattern_.rowBegin(b); e < pattern_.rowBegin(b + 1); ++e) {
       const int c = pattern_.column(e);

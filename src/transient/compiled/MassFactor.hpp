@@ -26,19 +26,17 @@ class MassFactor {
   /// a is not. What falls below the part `negligible` of max |a_i / M_ii| is dropped: in a chain of
   /// consistent masses M^-1 falls by 3.7 from node to node.
   void solveNear(Vector& a, std::vector<int>& blocks, double negligible) const;
-  /// M^-1 on the pattern, where points touch it, zero where there is no mass; null for a singular
-  /// M, or a model without points.
-  const double* inverse() const { return inverse_; }
+  /// Find M^-1 on the pattern where points touch it, zero where there is no mass. M is regular.
+  void invert(const CompiledModel& model);
+  /// That of invert(), laid out as in the pattern; null before.
+  const double* inverse() const { return values_.empty() ? nullptr : values_.data(); }
 
  private:
-  void invert(const CompiledModel& model);
-
   const linalg::BlockPattern& pattern_;
   linalg::BlockFactor factor_;
-  Vector perUnit_;             ///< 1 / M_ii
-  std::vector<char> missing_;  ///< per position: no mass
-  linalg::BlockValues values_;
-  const double* inverse_ = nullptr;
+  Vector perUnit_;              ///< 1 / M_ii
+  std::vector<char> missing_;   ///< per position: no mass
+  linalg::BlockValues values_;  ///< of M^-1
   int singularAt_ = -1;
 };
 

@@ -38,7 +38,7 @@ class ImpactResolution {
   /// cut only as far as it takes to find it.
   static constexpr int mostHalvings = 16, atATime = 3;
 
-  /// For the scheme of spectral radius r and a regular mass.
+  /// For the scheme of spectral radius r and a mass that is inverted.
   void bind(CompiledModel& model, const MassFactor& mass, double radius);
 
   /// Halvings of the step from `from` to `to` of length h, just taken, that resolve its impacts; 0

@@ -50,6 +50,8 @@ class AlphaStep {
   const ImplicitStep& equation() const { return equation_; }
   /// After start().
   const MassFactor& mass() const { return *mass_; }
+  /// MassFactor::inverse() is there from now on.
+  void invertMass() { mass_->invert(*model_); }
   CompiledModel& model() const { return *model_; }
 
   void save(std::vector<double>& memory) const;
@@ -79,7 +81,7 @@ class AlphaStep {
   double filter_ = 0, phase_ = 0;  ///< s, k of the phase correction
   CompiledModel* model_ = nullptr;
   ImplicitStep equation_;
-  std::shared_ptr<const MassFactor> mass_;
+  std::shared_ptr<MassFactor> mass_;
   Vector A_, nextA_;               ///< algorithmic acceleration at t_n, t_{n+1}
   Vector X_, nextX_, base_;        ///< the same for states of point laws; x_{n+1} without x'_{n+1}
   Impacts impacts_, lastImpacts_;  ///< of the step under way and of the one before

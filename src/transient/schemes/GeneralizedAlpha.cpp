@@ -212,7 +212,9 @@ void GeneralizedAlpha::bind(CompiledModel& model, const Window& window, double t
                               : maxHalvings_);
   if (controlled_) control_.set(stepTolerance_, grid_.deepest());
   length_.bind(model);
-  if (resolveImpacts_) impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
+  if (!resolveImpacts_) return;
+  scheme_->invertMass();
+  impacts_.bind(model, scheme_->mass(), scheme_->parameters().radius);
 }
 
 void GeneralizedAlpha::saveHistory(std::vector<double>& history) const {

@@ -111,7 +111,8 @@ TEST(Impacts, ALookLeavesThePointWhereItWas) {
   set.entities = {1};
   ball.points.push_back(set);
   CompiledModel model(ball);
-  const MassFactor factor(model);
+  MassFactor factor(model);
+  factor.invert(model);
   ImpactResolution impacts;
   impacts.bind(model, factor, 0.8);
   State from, to;
