@@ -16,12 +16,13 @@
 #include "model/SecondOrderModel.hpp"
 #include "model/Substructure.hpp"
 #include "substructures/beam/BeamMatrices.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drilling/PointOnString.hpp"
 #include "substructures/drillstring/Partition.hpp"
 
 namespace tooljoint::drillstring {
 
-constexpr int kNodeDofs = 6;
+constexpr int kNodeDofs = beam::nodal::perNode;
 /// Name of the point set of the borehole wall.
 constexpr const char* kContactSet = "contact";
 

@@ -16,8 +16,8 @@ bool hasPointStates(const model::SecondOrderModel& model) {
                      [](const auto& set) { return model::stateful(*set.law) != nullptr; });
 }
 
-/// Models with fewer dofs are computed by all ranks alike: a step takes less time than the messages
-/// of a divided one win back.
+/// Models with fewer dofs are computed by all ranks alike: their steps take less than 0.2 ms, of
+/// which two ranks save little (docs/scale.md) and lose more where they share a core.
 constexpr int fewestToDivide = 1500;
 
 }  // namespace

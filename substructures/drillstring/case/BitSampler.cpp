@@ -4,13 +4,15 @@
 #include <optional>
 #include <string>
 
+#include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/StringModel.hpp"
 
 namespace tooljoint::drillstring {
 
 namespace {
 
-constexpr int axial = 2, torsional = 5;  // w and theta_z of a node
+using beam::nodal::thetaZ;
+using beam::nodal::w;
 
 void addTo(std::optional<double>& sum, double value) { sum = sum.value_or(0.0) + value; }
 
@@ -20,7 +22,7 @@ BitSampler::BitSampler(const Scene& scene) : scene_(scene) {
   const int last = scene.string.nodeCount();
   for (const auto& load : loads::pointLoads(scene.loads, scene.string.depths(), scene.rotary)) {
     const int dof = kNodeDofs * (last - 1) + load.component;
-    const bool acts = load.component == axial || load.component == torsional;
+    const bool acts = load.component == w || load.component == thetaZ;
     if (load.node == last && acts && !scene.held[static_cast<std::size_t>(dof)])
       loads_.push_back(load);
   }
@@ -30,18 +32,17 @@ BitSample BitSampler::at(const cases::Sample& sample,
                          const std::vector<cases::PointRecord>& drilling) const {
   const auto last = sample.velocity.size() - kNodeDofs;
   BitSample out;
-  out.speed = scene_.rotary.speed(sample.t) + sample.velocity(last + torsional);
+  out.speed = scene_.rotary.speed(sample.t) + sample.velocity(last + thetaZ);
   // Loads act along w and theta_z, the rock against them.
   for (const auto& load : loads_)
-    addTo(load.component == axial ? out.weight : out.torque,
-          -load.value * load.law.value(sample.t));
+    addTo(load.component == w ? out.weight : out.torque, -load.value * load.law.value(sample.t));
   for (const auto& record : drilling) {
     if (record.set().name != drilling::bitSet) continue;
     const int weight = record.find("weight_on_bit"), torque = record.find("torque_on_bit");
     if (torque >= 0) addTo(out.torque, *record.values(torque));
     if (weight < 0) continue;
     addTo(out.weight, *record.values(weight));
-    out.advance = scene_.topDrive.blockSpeed + sample.velocity(last + axial);
+    out.advance = scene_.topDrive.blockSpeed + sample.velocity(last + w);
   }
   return out;
 }

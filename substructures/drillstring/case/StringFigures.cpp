@@ -8,10 +8,13 @@
 
 #include "common/Constants.hpp"
 #include "io/Csv.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::drillstring {
 
 namespace {
+
+using namespace beam::nodal;
 
 constexpr double rpm = constants::rpmPerRadianPerSecond;
 constexpr double secondsPerHour = 3600.0;
@@ -84,8 +87,8 @@ void StringFigures::sample(const cases::Sample& sample, const BitSample& bit,
 
 void StringFigures::sampleNodes(const cases::Sample& sample, const Vector& normalForce) {
   const auto& a = sample.acceleration;
-  lateral_.add((component(a, 0).cwiseAbs2() + component(a, 1).cwiseAbs2()).cwiseSqrt());
-  axial_.add(component(a, 2).cwiseAbs());
+  lateral_.add((component(a, u).cwiseAbs2() + component(a, v).cwiseAbs2()).cwiseSqrt());
+  axial_.add(component(a, w).cwiseAbs());
   std::vector<char> inContact(static_cast<std::size_t>(normalForce.size()), 0);
   for (Eigen::Index i = 0; i < normalForce.size(); ++i) {
     if (!(normalForce[i] > 0.0)) continue;
@@ -94,8 +97,8 @@ void StringFigures::sampleNodes(const cases::Sample& sample, const Vector& norma
     forceSum_[i] += normalForce[i];
     forcePeak_[i] = std::max(forcePeak_[i], normalForce[i]);
   }
-  orbit_.add({component(sample.displacement, 0), component(sample.displacement, 1),
-              component(sample.velocity, 0), component(sample.velocity, 1), inContact,
+  orbit_.add({component(sample.displacement, u), component(sample.displacement, v),
+              component(sample.velocity, u), component(sample.velocity, v), inContact,
               scene_.rotary.speed(sample.t)});
 }
 

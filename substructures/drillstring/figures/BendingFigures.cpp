@@ -6,16 +6,17 @@
 #include <utility>
 
 #include "common/Constants.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::drillstring {
 
 namespace {
 
-constexpr Eigen::Index nodeDofs = 6, thetaX = 3, thetaY = 4, thetaZ = 5;
+using namespace beam::nodal;
 
 /// theta x z = theta_y x - theta_x y in the nodal frame.
 Eigen::Vector2d slope(const Vector& d, Eigen::Index node) {
-  return {d[nodeDofs * node + thetaY], -d[nodeDofs * node + thetaX]};
+  return {d[perNode * node + thetaY], -d[perNode * node + thetaX]};
 }
 
 }  // namespace
@@ -39,8 +40,8 @@ void BendingFigures::add(const Vector& displacement, double angle) {
                                  element.slopeRotation[0] * slope(displacement, node);
     const double x = element.rigidity * (element.pathCurvature[0] + turn[0] / element.length);
     const double y = element.rigidity * (element.pathCurvature[1] + turn[1] / element.length);
-    const double spin = angle + 0.5 * (displacement[nodeDofs * node + thetaZ] +
-                                       displacement[nodeDofs * (node + 1) + thetaZ]);
+    const double spin = angle + 0.5 * (displacement[perNode * node + thetaZ] +
+                                       displacement[perNode * (node + 1) + thetaZ]);
     // x cos(phi + alpha) + y sin(phi + alpha)
     const double along = x * std::cos(spin) + y * std::sin(spin);
     const double across = y * std::cos(spin) - x * std::sin(spin);

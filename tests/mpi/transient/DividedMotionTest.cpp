@@ -55,11 +55,19 @@ Edges star(int n) {
   return edges;
 }
 
+/// Two chains, by leaving out the edge in the middle of one.
+Edges apart(int n) {
+  auto edges = chain(n);
+  edges.erase(edges.begin() + n / 2);
+  return edges;
+}
+
 const std::vector<std::pair<std::string, model::SecondOrderModel>>& shapes() {
   static const std::vector<std::pair<std::string, model::SecondOrderModel>> all{
       {"chain", nodes(40, chain(40))},
       {"loop", nodes(40, loop(40))},
-      {"star", nodes(40, star(40))}};
+      {"star", nodes(40, star(40))},
+      {"two chains", nodes(40, apart(40))}};
   return all;
 }
 
