@@ -88,7 +88,7 @@ equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& 
   }
   input.load = equations.load;
   input.pathReaction = equations.pathReaction;
-  input.direction = friction.direction;
+  input.sliding = {0.0, friction.direction};
   if (scene.contactPoints.size() > 0)
     input.contact = scene.contact->law->atRest(
         friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
