@@ -351,6 +351,26 @@ StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options
   return state;
 }
 
+StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
+                            const model::NonlinearSolver& solve, const Vector& near) {
+  StaticProblem problem(input);
+  auto switches = switchesOf(input, options);
+  Stages stages(problem, options, solve);
+  Vector x = problem.restrict(near);
+  if (input.contact == nullptr || input.contact->size() == 0) {
+    stages.run("no contact", switches, 0.0, inTheOpen, x);
+  } else {
+    switches.lateralStepLimit = options.lateralStepLimit;
+    switches.slideAlongWall = true;
+    switches.frictionScale = switches.pull = 0.0;
+    stages.run("new loads", switches, hasFriction(input) ? kStageTolerance : 0.0, minimising, x);
+    addFriction(input, options, stages, switches, x);
+  }
+  StaticState state = describe(input, problem, problem.expand(x));
+  state.report = stages.report();
+  return state;
+}
+
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve) {
   StaticProblem problem(input);

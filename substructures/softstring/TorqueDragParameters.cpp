@@ -58,6 +58,10 @@ deck::ListSpec torqueDragParameters() {
             "Axial speed of drilling.");
   list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
             "Yield strength of the string, e.g. 931 MPa for S-135; without it no margin to yield.");
+  list.choice(
+      "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
+      "Depths at which the string with bending stiffness, clearance and contact (Static) is "
+      "computed beside the soft string.");
   list.boolean("Helical Contact", true,
                "Adds the side force of a string buckled into a helix, which leads to lock-up.")
       .expert();
@@ -76,6 +80,10 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
   if (list.isParameter("Rotary Speed")) settings.rotarySpeed = list.get<double>("Rotary Speed");
   if (list.isParameter("Yield Strength"))
     settings.yieldStrength = list.get<double>("Yield Strength");
+  const auto& stiff = list.get<std::string>("Stiff String");
+  settings.stiff = stiff == "None"          ? StiffDepths::None
+                   : stiff == "Deepest Bit" ? StiffDepths::Deepest
+                                            : StiffDepths::All;
   settings.helix = list.get<bool>("Helical Contact");
   return settings;
 }

@@ -30,6 +30,9 @@ def against_depth(name, label, caption, rows, value, scale):
     for number, (operation, own) in enumerate(by_operation(rows).items()):
         axes.plot([scale * x for x in numbers(own, value)], numbers(own, "bit_depth"), color=COLOURS[number], marker=plots.MARKERS[number], markersize=3, linewidth=1.2,
                   label=operation)
+        stiff = numbers(own, f"stiff_{value}") if f"stiff_{value}" in own[0] else []
+        if any(math.isfinite(x) for x in stiff):
+            axes.plot([scale * x for x in stiff], numbers(own, "bit_depth"), color=COLOURS[number], marker="o", markersize=6, markerfacecolor="none", linestyle="none")
     plots.legend_above(axes, 2, -0.4)
     return Figure(name, made, caption)
 
@@ -61,8 +64,8 @@ def add_torque_drag(page, folder):
     rows = read_table(folder / "torque_drag.csv")
     if not rows:
         return
-    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit.", rows, "hook_load", 1e-3),
-             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit.", rows, "surface_torque", 1e-3)]
+    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit; rings: the string with bending stiffness.", rows, "hook_load", 1e-3),
+             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit; rings: the string with bending stiffness.", rows, "surface_torque", 1e-3)]
     if (folder / "torque_drag_profile.csv").is_file():
         profiles = by_operation(read_table(folder / "torque_drag_profile.csv"))
         found += [limits_of(operation, own, number) for number, (operation, own) in enumerate(profiles.items())]
