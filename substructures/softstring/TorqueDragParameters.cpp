@@ -28,13 +28,13 @@ constexpr std::array kinds{
     Kind{"Ream", &TorqueDragSettings::reamingSpeed, 1.0, true, false},
 };
 
+}  // namespace
+
 std::vector<std::string> operationNames() {
   std::vector<std::string> names;
   for (const Kind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }
-
-}  // namespace
 
 deck::ListSpec torqueDragParameters() {
   deck::ListSpec list(
@@ -62,6 +62,21 @@ deck::ListSpec torqueDragParameters() {
       "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
       "Depths at which the string with bending stiffness, clearance and contact (Static) is "
       "computed beside the soft string.");
+  list.text(
+      "Measured", deck::Optional{},
+      "CSV file of measured hook loads and surface torques (columns bit depth, operation, hook "
+      "load, surface torque, units in the header), to which friction coefficients and block "
+      "weight are fitted. Relative to the folder of the deck.");
+  list.real("Hook Load Uncertainty", "N", 1e4, deck::Range::positive(),
+            "Of a measured hook load: the weight of its error in the fit.")
+      .expert();
+  list.real("Torque Uncertainty", "N m", 1e3, deck::Range::positive(),
+            "Of a measured surface torque.")
+      .expert();
+  list.realArray(
+      "Broomstick", "", deck::Optional{}, deck::Range::nonNegative(),
+      "Friction coefficients, each of which gives curves of hook load and torque with it "
+      "in the whole hole.");
   list.boolean("Helical Contact", true,
                "Adds the side force of a string buckled into a helix, which leads to lock-up.")
       .expert();
@@ -84,6 +99,11 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
   settings.stiff = stiff == "None"          ? StiffDepths::None
                    : stiff == "Deepest Bit" ? StiffDepths::Deepest
                                             : StiffDepths::All;
+  if (list.isParameter("Measured")) settings.measured = list.get<std::string>("Measured");
+  settings.hookLoadUncertainty = list.get<double>("Hook Load Uncertainty");
+  settings.torqueUncertainty = list.get<double>("Torque Uncertainty");
+  if (list.isParameter("Broomstick"))
+    settings.broomstick = list.get<Teuchos::Array<double>>("Broomstick").toVector();
   settings.helix = list.get<bool>("Helical Contact");
   return settings;
 }

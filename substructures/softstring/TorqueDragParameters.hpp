@@ -29,8 +29,14 @@ struct TorqueDragSettings {
   std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck
   std::optional<double> yieldStrength;  ///< [Pa]; none: no margin to yield
   StiffDepths stiff = StiffDepths::Deepest;
-  bool helix = true;  ///< side force of a string buckled into a helix
+  std::optional<std::string> measured;  ///< table of measurements to fit friction to
+  double hookLoadUncertainty = 0.0, torqueUncertainty = 0.0;  ///< of a measured value [N], [N m]
+  std::vector<double> broomstick;  ///< friction coefficients of whole-hole curves
+  bool helix = true;               ///< side force of a string buckled into a helix
 };
+
+/// All operations there are.
+std::vector<std::string> operationNames();
 
 /// Description of the list `Torque and Drag`.
 deck::ListSpec torqueDragParameters();

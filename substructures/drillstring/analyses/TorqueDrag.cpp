@@ -124,7 +124,19 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
   const bool given = scene.list().isSublist(spec.name());
   deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
                      [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
+  if (settings.depths.empty())
+    for (int i = 1; i <= settings.count; ++i)
+      settings.depths.push_back(scene.string.length() * i / settings.count);
+  for (const double depth : settings.depths)
+    requireReach(scene, depth, scene.deck.error("Torque and Drag/Depths", "holds"));
   return settings;
+}
+
+void requireReach(const Scene& scene, double bit, const std::string& where) {
+  const double deepest = scene.string.length();
+  if (bit > deepest * (1.0 + 1e-12))
+    throw DeckError(where + " " + formatNumber(bit) + " m, but the string of the deck ends at " +
+                    formatNumber(deepest) + " m. Give depths down to there, or a longer string.");
 }
 
 SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
@@ -192,17 +204,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 }
 
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
-  auto settings = torqueDragSettings(scene);
-  const double deepest = scene.string.length();
-  if (settings.depths.empty())
-    for (int i = 1; i <= settings.count; ++i)
-      settings.depths.push_back(deepest * i / settings.count);
-  for (const double depth : settings.depths)
-    if (depth > deepest * (1.0 + 1e-12))
-      throw DeckError(scene.deck.error(
-          "Torque and Drag/Depths",
-          "holds " + formatNumber(depth) + " m, but the string of the deck ends at " +
-              formatNumber(deepest) + " m. Give depths down to there, or a longer string."));
+  const auto settings = torqueDragSettings(scene);
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
   std::vector<TorqueDragProfile> profiles;

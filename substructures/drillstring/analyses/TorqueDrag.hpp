@@ -45,8 +45,12 @@ struct TorqueDragProfile {
   std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
-/// The deck's list `Torque and Drag`; its defaults where the deck has none.
+/// The deck's list `Torque and Drag`, its defaults where the deck has none, with all depths.
+/// DeckError: a depth is below the deck's bit.
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
+
+/// DeckError, which begins with `where`: the string does not reach the depth `bit` [m].
+void requireReach(const Scene& scene, double bit, const std::string& where);
 
 /// A deck's string in its hole as the soft-string model sees them.
 struct SoftModel {
@@ -68,8 +72,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit);
 
-/// Every operation at every depth, the stiff string where the deck asks for it. DeckError: a depth
-/// is below the deck's bit. Collective.
+/// Every operation at every depth, the stiff string where the deck asks for it. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene);
 
 /// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
