@@ -20,7 +20,8 @@ install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONE
 install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoint COMPONENT dev FILES_MATCHING PATTERN "*.hpp")
 # As in the source tree, so that the documents find what they link to.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
-install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE
+  PATTERN conf.py EXCLUDE PATTERN Doxyfile.in EXCLUDE)
 install(PROGRAMS tools/first_run.py tools/plot_map.py tools/plot_response.py tools/plot_results.py tools/plot_study.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
 install(DIRECTORY tools/plots tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools PATTERN "__pycache__" EXCLUDE)
 # The program finds the scripts of its plots and reports beside itself, in the build tree as in the install tree.

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sphinx configuration of the documentation site (target `docs`, cmake/Documentation.cmake).
+
+The source folder is the project's, not docs/: links between docs/, README.md, CONTRIBUTING.md and examples/ are then the same on the site
+and on a repository page.
+"""
+import pathlib
+import re
+
+PROJECT = pathlib.Path(__file__).resolve().parents[1]
+
+project = "Tooljoint"
+author = "The Tooljoint authors"
+release = re.search(r"project\(Tooljoint VERSION (\S+)", (PROJECT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+
+root_doc = "docs/index"
+include_patterns = ["docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
+exclude_patterns = ["build", "results", ".*", "src", "substructures", "tests", "tools", "xml"]
+extensions = ["myst_parser", "sphinx.ext.mathjax"]
+
+myst_heading_anchors = 5
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_dmath_allow_space = False
+myst_dmath_allow_digits = False
+highlight_language = "none"
+math_number_all = False
+
+html_theme = "furo"
+html_title = f"Tooljoint {release}"
+html_copy_source = False
+html_show_sphinx = False
+
+linkcheck_timeout = 20
+linkcheck_retries = 2
+
+
+def write_entry(app, exception):
+    """The root page lies in docs/; index.html at the top of the site leads there."""
+    if exception is None and app.builder.name == "html":
+        entry = '<!doctype html>\n<meta charset="utf-8">\n<title>Tooljoint</title>\n<meta http-equiv="refresh" content="0; url=docs/index.html">\n<a href="docs/index.html">Tooljoint</a>\n'
+        (pathlib.Path(app.outdir) / "index.html").write_text(entry, encoding="utf-8")
+
+
+def setup(app):
+    app.connect("build-finished", write_entry)

@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
+
+Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, and every page
+stands in the navigation of the first. Links to other hosts are not opened (target `docs-linkcheck`).
+"""
+import html.parser
+import pathlib
+import subprocess
+import sys
+import urllib.parse
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from checks import expect, finish  # noqa: E402
+
+GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
+LARGEST_PICTURE = 200_000  # bytes; pictures are read over slow lines and stay in the repository for good
+
+
+class Page(html.parser.HTMLParser):
+    """Anchors, links and pictures of a page, and the links of its navigation."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.anchors, self.links, self.navigation, self.depth = set(), set(), set(), 0
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        named = dict(attrs)
+        self.anchors |= {named[key] for key in ("id", "name") if named.get(key)}
+        if tag == "div" and (self.depth or "sidebar-tree" in (named.get("class") or "").split()):
+            self.depth += 1
+        for key in ("href", "src"):
+            if named.get(key):
+                self.links.add(named[key])
+                if self.depth and tag == "a":
+                    self.navigation.add(named[key])
+
+    def handle_endtag(self, tag):
+        if tag == "div" and self.depth:
+            self.depth -= 1
+
+
+def target(page, link):
+    """(file, anchor) that a link of a page leads to, or None where that is another host."""
+    parts = urllib.parse.urlsplit(link)
+    if parts.scheme or parts.netloc:
+        return None
+    path = urllib.parse.unquote(parts.path)
+    return ((page.parent / path).resolve() if path else page), urllib.parse.unquote(parts.fragment)
+
+
+def broken(pages):
+    """Each link that leads nowhere, as a text."""
+    for path, page in pages.items():
+        for link in sorted(page.links):
+            led = target(path, link)
+            if led is None:
+                continue
+            file, anchor = led
+            if not file.is_file():
+                yield f"{path.name}: {link}: no such file"
+            elif anchor and file in pages and anchor not in pages[file].anchors:
+                yield f"{path.name}: {link}: no such anchor"
+
+
+def self_test(folder):
+    """The checks find a page that lacks an anchor, a file and a place in the navigation."""
+    folder.mkdir(exist_ok=True)
+    (folder / "a.html").write_text('<div class="sidebar-tree"><div><a href="a.html">a</a></div></div><a href="b.html#there">b</a><a href="b.html#gone">b</a>', encoding="utf-8")
+    (folder / "b.html").write_text('<h1 id="there">b</h1><img src="gone.png"><a href="https://example.org/gone">elsewhere</a>', encoding="utf-8")
+    pages = read(folder.resolve())
+    expect("the checks find a broken link", sorted(broken(pages)) == ["a.html: b.html#gone: no such anchor", "b.html: gone.png: no such file"], str(sorted(broken(pages))))
+    expect("and a page outside of the navigation", unlisted(pages, folder.resolve() / "a.html") == ["b.html"], str(unlisted(pages, folder.resolve() / "a.html")))
+
+
+def read(site):
+    return {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+
+
+def unlisted(pages, first):
+    """Names of the pages that the navigation of the first does not list."""
+    listed = {target(first, link)[0] for link in pages[first].navigation if target(first, link)}
+    return sorted(path.name for path in pages if path not in listed | {first} and path.name not in GENERATED)
+
+
+def main():
+    cmake, build, project = sys.argv[1], *(pathlib.Path(argument).resolve() for argument in sys.argv[2:4])
+    self_test(pathlib.Path("self_test"))
+    done = subprocess.run([cmake, "--build", str(build), "--target", "docs"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    expect("the site is built without a warning", done.returncode == 0, done.stdout[-4000:])
+    if done.returncode:
+        return finish()
+    site = (build / "docs/html").resolve()
+    pages = read(site)
+    sources = sorted(path.relative_to(project).with_suffix(".html") for path in (project / "docs").rglob("*.md"))
+    missing = [str(source) for source in sources if site / source not in pages]
+    expect("every page of docs/ is on the site", sources and not missing, ", ".join(missing))
+    wrong = sorted(broken(pages))
+    expect(f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere", not wrong, "\n".join(wrong))
+    outside = unlisted(pages, site / "docs/index.html")
+    expect("every page stands in the navigation", not outside, ", ".join(outside))
+    tutorials = [path for path in (project / "docs/figures").glob("tutorial_*") if path.stat().st_size > LARGEST_PICTURE]
+    expect("pictures of tutorials are small", not tutorials, ", ".join(path.name for path in tutorials))
+    return finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
