@@ -16,7 +16,7 @@ release = re.search(r"project\(Tooljoint VERSION (\S+)", (PROJECT / "CMakeLists.
 root_doc = "docs/index"
 include_patterns = ["docs/**.md", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/*/README.md"]
 exclude_patterns = ["build", "results", ".*", "src", "substructures", "tests", "tools", "xml"]
-extensions = ["myst_parser", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx.ext.mathjax", "breathe"]
 
 myst_heading_anchors = 5
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -24,6 +24,11 @@ myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
 highlight_language = "none"
 math_number_all = False
+
+# Doxygen's XML of the headers; its folder is given on the command line, -D breathe_projects.tooljoint=FOLDER.
+breathe_projects = {"tooljoint": ""}
+breathe_default_project = "tooljoint"
+breathe_default_members = ("members",)
 
 html_theme = "furo"
 html_title = f"Tooljoint {release}"

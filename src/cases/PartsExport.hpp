@@ -31,7 +31,7 @@ void exportParts(const std::vector<parts::PartContent>& originals,
                  io::ExportFormat format, const std::string& folder, const parts::LoadTimes& times);
 
 /// `tooljoint export`: reduces the parts of a case and writes each with its basis as a part file.
-/// \param folder "" for results/<name of the deck>/parts. DeckError without the list Reduction;
+/// \param folder "" for results/NAME for NAME.xml/parts. DeckError without the list Reduction;
 /// what the stages throw. Collective.
 void exportCase(const Case& one, io::ExportFormat format, const std::string& folder);
 

@@ -76,7 +76,8 @@ def self_test(folder):
 
 
 def read(site):
-    return {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+    """The pages but for those of Doxygen, which are its own."""
+    return {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html") if "doxygen" not in path.relative_to(site).parts}
 
 
 def unlisted(pages, first):

@@ -16,7 +16,7 @@
 
 namespace tooljoint::cases {
 
-/// The folder `given` on the command line, else that of the deck or results/<name of the deck>,
+/// The folder `given` on the command line, else that of the deck or results/NAME for NAME.xml,
 /// with "_<analysis>" behind it.
 std::string analysisFolder(const Case& one, const std::string& given, const std::string& analysis);
 

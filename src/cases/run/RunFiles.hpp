@@ -23,7 +23,7 @@ namespace tooljoint::cases {
 /// Folders of a run.
 struct RunOptions {
   std::string output;   ///< of the results; empty: that of the restart, else of the deck, else
-                        ///< results/<name of the deck>
+                        ///< results/NAME for NAME.xml
   std::string restart;  ///< of an interrupted run; empty: start anew
 };
 
