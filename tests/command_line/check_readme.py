@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the block "Go on" of README.md word for word: check_readme.py PROGRAM PROJECT
+"""Runs the commands of documents word for word: check_readme.py PROGRAM PROJECT [PAGE]
 
-The block runs in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; a study,
+Without PAGE the block "Go on" of README.md; with one, a tutorial: its blocks `sh`, one after the other in one shell. Each line of its blocks `text`
+must stand in what the commands before it have printed.
+
+They run in a scratch folder that looks like the project. What stands there as build/release/tooljoint hands its arguments to PROGRAM; a study,
 which takes minutes, is given fewer runs and a shorter motion on the way, so that all words are tried and the test takes seconds.
 """
 import json
@@ -43,10 +46,8 @@ def summary(path):
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {"status": "absent"}
 
 
-def main():
+def check_readme(folder):
     lines = block()
-    folder = pathlib.Path("project")
-    stage(folder)
     timed = "".join(f"{line}\necho \"@@ $SECONDS s, {number} lines\" >&2\n" for number, line in enumerate(lines, 1))
     done = subprocess.run(["bash", "-euo", "pipefail", "-c", timed], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     count = done.stderr.count("@@ ")
@@ -63,6 +64,36 @@ def main():
     expect("the pictures are there", drawn and all((folder / name / "results.png").is_file() for name in drawn), str(drawn))
     compared = re.search(r"window 0 to (\S+) s .*vibration error (\S+)", " ".join(done.stdout.split()))
     expect("the comparison is that of a reduced and a full run of the same deck", compared is not None and float(compared.group(2)) < 0.05, str(compared))
+
+
+def check_page(folder, page):
+    """The blocks of a tutorial. A mark in the output tells what the commands before a block of text have printed."""
+    blocks = re.findall(r"^```(sh|text)\n(.*?)^```$", (PROJECT / page).read_text(encoding="utf-8"), re.M | re.S)
+    commands = [text for kind, text in blocks if kind == "sh"]
+    script = "".join(f"{text}echo '@@ {number}'\n" for number, text in enumerate(commands, 1))
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    count = len(re.findall(r"^@@ \d+$", done.stdout, re.M))
+    expect("every command of the page succeeds", commands and done.returncode == 0 and count == len(commands),
+           f"({done.returncode}) ended in: {commands[min(count, len(commands) - 1)] if commands else 'no block'}\n{done.stdout[-1500:]}")
+    ran, shown = 0, 0
+    for kind, text in blocks:
+        if kind == "sh":
+            ran += 1
+            continue
+        printed = " ".join(re.split(r"^@@ \d+$", done.stdout, flags=re.M)[ran - 1].split()) if 0 < ran <= count else ""
+        for line in text.splitlines():
+            shown += 1
+            expect(f"the commands print: {line.strip()}", " ".join(line.split()) in printed, f"not in: {printed[:1500]}")
+    expect("the page shows what they print", shown > 0)
+
+
+def main():
+    folder = pathlib.Path("project")
+    stage(folder)
+    if len(sys.argv) > 3:
+        check_page(folder, sys.argv[3])
+    else:
+        check_readme(folder)
     return finish()
 
 
