@@ -23,7 +23,16 @@ myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_dmath_allow_space = False
 myst_dmath_allow_digits = False
 highlight_language = "none"
-math_number_all = False
+
+# KaTeX of the distribution (libjs-katex) draws the formulas, so that the site needs no network; sphinx.ext.mathjax only writes their markup.
+KATEX = "/usr/share/javascript/katex"
+html_static_path = [KATEX]
+html_css_files = ["katex.min.css"]
+html_js_files = [("katex.min.js", {"defer": "defer"}),
+                 ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
+mathjax_path = "katex.min.js"
+mathjax_options = {"defer": "defer"}
+myst_update_mathjax = False
 
 # Doxygen's XML of the headers; its folder is given on the command line, -D breathe_projects.tooljoint=FOLDER.
 breathe_projects = {"tooljoint": ""}
