@@ -16,7 +16,7 @@ import tempfile
 import rooms
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
-ROOMS = ["src", "substructures", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
+ROOMS = ["src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
 TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Calls that cross the border: long ones from Python into the toolkit, and those of the toolkit
+/// back into Python.
+#pragma once
+
+#include <csignal>
+#include <functional>
+#include <memory>
+#include <pybind11/pybind11.h>
+#include <string>
+#include <type_traits>
+
+#include "common/Error.hpp"
+#include "common/Interrupt.hpp"
+
+namespace tooljoint::python {
+
+namespace py = pybind11;
+
+/// While it lives, SIGINT and SIGTERM set the flag of the toolkit, which long work looks at, and
+/// not the one of Python. May be nested.
+class SignalScope {
+ public:
+  SignalScope();
+  ~SignalScope();
+  SignalScope(const SignalScope&) = delete;
+  SignalScope& operator=(const SignalScope&) = delete;
+
+ private:
+  struct sigaction interrupt_ = {}, terminate_ = {}, fileSize_ = {};
+};
+
+/// Runs work() without the GIL. InterruptedError when a signal came in the meantime.
+template <class Work>
+auto longCall(const Work& work) {
+  const SignalScope signals;
+  const auto ended = [] {
+    if (interruptRequested()) throw InterruptedError("The call was interrupted.");
+  };
+  const py::gil_scoped_release release;
+  if constexpr (std::is_void_v<decltype(work())>) {
+    work();
+    ended();
+  } else {
+    auto result = work();
+    ended();
+    return result;
+  }
+}
+
+/// Runs work() with the GIL and turns an exception of Python into one of the toolkit: an
+/// exception that came from the toolkit into what it was, KeyboardInterrupt into
+/// InterruptedError, any other into ModelError. `who` begins the sentence: `The basis "A"`. The
+/// exception that Python sees in the end has the first one as its cause.
+void fromPython(const std::string& who, const std::function<void()>& work);
+
+/// A Python object that outlives the interpreter without harm, to be held by the toolkit. Copies
+/// need no GIL.
+class Kept {
+ public:
+  explicit Kept(py::object object);
+  py::handle operator*() const { return *object_; }
+
+ private:
+  std::shared_ptr<py::object> object_;
+};
+
+}  // namespace tooljoint::python
