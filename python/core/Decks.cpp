@@ -18,7 +18,10 @@
 #include "common/report/Log.hpp"
 #include "deck/Deck.hpp"
 #include "deck/Manual.hpp"
+#include "response/Campbell.hpp"
+#include "response/Response.hpp"
 #include "study/engine/Study.hpp"
+#include "study/map/Map.hpp"
 
 namespace tooljoint::python {
 
@@ -75,16 +78,33 @@ std::string run(const DeckSource& deck, const std::string& output, const std::st
   });
 }
 
-void runStudy(const DeckSource& deck, const std::string& output, bool fresh, bool shared,
-              bool quiet) {
-  const Quiet scope(quiet);
-  longCall([&] {
-    log::clearWarnings();
+/// Computes an analysis of a case into a folder.
+void compute(const std::string& what, const cases::Case& one, const std::string& output, bool fresh,
+             bool sharedTiming) {
+  if (what == "study") {
     study::StudyOptions options;
     options.output = output;
     options.fresh = fresh;
-    options.sharedTiming = shared;
-    study::run(*deck.makeCase(), options);
+    options.sharedTiming = sharedTiming;
+    study::run(one, options);
+  } else if (what == "map") {
+    study::MapOptions options;
+    options.output = output;
+    options.fresh = fresh;
+    study::runMap(one, options);
+  } else if (what == "campbell") {
+    response::runCampbell(one, output);
+  } else {
+    response::runResponse(one, output);
+  }
+}
+
+void analyse(const std::string& what, const DeckSource& deck, const std::string& output, bool fresh,
+             bool sharedTiming, bool quiet) {
+  const Quiet scope(quiet);
+  longCall([&] {
+    log::clearWarnings();
+    compute(what, *deck.makeCase(), output, fresh, sharedTiming);
   });
 }
 
@@ -152,8 +172,9 @@ void bindDecks(py::module_& module) {
              "Read and check a deck. DeckError, FileError.");
   module.def("run", &run, py::arg("deck"), py::arg("output"), py::arg("restart"), py::arg("quiet"),
              "Run a deck; the folder of its results.");
-  module.def("study", &runStudy, py::arg("deck"), py::arg("output"), py::arg("fresh"),
-             py::arg("shared_timing"), py::arg("quiet"), "Run the study of a deck into a folder.");
+  module.def("analyse", &analyse, py::arg("what"), py::arg("deck"), py::arg("output"),
+             py::arg("fresh"), py::arg("shared_timing"), py::arg("quiet"),
+             "Compute \"study\", \"map\", \"campbell\" or \"response\" of a deck into a folder.");
   module.def("check", &check, py::arg("deck"), py::arg("quiet"), "Refuse what a run would refuse.");
   py::class_<AtRest, std::shared_ptr<AtRest>>(module, "RestingCase", "The case of a deck at rest.")
       .def(

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Point laws: those of the registry, and laws written in Python.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
@@ -63,23 +63,22 @@ class PythonLaw final : public PointLaw {
     for (int p : points) gap[p] = 0.0;
   }
 
-  /// Without a function of its own all the work of the force is counted as damping.
+  /// Without a function of its own the force at rest has a potential, V(t, d) = -int_0^1 f(t, s d,
+  /// 0) d ds, of which dV/dt at fixed d is fed in; what else velocities add to the force is
+  /// damping.
   Power power(double t, const std::vector<int>& points, const double* d,
               const double* v) const override {
+    constexpr double instant = 1e-6;  // [s]: for dV/dt, below what a motion resolves
     const auto at = gather(points, d), velocity = gather(points, v);
     const int n = sizeOf(points);
     Power sum;
-    if ((*functions_.power).is_none()) {
-      const auto f = force(t, at, velocity, n);
-      for (std::size_t i = 0; i < f.size(); ++i) sum.damping -= f[i] * velocity[i];
-      return sum;
-    }
-    fromPython(who(), [&] {
-      const auto values = call(functions_.power, t, at, velocity, n).cast<std::vector<double>>();
-      double* const parts[] = {&sum.stored, &sum.damping, &sum.friction, &sum.drive};
-      for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 4); ++i)
-        *parts[i] = values[i];
-    });
+    if (!(*functions_.power).is_none()) return given(t, at, velocity, n);
+    sum.stored = potential(t, at, n);
+    sum.drive = (potential(t + instant, at, n) - potential(t - instant, at, n)) / (2 * instant);
+    const auto moving = force(t, at, velocity, n);
+    const auto still = force(t, at, Values(at.size(), 0.0), n);
+    for (std::size_t i = 0; i < moving.size(); ++i)
+      sum.damping -= (moving[i] - still[i]) * velocity[i];
     return sum;
   }
 
@@ -125,6 +124,43 @@ class PythonLaw final : public PointLaw {
     fromPython(who(),
                [&] { copyInto(call(functions_.force, t, d, v, n), n, width_, f.data(), who()); });
     return f;
+  }
+
+  /// By the function of the powers.
+  Power given(double t, const Values& d, const Values& v, int n) const {
+    Power sum;
+    fromPython(who(), [&] {
+      const auto values = call(functions_.power, t, d, v, n).cast<Values>();
+      double* const parts[] = {&sum.stored, &sum.damping, &sum.friction, &sum.drive};
+      for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 4); ++i)
+        *parts[i] = values[i];
+    });
+    return sum;
+  }
+
+  /// V of all points by Gauss's rule with 16 points: to 0.5 % where a wall is on the way.
+  double potential(double t, const Values& d, int n) const {
+    static const auto* rule = new std::array<Values, 2>(gaussRule());
+    const auto& [places, weights] = *rule;
+    Values along;
+    for (const double s : places)
+      for (const double x : d) along.push_back(s * x);
+    const int all = n * sizeOf(places);
+    const auto f = force(t, along, Values(along.size(), 0.0), all);
+    double work = 0.0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      for (std::size_t i = 0; i < d.size(); ++i) work += weights[k] * f[k * d.size() + i] * d[i];
+    return -work;
+  }
+  /// Places and weights on [0, 1].
+  static std::array<Values, 2> gaussRule() {
+    std::array<Values, 2> rule;
+    const py::gil_scoped_acquire gil;
+    const auto numpy = py::module_::import("numpy.polynomial.legendre");
+    const auto both = numpy.attr("leggauss")(16).cast<std::pair<Values, Values>>();
+    for (const double x : both.first) rule[0].push_back((1 + x) / 2);
+    for (const double w : both.second) rule[1].push_back(w / 2);
+    return rule;
   }
 
   /// By the function of the tangents: (df/dd, df/dv), each points x width x width.

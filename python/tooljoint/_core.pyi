@@ -253,6 +253,9 @@ class Synthesis:
 def abort(code: int) -> None:
     """End all ranks with this exit code."""
 
+def analyse(what: str, deck: DeckSource, output: str, fresh: bool, shared_timing: bool, quiet: bool) -> None:
+    """Compute "study", "map", "campbell" or "response" of a deck into a folder."""
+
 def basis_names() -> list[str]:
     """Names of the bases there are."""
 
@@ -315,9 +318,6 @@ def run(deck: DeckSource, output: str, restart: str, quiet: bool) -> str:
 
 def solve_static(deck: DeckSource) -> RestingCase:
     """The case of a deck, brought to rest."""
-
-def study(deck: DeckSource, output: str, fresh: bool, shared_timing: bool, quiet: bool) -> None:
-    """Run the study of a deck into a folder."""
 
 def synthesise(parts: list[Part], reduction: DeckList, coupling: DeckList | Connections | None = None) -> Synthesis:
     """Reduce, couple and estimate."""

@@ -131,9 +131,24 @@ class Deck:
         """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a list of dicts. Rows known from an earlier
         study of the folder are taken from there, unless `fresh`, or a variant written in Python takes part (it may have changed).
         """
-        folder = str(output) or f"results/{pathlib.Path(self.file).stem}_study"
-        _core.study(self._source(), folder, any_written() if fresh is None else fresh, shared_timing, quiet)
-        return Results(folder).table("study.csv")
+        return self._analyse("study", output, fresh, shared_timing, quiet)
+
+    def map(self, output="", fresh=None, quiet=True):
+        """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of study()."""
+        return self._analyse("map", output, fresh, False, quiet)
+
+    def campbell(self, output="", quiet=True):
+        """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv."""
+        return self._analyse("campbell", output, True, False, quiet)
+
+    def response(self, output="", quiet=True):
+        """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv."""
+        return self._analyse("response", output, True, False, quiet)
+
+    def _analyse(self, what, output, fresh, shared_timing, quiet):
+        folder = str(output) or f"results/{pathlib.Path(self.file).stem}_{what}"
+        _core.analyse(what, self._source(), folder, any_written() if fresh is None else fresh, shared_timing, quiet)
+        return Results(folder).table(f"{what}.csv")
 
     def __repr__(self):
         return f"<Deck {self.file}{f' with {len(self.overrides)} changes' if self.overrides else ''}>"

@@ -72,7 +72,8 @@ def point_law(name, *, width=1, tangent=None, power=None):
 
     tangent: like force, returns (df/dd, df/dv), each points x width x width; without it they are differences (exact to 1e-10 for smooth
     laws, one more call). power: like force, returns (stored energy [J], power lost in damping, in friction, fed in [W]) summed over the
-    points; without it all work of the force counts as damping. The function runs with the GIL held: for trying, not for long motions.
+    points, for the energy balance; without it the force at rest is taken to have a potential (found by integration), and what velocities
+    add to it is damping. The functions run with the GIL held: for trying, not for long motions.
 
     >>> import tooljoint as tj
     >>> @tj.point_law("Hardening")

@@ -99,8 +99,35 @@ class Motions(unittest.TestCase):
         one = tip_motion(synthesis(tj.law("Tip Spring Exact", **given), push), step=1e-4)
         other = tip_motion(synthesis(tj.law("Tip Spring", **given), push), step=1e-4)
         self.assertLess(abs(one - other).max(), 1e-7 * abs(one).max())
-        motion = tj.integrate(synthesis(tj.law("Tip Spring Exact", **given), push), END, sampling_interval=SAMPLING, step=1e-4)
-        self.assertGreater(motion.report["energy"]["contact_damping"], 0.0)
+
+    def test_energies_of_a_law_without_a_function_of_its_power(self):
+        given = dict(stiffness=LINEAR, damping=DAMPING)
+        reports = [tj.integrate(synthesis(law, push), END, sampling_interval=SAMPLING, step=1e-4).report["energy"] for law in (
+            tj.law("Spring", cubic_stiffness=CUBIC, **given), tj.law("Tip Spring", cubic=CUBIC, **given))]
+        for name in ("contact", "contact_damping", "residual"):
+            self.assertAlmostEqual(reports[0][name], reports[1][name], delta=1e-6 * abs(reports[0]["loads"]), msg=name)
+
+        @tj.point_law("Shaken")
+        def shaken(t, d, v):
+            return 1e3 * np.sin(20 * t) - 4e4 * d
+
+        mass = tj.part("mass", [[1.0]], [[0.0]])
+        mass.model.add_points("base", tj.law("Shaken"), [[1.0]])
+        energy = tj.integrate(mass, 1.0, sampling_interval=0.01, step=2e-4).report["energy"]
+        self.assertLess(abs(energy["residual"]), 0.01)
+
+        @tj.point_law("Wall")
+        def wall(t, d, v):
+            return np.where(d < -0.01, -1e6 * (d + 0.01), 0.0)
+
+        ball = tj.part("ball", [[1.0]], [[0.0]])
+        ball.model.add_points("wall", tj.law("Wall"), [[1.0]])
+        ball.model.set_start([0.0], [-1.0])
+        bounce = tj.integrate(ball, 0.05, sampling_interval=0.001, step=2e-5)
+        # 10 ms of flight, half a period of contact, then back at the speed it came with.
+        back = 0.01 + np.pi / 1e3
+        self.assertAlmostEqual(float(bounce.velocity[-1, 0]), 1.0, delta=1e-3)
+        self.assertAlmostEqual(float(bounce.displacement[-1, 0]), -0.01 + (0.05 - back), delta=1e-4)
 
     def test_laws_of_two_coordinates(self):
         seen = []
