@@ -4,6 +4,7 @@
 #include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <pybind11/stl.h>
 #include <string>
 #include <utility>
@@ -77,22 +78,18 @@ class PythonBasis final : public reduction::ReductionMethod {
     Matrix X;
     fromPython(who, [&] {
       const auto& one = registered().at(name_);
-      LentPart lentPart{&part};
-      const py::object lent = py::cast(&lentPart, py::return_value_policy::reference);
-      const auto take = [&] {
-        const py::object made = (*one.build)(lent, count, **keywords(list_, one.names));
-        const py::object matrix = py::module_::import("numpy").attr("asarray")(made, "float64");
-        if (py::len(matrix.attr("shape")) != 2)
-          throw ModelError(who +
-                           " returned an array that has not two dimensions; expected are "
-                           "interior dofs x vectors.");
-        X = matrix.cast<Matrix>();
-      };
+      const auto lent = std::make_shared<LentPart>(LentPart{&part});
       struct Withdraw {
         LentPart& part;
         ~Withdraw() { part.view = nullptr; }
-      } const withdraw{lentPart};
-      take();
+      } const withdraw{*lent};
+      const py::object made = (*one.build)(lent, count, **keywords(list_, one.names));
+      const py::object matrix = py::module_::import("numpy").attr("asarray")(made, "float64");
+      if (py::len(matrix.attr("shape")) != 2)
+        throw ModelError(who +
+                         " returned an array that has not two dimensions; expected are interior "
+                         "dofs x vectors.");
+      X = matrix.cast<Matrix>();
     });
     const auto interior = static_cast<Eigen::Index>(part.partition().interior.size());
     if (X.rows() != interior)
@@ -131,8 +128,9 @@ void registerBasis(const std::string& name, const std::string& doc, const py::li
 }  // namespace
 
 void bindBases(py::module_& module) {
-  py::class_<LentPart>(module, "PartView",
-                       "What a basis asks of a part; each is computed once, when first asked for.")
+  py::class_<LentPart, std::shared_ptr<LentPart>>(
+      module, "PartView",
+      "What a basis asks of a part; each is computed once, when first asked for.")
       .def_property_readonly(
           "name", [](const LentPart& p) { return p.get().part().name; }, "Name of the part.")
       .def_property_readonly(

@@ -58,6 +58,11 @@ ExitCode codeOf(const py::object& exception) {
 
 }  // namespace
 
+std::recursive_mutex& turn() {
+  static std::recursive_mutex one;
+  return one;
+}
+
 SignalScope::SignalScope() {
   if (depth++ > 0) return;
   sigaction(SIGINT, nullptr, &interrupt_);

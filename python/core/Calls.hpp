@@ -7,6 +7,7 @@
 #include <csignal>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <pybind11/pybind11.h>
 #include <string>
 #include <type_traits>
@@ -31,7 +32,12 @@ class SignalScope {
   struct sigaction interrupt_ = {}, terminate_ = {}, fileSize_ = {};
 };
 
-/// Runs work() without the GIL. InterruptedError when a signal came in the meantime.
+/// Held by the call that runs; by its own thread again where it comes back through a function of
+/// Python.
+std::recursive_mutex& turn();
+
+/// Runs work() without the GIL, one call at a time: the toolkit and MPI serve one thread, calls
+/// from others wait. InterruptedError when a signal came in the meantime.
 template <class Work>
 auto longCall(const Work& work) {
   const SignalScope signals;
@@ -39,6 +45,7 @@ auto longCall(const Work& work) {
     if (interruptRequested()) throw InterruptedError("The call was interrupted.");
   };
   const py::gil_scoped_release release;
+  const std::lock_guard<std::recursive_mutex> alone(turn());
   if constexpr (std::is_void_v<decltype(work())>) {
     work();
     ended();

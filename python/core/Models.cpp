@@ -12,6 +12,7 @@
 #include "Calls.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "coupling/input/ComponentAxes.hpp"
 
 namespace tooljoint::python {
 
@@ -116,6 +117,29 @@ std::vector<std::string> dofNames(const SecondOrderModel& model) {
   std::vector<std::string> names;
   for (const auto& dof : model.dofs) names.push_back(describe(dof, model.componentNames));
   return names;
+}
+
+/// SI unit of a coordinate: by the name of its component, that of a mass-normalised mode, or that
+/// of a force between parts.
+std::string unitOf(const SecondOrderModel& model, const model::DofLabel& dof) {
+  if (dof.kind != model::DofLabel::Kind::Physical) return "m kg^0.5";
+  const auto kind = coupling::kindOf(model.componentNames[at(dof.component)]);
+  const bool turns = kind == coupling::ComponentKind::Rotation;
+  if (dof.force != 0) return turns ? "N m" : "N";
+  return turns ? "rad" : "m";
+}
+
+std::vector<std::string> dofUnits(const SecondOrderModel& model) {
+  std::vector<std::string> units;
+  for (const auto& dof : model.dofs) units.push_back(unitOf(model, dof));
+  return units;
+}
+
+std::vector<std::string> componentUnits(const SecondOrderModel& model) {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < model.componentNames.size(); ++i)
+    units.push_back(unitOf(model, model::DofLabel::physical(1, static_cast<std::int32_t>(i))));
+  return units;
 }
 
 void bindMatrices(py::class_<SecondOrderModel, ModelPointer>& type) {
@@ -247,6 +271,9 @@ void bindModels(py::module_& module) {
           "copy", [](const SecondOrderModel& m) { return std::make_shared<SecondOrderModel>(m); },
           "A model of its own; matrices are shared until one of them is changed.")
       .def_property_readonly("dof_names", &dofNames, "\"u of node 3\", one for each dof.")
+      .def_property_readonly("dof_units", &dofUnits, "SI unit of each dof.")
+      .def_property_readonly("component_units", &componentUnits,
+                             "SI unit of each component of a node.")
       .def_property_readonly(
           "component_names",
           [](const SecondOrderModel& m) { return std::vector<std::string>(m.componentNames); },

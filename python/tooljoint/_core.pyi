@@ -38,6 +38,9 @@ class Model:
     @property
     def component_names(self) -> list[str]:
         """Names of the components of a node."""
+    @property
+    def component_units(self) -> list[str]:
+        """SI unit of each component of a node."""
     def copy(self) -> Model:
         """A model of its own; matrices are shared until one of them is changed."""
     def damping(self, t: float = 0.0) -> scipy.sparse.csr_matrix:
@@ -48,6 +51,9 @@ class Model:
     @property
     def dof_names(self) -> list[str]:
         """"u of node 3", one for each dof."""
+    @property
+    def dof_units(self) -> list[str]:
+        """SI unit of each dof."""
     @property
     def initial_displacement(self) -> numpy.ndarray:
         """q(0) [m], dofs."""

@@ -10,19 +10,20 @@ from .quantity import Quantity
 
 
 class Motion:
-    """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x coordinates of the model) with their units;
-    `report` has counts, times and energies of the integration. `at()` gives the motion of nodes.
+    """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x coordinates of the model), with the units of the
+    coordinates in `model.dof_units`; `report` has counts, times and energies of the integration. `at()` gives the motion of nodes.
     """
 
     def __init__(self, model, time, displacement, velocity, acceleration, report):
         self.model, self.report = model, report
         self.time = Quantity(time, "s", "Time")
-        self.displacement = Quantity(displacement, "m", "Displacement")
-        self.velocity = Quantity(velocity, "m/s", "Velocity")
-        self.acceleration = Quantity(acceleration, "m/s2", "Acceleration")
+        unit = ", ".join(dict.fromkeys(model.dof_units))
+        self.displacement = Quantity(displacement, unit, "Displacement")
+        self.velocity = Quantity(velocity, _rate(unit, 1), "Velocity")
+        self.acceleration = Quantity(acceleration, _rate(unit, 2), "Acceleration")
 
     def at(self, node, component, what="displacement"):
-        """The history of a component of a node [m], recovered from the coordinates: of an interior node of a reduced part too.
+        """The history of a component of a node, recovered from the coordinates: of an interior node of a reduced part too.
         what: "displacement", "velocity" or "acceleration". ModelError for a node that the model does not recover.
         """
         numbers, names = self.model.recovery_nodes, self.model.component_names
@@ -34,10 +35,21 @@ class Motion:
         values = np.asarray(history) @ self.model.recovery[row].toarray().ravel()
         if what == "displacement":
             values = values + self.model.recovery_offset[row]
-        return Quantity(values, history.unit, f"{history.long_name} {component} of node {node}")
+        order = ("displacement", "velocity", "acceleration").index(what)
+        unit = _rate(self.model.component_units[names.index(component)], order)
+        return Quantity(values, unit, f"{history.long_name} {component} of node {node}")
 
     def __repr__(self):
         return f"<Motion of {self.displacement.shape[1]} coordinates, {len(self.time)} samples to {self.time[-1]:g} s>"
+
+
+def _rate(units, order):
+    """Units of a derivative: "m, rad" becomes "m/s, rad/s".
+
+    >>> _rate("m, rad", 2), _rate("m", 0)
+    ('m/s2, rad/s2', 'm')
+    """
+    return ", ".join(unit + ("", "/s", "/s2")[order] for unit in units.split(", "))
 
 
 def integrate(of, end_time, *, integrator="Generalized-alpha", **parameters):

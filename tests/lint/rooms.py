@@ -64,6 +64,8 @@ def included_room(included):
 def include_problem(path, included):
     """Why a file at `path` (in pieces) may not include `included`, or None."""
     room, target = room_of(path), included_room(included)
+    if path[0] == "python" and target and (target[0] != "src" or target[1] == "app"):
+        return f"python/core binds the toolkit, and may not include {'/'.join(target)} (tests/lint/rooms.py)"
     if room is None or target is None or room == target:
         return None
     side, name = room
@@ -87,4 +89,5 @@ def table():
         lines.append(f"| src/{name} | {holds} | {', '.join(sorted(rooms.split())) or '-'}{extra} |")
     for name, (own, toolkit, holds) in DRILLSTRING.items():
         lines.append(f"| substructures/{name} | {holds} | {', '.join(sorted(own.split()) + ['src/{' + ','.join(sorted(toolkit.split())) + '}'])} |")
+    lines.append("| python/core | the library in Python: a file for each concept of it | src/ but app |")
     return "\n".join(lines) + "\n"

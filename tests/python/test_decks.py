@@ -135,6 +135,16 @@ class Runs(unittest.TestCase):
         found = (np.asarray(motion.displacement) @ model.recovery.T.toarray() + model.recovery_offset).reshape(11, -1, 6)
         self.assertLess(abs(found - want).max(), 1e-6 * abs(want).max())
 
+    def test_h5py_may_be_there_too(self):
+        import h5py
+
+        results = tj.run(FRAME, SHORT, output="both")
+        with h5py.File("both/results.h5") as file:
+            self.assertTrue(np.array_equal(file["transient/displacement"], results["transient/displacement"]))
+            self.assertEqual(file["transient/displacement"].attrs["units"], results["transient/displacement"].unit)
+            for path in results.datasets():  # every dataset, of any kind
+                self.assertEqual(file[path].shape, results[path].shape, path)
+
     def test_a_string_runs(self):
         results = tj.run(STRING, {"Transient/End Time": 0.02}, output="string")
         self.assertGreater(results.summary["model"]["free_dofs"], 10)

@@ -77,7 +77,9 @@ class Motions(unittest.TestCase):
     def test_motion_has_units_and_recovers_interior_nodes(self):
         both = synthesis(tj.law("Spring", stiffness=LINEAR), push)
         motion = tj.integrate(both, END, sampling_interval=SAMPLING, step=1e-4)
-        self.assertEqual([motion.time.unit, motion.velocity.unit, motion.at(7, "v", "acceleration").unit], ["s", "m/s", "m/s2"])
+        self.assertEqual([motion.time.unit, motion.at(7, "v", "acceleration").unit, motion.at(7, "theta").unit], ["s", "m/s2", "rad"])
+        self.assertEqual(motion.velocity.unit, "m kg^0.5/s, m/s, rad/s")
+        self.assertEqual(len(motion.model.dof_units), motion.displacement.shape[1])
         full = tj.couple([*both.unreduced])
         reference = tj.integrate(full, END, sampling_interval=SAMPLING, step=1e-4)
         found, want = np.asarray(motion.at(7, "v")), np.asarray(reference.at(7, "v"))  # node 7 is inside the left half
@@ -190,6 +192,33 @@ class Threads(unittest.TestCase):
         thread.join()
         self.assertGreater(wall, 0.1, "the motion is too short to tell")
         self.assertGreater(count, 20, f"this thread ran {count} times in {wall:.2f} s beside a motion")
+
+    def test_calls_of_several_threads_run_one_after_the_other(self):
+        model = synthesis(tj.law("Tip Spring", stiffness=LINEAR), push)
+        want = tip_motion(model, step=1e-3)
+        found = [None] * 4
+
+        def work(k):
+            found[k] = tip_motion(model, step=1e-3)
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60)
+        for one in found:
+            self.assertTrue(np.array_equal(one, want))
+
+    def test_a_function_may_call_the_toolkit(self):
+        inner = tj.part("inner", [[1.0]], [[4.0]])
+
+        @tj.point_law("Inner Frequency")
+        def law(t, d, v):
+            return -np.asarray(tj.modes(inner, 1).frequency)[0] * (2 * np.pi) ** 2 * d  # 1 / pi Hz
+
+        mass = tj.part("mass", [[1.0]], [[0.0]])
+        mass.model.add_points("law", tj.law("Inner Frequency"), [[1.0]])
+        self.assertAlmostEqual(float(tj.modes(mass, 1).frequency[0]), np.sqrt(4 * np.pi) / (2 * np.pi), places=8)
 
 
 if __name__ == "__main__":

@@ -74,6 +74,22 @@ tj.reduce([left, right], modes=2)
         self.assertEqual(code, 3, errors)
         self.assertIn("rank 1 alone", errors)
 
+    def test_mpi_that_others_began_is_theirs_to_end(self):
+        done = subprocess.run([sys.executable, "-c", """
+import atexit, ctypes, sys
+mpi = ctypes.CDLL("libmpi.so.40", ctypes.RTLD_GLOBAL)
+flag = ctypes.c_int()
+mpi.MPI_Init(None, None)
+def last():
+    mpi.MPI_Finalized(ctypes.byref(flag))
+    sys.stdout.write(f"finalised: {flag.value}\\n")
+    mpi.MPI_Finalize()
+atexit.register(last)
+import tooljoint as tj
+assert len(tj.modes(tj.part("mass", [[1.0]], [[1.0]]), 1)) == 1
+"""], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, "finalised: 0\n"), done.stderr)
+
     def test_runs_of_decks(self):
         deck = str(pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"]) / "xml/frame.xml")
         code = f"""
