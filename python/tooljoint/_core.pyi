@@ -2,10 +2,12 @@
 # Written by tests/python/test_stub.py --update.
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy
 import scipy.sparse
+from numpy.typing import ArrayLike
 
 class Connections:
     """What joins the parts of a deck beside equal labels."""
@@ -19,19 +21,19 @@ class DeckList:
 
 class DeckSource:
     """A deck: a file, or a text in its place, and changes of it."""
-    def __init__(self, file: str, text: str, overrides: list[str]) -> None: ...
+    def __init__(self, file: str, text: str, overrides: Iterable[str]) -> None: ...
 
 
 class Model:
     """M q'' + C(t) q' + K(t) q = F(t) + point forces; full, reduced or coupled."""
-    def __init__(self, mass: Any, stiffness: Any, nodes: list[int], components: list[int], component_names: list[str]) -> None: ...
+    def __init__(self, mass: Any, stiffness: Any, nodes: Iterable[int], components: Iterable[int], component_names: Iterable[str]) -> None: ...
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
     def add_damping(self, matrix: Any, name: str = 'damping', law: Any = None) -> None:
         """Add law(t) C; without a law C is constant. ModelError."""
-    def add_load(self, vector: numpy.ndarray, name: str = 'load', law: Any = None) -> None:
+    def add_load(self, vector: ArrayLike, name: str = 'load', law: Any = None) -> None:
         """Add law(t) F [N]; without a law F is constant. Laws of one name are one law. ModelError."""
-    def add_points(self, name: str, law: PointLaw, rows: Any, offset: numpy.ndarray = ..., nodes: list[int] = []) -> None:
+    def add_points(self, name: str, law: PointLaw, rows: Any, offset: ArrayLike = ..., nodes: Iterable[int] = []) -> None:
         """Add points with the forces rows' f(d, d', t), d = offset + rows q [m]. ModelError."""
     def add_stiffness(self, matrix: Any, name: str, law: Any = None) -> None:
         """Add law(t) K; without a law K is constant. ModelError."""
@@ -65,7 +67,7 @@ class Model:
     @property
     def mass(self) -> scipy.sparse.csr_matrix:
         """M, dofs x dofs [kg]."""
-    def point_force(self, t: float, q: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
+    def point_force(self, t: float, q: ArrayLike, v: ArrayLike) -> numpy.ndarray:
         """Forces of the point laws on the dofs at this state [N]."""
     def position(self, node: int, component: str) -> int:
         """Position of a dof of a node. ModelError."""
@@ -78,7 +80,7 @@ class Model:
     @property
     def recovery_offset(self) -> numpy.ndarray:
         """D at q = 0, rows of the recovery."""
-    def set_start(self, displacement: numpy.ndarray, velocity: numpy.ndarray) -> None:
+    def set_start(self, displacement: ArrayLike, velocity: ArrayLike) -> None:
         """q(0) [m] and q'(0) [m/s], dofs. ModelError."""
     def stiffness(self, t: float = 0.0) -> scipy.sparse.csr_matrix:
         """K(t), dofs x dofs [N/m]."""
@@ -89,7 +91,7 @@ class Model:
 
 class Part:
     """A part before its reduction: a model, and which of its dofs may be joined."""
-    def __init__(self, name: str, model: Model, interface: list[int], retained: list[int]) -> None: ...
+    def __init__(self, name: str, model: Model, interface: Iterable[int], retained: Iterable[int]) -> None: ...
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
     @property
@@ -132,7 +134,7 @@ class PartView:
     @property
     def name(self) -> str:
         """Name of the part."""
-    def solve_interior(self, loads: numpy.ndarray) -> numpy.ndarray:
+    def solve_interior(self, loads: ArrayLike) -> numpy.ndarray:
         """sym(K)_II^-1 f for the columns of loads, interior x columns."""
     @property
     def stiffness(self) -> scipy.sparse.csr_matrix:
@@ -141,7 +143,7 @@ class PartView:
 
 class PointLaw:
     """Forces of points f(t, d, v), all of one law."""
-    def force(self, t: float, d: numpy.ndarray, v: numpy.ndarray) -> numpy.ndarray:
+    def force(self, t: float, d: ArrayLike, v: ArrayLike) -> numpy.ndarray:
         """Forces [N] at positions d [m] and velocities v [m/s], points x width in one row."""
     @property
     def size(self) -> int:
@@ -268,13 +270,13 @@ def basis_names() -> list[str]:
 def check(deck: DeckSource, quiet: bool) -> None:
     """Refuse what a run would refuse."""
 
-def compare_modes(synthesis: Synthesis, count: int, t: float | None = None, full: Model = None) -> list:
+def compare_modes(synthesis: Synthesis, count: int, t: float | None = None, full: Model | None = None) -> list:
     """Modes of the full model, each with the coupled mode of its shape."""
 
-def couple(parts: list[Part], coupling: DeckList | Connections | None = None) -> Model:
+def couple(parts: Iterable[Part], coupling: DeckList | Connections | None = None) -> Model:
     """Couple unreduced parts: the full model."""
 
-def couple_reduced(parts: list[ReducedPart]) -> Model:
+def couple_reduced(parts: Iterable[ReducedPart]) -> Model:
     """Couple reduced parts."""
 
 def damped_modes(model: Model, count: int, t: float) -> tuple:
@@ -289,7 +291,7 @@ def integrate(model: Model, transient: DeckList) -> tuple:
 def list_description(name: str) -> str:
     """The description of a list as JSON, as `tooljoint doc --format json`."""
 
-def modal_assurance(mass: Any, a: numpy.ndarray, b: numpy.ndarray) -> numpy.ndarray:
+def modal_assurance(mass: Any, a: ArrayLike, b: ArrayLike) -> numpy.ndarray:
     """M-weighted modal assurance criterion, columns of a x columns of b."""
 
 def parse_list(xml: str, name: str) -> DeckList:
@@ -310,7 +312,7 @@ def ranks() -> int:
 def read_deck(deck: DeckSource) -> ReadDeck:
     """Read and check a deck. DeckError, FileError."""
 
-def reduce(parts: list[Part], reduction: DeckList) -> list[ReducedPart]:
+def reduce(parts: Iterable[Part], reduction: DeckList) -> list[ReducedPart]:
     """Reduce parts, each by itself, as the list Reduction says."""
 
 def register_basis(name: str, doc: str, parameters: list, keywords: dict, build: Any) -> None:
@@ -325,7 +327,7 @@ def run(deck: DeckSource, output: str, restart: str, quiet: bool) -> str:
 def solve_static(deck: DeckSource) -> RestingCase:
     """The case of a deck, brought to rest."""
 
-def synthesise(parts: list[Part], reduction: DeckList, coupling: DeckList | Connections | None = None) -> Synthesis:
+def synthesise(parts: Iterable[Part], reduction: DeckList, coupling: DeckList | Connections | None = None) -> Synthesis:
     """Reduce, couple and estimate."""
 
 def undamped_modes(model: Model, count: int) -> tuple:

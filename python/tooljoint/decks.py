@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Decks: read, changed, written, run."""
+from __future__ import annotations
+
 import json
+import os
 import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from . import _core
 from .errors import FileError
@@ -27,7 +32,7 @@ class Deck:
     tooljoint.errors.DeckError: --set Transient/End Tim=1: /frame/Transient/End Tim is not a parameter. Did you mean "End Time"? ...
     """
 
-    def __init__(self, file, set=None, without=()):
+    def __init__(self, file: str | os.PathLike, set: Mapping[str, Any] | None = None, without: Iterable[str] = ()):
         self.file = str(file)
         self._text = ""
         self.overrides = ["!" + path for path in without] + [f"{path}={text_of(value)}" for path, value in (set or {}).items()]
@@ -40,7 +45,7 @@ class Deck:
         self._read = _core.read_deck(_core.DeckSource(self.file, self._text, [*self.overrides, override]))
         self.overrides.append(override)
 
-    def __getitem__(self, path):
+    def __getitem__(self, path: str) -> Any:
         value = self._read.to_dict()
         for name in _pieces(path):
             if not isinstance(value, dict) or name not in value:
@@ -48,20 +53,20 @@ class Deck:
             value = value[name]
         return value
 
-    def __setitem__(self, path, value):
+    def __setitem__(self, path: str, value: Any) -> None:
         self._change(f"{path}={text_of(value)}")
 
-    def __delitem__(self, path):
+    def __delitem__(self, path: str) -> None:
         self._change("!" + path)
 
-    def __contains__(self, path):
+    def __contains__(self, path: str) -> bool:
         try:
             self[path]
         except KeyError:
             return False
         return True
 
-    def add(self, path, values):
+    def add(self, path: str, values: Mapping[str, Any]) -> None:
         """Add a list with a name of your own, such as "Coupling/Point Laws/guy", where `--set` takes only names that are there. values: a
         dict, with dicts for lists in it."""
         *outer, name = _pieces(path)
@@ -86,20 +91,20 @@ class Deck:
         ElementTree.indent(root)
         return "\n".join([*re.findall(r"<!--.*?-->", prolog, re.DOTALL), ElementTree.tostring(root, encoding="unicode"), ""])
 
-    def gives(self, path):
+    def gives(self, path: str) -> bool:
         """Whether the deck or a change gives this, and not a default."""
         return self._read.gives(path)
 
     @property
-    def name(self):
+    def name(self) -> str:
         """Name of its root list."""
         return self._read.name
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """All values in SI, defaults included; lists are dicts."""
         return self._read.to_dict()
 
-    def write(self, file):
+    def write(self, file: str | os.PathLike) -> None:
         """Write the deck with its changes; comments stay. In another folder, relative names of files in it lead elsewhere: give absolute
         ones before. FileError."""
         root, description = self._tree()
@@ -114,34 +119,34 @@ class Deck:
         except OSError as error:
             raise FileError(f"The deck {file} cannot be written: {error.strerror}.") from error
 
-    def check(self, quiet=True):
+    def check(self, quiet: bool = True) -> None:
         """Refuse what a run would refuse; with quiet=False print what will be modelled, as `tooljoint check`."""
         _core.check(self._source(), quiet)
 
-    def run(self, output="", restart="", quiet=True):
+    def run(self, output: str | os.PathLike = "", restart: str | os.PathLike = "", quiet: bool = True) -> Results:
         """Run the deck in this process, as `tooljoint run` does: its Results. Collective under MPI."""
         return Results(_core.run(self._source(), str(output), str(restart), quiet))
 
-    def at_rest(self):
+    def at_rest(self) -> _core.RestingCase:
         """The case at rest: `full()` is its full model, `parts()` its parts and what joins them (for `synthesise`), `displacement` its
         state at rest. ConvergenceError, ModelError."""
         return _core.solve_static(self._source())
 
-    def study(self, output="", fresh=None, shared_timing=False, quiet=True):
+    def study(self, output: str | os.PathLike = "", fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
         """Run its list Study in this process, as `tooljoint study` does: the rows of study.csv, a list of dicts. Rows known from an earlier
         study of the folder are taken from there, unless `fresh`, or a variant written in Python takes part (it may have changed).
         """
         return self._analyse("study", output, fresh, shared_timing, quiet)
 
-    def map(self, output="", fresh=None, quiet=True):
+    def map(self, output: str | os.PathLike = "", fresh: bool | None = None, quiet: bool = True) -> list[dict[str, Any]]:
         """Compute its list Map, as `tooljoint map` does: the rows of map.csv. fresh: as of study()."""
         return self._analyse("map", output, fresh, False, quiet)
 
-    def campbell(self, output="", quiet=True):
+    def campbell(self, output: str | os.PathLike = "", quiet: bool = True) -> list[dict[str, Any]]:
         """Damped modes against the rotary speed (list Campbell), as `tooljoint campbell` does: the rows of campbell.csv."""
         return self._analyse("campbell", output, True, False, quiet)
 
-    def response(self, output="", quiet=True):
+    def response(self, output: str | os.PathLike = "", quiet: bool = True) -> list[dict[str, Any]]:
         """Harmonic responses (list Response), as `tooljoint response` does: the rows of response.csv."""
         return self._analyse("response", output, True, False, quiet)
 
@@ -154,13 +159,15 @@ class Deck:
         return f"<Deck {self.file}{f' with {len(self.overrides)} changes' if self.overrides else ''}>"
 
 
-def run(deck, set=None, without=(), output="", restart="", quiet=True):
+def run(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
+        restart: str | os.PathLike = "", quiet: bool = True) -> Results:
     """Run a deck (a file or a Deck) in this process: its Results. set: {"Transient/End Time": "2 s"}; without: lists to take out.
     The errors are those of the program, with the same sentence. Collective under MPI."""
     return _with(deck, set, without).run(output, restart, quiet)
 
 
-def study(deck, set=None, without=(), output="", fresh=None, shared_timing=False, quiet=True):
+def study(deck: str | os.PathLike | Deck, set: Mapping[str, Any] | None = None, without: Iterable[str] = (), output: str | os.PathLike = "",
+          fresh: bool | None = None, shared_timing: bool = False, quiet: bool = True) -> list[dict[str, Any]]:
     """Run the study of a deck (a file or a Deck) in this process: see Deck.study."""
     return _with(deck, set, without).study(output, fresh, shared_timing, quiet)
 

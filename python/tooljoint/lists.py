@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keyword arguments as deck lists: the names are those of the deck in snake_case, and the deck's reader checks them."""
+from __future__ import annotations
+
 import difflib
 import json
 import numbers
 import re
 import xml.sax.saxutils
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from . import _core
 from .errors import DeckError
 
 
-def keyword(name):
+def keyword(name: str) -> str:
     """A name of the deck in snake_case.
 
     >>> keyword("Cut-off Frequency"), keyword("Transient")
@@ -19,7 +23,7 @@ def keyword(name):
     return re.sub(r"[^0-9a-z]+", "_", name.lower()).strip("_")
 
 
-def title(name):
+def title(name: str) -> str:
     """snake_case as a name of the deck, for keywords that no list has.
 
     >>> title("spectral_radius")
@@ -28,7 +32,7 @@ def title(name):
     return name if " " in name or name[:1].isupper() else name.replace("_", " ").title()
 
 
-def describe(name):
+def describe(name: str) -> dict[str, Any]:
     """The description of the list "Reduction", "Transient" or "Coupling", or of a point law, as `tooljoint doc --format json` prints it.
 
     >>> describe("Transient")["parameters"][0]["name"]
@@ -37,7 +41,7 @@ def describe(name):
     return json.loads(_core.list_description(name))[0]
 
 
-def write(name, values, description):
+def write(name: str, values: Mapping[str, Any], description: Mapping[str, Any]) -> str:
     """XML of the list `name` with these values, a dict. Lists are dicts, arrays are lists; numbers may be texts with a unit."""
     known = {keyword(each["name"]): each for each in description["lists"]}
     parameters = {keyword(each["name"]): each for each in description["parameters"]}
@@ -52,7 +56,7 @@ def write(name, values, description):
     return f"<ParameterList name={_quote(name)}>{''.join(lines)}</ParameterList>"
 
 
-def placed(description, values, places):
+def placed(description: Mapping[str, Any], values: Mapping[str, Any], places: Sequence[str | None]) -> dict[str, Any]:
     """Values by keyword in the lists they belong to: the list described, else the first of its lists `places` that knows the keyword.
     One that none knows goes where the most similar is, so that the reader can suggest that.
 
@@ -60,9 +64,10 @@ def placed(description, values, places):
     {'basis_checks': False, 'Mode Selection': {'modes': 6, 'mods': 6}}
     """
     lists = {each["name"]: each for each in description["lists"]}
-    known = [("", name) for name in map(keyword, _names(description))]
-    known += [(place, name) for place in places if place in lists for name in map(keyword, _names(lists[place]))]
-    out, inner = {}, {}
+    known: list[tuple[str, str]] = [("", name) for name in map(keyword, _names(description))]
+    known += [(place, name) for place in places if place and place in lists for name in map(keyword, _names(lists[place]))]
+    out: dict[str, Any] = {}
+    inner: dict[str, dict[str, Any]] = {}
     for name, value in values.items():
         similar = difflib.get_close_matches(keyword(name), [one for _, one in known], 1)
         place = next((place for place, one in known if one == (similar[0] if similar else name)), "")
@@ -77,7 +82,7 @@ def _names(description):
     return [each["name"] for each in description["parameters"] + description["lists"]]
 
 
-def checked(name, values):
+def checked(name: str, values: Mapping[str, Any]) -> _core.DeckList:
     """The list `name` with these values, checked. DeckError with the sentence of the program."""
     try:
         return _core.parse_list(write(name, values, describe(name)), name)
@@ -86,7 +91,7 @@ def checked(name, values):
         raise DeckError(re.sub(rf"(?m)^{re.escape(name)}(:\d+)?: ", "", str(error))) from None
 
 
-def text_of(value):
+def text_of(value: Any) -> str:
     """A value as a deck and `--set` write it.
 
     >>> text_of(True), text_of(0.005), text_of(["a", "b"]), text_of("120 rpm")
@@ -103,7 +108,7 @@ def text_of(value):
     return "{" + ", ".join(text_of(each) for each in value) + "}"
 
 
-def type_of(value, kind=""):
+def type_of(value: Any, kind: str = "") -> str:
     """The type attribute of a value: what the parameter is (`kind`, empty when not known) decides for whole numbers and texts."""
     if isinstance(value, bool):
         return "bool"

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Motions."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from . import _core
@@ -8,13 +12,16 @@ from .lists import checked, describe, placed
 from .modal import _model
 from .quantity import Quantity
 
+if TYPE_CHECKING:
+    from .modal import HasModel
+
 
 class Motion:
     """A motion: `time` [s], and `displacement`, `velocity` and `acceleration` (samples x coordinates of the model), with the units of the
     coordinates in `model.dof_units`; `report` has counts, times and energies of the integration. `at()` gives the motion of nodes.
     """
 
-    def __init__(self, model, time, displacement, velocity, acceleration, report):
+    def __init__(self, model: _core.Model, time: np.ndarray, displacement: np.ndarray, velocity: np.ndarray, acceleration: np.ndarray, report: dict[str, Any]):
         self.model, self.report = model, report
         self.time = Quantity(time, "s", "Time")
         unit = ", ".join(dict.fromkeys(model.dof_units))
@@ -22,7 +29,7 @@ class Motion:
         self.velocity = Quantity(velocity, _rate(unit, 1), "Velocity")
         self.acceleration = Quantity(acceleration, _rate(unit, 2), "Acceleration")
 
-    def at(self, node, component, what="displacement"):
+    def at(self, node: int, component: str, what: str = "displacement") -> Quantity:
         """The history of a component of a node, recovered from the coordinates: of an interior node of a reduced part too.
         what: "displacement", "velocity" or "acceleration". ModelError for a node that the model does not recover.
         """
@@ -43,7 +50,7 @@ class Motion:
         return f"<Motion of {self.displacement.shape[1]} coordinates, {len(self.time)} samples to {self.time[-1]:g} s>"
 
 
-def _rate(units, order):
+def _rate(units: str, order: int) -> str:
     """Units of a derivative: "m, rad" becomes "m/s, rad/s".
 
     >>> _rate("m, rad", 2), _rate("m", 0)
@@ -52,7 +59,7 @@ def _rate(units, order):
     return ", ".join(unit + ("", "/s", "/s2")[order] for unit in units.split(", "))
 
 
-def integrate(of, end_time, *, integrator="Generalized-alpha", **parameters):
+def integrate(of: HasModel, end_time: float | str, *, integrator: str = "Generalized-alpha", **parameters: Any) -> Motion:
     """Integrate the motion of a model, a part or a synthesis from its start. Arguments are the deck list Transient: names in snake_case,
     of the list itself or of the list of the integrator (sampling_interval, step, spectral_radius ...). Collective under MPI.
 

@@ -1,12 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts from matrices, and their reduction and coupling."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
 import numpy as np
 
 from . import _core
 from .lists import checked, describe, placed
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from scipy.sparse import spmatrix
 
-def part(name, mass, stiffness, *, interface=(), retained=(), damping=None, load=None, nodes=None, components=None, component_names=("u",)):
+    MatrixLike = Union[ArrayLike, spmatrix]
+
+
+def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (), retained: Iterable[int] = (), damping: MatrixLike | None = None,
+         load: ArrayLike | None = None, nodes: ArrayLike | None = None, components: ArrayLike | None = None, component_names: Sequence[str] = ("u",)) -> _core.Part:
     """A part from its matrices.
 
     mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a constant load, dofs [N].
@@ -47,7 +59,7 @@ def _repeating(nodes, width):
     return components
 
 
-def reduction(method="Craig-Bampton", **parameters):
+def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:
     """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case, of the list itself, of its list Mode
     Selection and of the list of the method. A dict where a list is to be given as such.
 
@@ -63,7 +75,7 @@ def reduction(method="Craig-Bampton", **parameters):
     return checked("Reduction", values)
 
 
-def reduce(parts, method="Craig-Bampton", **parameters):
+def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton", **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
     """Reduce a part, or each of a list of parts by itself.
 
     method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example. Collective under MPI.
@@ -74,16 +86,16 @@ def reduce(parts, method="Craig-Bampton", **parameters):
     >>> tj.reduce(chain, modes=2)
     <ReducedPart "chain": 4 coordinates, 2 of them modes>
     """
-    single = isinstance(parts, _core.Part)
-    reduced = _core.reduce([parts] if single else list(parts), reduction(method, **parameters))
-    return reduced[0] if single else reduced
+    if isinstance(parts, _core.Part):
+        return _core.reduce([parts], reduction(method, **parameters))[0]
+    return _core.reduce(list(parts), reduction(method, **parameters))
 
 
 def _joining(coupling):
     return checked("Coupling", coupling) if isinstance(coupling, dict) else coupling
 
 
-def couple(parts, coupling=None):
+def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
     """The model of parts joined by equal labels of their interface dofs: unreduced parts give the full model, reduced parts the
     reduced one. coupling: the deck list Coupling as a dict (unreduced parts), for springs, hinges, constraints, frames and point laws.
     ModelError names what cannot be joined.
@@ -94,7 +106,7 @@ def couple(parts, coupling=None):
     return _core.couple(parts, _joining(coupling))
 
 
-def synthesise(parts, method="Craig-Bampton", coupling=None, **parameters):
+def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupling: dict | _core.Connections | None = None, **parameters: Any) -> _core.Synthesis:
     """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled model, reduce the interface where
     asked for. parameters: as `reduction()`; with frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
 

@@ -1,6 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays that know their unit."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 class Quantity(np.ndarray):
@@ -15,7 +22,7 @@ class Quantity(np.ndarray):
     ('ndarray', 3.0)
     """
 
-    def __new__(cls, values, unit="", long_name=""):
+    def __new__(cls, values: ArrayLike, unit: str = "", long_name: str = "") -> Quantity:
         array = np.asarray(values).view(cls)
         array.unit, array.long_name = unit, long_name
         return array
@@ -35,6 +42,6 @@ class Quantity(np.ndarray):
         return function(*map(plain, arguments), **{name: plain(each) for name, each in options.items()})
 
     @property
-    def label(self):
+    def label(self) -> str:
         """For the axis of a figure: "Length [m]"."""
         return f"{self.long_name} [{self.unit}]" if self.unit else self.long_name

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run has left."""
+from __future__ import annotations
+
 import csv
 import json
+import os
 import pathlib
+from typing import Any
 
 from . import _core
 from .errors import FileError
@@ -16,7 +20,7 @@ class Results:
     FileError for a folder that holds no results, or a dataset that is not there.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | os.PathLike):
         self.folder = pathlib.Path(folder)
         file = self.folder / "summary.json"
         try:
@@ -26,22 +30,22 @@ class Results:
         except ValueError as error:
             raise FileError(f"{file} is no summary of a run: {error}.") from error
 
-    def _open(self):
+    def _open(self) -> _core.ResultsFile:
         name = "study.h5" if (self.folder / "study.h5").exists() else "results.h5"
         return _core.ResultsFile(str(self.folder / name))
 
-    def datasets(self):
+    def datasets(self) -> list[str]:
         """Paths of all datasets, without the leading slash."""
         return [path.lstrip("/") for path in self._open().datasets()]
 
-    def __contains__(self, path):
+    def __contains__(self, path: str) -> bool:
         return "/" + path.lstrip("/") in self._open().datasets()
 
-    def __getitem__(self, path):
+    def __getitem__(self, path: str) -> Quantity:
         file, path = self._open(), "/" + path.lstrip("/")
         return Quantity(file.read(path), file.unit(path), file.long_name(path))
 
-    def table(self, name):
+    def table(self, name: str) -> list[dict[str, Any]]:
         """Rows of a table of the folder, dicts; numbers are numbers."""
         try:
             with open(self.folder / name, newline="", encoding="utf-8") as file:
@@ -50,7 +54,7 @@ class Results:
             raise FileError(f"The table {self.folder / name} cannot be read: {error.strerror}.") from error
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """Sentences the run has warned with."""
         return self.summary["warnings"]
 
@@ -58,12 +62,12 @@ class Results:
         return f"<Results {self.folder}: {self.summary['status']}>"
 
 
-def read(folder):
+def read(folder: str | os.PathLike) -> Results:
     """The Results in the folder of a run, whoever made it. FileError."""
     return Results(folder)
 
 
-def _value(text):
+def _value(text: str) -> float | str:
     try:
         return float(text)
     except ValueError:

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bases and point laws written in Python. They join the registries: calls, decks and studies of this process name them like any other."""
+from __future__ import annotations
+
 import inspect
+from collections.abc import Callable
+from typing import Any
 
 from . import _core
 from .lists import checked, title
@@ -13,10 +17,10 @@ class Parameter:
     it is a real number.
     """
 
-    def __init__(self, default=None, unit="", doc=""):
+    def __init__(self, default: bool | int | float | str | None = None, unit: str = "", doc: str = ""):
         self.default, self.unit, self.doc = default, unit, doc
 
-    def row(self, name):
+    def row(self, name: str) -> tuple:
         """As the description of a deck list takes it: name, kind, unit, default, sentence."""
         kinds = {bool: "boolean", int: "integer", str: "text"}
         return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc or f"Parameter {name} of the function.")
@@ -38,7 +42,7 @@ def _sentence(function):
     return (inspect.getdoc(function) or "Written in Python.").strip().splitlines()[0]
 
 
-def basis(name):
+def basis(name: str) -> Callable[[Callable], Callable]:
     """Registers a function as a reduction basis: build(part, count, **parameters) returns vectors of the interior, interior dofs x any
     number of columns. Constraint modes and the `count` lowest Ritz vectors of what they span become the basis. part is a PartView.
     Further arguments of the function are parameters of its deck list, described by their default or a Parameter.
@@ -65,7 +69,7 @@ def basis(name):
     return register
 
 
-def point_law(name, *, width=1, tangent=None, power=None):
+def point_law(name: str, *, width: int = 1, tangent: Callable | None = None, power: Callable | None = None) -> Callable[[Callable], Callable]:
     """Registers a function as a point law: force(t, d, v, **parameters) for positions d [m] and velocities v [m/s] of all points at once,
     arrays of (points,), or (points, width) where width > 1; it returns the forces [N] in the same shape. The first coordinate is a
     separation: a positive force pushes apart.
@@ -93,7 +97,7 @@ def point_law(name, *, width=1, tangent=None, power=None):
     return register
 
 
-def law(name, *, points=1, coordinates=3, **parameters):
+def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) -> _core.PointLaw:
     """A point law by its name in the deck, with its parameters (snake_case), for `model.add_points`: all points have these parameters.
     coordinates: at most so many for each point. DeckError as in a deck.
 
@@ -105,6 +109,6 @@ def law(name, *, points=1, coordinates=3, **parameters):
     return _core.point_law(name, checked(name, parameters), points, coordinates)
 
 
-def any_written():
+def any_written() -> bool:
     """Whether variants written in Python take part: a later process cannot know whether they are still the same."""
     return bool(_written)

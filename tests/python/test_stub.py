@@ -4,6 +4,8 @@ import inspect
 import os
 import pathlib
 import re
+import shutil
+import subprocess
 import sys
 import unittest
 
@@ -14,23 +16,27 @@ HEAD = '''# SPDX-License-Identifier: BSD-3-Clause
 # Written by tests/python/test_stub.py --update.
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy
 import scipy.sparse
+from numpy.typing import ArrayLike
 
 '''
 
 
 def typed(signature):
-    """Types of pybind11 as those of Python: arrays, classes of this module."""
+    """Types of pybind11 as those of Python: classes of this module, arrays; arguments may be anything that becomes one."""
     signature = re.sub(r"numpy\.ndarray\[(?:[^\[\]]|\[[^\[\]]*\])*\]", "numpy.ndarray", signature)
     signature = signature.replace("tooljoint._core.", "").replace("tooljoint::python::", "")
     signature = re.sub(r"\bUnion\[None, (.*?)\] = None", lambda found: found[1].replace(", ", " | ") + " | None = None", signature)
     signature = re.sub(r"\bOptional\[([^\[\]]*)\]", r"\1 | None", signature)
+    signature = re.sub(r": (Model) = None", r": \1 | None = None", signature)
     for old, new in (("List[", "list["), ("Tuple[", "tuple["), ("Dict[", "dict["), ("array([], dtype=float64)", "..."), (": object", ": Any"), ("-> object", "-> Any"), ("numpy.dtype", "Any")):
         signature = signature.replace(old, new)
-    return signature
+    arguments, result = signature.rsplit("->", 1)
+    return arguments.replace("numpy.ndarray", "ArrayLike").replace("list[", "Iterable[") + "->" + result
 
 
 def function(name, doc, indent=""):
@@ -57,6 +63,14 @@ def stub():
     classes = [members(one) for _, one in sorted(names.items()) if inspect.isclass(one)]
     functions = [function(name, one.__doc__) for name, one in sorted(names.items()) if not inspect.isclass(one)]
     return HEAD + "\n".join(classes) + "\n" + "\n".join(functions)
+
+
+class Types(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
+    def test_the_package_fits_its_stub(self):
+        command = ["mypy", "--ignore-missing-imports", "--python-executable", sys.executable, "--cache-dir", "mypy", str(STUB.parent)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
 
 
 class Stub(unittest.TestCase):
