@@ -73,8 +73,9 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   return settings;
 }
 
-DrillString buildDrillString(const StringSettings& settings, const well::Well& well) {
-  return buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere);
+DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
+                             std::optional<double> bit) {
+  return buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere, bit);
 }
 
 }  // namespace tooljoint::drillstring

@@ -62,6 +62,12 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve);
 
+/// The static state of `input` from the displacement `near` of a state of rest without friction and
+/// under other loads: the new loads at once, then friction and pull as in solveStatic().
+/// ConvergenceError.
+StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
+                            const model::NonlinearSolver& solve, const Vector& near);
+
 /// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
 /// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within
 /// reach.

@@ -9,11 +9,15 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {
 
-constexpr int kDofs = 6;
+constexpr int kDofs = beam::nodal::perNode;
+/// The components that forces of StaticContact act on, in their order.
+constexpr std::array<int, contact::StaticContact::kForces> kContactDofs{
+    beam::nodal::u, beam::nodal::v, beam::nodal::w, beam::nodal::thetaZ};
 
 void check(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;
@@ -61,7 +65,8 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
   if (input.contact != nullptr)
     for (const int node : input.contact->points().node) {
       const int first = kDofs * (node - 1);
-      lists.push_back({index_[at(first)], index_[at(first + 1)], index_[at(first + 5)]});
+      auto& dofs = lists.emplace_back();
+      for (const int component : kContactDofs) dofs.push_back(index_[at(first + component)]);
     }
   assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
 
@@ -95,8 +100,9 @@ Vector StaticProblem::restrict(const Vector& full) const {
 
 double StaticProblem::axialForce(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return axialStiffness_[at(element)] *
-         (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
+  return e.pretension +
+         axialStiffness_[at(element)] *
+             (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
 }
 
 double StaticProblem::torque(int element, const Vector& full) const {
@@ -117,7 +123,7 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
   options.frictionScale = switches_.frictionScale;
   options.stiffnessScale = switches_.stiffnessScale;
   options.pull = switches_.pull;
-  options.direction = input_.direction;
+  options.sliding = input_.sliding;
   return options;
 }
 
@@ -131,7 +137,7 @@ Vector StaticProblem::lateral(const Vector& full) const {
 
 void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& normal) const {
   const int points = touches() ? input_.contact->size() : 0;
-  forces.setZero(3 * points);
+  forces.setZero(contact::StaticContact::kForces * points);
   normal.setZero(points);
   if (points == 0) return;
   const Vector uv = lateral(full);
@@ -149,19 +155,18 @@ Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector r = -external;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const beam::Vector12 d = full.segment<12>(kDofs * e);
-    r.segment<12>(kDofs * e) +=
-        (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
+    const StaticElement& element = input_.elements[at(e)];
+    r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
+    if (element.pretension != 0.0)
+      r.segment<12>(kDofs * e) +=
+          element.pretension * (element.rotation.row(8) - element.rotation.row(2)).transpose();
   }
   if (!touches()) return r;
-  Vector forces(3 * input_.contact->size());
+  Vector forces(contact::StaticContact::kForces * input_.contact->size());
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data());
-  const std::vector<int>& nodes = input_.contact->points().node;
-  for (std::size_t p = 0; p < nodes.size(); ++p) {
-    const int dof = kDofs * (nodes[p] - 1);
-    const auto force = forces.segment<3>(3 * static_cast<int>(p));
-    r.segment<2>(dof) -= force.head<2>();
-    r(dof + 5) -= force(2);
-  }
+  const double* force = forces.data();
+  for (const int node : input_.contact->points().node)
+    for (const int component : kContactDofs) r(kDofs * (node - 1) + component) -= *force++;
   return r;
 }
 
@@ -182,13 +187,14 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
   }
   if (!touches()) return;
   const int points = input_.contact->size();
-  Vector forces(3 * points);
-  Vector tangents(6 * points);
+  constexpr int n = contact::StaticContact::kForces;
+  Vector forces(n * points);
+  Vector tangents(2 * n * points);
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data(), tangents.data());
   for (int p = 0; p < points; ++p) {
-    Matrix3 k = Matrix3::Zero();
-    k.leftCols<2>() =
-        -Eigen::Map<const Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>(tangents.data() + 6 * p);
+    Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
+    k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
+        tangents.data() + 2 * n * p);
     assembler_.add(static_cast<int>(input_.elements.size()) + p, k, jacobian);
   }
 }

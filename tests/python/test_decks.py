@@ -151,6 +151,18 @@ class Runs(unittest.TestCase):
         self.assertTrue(np.isfinite(np.asarray(results["static/displacement"])).all())
         self.assertEqual(results["model/s"].unit, "m")
 
+    def test_a_map_in_process_has_its_pictures(self):
+        deck = tj.Deck(STRING, without=["Transient"])
+        weights = ["5 kN", "10 kN"]
+        deck.add("Map", {
+            "Grid": {"weight": {"Parameter": "Loads/Weight On Bit", "Values": weights}, "torque": {"Parameter": "Loads/Torque On Bit", "Values": ["1 kN m", "2 kN m"]}},
+            "Values": {"top force": {"Key": "static.top_axial_force"}}})
+        rows = deck.map("map", fresh=True)
+        self.assertEqual([row["status"] for row in rows], ["done"] * 4)
+        force = np.array([row["top force"] for row in rows]).reshape(2, 2)
+        self.assertTrue(np.allclose(force[0] - force[1], 5e3, rtol=0.05), f"{force}: 5 kN more on the bit are 5 kN less at the top")
+        self.assertTrue(pathlib.Path("map/map_top_force.png").is_file(), f"{sorted(os.listdir('map'))}")
+
     def test_check_prints_and_refuses(self):
         tj.Deck(FRAME).check()
         with self.assertRaises(tj.DeckError):

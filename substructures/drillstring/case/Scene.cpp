@@ -194,15 +194,6 @@ void crossCheck(const Scene& scene, Faults& faults) {
                "hold every dof of the string; nothing is left to compute. Release some.");
 }
 
-/// 6 flags per node: held by a support, or since no element at the node has the dof.
-std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string) {
-  std::vector<char> held = supports.held(string.nodeCount());
-  const auto present = beam::nodalDofs(string.formulations());
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (!present[i / kNodeDofs][i % kNodeDofs]) held[i] = 1;
-  return held;
-}
-
 /// The parts of the string before they are made.
 std::vector<coupling::PartOutline> outlines(const Scene& scene) {
   requireKnownNodes(scene.string, scene.partition);

@@ -13,9 +13,9 @@
 #include "common/report/Log.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
-#include "statics/NoxSolver.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/case/RestProblem.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
@@ -51,49 +51,6 @@ StaticFriction staticFriction(const Scene& scene) {
 }
 
 namespace {
-
-Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
-  return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
-}
-
-path::PathState bend(const Scene& scene) {
-  path::PathInput input;
-  input.elements = scene.string.formulations();
-  input.trajectory = &scene.well.trajectory();
-  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
-}
-
-/// What the static equilibrium is made of.
-equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
-                                     const PathEquations& equations,
-                                     const StaticFriction& friction) {
-  equilibrium::StaticInput input;
-  input.nodes = equations.model.nodes;
-  input.held = scene.heldAtRest();
-  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
-  input.geometricStiffness = scene.statics.geometricStiffness;
-  for (int e = 0; e < equations.model.elements(); ++e) {
-    const auto i = static_cast<std::size_t>(e);
-    const auto& section = scene.string.elements[i].section();
-    equilibrium::StaticElement element;
-    element.formulation = scene.string.elements[i].formulation;
-    element.stiffness = equations.stiffness[i];
-    element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
-    const double curvature =
-        std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
-                 scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
-    element.bendingMoment =
-        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
-    input.elements.push_back(element);
-  }
-  input.load = equations.load;
-  input.pathReaction = equations.pathReaction;
-  input.direction = friction.direction;
-  if (scene.contactPoints.size() > 0)
-    input.contact = scene.contact->law->atRest(
-        friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
-  return input;
-}
 
 ContactBatch contactInMotion(const Scene& scene) {
   ContactBatch contact;
@@ -244,14 +201,16 @@ std::vector<int> freeDirections(const Scene& scene) {
 StaticStage findEquilibrium(const Scene& scene) {
   StaticStage stage;
   stage.friction = staticFriction(scene);
-  stage.path = bend(scene);
-  auto equations = buildEquations({scene.string, scene.well, stage.path, scene.held,
-                                   scene.mud.get(), scene.rotary, scene.loads, scene.damping});
+  stage.path = bendIntoWell(scene);
+  auto equations = equationsOnPath(scene, stage.path);
   addBitAtRest(scene, equations);
   addDriveInertia(scene, equations.model);
   requireHeld(scene, equations.model);
-  const auto input = staticInput(scene, stage.path, equations, stage.friction);
-  const auto solver = statics::noxSolver(listOrEmpty(scene, "Static"));
+  const auto& friction = stage.friction;
+  const auto input = restProblem(
+      scene, stage.path, equations, {0.0, friction.direction},
+      friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
+  const auto solver = staticSolver(scene);
   const auto finish = [&] {
     stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
                                 scene.damping, contactInMotion(scene));

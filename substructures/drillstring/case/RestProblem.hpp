@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the static equilibrium of a scene is made of: the string bent into its well, its equations
+/// there, and the problem that NOX solves.
+#pragma once
+
+#include "model/NonlinearSolve.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/equilibrium/StaticProblem.hpp"
+#include "substructures/path/PathState.hpp"
+
+namespace tooljoint::drillstring {
+
+/// The string on its path. ConvergenceError.
+path::PathState bendIntoWell(const Scene& scene);
+
+PathEquations equationsOnPath(const Scene& scene, const path::PathState& path);
+
+/// \param sliding  of the string on the wall
+/// \param points   the scene's contact points with the friction that acts as mu_s
+equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
+                                     const PathEquations& equations,
+                                     const contact::Sliding& sliding,
+                                     const contact::ContactPoints& points);
+
+/// NOX with the deck's list `Static`.
+model::NonlinearSolver staticSolver(const Scene& scene);
+
+}  // namespace tooljoint::drillstring
