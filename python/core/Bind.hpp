@@ -13,6 +13,7 @@ namespace py = pybind11;
 void bindErrors(py::module_& module);
 void bindLists(py::module_& module);
 void bindModels(py::module_& module);
+void bindPartFiles(py::module_& module);
 void bindReduction(py::module_& module);
 void bindModes(py::module_& module);
 void bindLaws(py::module_& module);

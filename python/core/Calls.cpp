@@ -5,12 +5,13 @@
 
 #include "Bind.hpp"
 #include "common/Parallel.hpp"
+#include "common/report/Log.hpp"
 
 namespace tooljoint::python {
 
 namespace {
 
-int depth = 0;  ///< of nested signal scopes; changed with the GIL only
+int depth = 0;  ///< of nested calls; changed with the GIL only
 
 /// The exception of Python behind the error on its way through the toolkit; null: none.
 py::object& cause() {
@@ -63,17 +64,18 @@ std::recursive_mutex& turn() {
   return one;
 }
 
-SignalScope::SignalScope() {
+CallScope::CallScope() {
   if (depth++ > 0) return;
   sigaction(SIGINT, nullptr, &interrupt_);
   sigaction(SIGTERM, nullptr, &terminate_);
   sigaction(SIGXFSZ, nullptr, &fileSize_);
   cause() = py::object();
+  log::clearWarnings();
   requestInterrupt(false);
   installInterruptHandlers();
 }
 
-SignalScope::~SignalScope() {
+CallScope::~CallScope() {
   if (--depth > 0) return;
   sigaction(SIGINT, &interrupt_, nullptr);
   sigaction(SIGTERM, &terminate_, nullptr);

@@ -19,14 +19,15 @@ namespace tooljoint::python {
 
 namespace py = pybind11;
 
-/// While it lives, SIGINT and SIGTERM set the flag of the toolkit, which long work looks at, and
-/// not the one of Python. May be nested.
-class SignalScope {
+/// A call from Python into the toolkit, which begins without warnings. While it lives, SIGINT and
+/// SIGTERM set the flag of the toolkit, which long work looks at, and not the one of Python. May be
+/// nested.
+class CallScope {
  public:
-  SignalScope();
-  ~SignalScope();
-  SignalScope(const SignalScope&) = delete;
-  SignalScope& operator=(const SignalScope&) = delete;
+  CallScope();
+  ~CallScope();
+  CallScope(const CallScope&) = delete;
+  CallScope& operator=(const CallScope&) = delete;
 
  private:
   struct sigaction interrupt_ = {}, terminate_ = {}, fileSize_ = {};
@@ -40,7 +41,7 @@ std::recursive_mutex& turn();
 /// from others wait. InterruptedError when a signal came in the meantime.
 template <class Work>
 auto longCall(const Work& work) {
-  const SignalScope signals;
+  const CallScope call;
   const auto ended = [] {
     if (interruptRequested()) throw InterruptedError("The call was interrupted.");
   };

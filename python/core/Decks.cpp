@@ -72,10 +72,7 @@ class Quiet {
 std::string run(const DeckSource& deck, const std::string& output, const std::string& restart,
                 bool quiet) {
   const Quiet scope(quiet);
-  return longCall([&] {
-    log::clearWarnings();
-    return cases::run(*deck.makeCase(), {output, restart});
-  });
+  return longCall([&] { return cases::run(*deck.makeCase(), {output, restart}); });
 }
 
 /// Computes an analysis of a case into a folder.
@@ -102,18 +99,12 @@ void compute(const std::string& what, const cases::Case& one, const std::string&
 void analyse(const std::string& what, const DeckSource& deck, const std::string& output, bool fresh,
              bool sharedTiming, bool quiet) {
   const Quiet scope(quiet);
-  longCall([&] {
-    log::clearWarnings();
-    compute(what, *deck.makeCase(), output, fresh, sharedTiming);
-  });
+  longCall([&] { compute(what, *deck.makeCase(), output, fresh, sharedTiming); });
 }
 
 void check(const DeckSource& deck, bool quiet) {
   const Quiet scope(quiet);
-  longCall([&] {
-    log::clearWarnings();
-    cases::check(*deck.makeCase(), false);
-  });
+  longCall([&] { cases::check(*deck.makeCase(), false); });
 }
 
 /// The case of a deck at rest.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mpi.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "Bind.hpp"
 #include "common/Parallel.hpp"
@@ -47,14 +48,17 @@ PYBIND11_MODULE(_core, module) {
   own::bindLists(module);
   own::bindLaws(module);
   own::bindModels(module);
+  own::bindPartFiles(module);
   own::bindReduction(module);
   own::bindModes(module);
   own::bindTransient(module);
   own::bindBases(module);
   own::bindDecks(module);
   own::bindResults(module);
-  module.def("rank", &tooljoint::parallel::rank, "Number of this rank.");
+  module.def("rank", &tooljoint::parallel::rank, "Number of this rank, from 0.");
   module.def("ranks", &tooljoint::parallel::size, "Number of ranks.");
   module.def("abort", &own::abortAll, py::arg("code"), "End all ranks with this exit code.");
+  module.def("warnings", &tooljoint::log::warnings,
+             "Sentences the last long call has warned with, on this rank.");
   module.def("version", &tooljoint::programVersion, "Version of the library.");
 }

@@ -11,13 +11,13 @@ MPI begins with the import and ends with the interpreter; under mpirun every ran
 import sys as _sys
 
 from . import _core
-from ._core import Model, Part, PartView, PointLaw, ReducedPart, Synthesis, rank, ranks
+from ._core import Model, Part, PartView, PointLaw, ReducedPart, Synthesis, rank, ranks, warnings
 from .decks import Deck, run, study
 from .errors import ConvergenceError, DeckError, Error, FileError, ModelError, UsageError
 from .lists import describe
 from .modal import Modes, compare_modes, damped_modes, estimate_frequencies, mac, modes
 from .motion import Motion, integrate
-from .parts import couple, part, reduce, reduction, synthesise
+from .parts import couple, part, read_part, reduce, reduction, synthesise, write_part
 from .quantity import Quantity
 from .results import Results, read
 from .variants import Parameter, basis, law, point_law
@@ -43,6 +43,6 @@ if ranks() > 1:
     def _abort(kind, error, trace, _before=_sys.excepthook):
         _before(kind, error, trace)
         _sys.stderr.flush()
-        _core.abort(getattr(error, "code", 1))
+        _core.abort(130 if issubclass(kind, KeyboardInterrupt) else getattr(error, "code", 1))
 
     _sys.excepthook = _abort

@@ -304,13 +304,16 @@ def point_law_names() -> list[str]:
     """Names of the laws there are."""
 
 def rank() -> int:
-    """Number of this rank."""
+    """Number of this rank, from 0."""
 
 def ranks() -> int:
     """Number of ranks."""
 
 def read_deck(deck: DeckSource) -> ReadDeck:
     """Read and check a deck. DeckError, FileError."""
+
+def read_part(path: str, name: str) -> Part:
+    """Read a part; its interface are all its interface sets."""
 
 def reduce(parts: Iterable[Part], reduction: DeckList) -> list[ReducedPart]:
     """Reduce parts, each by itself, as the list Reduction says."""
@@ -335,3 +338,9 @@ def undamped_modes(model: Model, count: int) -> tuple:
 
 def version() -> str:
     """Version of the library."""
+
+def warnings() -> list[str]:
+    """Sentences the last long call has warned with, on this rank."""
+
+def write_part(part: Part, path: str, interfaces: dict[str, Iterable[int]], positions: dict[int, ArrayLike]) -> None:
+    """Write a part: a file .h5, or a folder."""

@@ -2,7 +2,8 @@
 """Parts from matrices, and their reduction and coupling."""
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import os
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -57,6 +58,22 @@ def _repeating(nodes, width):
         components.append(seen.get(node, 0))
         seen[node] = components[-1] + 1
     return components
+
+
+def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[str, Iterable[int]] | None = None,
+               positions: Mapping[int, ArrayLike] | None = None) -> None:
+    """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a folder of Matrix Market files.
+
+    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the interface as "interface".
+    positions: coordinates [m] of nodes by their number, for pictures and for moved parts. Point laws are no part of the format.
+    """
+    sets = {"interface": part.interface} if interfaces is None else interfaces
+    _core.write_part(part, str(path), {name: list(map(int, dofs)) for name, dofs in sets.items() if len(list(dofs))}, dict(positions or {}))
+
+
+def read_part(path: str | os.PathLike, name: str = "part") -> _core.Part:
+    """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError."""
+    return _core.read_part(str(path), name)
 
 
 def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:

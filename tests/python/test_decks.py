@@ -125,6 +125,14 @@ class Runs(unittest.TestCase):
             tj.read("nowhere")
         self.assertEqual(tj.read("run").summary, results.summary)
 
+    def test_warnings_are_those_of_the_last_call(self):
+        for run in range(2):  # of every call anew
+            results = tj.run(FRAME, SHORT, output="warned")
+            self.assertIn("start of the motion is not in the basis", "".join(results.warnings))
+            self.assertEqual(tj.warnings(), results.warnings)
+        tj.couple([tj.part("quiet", [[1.0]], [[1.0]])])
+        self.assertEqual(tj.warnings(), [])
+
     def test_parts_of_a_deck_by_hand_move_as_its_run(self):
         results = tj.run(FRAME, SHORT, ["Reduction"], output="by_hand")
         case = tj.Deck(FRAME, SHORT).at_rest()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the whole."""
 import gc
+import pathlib
 import unittest
 
 import beams
@@ -139,6 +140,26 @@ class Reduction(unittest.TestCase):
         found = tj.damped_modes(tj.couple([left, right]), 3)
         want = beta * 2 * np.pi * self.frequency[:3] / 2  # zeta = beta omega / 2
         self.assertTrue(np.allclose(found.damping, want, rtol=1e-6), f"{found.damping} against {want}")
+
+    def test_parts_as_files_take_part_in_a_deck(self):
+        parts = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>'
+                        for name, file in (("left", "left.h5"), ("right", "right")))
+        pathlib.Path("beam.xml").write_text(f"""<ParameterList name="beam">
+  <ParameterList name="Parts"><ParameterList name="Imported">{parts}</ParameterList>
+    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/></ParameterList></ParameterList>""", encoding="utf-8")
+        if tj.rank() == 0:
+            pathlib.Path("right").mkdir(exist_ok=True)
+        tj.write_part(self.left, "left.h5", {"middle": self.left.interface})
+        tj.write_part(self.right, "right", {"middle": self.right.interface})
+        for part, again in ((self.left, tj.read_part("left.h5", "left")), (self.right, tj.read_part("right", "right"))):
+            self.assertEqual(again.name, part.name)
+            self.assertEqual(again.interface.tolist(), part.interface.tolist())
+            self.assertTrue(np.array_equal(again.model.mass.toarray(), part.model.mass.toarray()))
+            self.assertEqual(again.model.dof_names, part.model.dof_names)
+        found = tj.modes(tj.Deck("beam.xml").at_rest().full(), 6).frequency
+        self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8), f"{found} against {self.frequency}")
+        with self.assertRaises(tj.DeckError):
+            tj.read_part("nowhere.h5")
 
 
 if __name__ == "__main__":
