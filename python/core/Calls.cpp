@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Calls.hpp"
 
+#include <csignal>
+#include <map>
 #include <utility>
 
 #include "Bind.hpp"
@@ -11,7 +13,10 @@ namespace tooljoint::python {
 
 namespace {
 
-int depth = 0;  ///< of nested calls; changed with the GIL only
+// Changed with the GIL only.
+int depth = 0;  ///< of calls, nested ones and those of other threads
+/// What stood before the first of them, for the signals that the toolkit takes.
+std::map<int, struct sigaction> handlers{{SIGINT, {}}, {SIGTERM, {}}, {SIGXFSZ, {}}};
 
 /// The exception of Python behind the error on its way through the toolkit; null: none.
 py::object& cause() {
@@ -66,9 +71,7 @@ std::recursive_mutex& turn() {
 
 CallScope::CallScope() {
   if (depth++ > 0) return;
-  sigaction(SIGINT, nullptr, &interrupt_);
-  sigaction(SIGTERM, nullptr, &terminate_);
-  sigaction(SIGXFSZ, nullptr, &fileSize_);
+  for (auto& [number, before] : handlers) sigaction(number, nullptr, &before);
   cause() = py::object();
   log::clearWarnings();
   requestInterrupt(false);
@@ -77,9 +80,7 @@ CallScope::CallScope() {
 
 CallScope::~CallScope() {
   if (--depth > 0) return;
-  sigaction(SIGINT, &interrupt_, nullptr);
-  sigaction(SIGTERM, &terminate_, nullptr);
-  sigaction(SIGXFSZ, &fileSize_, nullptr);
+  for (const auto& [number, before] : handlers) sigaction(number, &before, nullptr);
   requestInterrupt(false);
 }
 

@@ -4,7 +4,6 @@
 /// back into Python.
 #pragma once
 
-#include <csignal>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -28,9 +27,6 @@ class CallScope {
   ~CallScope();
   CallScope(const CallScope&) = delete;
   CallScope& operator=(const CallScope&) = delete;
-
- private:
-  struct sigaction interrupt_ = {}, terminate_ = {}, fileSize_ = {};
 };
 
 /// Held by the call that runs; by its own thread again where it comes back through a function of

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Motions of reduced models: against scipy, and point laws written in Python against the same in C++."""
+import os
+import signal
 import threading
 import time
 import unittest
@@ -208,6 +210,9 @@ class Threads(unittest.TestCase):
             thread.join(60)
         for one in found:
             self.assertTrue(np.array_equal(one, want))
+        with self.assertRaises(KeyboardInterrupt):  # signals are Python's again
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(5)
 
     def test_a_function_may_call_the_toolkit(self):
         inner = tj.part("inner", [[1.0]], [[4.0]])
