@@ -14,6 +14,7 @@
 #include "Models.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Parallel.hpp"
 #include "parts/file/PartFile.hpp"
 
 namespace tooljoint::python {
@@ -51,8 +52,10 @@ void write(const PartPointer& part, const std::string& path, const Sets& interfa
   for (const auto& points : part->model.points) content.omitted.push_back(points.name);
   const auto ending = path.rfind(".h5");
   const bool hdf5 = ending != std::string::npos && ending + 3 == path.size();
-  longCall([&] {
-    parts::writePart(content, path, hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+  longCall([&] {  // all ranks wait for the one that writes
+    parallel::agree([&] {
+      parts::writePart(content, path, hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+    });
   });
 }
 
