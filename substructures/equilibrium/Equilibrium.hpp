@@ -31,6 +31,12 @@ enum class FrictionRule {
   None,
 };
 
+/// Which string has its nodes where the mesh puts them: displacements count from there.
+enum class Reference {
+  Unloaded,
+  Hanging,  ///< under its weight along the well, without friction
+};
+
 /// What is done with a static state that is unstable.
 enum class UnstableRule {
   Warn,
@@ -42,6 +48,7 @@ enum class UnstableRule {
 struct StaticOptions {
   Recipe recipe = Recipe::Continuation;
   FrictionRule friction = FrictionRule::SlidingSpeed;
+  Reference reference = Reference::Unloaded;
   bool exactJacobian = true;
   bool geometricStiffness = true;
   double tolerance = 1e-9;         ///< on the largest scaled residual

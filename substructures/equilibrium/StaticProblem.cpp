@@ -37,7 +37,18 @@ void check(const StaticInput& input) {
 
 }  // namespace
 
-StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
+Vector pretensionForces(const StaticInput& input) {
+  Vector forces = Vector::Zero(kDofs * input.nodes);
+  for (std::size_t e = 0; e < input.elements.size(); ++e) {
+    const StaticElement& element = input.elements[e];
+    forces.segment<12>(kDofs * static_cast<int>(e)) -=
+        element.pretension * (element.rotation.row(8) - element.rotation.row(2)).transpose();
+  }
+  return forces;
+}
+
+StaticProblem::StaticProblem(const StaticInput& input)
+    : input_(input), pretension_(pretensionForces(input)) {
   check(input);
   switches_.geometricStiffness = input.geometricStiffness;
   index_.assign(input.held.size(), -1);
@@ -152,14 +163,11 @@ void StaticProblem::residual(const Vector& x, Vector& r) const {
 Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector external = input_.load;
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
-  Vector r = -external;
+  Vector r = -external - pretension_;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const beam::Vector12 d = full.segment<12>(kDofs * e);
     const StaticElement& element = input_.elements[at(e)];
     r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
-    if (element.pretension != 0.0)
-      r.segment<12>(kDofs * e) +=
-          element.pretension * (element.rotation.row(8) - element.rotation.row(2)).transpose();
   }
   if (!touches()) return r;
   Vector forces(contact::StaticContact::kForces * input_.contact->size());

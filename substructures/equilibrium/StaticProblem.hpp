@@ -43,6 +43,9 @@ struct StaticInput {
   bool chordSlopes = false;
 };
 
+/// Forces of the pretension of all elements on their nodes, 6 per node [N].
+Vector pretensionForces(const StaticInput& input);
+
 /// Active terms of the equation, and the form of the Jacobian.
 struct StaticSwitches {
   bool geometricStiffness = true;
@@ -108,6 +111,7 @@ class StaticProblem : public model::NonlinearProblem {
   bool touches() const { return switches_.contact && input_.contact != nullptr; }
 
   const StaticInput& input_;
+  Vector pretension_;  ///< forces on the nodes
   StaticSwitches switches_;
   int unknowns_ = 0;
   std::vector<int> index_;              ///< unknown of each dof, -1 when held

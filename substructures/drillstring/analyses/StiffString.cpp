@@ -16,21 +16,6 @@ namespace tooljoint::drillstring {
 
 using namespace beam::nodal;
 
-namespace {
-
-/// Loads along w of all nodes below each element [N].
-std::vector<double> hangingTension(const Vector& load, int elements) {
-  std::vector<double> tension(at(elements));
-  double below = 0.0;
-  for (int e = elements; e-- > 0;) {
-    below += load(perNode * (e + 1) + w);
-    tension[at(e)] = below;
-  }
-  return tension;
-}
-
-}  // namespace
-
 double vonMises(const beam::Section& section, double tension, double torque, double curvature) {
   double largest = 0.0;
   for (const double radius : {section.innerRadius(), section.outerRadius()}) {
@@ -46,7 +31,6 @@ StiffString::StiffString(const Scene& scene, double bit)
     : scene_(hungAt(scene, bit)),
       path_(bendIntoWell(scene_)),
       equations_(equationsOnPath(scene_, path_)),
-      pretension_(hangingTension(equations_.load, scene_.string.elementCount())),
       bending_(bendingElements(scene_.string, path_)),
       points_(scene_.contactPoints.slidingFast()) {
   frictionless_ =
@@ -55,9 +39,7 @@ StiffString::StiffString(const Scene& scene, double bit)
 
 equilibrium::StaticInput StiffString::input(const softstring::Operation& operation) const {
   auto input = restProblem(scene_, path_, equations_, {operation.axialSpeed, operation.rotarySpeed},
-                           points_);
-  for (std::size_t e = 0; e < input.elements.size(); ++e)
-    input.elements[e].pretension = pretension_[e];
+                           points_, equilibrium::Reference::Hanging);
   const int bit = perNode * (input.nodes - 1);
   input.load(bit + w) -= operation.weightOnBit;
   input.load(bit + thetaZ) -= operation.torqueOnBit;

@@ -64,7 +64,6 @@ class StiffString {
   Scene scene_;
   path::PathState path_;
   PathEquations equations_;
-  std::vector<double> pretension_;  ///< of each element [N]
   std::vector<BendingElement> bending_;
   contact::ContactPoints points_;
   Vector frictionless_;  ///< displacement of the string that hangs without friction

@@ -6,6 +6,7 @@
 
 #include "common/Index.hpp"
 #include "statics/NoxSolver.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -28,15 +29,28 @@ PathEquations equationsOnPath(const Scene& scene, const path::PathState& path) {
                          scene.loads, scene.damping});
 }
 
+std::vector<double> hangingTension(const PathEquations& equations) {
+  std::vector<double> tension(at(equations.model.elements()));
+  double below = 0.0;
+  for (int e = equations.model.elements(); e-- > 0;) {
+    below += equations.load(kNodeDofs * (e + 1) + beam::nodal::w);
+    tension[at(e)] = below;
+  }
+  return tension;
+}
+
 equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
                                      const PathEquations& equations,
                                      const contact::Sliding& sliding,
-                                     const contact::ContactPoints& points) {
+                                     const contact::ContactPoints& points,
+                                     equilibrium::Reference reference) {
   equilibrium::StaticInput input;
   input.nodes = equations.model.nodes;
   input.held = scene.heldAtRest();
   input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
   input.geometricStiffness = scene.statics.geometricStiffness;
+  std::vector<double> pretension;
+  if (reference == equilibrium::Reference::Hanging) pretension = hangingTension(equations);
   for (int e = 0; e < equations.model.elements(); ++e) {
     const auto i = at(e);
     const auto& section = scene.string.elements[i].section();
@@ -49,6 +63,7 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
                  scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
     element.bendingMoment =
         section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
+    if (!pretension.empty()) element.pretension = pretension[i];
     input.elements.push_back(element);
   }
   input.load = equations.load;

@@ -4,6 +4,8 @@
 /// there, and the problem that NOX solves.
 #pragma once
 
+#include <vector>
+
 #include "model/NonlinearSolve.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
@@ -17,12 +19,17 @@ path::PathState bendIntoWell(const Scene& scene);
 
 PathEquations equationsOnPath(const Scene& scene, const path::PathState& path);
 
+/// Tension of a string that hangs from its first node without friction, per element [N]: loads
+/// along w of all nodes below.
+std::vector<double> hangingTension(const PathEquations& equations);
+
 /// \param sliding  of the string on the wall
 /// \param points   the scene's contact points with the friction that acts as mu_s
 equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
                                      const PathEquations& equations,
                                      const contact::Sliding& sliding,
-                                     const contact::ContactPoints& points);
+                                     const contact::ContactPoints& points,
+                                     equilibrium::Reference reference);
 
 /// NOX with the deck's list `Static`.
 model::NonlinearSolver staticSolver(const Scene& scene);

@@ -78,6 +78,14 @@ void addBitAtRest(const Scene& scene, PathEquations& equations) {
   }
 }
 
+/// Nodes of a string that hangs bear its tension before they move.
+void addPretension(const equilibrium::StaticInput& input, StringModel& model) {
+  Vector forces = equilibrium::pretensionForces(input);
+  if (forces.any())
+    model.loads.push_back(
+        {"pretension", model.lawIndex(model::ScalarLaw::one()), std::move(forces)});
+}
+
 /// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right.
 void addDriveInertia(const Scene& scene, StringModel& model) {
   const double J = scene.topDrive.inertia;
@@ -209,7 +217,9 @@ StaticStage findEquilibrium(const Scene& scene) {
   const auto& friction = stage.friction;
   const auto input = restProblem(
       scene, stage.path, equations, {0.0, friction.direction},
-      friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
+      friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints,
+      scene.statics.reference);
+  addPretension(input, equations.model);
   const auto solver = staticSolver(scene);
   const auto finish = [&] {
     stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
@@ -270,7 +280,7 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
 }
 
 void judgeStretch(const Scene& scene, const StaticStage& stage) {
-  constexpr double worthAWarning = 0.02;  // [rad]: 1.2 deg
+  constexpr double worthAWarning = 0.01;  // [rad]: contact forces of a tenth too much
   const auto depths = scene.string.depths();
   double turn = 0.0, depth = 0.0, shift = 0.0;
   for (std::size_t node = 0; node < depths.size(); ++node) {
@@ -285,8 +295,8 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
             " m, where the well turns by " +
             formatNumber(std::round(10 * turn / constants::degree) / 10) +
             " deg over that length. Displacements are small ones about the nodes as they were "
-            "meshed, so that side forces and friction are too large there; tooljoint torque-drag "
-            "does not have this error.");
+            "meshed, so that side forces and friction are too large there. Set Static/Reference "
+            "to \"Hanging\".");
 }
 
 void judgeStatic(const Scene& scene, const StaticStage& stage) {
