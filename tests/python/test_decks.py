@@ -2,6 +2,7 @@
 """Decks in process: read, changed, written, run; results with units; the sentences of the program as exceptions."""
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -179,7 +180,15 @@ class Runs(unittest.TestCase):
 
 class Interrupts(unittest.TestCase):
     def test_ctrl_c_ends_a_run_as_it_ends_the_program(self):
-        threading.Timer(2.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        shutil.rmtree("interrupted", ignore_errors=True)
+
+        def interrupt():
+            while not list(pathlib.Path(".").glob("interrupted/results.h5*")):
+                time.sleep(0.05)
+            time.sleep(1.0)  # in the motion
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Thread(target=interrupt, daemon=True).start()
         begin = time.perf_counter()
         with self.assertRaisesRegex(KeyboardInterrupt, "--restart"):
             tj.run(FRAME, {"Transient/End Time": 1e4, "Transient/Step": 1e-4}, ["Reduction"], output="interrupted")

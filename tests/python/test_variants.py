@@ -113,6 +113,20 @@ class Laws(unittest.TestCase):
         self.assertGreater(abs(cpp - free).max(), 0.01 * size, "the spring does not show")
         self.assertLess(abs(python - cpp).max(), 1e-7 * size)
 
+    def test_the_wall_of_a_bore_has_it(self):
+        @tj.point_law("Frictionless Wall")
+        def wall(t, d, v, stiffness=tj.Parameter(unit="N/m")):
+            """A wall without friction: d is the gap."""
+            return np.where(d < 0, -stiffness * d, 0.0)
+
+        at_rest = ["Transient", "Reduction", "Substructures"]
+        stiff = {"Contact/Law": "Frictionless Wall", "Contact/Frictionless Wall/Stiffness": 1e7}
+        own = tj.run(SOURCE / "tests/effects/scene.xml", stiff, [*at_rest, "Contact/Friction", "Contact/Intervals"], output="bore").summary["static"]
+        clamped = tj.run(SOURCE / "tests/effects/scene.xml", {}, at_rest, output="clamped").summary["static"]
+        self.assertEqual(own["contact_nodes"], clamped["contact_nodes"])
+        # The same walls carry the same weight; friction carries some of it in one of the two.
+        self.assertAlmostEqual(own["total_normal_force"] / clamped["total_normal_force"], 1.0, delta=0.1)
+
 
 if __name__ == "__main__":
     unittest.main()
