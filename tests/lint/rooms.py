@@ -36,7 +36,7 @@ DRILLSTRING = {
     "softstring": ("beam well", GROUND, "torque and drag of a string without bending stiffness"),
     "equilibrium": ("beam contact", GROUND, "the static state"),
     "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
-    "drillstring/figures": ("beam", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
+    "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
     "drillstring/case": ("beam contact drilling drillstring drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
     "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }

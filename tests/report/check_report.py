@@ -294,6 +294,9 @@ def end_of_run():
     expect("a run ends with a report", path.is_file() and "report      ended/report.html" in done.stdout, done.stdout[-300:])
     done = tooljoint("run", STRING, "--output", "ended", "--set", "Output/Report=false")
     expect("told not to, it leaves none, and takes that of the run before away", done.returncode == 0 and not path.exists())
+    for command, deck, settings in (("torque-drag", STRING, ("Torque and Drag/Depths={40}",)), ("map", str(ROOT / "tests/study/map.xml"), ()), ("study", STUDY, ())):
+        done = tooljoint(command, deck, "--output", f"ended_{command}", *[part for one in settings for part in ("--set", one)])
+        expect(f"{command} ends with a report", done.returncode == 0 and pathlib.Path(f"ended_{command}/report.html").is_file(), done.stderr)
     os.environ["PYTHONHOME"] = "/nowhere"  # no python3 starts
     done = tooljoint("run", STRING, "--output", "ended")
     line = [text for text in done.stderr.splitlines() if "The report was not written" in text]

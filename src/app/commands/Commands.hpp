@@ -84,9 +84,10 @@ void compare(const CompareOptions& options);
 /// a map, `torque-drag` or `modes` left there. FileError: nothing to report on, a file that cannot
 /// be read, or no python3 with the modules that are needed. Collective.
 void report(const std::string& folder, const std::string& output);
-/// The report at the end of a run. What goes wrong is a warning with the command to write it later;
-/// TOOLJOINT_REPORT=off in the environment leaves it out. A report of an earlier run is removed.
-void reportOfRun(const std::string& folder, bool wanted);
+/// The report at the end of a run, a study, a map or torque and drag. What goes wrong is a warning
+/// with the command to write it later; TOOLJOINT_REPORT=off in the environment leaves it out. A
+/// report of an earlier run is removed.
+void reportAtEnd(const std::string& folder, bool wanted);
 /// `tooljoint doc`: the parameter manual (format "md" or "json"), or one topic of it.
 std::string manual(const std::string& topic, const std::string& format);
 /// `tooljoint template`: a deck to start from: "well", "parts" (of the file "part"), "study",

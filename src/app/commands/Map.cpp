@@ -5,6 +5,7 @@
 
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
 
 namespace tooljoint::app {
 
@@ -17,10 +18,12 @@ void map(const RunOptions& options) {
   } else if (!options.collect.empty()) {
     own.output = options.collect;
     study::collectMap(*one, own);
+    reportAtEnd(cases::analysisFolder(*one, own.output, "map"), one->output().report);
   } else if (!options.row.empty()) {
     study::computeMapRow(*one, options.row, own);
   } else {
     study::runMap(*one, own);
+    reportAtEnd(cases::analysisFolder(*one, own.output, "map"), one->output().report);
   }
 }
 

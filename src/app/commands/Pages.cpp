@@ -104,7 +104,7 @@ constexpr const char* ends =
 
 constexpr const char* surroundings =
     ".SH ENVIRONMENT\n"
-    ".TP\n\\fBTOOLJOINT_REPORT\\fR\n\\fIoff\\fR: runs write no report.html.\n"
+    ".TP\n\\fBTOOLJOINT_REPORT\\fR\n\\fIoff\\fR: runs and analyses write no report.html.\n"
     ".SH FILES\n"
     ".TP\n\\fIresults/DECK\\fR\nResults of a run, unless another folder is given: results.h5, "
     "summary.json, tables, report.html.\n";

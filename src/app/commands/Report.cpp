@@ -43,7 +43,7 @@ void report(const std::string& folder, const std::string& output) {
   });
 }
 
-void reportOfRun(const std::string& folder, bool wanted) {
+void reportAtEnd(const std::string& folder, bool wanted) {
   if (parallel::rank() != 0) return;
   std::error_code ignored;
   // that of an earlier run shows results that are no longer here

@@ -9,7 +9,7 @@ namespace tooljoint::app {
 void run(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
   const auto folder = cases::run(*one, {options.output, options.restart});
-  reportOfRun(folder, one->output().report);
+  reportAtEnd(folder, one->output().report);
 }
 
 }  // namespace tooljoint::app

@@ -5,6 +5,7 @@
 
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
 
 namespace tooljoint::app {
 
@@ -17,10 +18,12 @@ void study(const RunOptions& options) {
   } else if (!options.collect.empty()) {
     own.output = options.collect;
     study::collect(*one, own);
+    reportAtEnd(cases::analysisFolder(*one, own.output, "study"), one->output().report);
   } else if (!options.row.empty()) {
     study::computeRow(*one, options.row, own);
   } else {
     study::run(*one, own);
+    reportAtEnd(cases::analysisFolder(*one, own.output, "study"), one->output().report);
   }
 }
 

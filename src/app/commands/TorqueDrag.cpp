@@ -18,6 +18,7 @@ void torqueDrag(const RunOptions& options) {
                     "and Drillstring.");
   drillstring::reportTorqueDrag(string->scene(), options.output);
   drillstring::reportCalibration(string->scene(), options.output);
+  if (!options.output.empty()) reportAtEnd(options.output, one->output().report);
 }
 
 }  // namespace tooljoint::app

@@ -8,8 +8,8 @@
 #include "common/Index.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/analyses/Hanging.hpp"
-#include "substructures/drillstring/case/BendingElements.hpp"
 #include "substructures/drillstring/case/RestProblem.hpp"
+#include "substructures/drillstring/figures/BendingElements.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 
 namespace tooljoint::drillstring {

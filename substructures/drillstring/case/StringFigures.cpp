@@ -9,7 +9,7 @@
 #include "common/Constants.hpp"
 #include "io/Csv.hpp"
 #include "substructures/beam/NodalDofs.hpp"
-#include "substructures/drillstring/case/BendingElements.hpp"
+#include "substructures/drillstring/figures/BendingElements.hpp"
 
 namespace tooljoint::drillstring {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/BendingElements.hpp"
+#include "substructures/drillstring/figures/BendingElements.hpp"
 
 #include <algorithm>
 #include <string>
