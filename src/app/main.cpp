@@ -214,6 +214,13 @@ void addAnalyses(CLI::App& program, tooljoint::app::RunOptions& options,
   addDeckOptions(*torqueDragCommand, options, Output::Wanted);
   torqueDragCommand->callback([&] { command = [&] { tooljoint::app::torqueDrag(options); }; });
 
+  auto* bhaCommand = program.add_subcommand(
+      "bha",
+      "side force and tilt at the bit, contacts, bending and sag of a bottom-hole assembly "
+      "against weight on bit, inclination and tool face");
+  addDeckOptions(*bhaCommand, options, Output::Always, "_bha");
+  bhaCommand->callback([&] { command = [&] { tooljoint::app::bha(options); }; });
+
   auto* campbellCommand = program.add_subcommand(
       "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");
   addDeckOptions(*campbellCommand, options, Output::Always, "_campbell");

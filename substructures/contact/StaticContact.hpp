@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "common/Types.hpp"
 #include "substructures/contact/ContactPoints.hpp"
 
 namespace tooljoint::contact {
@@ -39,6 +40,9 @@ class StaticContact {
 
   /// What the law pulls an open point with at most [N]; 0 where it never does.
   virtual double largestPull() const = 0;
+
+  /// Centre of contact of a point from the axis of the string [m].
+  virtual Eigen::Vector2d offset(int /*point*/) const { return Eigen::Vector2d::Zero(); }
 
  protected:
   ContactPoints points_;

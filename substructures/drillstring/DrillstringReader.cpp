@@ -39,6 +39,10 @@ deck::ListSpec drillstringParameters() {
                       "Young's modulus E.")
                 .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false},
                       "Ratio of lateral contraction to stretch (Poisson)."));
+  spec.real("Tool Face", "rad", 0.0, Range::any(),
+            "Side that bends, eccentric gauges and pads of direction 0 point to: from the high "
+            "side of the hole at the bit (from north in a vertical hole), clockwise looking down "
+            "the hole.");
   beam::declareElement(spec, std::string("Timoshenko"),
                        "Finite element of components that give none.");
   return spec;
@@ -48,6 +52,7 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   const Teuchos::ParameterList& list = deck.list().sublist(here);
   StringSettings settings;
   settings.defaults = {readMaterial(list), beam::readElement(list, {})};
+  settings.toolFace = list.get<double>("Tool Face");
   settings.assemblyWhere = deck.where(here + "/Assembly");
   std::vector<std::string> faults;
   if (list.isParameter("Library")) {
@@ -74,7 +79,10 @@ StringSettings readDrillstring(const deck::Deck& deck) {
 }
 
 DrillString buildDrillString(const StringSettings& settings, const well::Well& well) {
-  return buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere);
+  DrillString string =
+      buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere);
+  string.toolFace = settings.toolFace;
+  return string;
 }
 
 }  // namespace tooljoint::drillstring

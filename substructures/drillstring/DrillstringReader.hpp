@@ -19,6 +19,7 @@ struct StringSettings {
   std::vector<AssemblyEntry> assembly;  ///< from the surface down
   std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
   SegmentDefaults defaults;             ///< of components that give none
+  double toolFace = 0.0;                ///< [rad]
 };
 
 /// Description of the list `Drillstring`.

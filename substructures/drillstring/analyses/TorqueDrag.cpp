@@ -10,6 +10,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
+#include "substructures/beam/VonMises.hpp"
 #include "substructures/softstring/Buckling.hpp"
 
 namespace tooljoint::drillstring {
@@ -31,21 +32,6 @@ double gravityOf(const Scene& scene) { return loads::acceleration(scene.loads).z
 
 void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
-}
-
-/// Largest von Mises stress of the section at both walls and on both sides of the bend [Pa]. Equal
-/// pressure inside and outside is hydrostatic in the wall and part of the effective tension T:
-///
-///     sigma^2 = (T/S +- E kappa R)^2 + 3 (M R/J)^2
-double vonMises(const beam::Section& section, double tension, double torque, double curvature) {
-  double largest = 0.0;
-  for (const double radius : {section.innerRadius(), section.outerRadius()}) {
-    const double axial =
-        std::abs(tension) / section.area() + section.youngModulus() * curvature * radius;
-    const double shear = torque * radius / section.torsion();
-    largest = std::max(largest, std::sqrt(axial * axial + 3.0 * shear * shear));
-  }
-  return largest;
 }
 
 std::vector<softstring::Stretch> stretches(const Scene& scene) {
@@ -155,7 +141,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     profile.sinusoidal.push_back(limits.sinusoidal);
     profile.helical.push_back(limits.helical);
     profile.vonMises.push_back(
-        vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
+        beam::vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
     if (settings.yieldStrength && profile.vonMises.back() > 0.0)
       keepLeast(row.yield, *settings.yieldStrength / profile.vonMises.back(), s);
     if (loads.tension[i] < 0.0) {
