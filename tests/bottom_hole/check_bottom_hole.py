@@ -216,6 +216,16 @@ def curved():
             near(f"{rate}: side force to the high side", row["side_force_high"], -side[0] * 1.5 * RIGIDITY * size / a, 5e-3, RIGIDITY * kappa / a)
             near(f"{rate}: side force to the right", row["side_force_right"], -side[1] * 1.5 * RIGIDITY * size / a, 5e-3, RIGIDITY * kappa / a)
             near("moment at the stabiliser", row["largest_moment"], 1.5 * RIGIDITY * size, 5e-3)
+            below = [one for one in row["profile"] if one["from_bit"] <= a]
+            worst = max(abs(one["moment_high"] * side[0] + one["moment_right"] * side[1] - 1.5 * RIGIDITY * size * one["from_bit"] / a) for one in below)
+            expect("below it the moment falls linearly to nothing at the bit", worst < 5e-3 * RIGIDITY * kappa, worst)
+            # from the chord between bit and stabiliser the hole has turned by kappa a/2, the string by M a/(6 E I)
+            near("tilt", row["tilt_high"] * side[0] + row["tilt_right"] * side[1], 1.5 * size * a / 6 - size * a / 2, 5e-3, size * a / 4)
+    torque = 4000.0
+    row = run(deck("torque", {a: gauge(BORE)}, inclination=0.0, gravity=1e-4, length=length, loads=parameter("Torque On Bit", f"{torque} N m")), *settings,
+              "Bottom-Hole Assembly/Build Rate=0.3 deg/30m")[0]
+    expect("a twist bends nothing: across the plane there is but the torque that turns with the hole", max(abs(one["moment_right"]) for one in row["profile"]) < torque * kappa * length,
+           max(abs(one["moment_right"]) for one in row["profile"]))
     # with weight, against the beam-column in the hole y = -kappa x^2/2 (up: the hole builds), whose load turns with it
     file = deck("building", {6.0: gauge(0.1075)})
     found = run(file, "Bottom-Hole Assembly/Inclination={60 deg}", "Bottom-Hole Assembly/Build Rate=3 deg/30m", "Bottom-Hole Assembly/Weight On Bit={50 kN}")[0]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/analyses/BottomHoleState.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,9 +61,15 @@ class Findings {
   }
 
   Eigen::Vector2d lateral(int n) const { return d_.segment<2>(nodal::perNode * n); }
-  /// theta x z
+  /// Axis of a section on the path, in the nodal frame.
+  Vector3 sectionAxis(int n) const {
+    return stage_.path.frame[at(n)].transpose() * stage_.path.sectionAxis[at(n)];
+  }
+  /// Of a section against the hole: that of the path, and theta x axis.
   Eigen::Vector2d slope(int n) const {
-    return {d_(nodal::perNode * n + nodal::thetaY), -d_(nodal::perNode * n + nodal::thetaX)};
+    const Vector3 axis = sectionAxis(n);
+    const Vector3 theta = d_.segment<3>(nodal::perNode * n + nodal::thetaX);
+    return (axis + theta.cross(axis)).head<2>();
   }
   Sides wallForce(int n) const { return toSides(n, stage_.state.contactForce.col(n)); }
   Sides lateralReaction(int n) const {
@@ -89,9 +96,17 @@ class Findings {
     return one;
   }
 
-  beam::Vector12 motion(int e) const {
-    const beam::Vector12 d = d_.segment<12>(nodal::perNode * e);
-    return kinks_.empty() ? d : beam::Vector12(d + kinks_[at(e)]);
+  /// D of an element with its bend, without spins of the sections about their axes, which bend
+  /// nothing.
+  beam::Vector12 bending(int e) const {
+    beam::Vector12 d = d_.segment<12>(nodal::perNode * e);
+    if (!kinks_.empty()) d += kinks_[at(e)];
+    for (int end = 0; end < 2; ++end) {
+      const Vector3 axis = sectionAxis(e + end);
+      auto theta = d.segment<3>(nodal::perNode * end + nodal::thetaX);
+      theta -= theta.dot(axis) * axis;
+    }
+    return d;
   }
 
   /// E I times the curvature vector at both ends of an element, global axes [N m]: that of the
@@ -99,21 +114,17 @@ class Findings {
   std::array<Vector3, 2> endMoments(int e) const {
     const auto& path = stage_.path;
     const auto& element = *part_.string.elements[at(e)].formulation;
-    const auto& section = element.section();
     const Matrix3& triad = path.elementFrame[at(e)];
     const auto turn = beam::rotation12(triad, path.frame[at(e)], path.frame[at(e + 1)]);
-    const beam::Vector12 f = element.stiffness() * (turn * motion(e)) -
+    const beam::Vector12 f = element.stiffness() * (turn * bending(e)) -
                              element.distributedLoad(triad.transpose() * weight_[at(e)]);
-    const Vector3 kappa = triad.transpose() *
-                          (path.frame[at(e + 1)].col(2) - path.frame[at(e)].col(2)) /
-                          element.length();
-    const double E = section.youngModulus();
-    const Vector3 onPath{E * section.inertiaY() * kappa.x(), E * section.inertiaX() * kappa.y(),
-                         0.0};
     // M_x = E I u'', M_y = E I v'' with theta = (-v', u')
     const Vector3 upper{-f(4), f(3), 0.0};
     const Vector3 lower{f(10), -f(9), 0.0};
-    return {triad * (onPath + upper), triad * (onPath + lower)};
+    const beam::Vector12& onPath = path.force[at(e)];
+    const Vector3 axis = triad.col(2);
+    return {triad * upper - Vector3(onPath.segment<3>(3)).cross(axis),
+            triad * lower + Vector3(onPath.segment<3>(9)).cross(axis)};
   }
 
   /// Moments at nodes are the mean of both sides, stresses the larger one.
