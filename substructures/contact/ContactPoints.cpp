@@ -68,6 +68,12 @@ ContactPoints ContactPoints::slidingAt(double omega) const {
   return out;
 }
 
+ContactPoints ContactPoints::slidingFast() const {
+  ContactPoints out = *this;
+  out.muStatic = muDynamic;
+  return out;
+}
+
 bool ContactPoints::frictionless() const {
   return std::all_of(muStatic.begin(), muStatic.end(), [](double mu) { return mu == 0.0; });
 }

@@ -46,6 +46,8 @@ struct ContactPoints {
   /// The same points with mu_s replaced by mu(|Omega| R_c) of eq. (9): what a section that turns at
   /// Omega [rad/s] without moving sideways slides with. For StaticContact, which knows mu_s alone.
   ContactPoints slidingAt(double omega) const;
+  /// The same points with mu_s replaced by mu_d: what slides fast.
+  ContactPoints slidingFast() const;
 };
 
 }  // namespace tooljoint::contact

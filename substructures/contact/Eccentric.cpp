@@ -20,22 +20,26 @@ class EccentricAtRest final : public StaticContact {
                 double* tangent) const override {
     concentric_->evaluate(options, centres(uv).data(), f, tangent);
     for (int p = 0; p < size(); ++p) {
-      const Eigen::Vector2d& o = offsets_[at(p)];
-      f[3 * p + 2] += o.x() * f[3 * p + 1] - o.y() * f[3 * p];
-      if (tangent == nullptr) continue;
-      double* j = tangent + 6 * p;
-      for (int c = 0; c < 2; ++c) j[4 + c] += o.x() * j[2 + c] - o.y() * j[c];
+      addTorque(offsets_[at(p)], 1, f + kForces * p);
+      if (tangent != nullptr) addTorque(offsets_[at(p)], 2, tangent + 2 * kForces * p);
     }
   }
 
-  void normalForce(const Options& options, const double* uv, double* force) const override {
-    concentric_->normalForce(options, centres(uv).data(), force);
+  void normalForce(const Options& options, const double* uv, double* force,
+                   double* slope) const override {
+    concentric_->normalForce(options, centres(uv).data(), force, slope);
   }
 
   double largestPull() const override { return concentric_->largestPull(); }
   Eigen::Vector2d offset(int point) const override { return offsets_[at(point)]; }
 
  private:
+  /// Row of T_z += o_u row of F_v - o_v row of F_u; each has so many columns.
+  static void addTorque(const Eigen::Vector2d& o, int columns, double* rows) {
+    for (int c = 0; c < columns; ++c)
+      rows[3 * columns + c] += o.x() * rows[columns + c] - o.y() * rows[c];
+  }
+
   Vector centres(const double* uv) const {
     Vector shifted = Eigen::Map<const Vector>(uv, 2 * size());
     for (int p = 0; p < size(); ++p) shifted.segment<2>(2 * p) += offsets_[at(p)];

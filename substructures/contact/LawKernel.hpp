@@ -296,38 +296,14 @@ class StaticContactOf final : public StaticContact {
     kernel_.prepare(points_);
   }
 
-  void evaluate(const Options& options, const double* uv, double* f,
-                double* tangent) const override {
-    for (int p = 0; p < size(); ++p) {
-      const auto i = static_cast<std::size_t>(p);
-      const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
-      double dG = 0.0;
-      const double N = elastic(options, i, at.penetration, dG);
-      const double mu = options.direction * options.frictionScale * points_.muStatic[i];
-      const double radius = points_.contactRadius[i];
-      f[3 * p] = N * (mu * at.nv - at.nu);
-      f[3 * p + 1] = -N * (mu * at.nu + at.nv);
-      f[3 * p + 2] = -mu * N * radius;
-      if (tangent == nullptr) continue;
-      const double nuu = (1.0 - at.nu * at.nu) * at.inverse;
-      const double nuv = -at.nu * at.nv * at.inverse;
-      const double nvv = (1.0 - at.nv * at.nv) * at.inverse;
-      double* j = tangent + 6 * p;
-      j[0] = dG * at.nu * (mu * at.nv - at.nu) + N * (mu * nuv - nuu);
-      j[1] = dG * at.nv * (mu * at.nv - at.nu) + N * (mu * nvv - nuv);
-      j[2] = -dG * at.nu * (mu * at.nu + at.nv) - N * (mu * nuu + nuv);
-      j[3] = -dG * at.nv * (mu * at.nu + at.nv) - N * (mu * nuv + nvv);
-      j[4] = -mu * dG * at.nu * radius;
-      j[5] = -mu * dG * at.nv * radius;
-    }
-  }
-
-  void normalForce(const Options& options, const double* uv, double* force) const override {
+  void normalForce(const Options& options, const double* uv, double* force,
+                   double* slope) const override {
     for (int p = 0; p < size(); ++p) {
       const auto i = static_cast<std::size_t>(p);
       double dG = 0.0;
       const WallKinematics at(uv[2 * p], uv[2 * p + 1], 0.0, 0.0, points_.clearance[i]);
       force[p] = elastic(options, i, at.penetration, dG);
+      if (slope != nullptr) slope[p] = dG;
     }
   }
 

@@ -225,54 +225,29 @@ class PointLawAtRest final : public StaticContact {
     std::iota(all_.begin(), all_.end(), 0);
   }
 
-  void evaluate(const Options& options, const double* uv, double* f,
-                double* tangent) const override {
-    const auto [force, slope] = normal(options, uv);
-    for (int p = 0; p < size(); ++p) {
-      const WallKinematics where(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[at(p)]);
-      const double N = force[at(p)], dG = slope[at(p)];
-      f[3 * p] = -N * where.nu;
-      f[3 * p + 1] = -N * where.nv;
-      f[3 * p + 2] = 0.0;
-      if (tangent == nullptr) continue;
-      double* j = tangent + 6 * p;
-      const double nuv = -where.nu * where.nv * where.inverse;
-      j[0] = -dG * where.nu * where.nu - N * (1 - where.nu * where.nu) * where.inverse;
-      j[1] = j[2] = -dG * where.nu * where.nv - N * nuv;
-      j[3] = -dG * where.nv * where.nv - N * (1 - where.nv * where.nv) * where.inverse;
-      j[4] = j[5] = 0.0;
-    }
-  }
-  void normalForce(const Options& options, const double* uv, double* force) const override {
-    const auto found = normal(options, uv).first;
-    std::copy(found.begin(), found.end(), force);
-  }
-  double largestPull() const override { return 0.0; }
-
- private:
-  /// F_n and dF_n/dG.
-  std::pair<std::vector<double>, std::vector<double>> normal(const Options& options,
-                                                             const double* uv) const {
+  void normalForce(const Options& options, const double* uv, double* force,
+                   double* slope) const override {
     const int n = law_->width();
     std::vector<double> y(at(size() * n)), still(y.size()), f(y.size()), fd(at(size() * n * n)),
-        fv(fd.size()), force, slope;
+        fv(fd.size());
     for (int p = 0; p < size(); ++p)
       y[at(n * p)] =
           -WallKinematics(uv[2 * p], uv[2 * p + 1], 0, 0, points_.clearance[at(p)]).penetration;
     law_->evaluateWithTangent(0.0, all_, y.data(), still.data(), f.data(), fd.data(), fv.data());
-    if (model::stateful(*law_) != nullptr) {
+    if (slope != nullptr && model::stateful(*law_) != nullptr) {
       // the state is that of each place, so the slope is not that of a state that is held
       const auto ahead = forcesAt(y, slopeStep), behind = forcesAt(y, -slopeStep);
       for (int p = 0; p < size(); ++p)
         fd[at(n * n * p)] = (ahead[at(n * p)] - behind[at(n * p)]) / (2 * slopeStep);
     }
     for (int p = 0; p < size(); ++p) {
-      force.push_back(options.stiffnessScale * f[at(n * p)]);
-      slope.push_back(-options.stiffnessScale * fd[at(n * n * p)]);
+      force[p] = options.stiffnessScale * f[at(n * p)];
+      if (slope != nullptr) slope[p] = -options.stiffnessScale * fd[at(n * n * p)];
     }
-    return {force, slope};
   }
+  double largestPull() const override { return 0.0; }
 
+ private:
   std::vector<double> forcesAt(std::vector<double> y, double step) const {
     const std::vector<double> still(y.size());
     std::vector<double> f(y.size());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Contact and fully developed sliding friction of a string at rest that turns in its hole. Nguyen
-/// et al. 2020, eqs. (21), (22).
+/// Contact and fully developed sliding friction of a string at rest that turns in its hole or moves
+/// along it. Nguyen et al. 2020, eqs. (21), (22), with the friction against the direction of
+/// sliding.
 #pragma once
 
 #include <utility>
@@ -11,8 +12,22 @@
 
 namespace tooljoint::contact {
 
-/// force  -F_n n - mu_s F_n t sign(Omega),  torque  -mu_s F_n R_c sign(Omega),  F_n the elastic
-/// part of the contact law.
+/// How a string at rest slides on the wall: what friction acts against.
+struct Sliding {
+  double axialSpeed = 0.0;   ///< v_a, down positive [m/s]
+  double rotarySpeed = 0.0;  ///< Omega [rad/s]
+
+  bool any() const { return axialSpeed != 0.0 || rotarySpeed != 0.0; }
+  /// (v_a, v_c)/v with v_c = Omega R_c, v = sqrt(v_a^2 + v_c^2), of a surface with this radius [m];
+  /// zero where nothing slides. A string that only turns has (0, +-1) at any radius.
+  std::pair<double, double> direction(double radius) const;
+};
+
+/// With the unit normal n and tangent t of the point, v_c = Omega R_c and the sliding speed v:
+///
+///     force  -F_n n - mu_s F_n (v_c/v t + v_a/v e_w),   torque  -mu_s F_n R_c v_c/v,
+///
+/// F_n the elastic part of the contact law.
 class StaticContact {
  public:
   struct Options {
@@ -22,21 +37,26 @@ class StaticContact {
     double stiffnessScale = 1.0;  ///< softens the wall on the way to the solution
     double pull =
         1.0;  ///< share of what the law pulls open points with: 0 = a wall that only pushes
-    double direction = 1.0;  ///< sign of the rotary speed: +1, -1, or 0 without friction
+    Sliding sliding{0.0, 1.0};
   };
+
+  /// Forces of a point: F_u, F_v, F_w [N], T_z [N m].
+  static constexpr int kForces = 4;
 
   explicit StaticContact(ContactPoints points) : points_(std::move(points)) {}
   virtual ~StaticContact() = default;
   int size() const { return points_.size(); }
   const ContactPoints& points() const { return points_; }
 
-  /// Forces of all points: uv (2 per point: u, v [m]) -> f (3 per point: F_u, F_v [N], T_z [N m]);
-  /// with `tangent` not null also df/d(u,v), 6 per point, row by row (3 x 2).
+  /// Forces of all points: uv (2 per point: u, v [m]) -> f (kForces per point); with `tangent` not
+  /// null also df/d(u, v), row by row (kForces x 2 per point).
   virtual void evaluate(const Options& options, const double* uv, double* f,
-                        double* tangent = nullptr) const = 0;
+                        double* tangent = nullptr) const;
 
-  /// Normal force F_n [N] per point, positive when the wall pushes.
-  virtual void normalForce(const Options& options, const double* uv, double* force) const = 0;
+  /// Normal force F_n [N] per point, positive when the wall pushes; with `slope` not null also
+  /// dF_n/dG [N/m].
+  virtual void normalForce(const Options& options, const double* uv, double* force,
+                           double* slope = nullptr) const = 0;
 
   /// What the law pulls an open point with at most [N]; 0 where it never does.
   virtual double largestPull() const = 0;

@@ -78,9 +78,10 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   return settings;
 }
 
-DrillString buildDrillString(const StringSettings& settings, const well::Well& well) {
+DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
+                             std::optional<double> bit) {
   DrillString string =
-      buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere);
+      buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere, bit);
   string.toolFace = settings.toolFace;
   return string;
 }

@@ -3,6 +3,7 @@
 /// Deck list `Drillstring`: components, where they come from, and their order.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ deck::ListSpec drillstringParameters();
 /// is read on rank 0). Throws DeckError with one line "file:line: path: sentence" per fault.
 StringSettings readDrillstring(const deck::Deck& deck);
 
-/// The meshed string in its well: see buildDrillString in Mesh.hpp.
-DrillString buildDrillString(const StringSettings& settings, const well::Well& well);
+/// The meshed string in its well, with its lower end at the depth `bit` [m] where one is given: see
+/// buildDrillString in Mesh.hpp.
+DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
+                             std::optional<double> bit = std::nullopt);
 
 }  // namespace tooljoint::drillstring

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
 
@@ -22,6 +23,10 @@ constexpr double samePlace = 1e-6;
 /// Clearance below which a body or gauge does not fit [m]; above it, and below zero, it is rounding
 /// and taken as zero.
 constexpr double tightFit = -1e-9;
+
+/// What is left of an element cut at the surface is an element of its own from this share of its
+/// length; less of it would be far stiffer than its neighbours.
+constexpr double shortestRest = 0.1;
 
 /// More elements than this are taken for a slip in a repeat count.
 constexpr int mostElements = 200000;
@@ -36,8 +41,9 @@ struct Place {
 
 class Mesher {
  public:
-  Mesher(const ComponentLibrary& library, const well::Well& well, std::string where)
-      : library_(library), well_(well), where_(std::move(where)) {}
+  Mesher(const ComponentLibrary& library, const well::Well& well, std::string where,
+         std::optional<double> bit)
+      : library_(library), well_(well), where_(std::move(where)), bit_(bit) {}
 
   DrillString mesh(const std::vector<AssemblyEntry>& assembly) {
     out_.nodes.emplace_back();
@@ -45,6 +51,7 @@ class Mesher {
     for (const AssemblyEntry& entry : assembly) placeAll(entry, "", occurrences, where_);
     if (faults_.empty() && out_.elements.empty())
       fault(where_, "The assembly is empty; it needs at least one component.");
+    if (faults_.empty() && bit_) cutAtSurface(out_.length() - *bit_);
     if (faults_.empty()) {
       checkLength();
       setClearances();
@@ -152,7 +159,54 @@ class Mesher {
       node.s = start + segment.length * i / segment.elements;
       out_.nodes.push_back(node);
       out_.elements.push_back({formulation, static_cast<int>(out_.instances.size()) - 1});
+      segments_.push_back(&segment);
     }
+  }
+
+  /// Leaves out what stands above the surface, `above` [m] of the string.
+  void cutAtSurface(double above) {
+    if (above < samePlace) return;
+    int first = 0;
+    const auto left = [&](int e) { return out_.nodes[at(e + 1)].s - above; };
+    while (left(first) < shortestRest * out_.elements[at(first)].length()) ++first;
+    const Segment& cut = *segments_[at(first)];
+    out_.elements[at(first)].formulation = cut.element.make(cut.section, left(first));
+
+    out_.elements.erase(out_.elements.begin(), out_.elements.begin() + first);
+    out_.nodes.erase(out_.nodes.begin(), out_.nodes.begin() + first);
+    for (Node& node : out_.nodes) node.s -= above;
+    out_.nodes.front().s = 0.0;
+    const auto gone = cutInstances(out_.instances, first);
+    for (Element& element : out_.elements) element.instance -= gone;
+    cutInstances(out_.nested, first);
+    for (auto* places : {&gauges_, &bends_, &pads_}) cutPlaces(*places, above, first);
+  }
+
+  static void cutPlaces(std::vector<Place>& places, double above, int removed) {
+    for (Place& place : places) {
+      place.s -= above;
+      place.firstNode = std::max(0, place.firstNode - removed);
+      place.lastNode -= removed;
+    }
+    places.erase(std::remove_if(places.begin(), places.end(),
+                                [](const Place& place) { return place.s < samePlace; }),
+                 places.end());
+  }
+
+  /// The number of instances that stood above.
+  static int cutInstances(std::vector<Instance>& instances, int removed) {
+    const auto below = std::find_if(instances.begin(), instances.end(), [&](const Instance& one) {
+      return one.lastElement >= removed;
+    });
+    const auto gone = static_cast<int>(below - instances.begin());
+    instances.erase(std::remove_if(instances.begin(), instances.end(),
+                                   [&](const Instance& one) { return one.lastElement < removed; }),
+                    instances.end());
+    for (Instance& one : instances) {
+      one.firstElement = std::max(0, one.firstElement - removed);
+      one.lastElement -= removed;
+    }
+    return gone;
   }
 
   void checkLength() {
@@ -284,7 +338,9 @@ class Mesher {
   const ComponentLibrary& library_;
   const well::Well& well_;
   std::string where_;
+  std::optional<double> bit_;  ///< depth of the lower end; none: the whole assembly hangs
   DrillString out_;
+  std::vector<const Segment*> segments_;  ///< of each element
   std::vector<Place> gauges_, bends_, pads_;
   std::vector<std::string> stack_;
   std::vector<std::string> faults_;
@@ -295,8 +351,8 @@ class Mesher {
 
 DrillString buildDrillString(const ComponentLibrary& library,
                              const std::vector<AssemblyEntry>& assembly, const well::Well& well,
-                             const std::string& assemblyWhere) {
-  return Mesher(library, well, assemblyWhere).mesh(assembly);
+                             const std::string& assemblyWhere, std::optional<double> bit) {
+  return Mesher(library, well, assemblyWhere, bit).mesh(assembly);
 }
 
 }  // namespace tooljoint::drillstring

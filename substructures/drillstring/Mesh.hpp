@@ -3,6 +3,7 @@
 /// From components and their order to nodes, elements and clearances.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,12 @@ namespace tooljoint::drillstring {
 ///
 /// Throws DeckError with one line per fault: unknown component, a component inside itself, a string
 /// longer than the well, a body or gauge that does not fit into the hole, a gauge that is not at a
-/// node. `assemblyWhere` says where the assembly stands.
+/// node. `assemblyWhere` says where the assembly stands. With `bit` [m], not below the end of the
+/// assembly, the string hangs with its lower end at that depth, cut at the surface: the element
+/// that is cut is shortened, and one of which less than a tenth is left goes to its neighbour.
 DrillString buildDrillString(const ComponentLibrary& library,
                              const std::vector<AssemblyEntry>& assembly, const well::Well& well,
-                             const std::string& assemblyWhere = "Assembly");
+                             const std::string& assemblyWhere = "Assembly",
+                             std::optional<double> bit = std::nullopt);
 
 }  // namespace tooljoint::drillstring

@@ -6,6 +6,7 @@
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -103,6 +104,15 @@ SupportSettings readSupports(const Teuchos::ParameterList& list) {
                               sub.name()});
   }
   return settings;
+}
+
+std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string) {
+  std::vector<char> held = supports.held(string.nodeCount());
+  const auto present = beam::nodalDofs(string.formulations());
+  constexpr std::size_t n = beam::nodal::perNode;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (!present[i / n][i % n]) held[i] = 1;
+  return held;
 }
 
 }  // namespace tooljoint::drillstring

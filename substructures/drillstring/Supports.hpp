@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "deck/ListSpec.hpp"
+#include "substructures/drillstring/DrillString.hpp"
 
 namespace Teuchos {
 class ParameterList;
@@ -39,6 +40,10 @@ struct SupportSettings {
   /// modelled. Throws DeckError when a named support stands at a node the string does not have.
   std::vector<char> held(int nodes) const;
 };
+
+/// 6 flags per node: held by a support, or since no element at the node has the dof. DeckError as
+/// SupportSettings::held.
+std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string);
 
 /// Description of the list `Supports`.
 deck::ListSpec supportParameters();

@@ -166,7 +166,7 @@ void sharpen(const StaticInput& input, StaticProblem& problem, Stages& stages,
 }
 
 bool hasFriction(const StaticInput& input) {
-  return !input.contact->points().frictionless() && input.direction != 0.0;
+  return !input.contact->points().frictionless() && input.sliding.any();
 }
 
 /// Friction in equal steps.
@@ -271,15 +271,17 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
     const double r = std::hypot(u, v);
     state.gap(n) = r - points.clearance[i];
     state.normalForce(n) = normal(p);
-    state.contactForce.col(n) = forces.segment<2>(3 * p);
     // component along t = (-v, u)/r
-    state.tangentialForce(n) = r > 0.0 ? (u * forces(3 * p + 1) - v * forces(3 * p)) / r : 0.0;
-    state.frictionTorque(n) = forces(3 * p + 2);
+    const auto force =
+        forces.segment<contact::StaticContact::kForces>(contact::StaticContact::kForces * p);
+    state.tangentialForce(n) = r > 0.0 ? (u * force(1) - v * force(0)) / r : 0.0;
+    state.frictionTorque(n) = force(3);
+    state.contactForce.col(n) = force.head<2>();
     const auto dof = static_cast<std::size_t>(6 * n);
     if ((input.held[dof] == 0 || input.held[dof + 1] == 0) && state.gap(n) > 0.0)
       ++state.contactNodes;
     state.totalNormalForce += normal(p);
-    state.totalFrictionTorque += forces(3 * p + 2);
+    state.totalFrictionTorque += force(3);
     if (normal(p) > state.maxNormalForce) {
       state.maxNormalForce = normal(p);
       state.maxNormalForceNode = n + 1;
@@ -351,6 +353,26 @@ StaticState leaveUnstable(const StaticInput& input, const StaticOptions& options
   StaticState state = describe(input, problem, problem.expand(x));
   state.report = stages.report();
   state.report.iterations += from.report.iterations;
+  return state;
+}
+
+StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
+                            const model::NonlinearSolver& solve, const Vector& near) {
+  StaticProblem problem(input);
+  auto switches = switchesOf(input, options);
+  Stages stages(problem, options, solve);
+  Vector x = problem.restrict(near);
+  if (input.contact == nullptr || input.contact->size() == 0) {
+    stages.run("no contact", switches, 0.0, inTheOpen, x);
+  } else {
+    switches.lateralStepLimit = options.lateralStepLimit;
+    switches.slideAlongWall = true;
+    switches.frictionScale = switches.pull = 0.0;
+    stages.run("new loads", switches, hasFriction(input) ? kStageTolerance : 0.0, minimising, x);
+    addFriction(input, options, stages, switches, x);
+  }
+  StaticState state = describe(input, problem, problem.expand(x));
+  state.report = stages.report();
   return state;
 }
 

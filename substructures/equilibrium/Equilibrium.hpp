@@ -31,6 +31,12 @@ enum class FrictionRule {
   None,
 };
 
+/// Which string has its nodes where the mesh puts them: displacements count from there.
+enum class Reference {
+  Unloaded,
+  Hanging,  ///< under its weight along the well, without friction
+};
+
 /// What is done with a static state that is unstable.
 enum class UnstableRule {
   Warn,
@@ -42,6 +48,7 @@ enum class UnstableRule {
 struct StaticOptions {
   Recipe recipe = Recipe::Continuation;
   FrictionRule friction = FrictionRule::SlidingSpeed;
+  Reference reference = Reference::Unloaded;
   bool exactJacobian = true;
   bool geometricStiffness = true;
   double tolerance = 1e-9;         ///< on the largest scaled residual
@@ -61,6 +68,12 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list);
 /// ModelError for input that does not fit together.
 StaticState solveStatic(const StaticInput& input, const StaticOptions& options,
                         const model::NonlinearSolver& solve);
+
+/// The static state of `input` from the displacement `near` of a state of rest without friction and
+/// under other loads: the new loads at once, then friction and pull as in solveStatic().
+/// ConvergenceError.
+StaticState solveStaticFrom(const StaticInput& input, const StaticOptions& options,
+                            const model::NonlinearSolver& solve, const Vector& near);
 
 /// The state of rest the string finds when it leaves the unstable state `from` along the mode: see
 /// settle(); then friction and pull as in solveStatic(). ConvergenceError: there is none within

@@ -25,6 +25,12 @@ deck::ListSpec parameters() {
               "string starts from rest, the static coefficient in the direction of the first "
               "rotation. \"Peak\": always the static coefficient, as the source. \"None\": no "
               "friction. A string that never rotates has no friction.");
+  spec.choice(
+      "Reference", std::string("Unloaded"), {"Unloaded", "Hanging"},
+      "Which string has its nodes at the depths of the mesh; displacements count from there. "
+      "\"Unloaded\": a string without loads, which its weight then stretches along the well. "
+      "\"Hanging\": the string under its weight. Strings of kilometres need it: where they "
+      "move along a well that turns, displacements are too large for the model.");
   spec.boolean("Geometric Stiffness", true,
                "Include the geometric stiffness of axial force and torque in the static state.")
       .expert();
@@ -58,6 +64,8 @@ StaticOptions optionsFrom(const Teuchos::ParameterList& list) {
   options.friction = friction == "Peak"   ? FrictionRule::Peak
                      : friction == "None" ? FrictionRule::None
                                           : FrictionRule::SlidingSpeed;
+  options.reference =
+      list.get<std::string>("Reference") == "Hanging" ? Reference::Hanging : Reference::Unloaded;
   options.exactJacobian = list.get<std::string>("Jacobian") == "Exact";
   options.geometricStiffness = list.get<bool>("Geometric Stiffness");
   options.tolerance = list.get<double>("Tolerance");

@@ -9,11 +9,15 @@
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "substructures/beam/NodalDofs.hpp"
 
 namespace tooljoint::equilibrium {
 namespace {
 
-constexpr int kDofs = 6;
+constexpr int kDofs = beam::nodal::perNode;
+/// The components that forces of StaticContact act on, in their order.
+constexpr std::array<int, contact::StaticContact::kForces> kContactDofs{
+    beam::nodal::u, beam::nodal::v, beam::nodal::w, beam::nodal::thetaZ};
 
 void check(const StaticInput& input) {
   const int dofs = kDofs * input.nodes;
@@ -34,7 +38,18 @@ void check(const StaticInput& input) {
 
 }  // namespace
 
-StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
+Vector pretensionForces(const StaticInput& input) {
+  Vector forces = Vector::Zero(kDofs * input.nodes);
+  for (std::size_t e = 0; e < input.elements.size(); ++e) {
+    const StaticElement& element = input.elements[e];
+    forces.segment<12>(kDofs * static_cast<int>(e)) -=
+        element.pretension * (element.rotation.row(8) - element.rotation.row(2)).transpose();
+  }
+  return forces;
+}
+
+StaticProblem::StaticProblem(const StaticInput& input)
+    : input_(input), pretension_(pretensionForces(input)) {
   check(input);
   switches_.geometricStiffness = input.geometricStiffness;
   index_.assign(input.held.size(), -1);
@@ -62,7 +77,8 @@ StaticProblem::StaticProblem(const StaticInput& input) : input_(input) {
   if (input.contact != nullptr)
     for (const int node : input.contact->points().node) {
       const int first = kDofs * (node - 1);
-      lists.push_back({index_[at(first)], index_[at(first + 1)], index_[at(first + 5)]});
+      auto& dofs = lists.emplace_back();
+      for (const int component : kContactDofs) dofs.push_back(index_[at(first + component)]);
     }
   assembler_ = beam::SparseAssembler(unknowns_, std::move(lists));
 
@@ -107,8 +123,8 @@ beam::Vector12 StaticProblem::motion(int element, const Vector& full) const {
 
 double StaticProblem::axialForce(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return axialStiffness_[at(element)] *
-         (e.rotation.row(8) - e.rotation.row(2)).dot(motion(element, full));
+  return e.pretension + axialStiffness_[at(element)] *
+                            (e.rotation.row(8) - e.rotation.row(2)).dot(motion(element, full));
 }
 
 double StaticProblem::torque(int element, const Vector& full) const {
@@ -129,7 +145,7 @@ contact::StaticContact::Options StaticProblem::contactOptions() const {
   options.frictionScale = switches_.frictionScale;
   options.stiffnessScale = switches_.stiffnessScale;
   options.pull = switches_.pull;
-  options.direction = input_.direction;
+  options.sliding = input_.sliding;
   return options;
 }
 
@@ -143,7 +159,7 @@ Vector StaticProblem::lateral(const Vector& full) const {
 
 void StaticProblem::contactForces(const Vector& full, Vector& forces, Vector& normal) const {
   const int points = touches() ? input_.contact->size() : 0;
-  forces.setZero(3 * points);
+  forces.setZero(contact::StaticContact::kForces * points);
   normal.setZero(points);
   if (points == 0) return;
   const Vector uv = lateral(full);
@@ -158,22 +174,18 @@ void StaticProblem::residual(const Vector& x, Vector& r) const {
 Vector StaticProblem::unbalanced(const Vector& full) const {
   Vector external = input_.load;
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
-  Vector r = -external;
+  Vector r = -external - pretension_;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const beam::Vector12 d = motion(e, full);
-    r.segment<12>(kDofs * e) +=
-        (input_.elements[at(e)].stiffness + geometricStiffness(e, full)) * d;
+    const StaticElement& element = input_.elements[at(e)];
+    r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
   }
   if (!touches()) return r;
-  Vector forces(3 * input_.contact->size());
+  Vector forces(contact::StaticContact::kForces * input_.contact->size());
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data());
-  const std::vector<int>& nodes = input_.contact->points().node;
-  for (std::size_t p = 0; p < nodes.size(); ++p) {
-    const int dof = kDofs * (nodes[p] - 1);
-    const auto force = forces.segment<3>(3 * static_cast<int>(p));
-    r.segment<2>(dof) -= force.head<2>();
-    r(dof + 5) -= force(2);
-  }
+  const double* force = forces.data();
+  for (const int node : input_.contact->points().node)
+    for (const int component : kContactDofs) r(kDofs * (node - 1) + component) -= *force++;
   return r;
 }
 
@@ -194,13 +206,14 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
   }
   if (!touches()) return;
   const int points = input_.contact->size();
-  Vector forces(3 * points);
-  Vector tangents(6 * points);
+  constexpr int n = contact::StaticContact::kForces;
+  Vector forces(n * points);
+  Vector tangents(2 * n * points);
   input_.contact->evaluate(contactOptions(), lateral(full).data(), forces.data(), tangents.data());
   for (int p = 0; p < points; ++p) {
-    Matrix3 k = Matrix3::Zero();
-    k.leftCols<2>() =
-        -Eigen::Map<const Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>(tangents.data() + 6 * p);
+    Eigen::Matrix<double, n, n> k = Eigen::Matrix<double, n, n>::Zero();
+    k.leftCols<2>() = -Eigen::Map<const Eigen::Matrix<double, n, 2, Eigen::RowMajor>>(
+        tangents.data() + 2 * n * p);
     assembler_.add(static_cast<int>(input_.elements.size()) + p, k, jacobian);
   }
 }

@@ -18,8 +18,11 @@ namespace tooljoint::equilibrium {
 /// Element e joins nodes e and e + 1.
 struct StaticElement {
   std::shared_ptr<const beam::Element> formulation;
-  beam::Matrix12 stiffness;    ///< everything linear, K_pa of the element, in nodal frames
-  beam::Matrix12 rotation;     ///< nodal dofs to the element frame (beam::rotation12)
+  beam::Matrix12 stiffness;  ///< everything linear, K_pa of the element, in nodal frames
+  beam::Matrix12 rotation;   ///< nodal dofs to the element frame (beam::rotation12)
+  /// Axial force of the undeformed element [N]: 0 where the nodes stand as an unloaded string has
+  /// them.
+  double pretension = 0.0;
   double bendingMoment = 0.0;  ///< E I kappa of the well [N m], the scale of the torque balance
 };
 
@@ -35,13 +38,16 @@ struct StaticInput {
   Vector pathReaction;     ///< R_ipa; empty means zero
   std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
   std::shared_ptr<const contact::StaticContact> contact;  ///< null: no contact in this scene
-  double direction = 1.0;  ///< sign of the rotary speed the string slides with; 0: no friction
-  bool geometricStiffness = true;  ///< K_gpo(D)
+  contact::Sliding sliding{0.0, 1.0};  ///< of the string on the wall; none: no friction
+  bool geometricStiffness = true;      ///< K_gpo(D)
   /// K_gpo takes its slopes from all rotations in the element frame, spin included, as the source
   /// does. False: from the change of the nodal tangents (beam::slopeRotation), so that a section
   /// that spins about its own axis meets no geometric stiffness.
   bool chordSlopes = false;
 };
+
+/// Forces of the pretension of all elements on their nodes, 6 per node [N].
+Vector pretensionForces(const StaticInput& input);
 
 /// Active terms of the equation, and the form of the Jacobian.
 struct StaticSwitches {
@@ -88,8 +94,8 @@ class StaticProblem : public model::NonlinearProblem {
   /// is the reaction of its support on the string [N, N m].
   Vector unbalanced(const Vector& full) const;
 
-  /// F_apo = k_ww (w2 - w1) and T_apo = k_theta (theta_z2 - theta_z1) in the element frame; for a
-  /// beam k_ww = E S/l and k_theta = G J/l, equation (20) [N, N m].
+  /// F_apo = F_0 + k_ww (w2 - w1), F_0 the pretension, and T_apo = k_theta (theta_z2 - theta_z1) in
+  /// the element frame; for a beam k_ww = E S/l and k_theta = G J/l, equation (20) [N, N m].
   double axialForce(int element, const Vector& full) const;
   double torque(int element, const Vector& full) const;
   /// F_apo K_gF + T_apo K_gT of an element in nodal frames.
@@ -98,7 +104,8 @@ class StaticProblem : public model::NonlinearProblem {
   /// The largest entry of the loads, moments over a mean element length [N].
   double largestLoad() const { return forceScale_; }
 
-  /// Contact forces of the batch at D: 3 per point (F_u, F_v, T_z), and the normal force per point.
+  /// Contact forces of the batch at D: StaticContact::kForces per point, and the normal force per
+  /// point.
   void contactForces(const Vector& full, Vector& forces, Vector& normal) const;
 
  private:
@@ -109,11 +116,12 @@ class StaticProblem : public model::NonlinearProblem {
   bool touches() const { return switches_.contact && input_.contact != nullptr; }
 
   const StaticInput& input_;
+  Vector pretension_;  ///< forces on the nodes
   StaticSwitches switches_;
   int unknowns_ = 0;
-  std::vector<int> index_;                  ///< unknown of each dof, -1 when held
-  beam::SparseAssembler assembler_;         ///< elements first, then contact points (u, v, theta_z)
-  std::vector<double> axialStiffness_;      ///< k_ww per element [N/m]
+  std::vector<int> index_;              ///< unknown of each dof, -1 when held
+  beam::SparseAssembler assembler_;     ///< elements first, then contact points (u, v, w, theta_z)
+  std::vector<double> axialStiffness_;  ///< k_ww per element [N/m]
   std::vector<double> torsionalStiffness_;  ///< k_theta per element [N m]
   std::vector<beam::Matrix12> unitAxial_;   ///< K_gF per unit F in nodal frames
   std::vector<beam::Matrix12> unitTorque_;  ///< K_gT per unit T in nodal frames

@@ -28,13 +28,13 @@ constexpr std::array kinds{
     Kind{"Ream", &TorqueDragSettings::reamingSpeed, 1.0, true, false},
 };
 
+}  // namespace
+
 std::vector<std::string> operationNames() {
   std::vector<std::string> names;
   for (const Kind& kind : kinds) names.emplace_back(kind.name);
   return names;
 }
-
-}  // namespace
 
 deck::ListSpec torqueDragParameters() {
   deck::ListSpec list(
@@ -58,6 +58,25 @@ deck::ListSpec torqueDragParameters() {
             "Axial speed of drilling.");
   list.real("Yield Strength", "Pa", deck::Optional{}, deck::Range::positive(),
             "Yield strength of the string, e.g. 931 MPa for S-135; without it no margin to yield.");
+  list.choice(
+      "Stiff String", std::string("Deepest Bit"), {"None", "Deepest Bit", "All Depths"},
+      "Depths at which the string with bending stiffness, clearance and contact (Static) is "
+      "computed beside the soft string.");
+  list.text(
+      "Measured", deck::Optional{},
+      "CSV file of measured hook loads and surface torques (columns bit depth, operation, hook "
+      "load, surface torque, units in the header), to which friction coefficients and block "
+      "weight are fitted. Relative to the folder of the deck.");
+  list.real("Hook Load Uncertainty", "N", 1e4, deck::Range::positive(),
+            "Of a measured hook load: the weight of its error in the fit.")
+      .expert();
+  list.real("Torque Uncertainty", "N m", 1e3, deck::Range::positive(),
+            "Of a measured surface torque.")
+      .expert();
+  list.realArray(
+      "Broomstick", "", deck::Optional{}, deck::Range::nonNegative(),
+      "Friction coefficients, each of which gives curves of hook load and torque with it "
+      "in the whole hole.");
   list.boolean("Helical Contact", true,
                "Adds the side force of a string buckled into a helix, which leads to lock-up.")
       .expert();
@@ -76,6 +95,15 @@ TorqueDragSettings readTorqueDrag(const Teuchos::ParameterList& list) {
   if (list.isParameter("Rotary Speed")) settings.rotarySpeed = list.get<double>("Rotary Speed");
   if (list.isParameter("Yield Strength"))
     settings.yieldStrength = list.get<double>("Yield Strength");
+  const auto& stiff = list.get<std::string>("Stiff String");
+  settings.stiff = stiff == "None"          ? StiffDepths::None
+                   : stiff == "Deepest Bit" ? StiffDepths::Deepest
+                                            : StiffDepths::All;
+  if (list.isParameter("Measured")) settings.measured = list.get<std::string>("Measured");
+  settings.hookLoadUncertainty = list.get<double>("Hook Load Uncertainty");
+  settings.torqueUncertainty = list.get<double>("Torque Uncertainty");
+  if (list.isParameter("Broomstick"))
+    settings.broomstick = list.get<Teuchos::Array<double>>("Broomstick").toVector();
   settings.helix = list.get<bool>("Helical Contact");
   return settings;
 }

@@ -16,6 +16,9 @@ class ParameterList;
 
 namespace tooljoint::softstring {
 
+/// Where the string with bending stiffness is computed beside the soft one.
+enum class StiffDepths { None, Deepest, All };
+
 struct TorqueDragSettings {
   std::vector<double> depths;           ///< of the bit [m]; empty: `count` of them, evenly spaced
   int count = 0;                        ///< from total depth / count to total depth
@@ -25,8 +28,15 @@ struct TorqueDragSettings {
   double penetrationRate = 0.0;         ///< of drilling [m/s]
   std::optional<double> rotarySpeed;    ///< [rad/s]; none: that of the deck
   std::optional<double> yieldStrength;  ///< [Pa]; none: no margin to yield
-  bool helix = true;                    ///< side force of a string buckled into a helix
+  StiffDepths stiff = StiffDepths::Deepest;
+  std::optional<std::string> measured;  ///< table of measurements to fit friction to
+  double hookLoadUncertainty = 0.0, torqueUncertainty = 0.0;  ///< of a measured value [N], [N m]
+  std::vector<double> broomstick;  ///< friction coefficients of whole-hole curves
+  bool helix = true;               ///< side force of a string buckled into a helix
 };
+
+/// All operations there are.
+std::vector<std::string> operationNames();
 
 /// Description of the list `Torque and Drag`.
 deck::ListSpec torqueDragParameters();

@@ -86,7 +86,7 @@ Well Well::below(double top, std::shared_ptr<const Trajectory> centreLine) const
   std::vector<BoreInterval> lower;
   for (auto interval : intervals_) {
     if (!(interval.to > top)) continue;
-    interval.from = std::max(0.0, interval.from - top);
+    interval.from -= top;
     interval.to -= top;
     lower.push_back(interval);
   }

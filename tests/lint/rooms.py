@@ -38,7 +38,7 @@ DRILLSTRING = {
     "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
     "drillstring/figures": ("beam", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
     "drillstring/case": ("beam contact drilling drillstring drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
-    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case loads mud softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
+    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 
 

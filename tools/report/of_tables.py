@@ -30,6 +30,9 @@ def against_depth(name, label, caption, rows, value, scale):
     for number, (operation, own) in enumerate(by_operation(rows).items()):
         axes.plot([scale * x for x in numbers(own, value)], numbers(own, "bit_depth"), color=COLOURS[number], marker=plots.MARKERS[number], markersize=3, linewidth=1.2,
                   label=operation)
+        stiff = numbers(own, f"stiff_{value}") if f"stiff_{value}" in own[0] else []
+        if any(math.isfinite(x) for x in stiff):
+            axes.plot([scale * x for x in stiff], numbers(own, "bit_depth"), color=COLOURS[number], marker="o", markersize=6, markerfacecolor="none", linestyle="none")
     plots.legend_above(axes, 2, -0.4)
     return Figure(name, made, caption)
 
@@ -61,11 +64,12 @@ def add_torque_drag(page, folder):
     rows = read_table(folder / "torque_drag.csv")
     if not rows:
         return
-    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit.", rows, "hook_load", 1e-3),
-             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit.", rows, "surface_torque", 1e-3)]
+    found = [against_depth("hook-load", "hook load [kN]", "Hook load against the depth of the bit; rings: the string with bending stiffness.", rows, "hook_load", 1e-3),
+             against_depth("surface-torque", "surface torque [kN m]", "Surface torque against the depth of the bit; rings: the string with bending stiffness.", rows, "surface_torque", 1e-3)]
     if (folder / "torque_drag_profile.csv").is_file():
         profiles = by_operation(read_table(folder / "torque_drag_profile.csv"))
         found += [limits_of(operation, own, number) for number, (operation, own) in enumerate(profiles.items())]
+    found += broomsticks(folder, rows)
     deepest = max(numbers(rows, "bit_depth"))
     last = [row for row in rows if row["bit_depth"] == deepest]
     table = tables.table(("operation", "hook load [kN]", "[klbf]", "torque [kN m]", "[kft lbf]", "yield", "sinusoidal", "helical", "lock-up [m]"),
@@ -73,6 +77,30 @@ def add_torque_drag(page, folder):
                            *(plain(row[f"{name}_margin"], 3) for name in ("yield", "sinusoidal", "helical")), plain(row["lock_up_depth"])) for row in last],
                          range(1, 9), f"Bit at {deepest:.0f} m; margins are allowed over present load, above 1 there is reserve")
     page.plots("torque-drag", "Torque and drag", found, table)
+
+
+def broomsticks(folder, rows):
+    """Curves of one friction coefficient each and what was measured, where the folder has them."""
+    broom, measured = (read_table(folder / f"torque_drag_{name}.csv") if (folder / f"torque_drag_{name}.csv").is_file() else [] for name in ("broomstick", "measured"))
+    if not broom and not measured:
+        return []
+    found = []
+    deepest = max(numbers(broom + measured + rows, "bit_depth"))
+    for value, label, title in (("hook_load", "hook load [kN]", "Hook load"), ("surface_torque", "surface torque [kN m]", "Surface torque")):
+        made, axes = plots.profile(label, (0, deepest))
+        axes.set_ylabel("depth of the bit [m]")
+        frictions = sorted({row["friction"] for row in broom})
+        for operation, own in by_operation(broom).items():
+            for friction in frictions:
+                curve = [row for row in own if row["friction"] == friction]
+                axes.plot([x / 1e3 for x in numbers(curve, value)], numbers(curve, "bit_depth"), color=COLOURS[frictions.index(friction) % len(COLOURS)], linewidth=0.9,
+                          label=f"friction {friction:g}" if operation == broom[0]["operation"] else None)
+        for number, (operation, own) in enumerate(by_operation(measured).items()):
+            axes.plot([x / 1e3 for x in numbers(own, value)], numbers(own, "bit_depth"), color="black", marker=plots.MARKERS[number], markersize=4, linestyle="none",
+                      label=f"{operation}, measured")
+        plots.legend_above(axes, 2, -0.4)
+        found.append(Figure(f"broomstick-{value.replace('_', '-')}", made, f"{title}: one friction coefficient in the whole hole for each curve; dots: measured."))
+    return found
 
 
 def scaled(value, *factors):

@@ -4,6 +4,7 @@
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
 #include "common/Error.hpp"
+#include "substructures/drillstring/analyses/Calibration.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
 
 namespace tooljoint::app {
@@ -16,6 +17,7 @@ void torqueDrag(const RunOptions& options) {
                     ": torque and drag is of a string in its well. Give a deck with the lists Well "
                     "and Drillstring.");
   drillstring::reportTorqueDrag(string->scene(), options.output);
+  drillstring::reportCalibration(string->scene(), options.output);
 }
 
 }  // namespace tooljoint::app

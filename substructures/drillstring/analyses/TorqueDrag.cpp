@@ -11,6 +11,7 @@
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
 #include "substructures/beam/VonMises.hpp"
+#include "substructures/drillstring/analyses/StiffRows.hpp"
 #include "substructures/softstring/Buckling.hpp"
 
 namespace tooljoint::drillstring {
@@ -34,13 +35,42 @@ void keepLeast(Margin& margin, double factor, double depth) {
   if (factor < margin.factor) margin = {factor, depth};
 }
 
-std::vector<softstring::Stretch> stretches(const Scene& scene) {
+/// Pieces over which a pipe carries the weight of its tool joints [m]: a stand of three pipes.
+constexpr double longestStand = 30.0;
+
+/// Buoyed weight per length of each element [N/m], the mean of the outermost component that holds
+/// it and is no longer than a stand: a joint that is heavier than its pipe does not press on one
+/// side of the hole where the pipe presses on the other.
+std::vector<double> weights(const Scene& scene) {
   const double gravity = gravityOf(scene), mud = mudDensity(scene);
+  const auto& string = scene.string;
+  std::vector<double> own;
+  for (const Element& element : string.elements)
+    own.push_back((element.section().massPerLength() - mud * element.section().area()) * gravity);
+  std::vector<double> mean = own;
+  std::vector<char> taken(own.size(), 0);
+  for (const auto* instances : {&string.instances, &string.nested})
+    for (const Instance& one : *instances) {
+      double weight = 0.0, length = 0.0;
+      for (int e = one.firstElement; e <= one.lastElement; ++e) {
+        weight += own[at(e)] * string.elements[at(e)].length();
+        length += string.elements[at(e)].length();
+      }
+      if (length > longestStand || taken[at(one.firstElement)] != 0) continue;
+      for (int e = one.firstElement; e <= one.lastElement; ++e)
+        mean[at(e)] = weight / length, taken[at(e)] = 1;
+    }
+  return mean;
+}
+
+std::vector<softstring::Stretch> stretches(const Scene& scene) {
+  const double gravity = gravityOf(scene);
   if (!(gravity > 0.0))
     throw DeckError(scene.deck.file() +
                     ": torque and drag needs the weight of the string. Add the list Loads.");
   std::vector<softstring::Stretch> found;
   const auto& string = scene.string;
+  const auto weight = weights(scene);
   std::vector<double> widest(string.instances.size(), 0.0);
   for (int e = 0; e < string.elementCount(); ++e) {
     double& radius = widest[at(string.elements[at(e)].instance)];
@@ -52,9 +82,7 @@ std::vector<softstring::Stretch> stretches(const Scene& scene) {
   for (int e = 0; e < string.elementCount(); ++e) {
     const Element& element = string.elements[at(e)];
     const auto& section = element.section();
-    found.push_back({element.length(), section,
-                     (section.massPerLength() - mud * section.area()) * gravity,
-                     widest[at(element.instance)]});
+    found.push_back({element.length(), section, weight[at(e)], widest[at(element.instance)]});
   }
   return found;
 }
@@ -82,6 +110,13 @@ softstring::Hole holeOf(const Scene& scene) {
   return hole;
 }
 
+std::vector<double> depthsOfStiffString(const softstring::TorqueDragSettings& settings) {
+  using softstring::StiffDepths;
+  if (settings.stiff == StiffDepths::All) return settings.depths;
+  if (settings.stiff == StiffDepths::None || settings.operations.empty()) return {};
+  return {*std::max_element(settings.depths.begin(), settings.depths.end())};
+}
+
 }  // namespace
 
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
@@ -90,7 +125,19 @@ softstring::TorqueDragSettings torqueDragSettings(const Scene& scene) {
   const bool given = scene.list().isSublist(spec.name());
   deck::withDefaults(spec, given ? scene.list().sublist(spec.name()) : Teuchos::ParameterList(),
                      [&](const auto& list) { settings = softstring::readTorqueDrag(list); });
+  if (settings.depths.empty())
+    for (int i = 1; i <= settings.count; ++i)
+      settings.depths.push_back(scene.string.length() * i / settings.count);
+  for (const double depth : settings.depths)
+    requireReach(scene, depth, scene.deck.error("Torque and Drag/Depths", "holds"));
   return settings;
+}
+
+void requireReach(const Scene& scene, double bit, const std::string& where) {
+  const double deepest = scene.string.length();
+  if (bit > deepest * (1.0 + 1e-12))
+    throw DeckError(where + " " + formatNumber(bit) + " m, but the string of the deck ends at " +
+                    formatNumber(deepest) + " m. Give depths down to there, or a longer string.");
 }
 
 SoftModel softModel(const Scene& scene) { return {stretches(scene), holeOf(scene)}; }
@@ -158,23 +205,21 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
 }
 
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
-  auto settings = torqueDragSettings(scene);
-  const double deepest = scene.string.length();
-  if (settings.depths.empty())
-    for (int i = 1; i <= settings.count; ++i)
-      settings.depths.push_back(deepest * i / settings.count);
-  for (const double depth : settings.depths)
-    if (depth > deepest * (1.0 + 1e-12))
-      throw DeckError(scene.deck.error(
-          "Torque and Drag/Depths",
-          "holds " + formatNumber(depth) + " m, but the string of the deck ends at " +
-              formatNumber(deepest) + " m. Give depths down to there, or a longer string."));
+  const auto settings = torqueDragSettings(scene);
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
   std::vector<TorqueDragProfile> profiles;
   for (const double depth : settings.depths)
     for (const auto& operation : operations)
       profiles.push_back(torqueDragAt(model, settings, operation, depth));
+
+  const auto stiffDepths = depthsOfStiffString(settings);
+  const auto rows = stiffRows(scene, stiffDepths, operations);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < operations.size(); ++k)
+      for (auto& profile : profiles)
+        if (profile.row.bit == stiffDepths[i] && profile.row.operation == operations[k].name)
+          profile.stiff = rows[i][k];
   return profiles;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// `tooljoint torque-drag`: hook load, surface torque and margins of a deck's string against the
-/// depth of its bit, by the soft-string model.
+/// depth of its bit, by the soft-string model and by the string with bending stiffness.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "substructures/drillstring/analyses/StiffString.hpp"
 #include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/softstring/SoftString.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
@@ -38,12 +40,17 @@ struct TorqueDragRow {
 struct TorqueDragProfile {
   TorqueDragRow row;
   softstring::Loads loads;
-  std::vector<double> vonMises;             ///< [Pa]
-  std::vector<double> sinusoidal, helical;  ///< critical compressions [N]
+  std::vector<double> vonMises;                    ///< [Pa]
+  std::vector<double> sinusoidal, helical;         ///< critical compressions [N]
+  std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
-/// The deck's list `Torque and Drag`; its defaults where the deck has none.
+/// The deck's list `Torque and Drag`, its defaults where the deck has none, with all depths.
+/// DeckError: a depth is below the deck's bit.
 softstring::TorqueDragSettings torqueDragSettings(const Scene& scene);
+
+/// DeckError, which begins with `where`: the string does not reach the depth `bit` [m].
+void requireReach(const Scene& scene, double bit, const std::string& where);
 
 /// A deck's string in its hole as the soft-string model sees them.
 struct SoftModel {
@@ -65,12 +72,12 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
                                const softstring::Operation& operation, double bit);
 
-/// Every operation at every depth. DeckError: a depth is below the deck's bit.
+/// Every operation at every depth, the stiff string where the deck asks for it. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene);
 
-/// Prints the table of the deepest bit and writes torque_drag.csv (a row for each depth and
-/// operation) and torque_drag_profile.csv (along the string, at the deepest bit) into `folder`;
-/// "" writes nothing. Collective.
+/// Prints the tables of the deepest bit and writes torque_drag.csv (a row for each depth and
+/// operation), torque_drag_profile.csv and torque_drag_stiff_profile.csv (along the string, at the
+/// deepest bit) into `folder`; "" writes nothing. Collective.
 void reportTorqueDrag(const Scene& scene, const std::string& folder);
 
 }  // namespace tooljoint::drillstring

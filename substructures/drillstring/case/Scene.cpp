@@ -272,14 +272,6 @@ void checkReduction(const Scene& scene) {
 
 }  // namespace
 
-std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string) {
-  std::vector<char> held = supports.held(string.nodeCount());
-  const auto present = beam::nodalDofs(string.formulations());
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (!present[i / kNodeDofs][i % kNodeDofs]) held[i] = 1;
-  return held;
-}
-
 Scene readScene(const std::string& file, const std::vector<std::string>& overrides) {
   return readScene(deck::Deck::read(file, sceneSpec(), overrides));
 }

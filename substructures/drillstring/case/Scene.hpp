@@ -61,9 +61,6 @@ struct Scene {
   std::vector<char> heldAtRest() const;
 };
 
-/// 6 flags per node: held by a support, or since no element at the node has the dof.
-std::vector<char> heldDofs(const SupportSettings& supports, const DrillString& string);
-
 /// Checks a deck read by sceneSpec(). DeckError (one line per fault of the phase that failed),
 /// FileError. Collective.
 Scene readScene(const deck::Deck& deck);

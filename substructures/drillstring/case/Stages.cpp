@@ -13,11 +13,11 @@
 #include "common/report/Log.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
-#include "statics/NoxSolver.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/contact/Eccentric.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/SidedFeatures.hpp"
+#include "substructures/drillstring/case/RestProblem.hpp"
 #include "substructures/drillstring/case/StringStability.hpp"
 
 namespace tooljoint::drillstring {
@@ -53,52 +53,6 @@ StaticFriction staticFriction(const Scene& scene) {
 }
 
 namespace {
-
-Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
-  return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
-}
-
-path::PathState bend(const Scene& scene) {
-  path::PathInput input;
-  input.elements = scene.string.formulations();
-  input.trajectory = &scene.well.trajectory();
-  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
-}
-
-/// What the static equilibrium is made of.
-equilibrium::StaticInput staticInput(const Scene& scene, const path::PathState& path,
-                                     const PathEquations& equations,
-                                     const StaticFriction& friction) {
-  equilibrium::StaticInput input;
-  input.nodes = equations.model.nodes;
-  input.held = scene.heldAtRest();
-  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
-  input.geometricStiffness = scene.statics.geometricStiffness;
-  for (int e = 0; e < equations.model.elements(); ++e) {
-    const auto i = static_cast<std::size_t>(e);
-    const auto& section = scene.string.elements[i].section();
-    equilibrium::StaticElement element;
-    element.formulation = scene.string.elements[i].formulation;
-    element.stiffness = equations.stiffness[i];
-    element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
-    const double curvature =
-        std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
-                 scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
-    element.bendingMoment =
-        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
-    input.elements.push_back(element);
-  }
-  input.kinks = kinks(scene.string, path);
-  input.load = equations.load;
-  input.pathReaction = equations.pathReaction;
-  input.direction = friction.direction;
-  if (scene.contactPoints.size() > 0)
-    input.contact = scene.contact->law->atRest(
-        friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints);
-  if (auto offsets = gaugeOffsets(scene.string, path, scene.contactPoints); !offsets.empty())
-    input.contact = contact::eccentric(input.contact, std::move(offsets));
-  return input;
-}
 
 /// The loads that hold bends against the stiffness of the linearised string, -(K_pa + K_gpo) kink.
 void addBends(const equilibrium::StaticInput& input, const equilibrium::StaticState& state,
@@ -137,6 +91,14 @@ void addBitAtRest(const Scene& scene, PathEquations& equations) {
     equations.load(kNodeDofs * bit.node + nodal::w) -= load.weight;
     equations.load(kNodeDofs * bit.node + nodal::thetaZ) -= load.torque;
   }
+}
+
+/// Nodes of a string that hangs bear its tension before they move.
+void addPretension(const equilibrium::StaticInput& input, StringModel& model) {
+  Vector forces = equilibrium::pretensionForces(input);
+  if (forces.any())
+    model.loads.push_back(
+        {"pretension", model.lawIndex(model::ScalarLaw::one()), std::move(forces)});
 }
 
 /// The inertia of the drive: J theta_z'' on the left, -J dOmega/dt on the right.
@@ -262,15 +224,18 @@ std::vector<int> freeDirections(const Scene& scene) {
 StaticStage findEquilibrium(const Scene& scene) {
   StaticStage stage;
   stage.friction = staticFriction(scene);
-  stage.path = bend(scene);
-  auto equations = buildEquations({scene.string, scene.well, stage.path, scene.held,
-                                   scene.mud.get(), scene.rotary, scene.loads, scene.damping});
-  addPads(scene.string, stage.path, equations);
+  stage.path = bendIntoWell(scene);
+  auto equations = equationsOnPath(scene, stage.path);
   addBitAtRest(scene, equations);
   addDriveInertia(scene, equations.model);
   requireHeld(scene, equations.model);
-  const auto input = staticInput(scene, stage.path, equations, stage.friction);
-  const auto solver = statics::noxSolver(listOrEmpty(scene, "Static"));
+  const auto& friction = stage.friction;
+  const auto input = restProblem(
+      scene, stage.path, equations, {0.0, friction.direction},
+      friction.speed > 0.0 ? scene.contactPoints.slidingAt(friction.speed) : scene.contactPoints,
+      scene.statics.reference);
+  addPretension(input, equations.model);
+  const auto solver = staticSolver(scene);
   const auto finish = [&] {
     stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
                                 scene.damping, contactInMotion(scene, stage.path));
@@ -331,7 +296,7 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
 }
 
 void judgeStretch(const Scene& scene, const StaticStage& stage) {
-  constexpr double worthAWarning = 0.02;  // [rad]: 1.2 deg
+  constexpr double worthAWarning = 0.01;  // [rad]: contact forces of a tenth too much
   const auto depths = scene.string.depths();
   double turn = 0.0, depth = 0.0, shift = 0.0;
   for (std::size_t node = 0; node < depths.size(); ++node) {
@@ -346,8 +311,8 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
             " m, where the well turns by " +
             formatNumber(std::round(10 * turn / constants::degree) / 10) +
             " deg over that length. Displacements are small ones about the nodes as they were "
-            "meshed, so that side forces and friction are too large there; tooljoint torque-drag "
-            "does not have this error.");
+            "meshed, so that side forces and friction are too large there. Set Static/Reference "
+            "to \"Hanging\".");
 }
 
 void judgeStatic(const Scene& scene, const StaticStage& stage) {

@@ -9,6 +9,7 @@
 #include "common/Constants.hpp"
 #include "io/Csv.hpp"
 #include "substructures/beam/NodalDofs.hpp"
+#include "substructures/drillstring/case/BendingElements.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -18,10 +19,6 @@ using namespace beam::nodal;
 
 constexpr double rpm = constants::rpmPerRadianPerSecond;
 constexpr double secondsPerHour = 3600.0;
-/// Strain range of the smallest bending cycle that counts: 0.2 MPa in steel. Smaller ones are
-/// rounding errors of a string at rest.
-constexpr double leastStrainRange = 1e-6;
-
 double holeArea(const Scene& scene) {
   const double radius = scene.well.boreRadius(scene.string.length());
   return constants::pi * radius * radius;
@@ -29,28 +26,6 @@ double holeArea(const Scene& scene) {
 
 Vector asVector(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-std::vector<BendingElement> bendingElements(const Scene& scene, const path::PathState& path) {
-  std::vector<BendingElement> out;
-  for (std::size_t e = 0; e < scene.string.elements.size(); ++e) {
-    const auto& section = scene.string.elements[e].section();
-    const Eigen::Matrix<double, 3, 2> axes = path.elementFrame[e].leftCols<2>();
-    BendingElement one;
-    one.length = scene.string.elements[e].length();
-    const Eigen::Vector2d curvature =
-        axes.transpose() * (path.frame[e + 1].col(2) - path.frame[e].col(2)) / one.length;
-    one.pathCurvature = {curvature[0], curvature[1]};
-    for (std::size_t end : {0, 1})
-      one.slopeRotation[end] = axes.transpose() * path.frame[e + end].leftCols<2>();
-    const double inertia = std::max(section.inertiaX(), section.inertiaY());
-    one.rigidity = section.youngModulus() * inertia;
-    one.stressPerMoment = section.outerRadius() / inertia;
-    if (section.outerRadius() > 0.0)
-      one.leastRange = leastStrainRange * one.rigidity / section.outerRadius();
-    out.push_back(one);
-  }
-  return out;
 }
 
 Vector component(const Vector& values, Eigen::Index which) {
@@ -68,7 +43,7 @@ StringFigures::StringFigures(const Scene& scene, const StaticStage& stage)
       axial_(nodeDepth_.size()),
       lateral_(nodeDepth_.size()),
       orbit_(nodeDepth_.size()),
-      bending_(bendingElements(scene, stage.path), scene.output.figures.snLine) {
+      bending_(bendingElements(scene.string, stage.path), scene.output.figures.snLine) {
   const auto nodes = nodeDepth_.size();
   elementDepth_ = 0.5 * (nodeDepth_.head(nodes - 1) + nodeDepth_.tail(nodes - 1));
   for (Vector* sum : {&forceSum_, &forcePeak_, &touching_}) *sum = Vector::Zero(nodes);

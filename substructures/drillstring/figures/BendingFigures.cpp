@@ -21,6 +21,16 @@ Eigen::Vector2d slope(const Vector& d, Eigen::Index node) {
 
 }  // namespace
 
+/// kappa = kappa_path + (R2 dt2 - R1 dt1)/l
+Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
+                           const Vector& displacement) {
+  const auto node = static_cast<Eigen::Index>(index);
+  const Eigen::Vector2d turn = element.slopeRotation[1] * slope(displacement, node + 1) -
+                               element.slopeRotation[0] * slope(displacement, node);
+  const Eigen::Vector2d path(element.pathCurvature[0], element.pathCurvature[1]);
+  return element.rigidity * (path + turn / element.length);
+}
+
 BendingFigures::BendingFigures(std::vector<BendingElement> elements, std::optional<io::SnLine> line)
     : elements_(std::move(elements)), line_(line), planes_(elements_.size()) {
   for (std::size_t p = 0; p < kBendingPlanes; ++p) {
@@ -33,13 +43,9 @@ BendingFigures::BendingFigures(std::vector<BendingElement> elements, std::option
 
 void BendingFigures::add(const Vector& displacement, double angle) {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const auto& element = elements_[e];
     const auto node = static_cast<Eigen::Index>(e);
-    // kappa = kappa_path + (R2 dt2 - R1 dt1)/l
-    const Eigen::Vector2d turn = element.slopeRotation[1] * slope(displacement, node + 1) -
-                                 element.slopeRotation[0] * slope(displacement, node);
-    const double x = element.rigidity * (element.pathCurvature[0] + turn[0] / element.length);
-    const double y = element.rigidity * (element.pathCurvature[1] + turn[1] / element.length);
+    const Eigen::Vector2d moment = meanMoment(elements_[e], e, displacement);
+    const double x = moment[0], y = moment[1];
     const double spin = angle + 0.5 * (displacement[perNode * node + thetaZ] +
                                        displacement[perNode * (node + 1) + thetaZ]);
     // x cos(phi + alpha) + y sin(phi + alpha)

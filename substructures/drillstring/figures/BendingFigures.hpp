@@ -28,6 +28,12 @@ struct BendingElement {
   double leastRange = 0.0;                       ///< smaller cycles are not counted [N m]
 };
 
+/// E I times the turn of the tangents t' = t + theta x t from node to node over the length, about
+/// the bent path, in the axes of the element [N m]: the mean moment of element `index`.
+/// \param displacement 6 per node in nodal frames
+Eigen::Vector2d meanMoment(const BendingElement& element, std::size_t index,
+                           const Vector& displacement);
+
 /// Counts of one element, in its worst plane.
 struct BendingCounts {
   double cycles = 0.0;
@@ -35,9 +41,8 @@ struct BendingCounts {
   double damage = 0.0;        ///< share of the life; 0 without an S-N line
 };
 
-/// The mean moment of an element is E I times the turn of the tangents t' = t + theta x t from node
-/// to node over its length. A plane of the pipe at the angle alpha has turned by phi = int Omega +
-/// theta_z, its moment is M_x cos(phi + alpha) + M_y sin(phi + alpha).
+/// Cycles of the mean moment of the elements. A plane of the pipe at the angle alpha has turned by
+/// phi = int Omega + theta_z, its moment is M_x cos(phi + alpha) + M_y sin(phi + alpha).
 class BendingFigures {
  public:
   BendingFigures(std::vector<BendingElement> elements, std::optional<io::SnLine> line);

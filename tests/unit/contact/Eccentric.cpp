@@ -73,17 +73,19 @@ TEST(Eccentric, AtRestIsTheSameShift) {
   const std::vector<double> uv{d[0], d[1], d[3], d[4]};
   const auto there = shifted(d);
   const std::vector<double> centre{there[0], there[1], there[3], there[4]};
-  std::vector<double> f(6), at(6), tangent(12), tangentAt(12), normal(2), normalAt(2);
+  constexpr std::size_t n = StaticContact::kForces;
+  std::vector<double> f(2 * n), at(2 * n), tangent(4 * n), tangentAt(4 * n), normal(2), normalAt(2);
   contact->evaluate({}, uv.data(), f.data(), tangent.data());
   concentric->evaluate({}, centre.data(), at.data(), tangentAt.data());
   contact->normalForce({}, uv.data(), normal.data());
   concentric->normalForce({}, centre.data(), normalAt.data());
   EXPECT_EQ(normal, normalAt);
   EXPECT_GT(normal[1], 0.0);
-  EXPECT_DOUBLE_EQ(f[5], at[5] + 0.004 * at[4] + 0.003 * at[3]);
+  EXPECT_EQ(f[n], at[n]);
+  EXPECT_DOUBLE_EQ(f[n + 3], at[n + 3] + 0.004 * at[n + 1] + 0.003 * at[n]);
+  const double *own = tangent.data() + 2 * n, *law = tangentAt.data() + 2 * n;
   for (std::size_t c = 0; c < 2; ++c)
-    EXPECT_DOUBLE_EQ(tangent[10 + c],
-                     tangentAt[10 + c] + 0.004 * tangentAt[8 + c] + 0.003 * tangentAt[6 + c]);
+    EXPECT_DOUBLE_EQ(own[6 + c], law[6 + c] + 0.004 * law[2 + c] + 0.003 * law[c]);
   EXPECT_EQ(contact->offset(1), offsets[1]);
   EXPECT_EQ(concentric->offset(1), Eigen::Vector2d(0.0, 0.0));
 }

@@ -266,22 +266,25 @@ TEST(StaticContact, IsTheMotionsLimitForFastSlidingWithTheStaticCoefficient) {
   p.muDynamic = p.muStatic;
   const double r = p.clearance + 3e-4;
   const double uv[2] = {r * std::cos(0.8), r * std::sin(0.8)};
-  double f[3], N = 0.0;
+  double f[StaticContact::kForces], N = 0.0;
   const auto rest = law("Nguyen")->atRest(batch({p}));
   rest->evaluate({}, uv, f);
   rest->normalForce({}, uv, &N);
   EXPECT_NEAR(N, 3000.0, 1e-3);
   const auto fast = force(*law("Nguyen")->inMotion(batch({p}), [](double) { return 1e9; }), 0.0,
                           {uv[0], uv[1], 0.0}, {0.0, 0.0, 0.0});
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(f[i], fast[i], 1e-4) << i;
-  EXPECT_NEAR(f[2], -0.2 * N * p.contactRadius, 1e-9);
+  EXPECT_NEAR(f[0], fast[0], 1e-4);
+  EXPECT_NEAR(f[1], fast[1], 1e-4);
+  EXPECT_EQ(f[2], 0.0) << "a string that only turns has no drag";
+  EXPECT_NEAR(f[3], fast[2], 1e-4);
+  EXPECT_NEAR(f[3], -0.2 * N * p.contactRadius, 1e-9);
 }
 
 TEST(StaticContact, OptionsOverrideLambdaFrictionAndDirection) {
   const ContactPoint p = steelOnRock(7e11);
   const auto rest = law("Nguyen")->atRest(batch({p}));
   const double uv[2] = {0.0185, 0.0};
-  double N = 0.0, f[3], g[3];
+  double N = 0.0, f[StaticContact::kForces], g[StaticContact::kForces];
   StaticContact::Options options;
   rest->normalForce(options, uv, &N);
   EXPECT_NEAR(N, -1.447e-6, 1e-9);
@@ -293,14 +296,33 @@ TEST(StaticContact, OptionsOverrideLambdaFrictionAndDirection) {
   rest->evaluate(options, touching, f);
   rest->normalForce(options, touching, &N);
   EXPECT_NEAR(f[1], -0.05 * N, 1e-9);
-  options.direction = -1.0;
+  options.sliding = {0.0, -1.0};
   rest->evaluate(options, touching, g);
   EXPECT_EQ(g[1], -f[1]);
-  EXPECT_EQ(g[2], -f[2]);
-  options.direction = 0.0;
+  EXPECT_EQ(g[3], -f[3]);
+  options.sliding = {0.0, 0.0};
   rest->evaluate(options, touching, g);
   EXPECT_EQ(g[1], 0.0);
-  EXPECT_EQ(g[2], 0.0);
+  EXPECT_EQ(g[3], 0.0);
+}
+
+/// Friction has the size mu N whatever the direction of sliding, and points against it.
+TEST(StaticContact, FrictionOpposesSlidingAlongAndAroundTheWall) {
+  const ContactPoint p = steelOnRock(7e11);
+  const auto rest = law("Nguyen")->atRest(batch({p}));
+  const double touching[2] = {0.0287, 0.0};  // n = x, t = y
+  StaticContact::Options options;
+  double N = 0.0, f[StaticContact::kForces];
+  rest->normalForce(options, touching, &N);
+  for (const Sliding sliding : {Sliding{0.3, 0.0}, {-0.3, 0.0}, {0.3, 5.0}, {-0.2, -9.0}}) {
+    options.sliding = sliding;
+    rest->evaluate(options, touching, f);
+    const double around = sliding.rotarySpeed * p.contactRadius;
+    EXPECT_NEAR(std::hypot(f[1], f[2]), p.muStatic * N, 1e-9 * N);
+    EXPECT_NEAR(f[1] * sliding.axialSpeed, f[2] * around, 1e-9 * N) << "along the velocity";
+    EXPECT_LT(f[1] * around + f[2] * sliding.axialSpeed, 0.0) << "against it";
+    EXPECT_NEAR(f[3], f[1] * p.contactRadius, 1e-9 * N);
+  }
 }
 
 TEST(StaticContact, WithoutItsPullALawOnlyPushes) {

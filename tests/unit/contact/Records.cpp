@@ -85,13 +85,13 @@ TEST_P(Records, StaticForcesOpposeTheRotation) {
   const double uv[2] = {r * std::cos(angle), r * std::sin(angle)};
   for (const double direction : {1.0, -1.0}) {
     StaticContact::Options options;
-    options.direction = direction;
-    double f[3], N = 0.0;
+    options.sliding = {0.0, direction};
+    double f[StaticContact::kForces], N = 0.0;
     rest->evaluate(options, uv, f);
     rest->normalForce(options, uv, &N);
     EXPECT_GT(N, 10.0);
     EXPECT_NEAR(-(f[0] * uv[0] + f[1] * uv[1]) / r, N, 1e-9 * N);
     EXPECT_NEAR((-f[0] * uv[1] + f[1] * uv[0]) / r, -direction * p.muStatic * N, 1e-9 * N);
-    EXPECT_NEAR(f[2], -direction * p.muStatic * N * p.contactRadius, 1e-9 * N);
+    EXPECT_NEAR(f[3], -direction * p.muStatic * N * p.contactRadius, 1e-9 * N);
   }
 }

@@ -113,24 +113,25 @@ TEST_P(Tangents, StaticOnesAgreeWithDifferences) {
   StaticContact::Options options;
   options.lambda = 3e3;
   options.frictionScale = 0.75;
-  options.direction = -1.0;
+  options.sliding = {0.4, -8.0};  // v_c = -0.64 m/s
   options.stiffnessScale = 0.5;
   options.pull = 0.25;
   for (const double penetration : {-1e-3, 2e-5, 3e-4, 5e-3}) {
     const double r = point.clearance + penetration;
     const double uv[2] = {r * std::cos(2.0), r * std::sin(2.0)};
-    double f[3], tangent[6];
+    double f[StaticContact::kForces], tangent[2 * StaticContact::kForces];
     contact->evaluate(options, uv, f, tangent);
     for (int column = 0; column < 2; ++column) {
       const double h = 1e-7;
-      double plus[2] = {uv[0], uv[1]}, minus[2] = {uv[0], uv[1]}, fp[3], fm[3];
+      double plus[2] = {uv[0], uv[1]}, minus[2] = {uv[0], uv[1]};
+      double fp[StaticContact::kForces], fm[StaticContact::kForces];
       plus[column] += h;
       minus[column] -= h;
       contact->evaluate(options, plus, fp);
       contact->evaluate(options, minus, fm);
-      for (int row = 0; row < 3; ++row)
+      for (int row = 0; row < StaticContact::kForces; ++row)
         EXPECT_NEAR(tangent[2 * row + column], (fp[row] - fm[row]) / (2.0 * h),
-                    2e-7 * 1e7 * (row == 2 ? 0.08 : 1.0))
+                    2e-7 * 1e7 * (row == 3 ? 0.08 : 1.0))
             << penetration << row << column;
     }
   }

@@ -43,6 +43,56 @@ TEST(Mesh, SegmentsFollowInTheOrderOfTheDeck) {
   EXPECT_EQ(string.elements[3].section().outerRadius(), 0.07);
 }
 
+namespace {
+
+/// Two stands of {pipe of 9 m in 3 elements, joint of 1 m} and a bit with a gauge, hung at a depth.
+DrillString hung(double bit) {
+  const std::string gauge = real("Gauge Position", "2") + real("Gauge Radius", "0.1");
+  const auto settings = readDrillstring(scene(
+      list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) + tube("joint", 1.0, 1, 0.08, 0.05) +
+                             tube("bit", 2.0, 2, 0.07, 0.03, gauge) +
+                             list("stand", array("Parts", "pipe, joint"))) +
+      array("Assembly", "2*stand, bit")));
+  return buildDrillString(settings, verticalWell(), bit);
+}
+
+}  // namespace
+
+TEST(Mesh, HangsWithItsBitAtADepthAndIsCutAtTheSurface) {
+  const DrillString string =
+      hung(13.5);  // of 22 m: the first stand but for its last 1.5 m is above
+  ASSERT_EQ(string.elementCount(), 2 + 4 + 2);
+  EXPECT_EQ(string.nodes.front().s, 0.0);
+  EXPECT_NEAR(string.length(), 13.5, 1e-12);
+  EXPECT_NEAR(string.elements[0].length(), 0.5, 1e-12) << "what is left of a pipe element";
+  EXPECT_EQ(string.elements[0].section().outerRadius(), 0.06);
+  EXPECT_EQ(string.elements[1].section().outerRadius(), 0.08);
+  for (int e = 0; e < string.elementCount(); ++e)
+    EXPECT_NEAR(string.nodes[static_cast<std::size_t>(e + 1)].s -
+                    string.nodes[static_cast<std::size_t>(e)].s,
+                string.elements[static_cast<std::size_t>(e)].length(), 1e-12);
+  ASSERT_EQ(string.instances.size(), 3u);
+  EXPECT_EQ(string.instances[0].lastElement, 1);
+  EXPECT_EQ(string.instances[1].path, "stand 2");
+  EXPECT_EQ(string.instances[1].firstElement, 2);
+  EXPECT_EQ(string.elements[2].instance, 1);
+  EXPECT_EQ(string.nested.front().path, "stand 1/pipe 1");
+  EXPECT_EQ(string.nested.front().lastElement, 0);
+  EXPECT_TRUE(string.nodes.back().gauge);
+  EXPECT_NEAR(string.nodes.back().clearance, 0.008, 1e-12);
+}
+
+TEST(Mesh, LeavesNoSliverAtTheSurface) {
+  const DrillString string = hung(13.1);  // 0.1 m of a pipe element of 3 m would be left
+  EXPECT_EQ(string.elementCount(), 1 + 4 + 2);
+  EXPECT_NEAR(string.elements[0].length(), 1.1, 1e-12);
+  EXPECT_EQ(string.elements[0].section().outerRadius(), 0.08);
+  EXPECT_EQ(string.instances.front().path, "stand 1");
+  EXPECT_EQ(string.nested.front().path, "stand 1/joint 1");
+  EXPECT_EQ(hung(22.0).elementCount(), 10) << "the whole string";
+  EXPECT_EQ(hung(2.0).instances.size(), 1u) << "the bit alone";
+}
+
 TEST(Mesh, ClearanceIsTheSmallerOneWhereSectionOrBoreChange) {
   const well::Well well(well::straight(100.0), 0.1, {{"casing", 0.0, 10.0, 0.15}});
   const DrillString string = build(

@@ -112,11 +112,12 @@ TEST(StaticProblem, ResidualIsStiffnessLessLoadsContactAndPathReaction) {
     geometric.segment<12>(6 * e) += problem.geometricStiffness(e, scene.displacement) * d;
   }
   const double uv[4] = {0.015, 0.017, -0.004, 0.003};
-  double f[6];
+  constexpr int n = contact::StaticContact::kForces;
+  double f[2 * n];
   scene.input.contact->evaluate({}, uv, f);
   for (int p = 0; p < 2; ++p) {
-    contact.segment<2>(6 * (p + 1)) += Eigen::Vector2d(f[3 * p], f[3 * p + 1]);
-    contact(6 * (p + 1) + 5) += f[3 * p + 2];
+    contact.segment<3>(6 * (p + 1)) += Eigen::Vector3d(f[n * p], f[n * p + 1], f[n * p + 2]);
+    contact(6 * (p + 1) + 5) += f[n * p + 3];
   }
   const auto expectResidual = [&](const StaticSwitches& switches, const Vector& full) {
     problem.set(switches);
@@ -150,6 +151,35 @@ TEST(StaticProblem, JacobianIsTheDerivativeOfTheResidual) {
       << "without dK_gpo/dD it is another one";
 }
 
+/// The same of a string that slides along the wall too, from nodes where it is under tension.
+TEST(StaticProblem, JacobianIsTheDerivativeWithDragAndPretension) {
+  Case scene;
+  scene.input.sliding = {-0.2, 4.0};
+  for (auto& element : scene.input.elements) element.pretension = 2e4;
+  const StaticProblem problem(scene.input);
+  EXPECT_LT(testing_::jacobianError(problem, problem.restrict(scene.displacement), 1e-7), 1e-5);
+}
+
+/// A pretension is a stretch that the displacement does not count.
+TEST(StaticProblem, PretensionIsAStretchThatTheNodesHaveAlready) {
+  Case scene;
+  Vector stretched = scene.displacement;
+  double shift = 0.0;
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    scene.input.elements[e].pretension = 500.0 * (1.0 + static_cast<double>(e));
+    shift += scene.input.elements[e].pretension * lengths[e] / section(e).axialRigidity();
+    stretched(static_cast<Eigen::Index>(6 * (e + 1) + 2)) += shift;
+  }
+  const StaticProblem from(scene.input);
+  const Case unloaded;
+  const StaticProblem whole(unloaded.input);
+  const Vector expected = whole.unbalanced(stretched);
+  EXPECT_LT((from.unbalanced(scene.displacement) - expected).norm(), 1e-10 * expected.norm());
+  for (int e = 0; e < 3; ++e)
+    EXPECT_NEAR(from.axialForce(e, scene.displacement), whole.axialForce(e, stretched),
+                1e-9 * section(0).axialRigidity());
+}
+
 /// Forces count against the largest load, moments against that load on a mean element length.
 TEST(StaticProblem, ResidualsAreScaledByTheLargestLoad) {
   Case scene;
@@ -169,20 +199,20 @@ TEST(StaticProblem, ResidualsAreScaledByTheLargestLoad) {
 TEST(StaticState, RecordsTheForcesThatAct) {
   Case scene;
   for (const double direction : {1.0, -1.0}) {
-    scene.input.direction = direction;
+    scene.input.sliding = {0.0, direction};
     const StaticProblem problem(scene.input);
     const StaticState state = describe(scene.input, problem, scene.displacement);
     contact::StaticContact::Options options;
-    options.direction = direction;
+    options.sliding = {0.0, direction};
     const double uv[4] = {0.015, 0.017, -0.004, 0.003};
-    double f[6], normal[2];
+    double f[2 * contact::StaticContact::kForces], normal[2];
     scene.input.contact->evaluate(options, uv, f);
     scene.input.contact->normalForce(options, uv, normal);
     const double r = std::hypot(0.015, 0.017);
     EXPECT_NEAR(state.normalForce(1), normal[0], 1e-9 * normal[0]);
     EXPECT_NEAR(state.tangentialForce(1), (-f[0] * 0.017 + f[1] * 0.015) / r, 1e-9 * normal[0]);
     EXPECT_LT(direction * state.tangentialForce(1), -0.1 * normal[0]);
-    EXPECT_NEAR(state.frictionTorque(1), f[2], 1e-9 * normal[0]);
+    EXPECT_NEAR(state.frictionTorque(1), f[3], 1e-9 * normal[0]);
     EXPECT_LT(direction * state.frictionTorque(1), -0.01 * normal[0]);
     EXPECT_NEAR(state.gap(1), r - 0.02, 1e-12);
     EXPECT_LT(state.gap(2), 0.0);
@@ -190,7 +220,7 @@ TEST(StaticState, RecordsTheForcesThatAct) {
     EXPECT_EQ(state.maxNormalForceNode, 2);
     EXPECT_NEAR(state.maxNormalForce, normal[0], 1e-9 * normal[0]);
     EXPECT_NEAR(state.totalNormalForce, normal[0] + normal[1], 1e-9 * normal[0]);
-    EXPECT_NEAR(state.totalFrictionTorque, f[2] + f[5], 1e-9 * normal[0]);
+    EXPECT_NEAR(state.totalFrictionTorque, f[3] + f[7], 1e-9 * normal[0]);
     EXPECT_EQ(state.normalForce(0), 0.0);
   }
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Friction coefficients and block weight from measured hook loads and torques, by the soft-string
+/// model and weighted least squares:
+///
+///     min_p sum ((computed(p) - measured)/uncertainty)^2,   0 <= mu <= 1,  block weight >= 0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "substructures/drillstring/analyses/Measurements.hpp"
+#include "substructures/drillstring/analyses/TorqueDrag.hpp"
+
+namespace tooljoint::drillstring {
+
+/// One quantity that was fitted.
+struct Fitted {
+  std::string name;          ///< "friction", "friction in casing", "block weight"
+  std::string parameter;     ///< its path in the deck
+  double deck = 0.0;         ///< value of the deck
+  double value = 0.0;        ///< [1] or [N]
+  double uncertainty = 0.0;  ///< half the width of the 95 % confidence interval
+  bool atBound = false;      ///< the interval then says nothing
+};
+
+struct Calibration {
+  std::vector<Fitted> fitted;
+  std::vector<Measurement> measured, computed;      ///< line by line; gaps as measured
+  double hookLoadMisfit = 0.0, torqueMisfit = 0.0;  ///< root mean square [N], [N m]
+};
+
+/// Levenberg-Marquardt from the values of the deck; confidence intervals of the linearised problem
+/// by Student's t with the scatter of the residuals. Coefficients of stretches that no measurement
+/// sees keep their values. DeckError: fewer measured values than unknowns, or values that do not
+/// tell the unknowns apart. ConvergenceError.
+Calibration calibrate(const Scene& scene, const softstring::TorqueDragSettings& settings,
+                      const std::vector<Measurement>& measured);
+
+/// Hook load and surface torque of every operation at every depth with one friction coefficient in
+/// the whole hole: the curves of a broomstick plot.
+struct BroomRow {
+  double bit = 0.0, friction = 0.0;
+  std::string operation;
+  double hookLoad = 0.0, surfaceTorque = 0.0;  ///< NaN where the string locks up
+};
+std::vector<BroomRow> broomstick(const Scene& scene,
+                                 const softstring::TorqueDragSettings& settings);
+
+/// Prints the fit and writes torque_drag_calibration.csv and torque_drag_measured.csv, and
+/// torque_drag_broomstick.csv, where the deck asks for them. Collective.
+void reportCalibration(const Scene& scene, const std::string& folder);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/analyses/Measurements.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "common/InputFile.hpp"
+#include "common/Text.hpp"
+#include "deck/reading/Units.hpp"
+#include "substructures/well/DelimitedText.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+constexpr std::uint64_t largestFile = 1U << 26U;  // bytes
+
+struct Column {
+  const char* name;
+  const char* si;  ///< "": a text
+  std::vector<std::string> headings;
+};
+enum Kind : std::size_t { Depth, Operation, HookLoad, Torque, kinds };
+const std::array<Column, kinds> columns = {
+    {{"bit depth", "m", {"bit depth", "depth", "md"}},
+     {"operation", "", {"operation"}},
+     {"hook load", "N", {"hook load", "hookload"}},
+     {"surface torque", "N m", {"surface torque", "torque"}}}};
+
+class Reader {
+ public:
+  Reader(std::string file, const std::vector<std::string>& operations)
+      : file_(std::move(file)), operations_(operations) {}
+
+  std::vector<Measurement> read() {
+    const auto text = splitDelimited(readInput(file_, largestFile));
+    if (text.rows.empty()) throw DeckError(file_ + ": the table of measurements is empty.");
+    header(text.rows.front());
+    for (std::size_t i = 1; i < text.rows.size() && faults_.empty(); ++i) row(text.rows[i]);
+    if (faults_.empty() && found_.empty()) fault(text.rows.front().line, "no measurement follows.");
+    if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
+    return std::move(found_);
+  }
+
+ private:
+  void fault(int line, const std::string& sentence) {
+    faults_.push_back(file_ + ":" + std::to_string(line) + ": " + sentence);
+  }
+
+  void header(const DelimitedRow& row) {
+    position_.fill(-1);
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const auto open = row.cells[i].find_first_of("[(");
+      std::string name = lower(trim(row.cells[i].substr(0, open)));
+      std::replace(name.begin(), name.end(), '_', ' ');
+      const auto kind = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
+        return std::count(column.headings.begin(), column.headings.end(), name) > 0;
+      });
+      if (kind == columns.end()) continue;
+      const auto k = static_cast<std::size_t>(kind - columns.begin());
+      if (position_[k] >= 0)
+        fault(row.line, "the column " + std::string(kind->name) + " stands twice in the header.");
+      position_[k] = static_cast<int>(i);
+      if (*kind->si == '\0') continue;
+      const std::string unit =
+          open == std::string::npos
+              ? ""
+              : trim(row.cells[i].substr(open + 1,
+                                         row.cells[i].find_first_of("])", open) - open - 1));
+      std::string reason;
+      const auto factor = deck::toSi("1 " + unit, kind->si, reason);
+      if (!factor)
+        fault(row.line, "the column " + std::string(kind->name) + " has " +
+                            (unit.empty() ? "no unit" : "the unit " + inQuotes(unit)) +
+                            ". Write one in brackets: " + quotedList(deck::unitsLike(kind->si)) +
+                            ".");
+      factor_[k] = factor.value_or(1.0);
+    }
+    for (const Kind k : {Depth, Operation})
+      if (position_[k] < 0)
+        fault(row.line, "the header has no column " + inQuotes(columns[k].name) + ".");
+    if (position_[HookLoad] < 0 && position_[Torque] < 0)
+      fault(row.line,
+            "the header has neither \"hook load\" nor \"surface torque\": nothing was measured.");
+  }
+
+  void row(const DelimitedRow& row) {
+    Measurement one;
+    const auto depth = number(row, Depth);
+    one.operation = cell(row, Operation);
+    if (!depth || !(*depth > 0.0))
+      return fault(row.line, "the bit depth must be a positive number.");
+    one.bit = *depth;
+    if (std::count(operations_.begin(), operations_.end(), one.operation) == 0) {
+      const std::string meant = closest(one.operation, operations_);
+      return fault(row.line, "the operation " + inQuotes(one.operation) + " is unknown. " +
+                                 (meant.empty() ? "" : "Did you mean " + inQuotes(meant) + "? ") +
+                                 "Known are " + quotedList(operations_) + ".");
+    }
+    one.hookLoad = number(row, HookLoad);
+    one.surfaceTorque = number(row, Torque);
+    if (one.hookLoad || one.surfaceTorque) found_.push_back(one);
+  }
+
+  std::string cell(const DelimitedRow& row, Kind k) const {
+    const int i = position_[k];
+    return i < 0 || i >= static_cast<int>(row.cells.size())
+               ? ""
+               : row.cells[static_cast<std::size_t>(i)];
+  }
+
+  /// Empty where the cell is.
+  std::optional<double> number(const DelimitedRow& row, Kind k) {
+    const std::string text = cell(row, k);
+    if (text.empty()) return std::nullopt;
+    const auto read = cellNumber(text);
+    if (!read) {
+      fault(row.line,
+            "the " + std::string(columns[k].name) + " " + inQuotes(text) +
+                " is not a finite number. Leave the cell empty where nothing was measured.");
+      return std::nullopt;
+    }
+    return read->value * factor_[k];
+  }
+
+  std::string file_;
+  const std::vector<std::string>& operations_;
+  std::array<int, kinds> position_{};
+  std::array<double, kinds> factor_{};
+  std::vector<Measurement> found_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<Measurement> readMeasurements(const std::string& file,
+                                          const std::vector<std::string>& operations) {
+  try {
+    return Reader(file, operations).read();
+  } catch (const FileError& error) {
+    throw DeckError(std::string("The table of measurements ") + error.what());
+  }
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// The stiff string at many depths of the bit.
+#pragma once
+
+#include <vector>
+
+#include "substructures/drillstring/analyses/StiffString.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Every operation at every depth, [depth][operation]; depths are dealt to the ranks one by one,
+/// and all ranks end with all rows. One line of progress a depth. Collective. DeckError as
+/// StiffString(); InterruptedError after a signal.
+std::vector<std::vector<StiffLoads>> stiffRows(
+    const Scene& scene, const std::vector<double>& depths,
+    const std::vector<softstring::Operation>& operations);
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "substructures/drillstring/case/RestProblem.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "common/Index.hpp"
+#include "statics/NoxSolver.hpp"
+#include "substructures/beam/NodalDofs.hpp"
+#include "substructures/contact/Eccentric.hpp"
+#include "substructures/drillstring/SidedFeatures.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+Teuchos::ParameterList listOrEmpty(const Scene& scene, const std::string& name) {
+  return scene.list().isSublist(name) ? scene.list().sublist(name) : Teuchos::ParameterList(name);
+}
+
+}  // namespace
+
+path::PathState bendIntoWell(const Scene& scene) {
+  path::PathInput input;
+  input.elements = scene.string.formulations();
+  input.trajectory = &scene.well.trajectory();
+  return path::computePath(input, scene.path, statics::noxSolver(listOrEmpty(scene, "Path")));
+}
+
+PathEquations equationsOnPath(const Scene& scene, const path::PathState& path) {
+  auto equations = buildEquations({scene.string, scene.well, path, scene.held, scene.mud.get(),
+                                   scene.rotary, scene.loads, scene.damping});
+  addPads(scene.string, path, equations);
+  return equations;
+}
+
+std::vector<double> hangingTension(const PathEquations& equations) {
+  std::vector<double> tension(at(equations.model.elements()));
+  double below = 0.0;
+  for (int e = equations.model.elements(); e-- > 0;) {
+    below += equations.load(kNodeDofs * (e + 1) + beam::nodal::w);
+    tension[at(e)] = below;
+  }
+  return tension;
+}
+
+equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
+                                     const PathEquations& equations,
+                                     const contact::Sliding& sliding,
+                                     const contact::ContactPoints& points,
+                                     equilibrium::Reference reference) {
+  equilibrium::StaticInput input;
+  input.nodes = equations.model.nodes;
+  input.held = scene.heldAtRest();
+  input.chordSlopes = scene.path.prestress == path::Prestress::AxialAndTorque;
+  input.geometricStiffness = scene.statics.geometricStiffness;
+  std::vector<double> pretension;
+  if (reference == equilibrium::Reference::Hanging) pretension = hangingTension(equations);
+  for (int e = 0; e < equations.model.elements(); ++e) {
+    const auto i = at(e);
+    const auto& section = scene.string.elements[i].section();
+    equilibrium::StaticElement element;
+    element.formulation = scene.string.elements[i].formulation;
+    element.stiffness = equations.stiffness[i];
+    element.rotation = beam::rotation12(path.elementFrame[i], path.frame[i], path.frame[i + 1]);
+    const double curvature =
+        std::max(scene.well.trajectory().at(path.arcLength[i]).curvature.norm(),
+                 scene.well.trajectory().at(path.arcLength[i + 1]).curvature.norm());
+    element.bendingMoment =
+        section.youngModulus() * std::max(section.inertiaX(), section.inertiaY()) * curvature;
+    if (!pretension.empty()) element.pretension = pretension[i];
+    input.elements.push_back(element);
+  }
+  input.kinks = kinks(scene.string, path);
+  input.load = equations.load;
+  input.pathReaction = equations.pathReaction;
+  input.sliding = sliding;
+  if (points.size() > 0) input.contact = scene.contact->law->atRest(points);
+  if (auto offsets = gaugeOffsets(scene.string, path, points); !offsets.empty())
+    input.contact = contact::eccentric(input.contact, std::move(offsets));
+  return input;
+}
+
+model::NonlinearSolver staticSolver(const Scene& scene) {
+  return statics::noxSolver(listOrEmpty(scene, "Static"));
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What the static equilibrium of a scene is made of: the string bent into its well, its equations
+/// there, and the problem that NOX solves.
+#pragma once
+
+#include <vector>
+
+#include "model/NonlinearSolve.hpp"
+#include "substructures/drillstring/EquationBuilder.hpp"
+#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/equilibrium/StaticProblem.hpp"
+#include "substructures/path/PathState.hpp"
+
+namespace tooljoint::drillstring {
+
+/// The string on its path. ConvergenceError.
+path::PathState bendIntoWell(const Scene& scene);
+
+PathEquations equationsOnPath(const Scene& scene, const path::PathState& path);
+
+/// Tension of a string that hangs from its first node without friction, per element [N]: loads
+/// along w of all nodes below.
+std::vector<double> hangingTension(const PathEquations& equations);
+
+/// \param sliding  of the string on the wall
+/// \param points   the scene's contact points with the friction that acts as mu_s
+equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& path,
+                                     const PathEquations& equations,
+                                     const contact::Sliding& sliding,
+                                     const contact::ContactPoints& points,
+                                     equilibrium::Reference reference);
+
+/// NOX with the deck's list `Static`.
+model::NonlinearSolver staticSolver(const Scene& scene);
+
+}  // namespace tooljoint::drillstring
