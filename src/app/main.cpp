@@ -167,7 +167,7 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
       "report", "one HTML file with figures, plots and a 3-D view of a results folder");
   report
       ->add_option("DIR", options.reported,
-                   "folder of run, study or map, or the --output of torque-drag or modes")
+                   "folder of run, study or map, or the --output of torque-drag, bha or modes")
       ->type_name("DIR")
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")

@@ -10,6 +10,7 @@ import csv
 import json
 import math
 import pathlib
+import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
@@ -266,6 +267,8 @@ def example():
         expect("the summary has the row", all(abs(summary[key] - row[key]) < 1e-8 * max(1.0, abs(row[key])) for key in ("weight_on_bit", "side_force_high", "tilt_right", "sag_high")), summary)
         expect("moments and stresses are the largest of the profile", row["largest_von_mises"] == max(one["von_mises"] for one in row["profile"]))
         near("WOB is the compression at the bit", row["profile"][0]["axial_force"], -row["weight_on_bit"], 1.0, 500.0)  # and the weight of half an element
+    drawn = subprocess.run([sys.executable, str(SOURCES / "tools/plot_bha.py"), "motor"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    expect("the picture is drawn", drawn.returncode == 0 and pathlib.Path("motor/bha.png").stat().st_size > 20000, drawn.stderr)
     expect("four weights, sliding and rotating", [row["mode"] for row in found] == ["sliding", "rotating"] * 4, [row["mode"] for row in found])
     faces = run(motor, "Bottom-Hole Assembly/Tool Face={0 deg, 120 deg, 240 deg}", "Bottom-Hole Assembly/Rotating Tool Faces=3", "Bottom-Hole Assembly/Weight On Bit={40 kN}", folder="faces")
     for key in ("side_force_high", "side_force_right", "tilt_high", "sag_high"):
