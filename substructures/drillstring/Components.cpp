@@ -203,6 +203,11 @@ class ComponentReader {
     for (const std::string& text : list.get<Teuchos::Array<std::string>>("Parts")) {
       try {
         component.parts.push_back(parseEntry(text));
+        if (component.parts.back().fill)
+          throw DeckError(
+              inQuotes(text) +
+              " stands in a component, but only the first entry of an Assembly can fill "
+              "the string up to the surface.");
       } catch (const DeckError& error) {
         fail(name + "/Parts", error.what());
       }
@@ -243,6 +248,15 @@ class ComponentReader {
   const Where& where_;
 };
 
+int wholeNumber(const std::string& number, const std::string& entry) {
+  int count = 0;
+  const auto result = std::from_chars(number.data(), number.data() + number.size(), count);
+  if (result.ec != std::errc() || result.ptr != number.data() + number.size() || count < 1)
+    throw DeckError("In " + inQuotes(entry) +
+                    " the number before * must be a whole number from 1 on, as in \"3*collar\".");
+  return count;
+}
+
 }  // namespace
 
 AssemblyEntry parseEntry(const std::string& text) {
@@ -252,10 +266,8 @@ AssemblyEntry parseEntry(const std::string& text) {
   if (star != std::string::npos) {
     const std::string number = trim(entry.substr(0, star));
     parsed.name = trim(entry.substr(star + 1));
-    const auto result = std::from_chars(number.data(), number.data() + number.size(), parsed.count);
-    if (result.ec != std::errc() || result.ptr != number.data() + number.size() || parsed.count < 1)
-      throw DeckError("In " + inQuotes(entry) +
-                      " the number before * must be a whole number from 1 on, as in \"3*collar\".");
+    parsed.fill = number == "fill";
+    if (!parsed.fill) parsed.count = wholeNumber(number, entry);
   }
   if (parsed.name.empty() || parsed.name.find('*') != std::string::npos)
     throw DeckError(inQuotes(entry) + " is not of the form \"component\" or \"3*component\".");

@@ -28,10 +28,12 @@ struct Segment {
   beam::ElementChoice element;
 };
 
-/// `count` times the component `name`: one entry of an assembly, "3*collar".
+/// `count` times the component `name`: one entry of an assembly, "3*collar". "fill*stand" is as
+/// often as it takes to reach the surface.
 struct AssemblyEntry {
   int count = 1;
   std::string name;
+  bool fill = false;
 };
 
 /// Something at a place of a component that points to one side of the string.
@@ -73,8 +75,8 @@ using Where = std::function<std::string(const std::string& path)>;
 deck::ListSpec componentParameters();
 deck::ListSpec libraryParameters();
 
-/// "3*collar" -> {3, "collar"}. Throws DeckError with a sentence when it is not of the form "name"
-/// or "count*name".
+/// "3*collar" -> {3, "collar"}, "fill*stand" -> {1, "stand", true}. Throws DeckError with a
+/// sentence when it is not of the form "name", "count*name" or "fill*name".
 AssemblyEntry parseEntry(const std::string& text);
 
 /// Adds the components of a list to the library. Faults (radii, missing parameters, a name defined

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/DrillstringReader.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "substructures/drillstring/Mesh.hpp"
 
@@ -11,6 +16,9 @@ using deck::Range;
 
 const std::string here = "Drillstring";
 
+/// Lengths nearer to each other than this share of them are the same.
+constexpr double roundOff = 1e-9;
+
 beam::Material readMaterial(const Teuchos::ParameterList& list) {
   beam::Material material;
   if (!list.isSublist("Material")) return material;
@@ -19,6 +27,50 @@ beam::Material readMaterial(const Teuchos::ParameterList& list) {
   material.youngModulus = own.get<double>("Young Modulus");
   material.poissonRatio = own.get<double>("Poisson Ratio");
   return material;
+}
+
+/// Length of a component [m]; none where it, or a part of it, is not in the library or contains
+/// itself: the mesh says so.
+std::optional<double> lengthOf(const ComponentLibrary& library, const std::string& name,
+                               std::size_t depth = 0) {
+  const auto found = library.find(name);
+  if (found == library.end() || depth > library.size()) return std::nullopt;
+  double length = 0.0;
+  for (const Segment& segment : found->second.segments) length += segment.length;
+  for (const AssemblyEntry& part : found->second.parts) {
+    const auto own = lengthOf(library, part.name, depth + 1);
+    if (!own) return std::nullopt;
+    length += part.count * *own;
+  }
+  return length;
+}
+
+/// The assembly with as many of its first component as reach from the bit to the surface.
+std::vector<AssemblyEntry> filled(const StringSettings& settings, double bit) {
+  auto assembly = settings.assembly;
+  std::vector<double> lengths;
+  for (const AssemblyEntry& entry : assembly) {
+    const auto length = lengthOf(settings.library, entry.name);
+    if (!length) return assembly;
+    lengths.push_back(entry.count * *length);
+  }
+  const double whole = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  if (!assembly.empty() && assembly.front().fill) {
+    const double below = whole - lengths.front();
+    if (!(bit > below))
+      throw DeckError(settings.assemblyWhere + ": what hangs below " +
+                      inQuotes("fill*" + assembly.front().name) + " is " + formatNumber(below) +
+                      " m long, but the bit is at " + formatNumber(bit) +
+                      " m. Give a deeper Bit Depth, or leave components out.");
+    assembly.front().count =
+        std::max(1, static_cast<int>(std::ceil((bit - below) / lengths.front() - roundOff)));
+  } else if (whole < bit * (1.0 - roundOff)) {
+    throw DeckError(settings.assemblyWhere + ": the Assembly is " + formatNumber(whole) +
+                    " m long and does not reach the surface from a bit at " + formatNumber(bit) +
+                    " m. Begin it with \"fill*" + assembly.front().name +
+                    "\", or set a smaller Bit Depth.");
+  }
+  return assembly;
 }
 
 }  // namespace
@@ -32,7 +84,12 @@ deck::ListSpec drillstringParameters() {
                 .namedLists(componentParameters()))
       .textArray(
           "Assembly", deck::Required{}, {},
-          "Components from the surface to the bit, repeated as in {10*stand, 3*collar, bit}.")
+          "Components from the surface to the bit, repeated as in {10*stand, 3*collar, bit}; "
+          "{fill*stand, 3*collar, bit} takes as many stands as reach the surface.")
+      .real("Bit Depth", "m", deck::Optional{}, Range::positive(),
+            "Measured depth of the bit; the string is cut at the surface. Without it the bit is "
+            "where "
+            "the Assembly ends, or at the end of the well for one that fills.")
       .list(deck::ListSpec("Material", "Material of components that give none; steel when absent.")
                 .real("Density", "kg/m3", steel.density, Range::positive(), "Density.")
                 .real("Young Modulus", "Pa", steel.youngModulus, Range::positive(),
@@ -67,9 +124,15 @@ StringSettings readDrillstring(const deck::Deck& deck) {
         list.sublist("Components"), settings.defaults,
         [&](const std::string& path) { return deck.where(here + "/Components/" + path); },
         settings.library, faults);
+  if (list.isParameter("Bit Depth")) settings.bitDepth = list.get<double>("Bit Depth");
   for (const std::string& text : list.get<Teuchos::Array<std::string>>("Assembly")) {
     try {
       settings.assembly.push_back(parseEntry(text));
+      if (settings.assembly.back().fill && settings.assembly.size() > 1)
+        throw DeckError(
+            inQuotes(text) +
+            " is not the first entry. Only what stands uppermost can fill the string up "
+            "to the surface.");
     } catch (const DeckError& error) {
       faults.push_back(settings.assemblyWhere + ": " + error.what());
     }
@@ -80,8 +143,12 @@ StringSettings readDrillstring(const deck::Deck& deck) {
 
 DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
                              std::optional<double> bit) {
+  const bool fills = !settings.assembly.empty() && settings.assembly.front().fill;
+  if (!bit) bit = settings.bitDepth;
+  if (!bit && fills) bit = well.length();
+  const auto assembly = bit ? filled(settings, *bit) : settings.assembly;
   DrillString string =
-      buildDrillString(settings.library, settings.assembly, well, settings.assemblyWhere, bit);
+      buildDrillString(settings.library, assembly, well, settings.assemblyWhere, bit);
   string.toolFace = settings.toolFace;
   return string;
 }

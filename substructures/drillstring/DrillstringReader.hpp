@@ -19,6 +19,8 @@ struct StringSettings {
   ComponentLibrary library;             ///< of the file and of the deck itself
   std::vector<AssemblyEntry> assembly;  ///< from the surface down
   std::string assemblyWhere;            ///< where the assembly stands in the deck, for messages
+  std::optional<double> bitDepth;       ///< [m]; none: where the assembly ends, or the end of the
+                                        ///< well for one that fills
   SegmentDefaults defaults;             ///< of components that give none
   double toolFace = 0.0;                ///< [rad]
 };
@@ -30,8 +32,10 @@ deck::ListSpec drillstringParameters();
 /// is read on rank 0). Throws DeckError with one line "file:line: path: sentence" per fault.
 StringSettings readDrillstring(const deck::Deck& deck);
 
-/// The meshed string in its well, with its lower end at the depth `bit` [m] where one is given: see
-/// buildDrillString in Mesh.hpp.
+/// The meshed string in its well, with its lower end at the depth `bit` [m] where one is given,
+/// else that of the settings: see buildDrillString in Mesh.hpp. An assembly that fills gets as many
+/// components as reach from there to the surface. DeckError: the assembly is shorter than the
+/// depth.
 DrillString buildDrillString(const StringSettings& settings, const well::Well& well,
                              std::optional<double> bit = std::nullopt);
 

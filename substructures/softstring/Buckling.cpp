@@ -33,17 +33,25 @@ double leastRoot(const well::WellPoint& point, double weight, double ratio, doub
   return high;
 }
 
+/// The larger one of the limits in a vertical hole and in one that inclines or bends.
+double limit(const well::WellPoint& point, double weight, double stiffness, double clearance,
+             double vertical, double factor) {
+  if (!(clearance > 0.0)) return std::numeric_limits<double>::infinity();
+  return std::max(vertical * std::cbrt(stiffness * weight * weight),
+                  leastRoot(point, weight, stiffness / clearance, factor));
+}
+
 }  // namespace
+
+double helicalLimit(const well::WellPoint& point, double weight, double stiffness,
+                    double clearance) {
+  return limit(point, weight, stiffness, clearance, verticalHelical, 2.0 * std::sqrt(2.0));
+}
 
 BucklingLimits bucklingLimits(const well::WellPoint& point, double weight, double stiffness,
                               double clearance) {
-  const double infinite = std::numeric_limits<double>::infinity();
-  if (!(clearance > 0.0)) return {infinite, infinite};
-  const double vertical = std::cbrt(stiffness * weight * weight);
-  const double ratio = stiffness / clearance;
-  return {
-      std::max(verticalSinusoidal * vertical, leastRoot(point, weight, ratio, 2.0)),
-      std::max(verticalHelical * vertical, leastRoot(point, weight, ratio, 2.0 * std::sqrt(2.0)))};
+  return {limit(point, weight, stiffness, clearance, verticalSinusoidal, 2.0),
+          helicalLimit(point, weight, stiffness, clearance)};
 }
 
 double helicalSideForce(double compression, double stiffness, double clearance) {

@@ -24,6 +24,8 @@ struct BucklingLimits {
 /// \param weight     buoyed weight per length w [N/m]
 /// \param stiffness  E I [N m2]
 /// \param clearance  r, radius of the hole less that of the body [m]
+double helicalLimit(const well::WellPoint& point, double weight, double stiffness,
+                    double clearance);
 BucklingLimits bucklingLimits(const well::WellPoint& point, double weight, double stiffness,
                               double clearance);
 

@@ -74,7 +74,7 @@ Loads march(const std::vector<Stretch>& string, const Hole& hole, double bit,
       const auto point = hole.at(std::clamp(s, piece.top + inside, piece.bottom - inside));
       double N = sideForce(point, tension, own.weight);
       if (helix && tension < 0.0 && clearance > 0.0 &&
-          -tension > bucklingLimits(point, own.weight, stiffness, clearance).helical)
+          -tension > helicalLimit(point, own.weight, stiffness, clearance))
         N += helicalSideForce(-tension, stiffness, clearance);
       return std::make_pair(N, point.tangent.z());
     };

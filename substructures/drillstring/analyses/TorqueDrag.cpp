@@ -162,7 +162,7 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
 
 TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
-                               const softstring::Operation& operation, double bit) {
+                               const softstring::Operation& operation, double bit, bool allLimits) {
   const auto& hole = model.hole;
   TorqueDragProfile profile;
   profile.loads = softstring::march(model.string, hole, bit, operation, settings.helix);
@@ -183,8 +183,10 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     const auto& stretch = model.string[at(loads.stretch[i])];
     const auto point = hole.at(s);
     const double bending = stretch.section.youngModulus() * stretch.section.inertiaX();
-    const auto limits = softstring::bucklingLimits(point, stretch.weight, bending,
-                                                   hole.radius(s) - stretch.section.outerRadius());
+    softstring::BucklingLimits limits{none, none};
+    if (allLimits || loads.tension[i] < 0.0)
+      limits = softstring::bucklingLimits(point, stretch.weight, bending,
+                                          hole.radius(s) - stretch.section.outerRadius());
     profile.sinusoidal.push_back(limits.sinusoidal);
     profile.helical.push_back(limits.helical);
     profile.vonMises.push_back(
@@ -209,9 +211,10 @@ std::vector<TorqueDragProfile> torqueDrag(const Scene& scene) {
   const SoftModel model = softModel(scene);
   const auto operations = softOperations(scene, settings);
   std::vector<TorqueDragProfile> profiles;
+  const double deepest = *std::max_element(settings.depths.begin(), settings.depths.end());
   for (const double depth : settings.depths)
     for (const auto& operation : operations)
-      profiles.push_back(torqueDragAt(model, settings, operation, depth));
+      profiles.push_back(torqueDragAt(model, settings, operation, depth, depth == deepest));
 
   const auto stiffDepths = depthsOfStiffString(settings);
   const auto rows = stiffRows(scene, stiffDepths, operations);

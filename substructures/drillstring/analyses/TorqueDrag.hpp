@@ -40,8 +40,8 @@ struct TorqueDragRow {
 struct TorqueDragProfile {
   TorqueDragRow row;
   softstring::Loads loads;
-  std::vector<double> vonMises;                    ///< [Pa]
-  std::vector<double> sinusoidal, helical;         ///< critical compressions [N]
+  std::vector<double> vonMises;             ///< [Pa]
+  std::vector<double> sinusoidal, helical;  ///< critical compressions [N]; NaN where not asked for
   std::optional<StiffLoads> stiff = std::nullopt;  ///< none: not computed at this depth
 };
 
@@ -68,9 +68,10 @@ std::vector<softstring::Operation> softOperations(const Scene& scene,
 
 /// One march with its margins. Yield by von Mises from effective tension, bending by the curvature
 /// of the hole, and torsion, at both walls of the pipe, with mud at rest inside and outside.
+/// \param allLimits  critical compressions all along the string; else where it is compressed
 TorqueDragProfile torqueDragAt(const SoftModel& model,
                                const softstring::TorqueDragSettings& settings,
-                               const softstring::Operation& operation, double bit);
+                               const softstring::Operation& operation, double bit, bool allLimits);
 
 /// Every operation at every depth, the stiff string where the deck asks for it. Collective.
 std::vector<TorqueDragProfile> torqueDrag(const Scene& scene);

@@ -204,11 +204,64 @@ void summarise(const StaticStage& stage, io::Summary& summary) {
   summariseStability(stage, summary);
 }
 
+namespace {
+
+/// Measured and vertical depth of the bit, the sharpest bend above it, its inclination.
+std::string describeWell(const Scene& scene) {
+  constexpr double beside = 1e-6;  // [m] of a depth where the curvature jumps
+  const double bit = scene.string.length();
+  auto depths = scene.string.depths();
+  for (const double s : scene.well.trajectory().breaks())
+    for (const double place : {s - beside, s + beside})
+      if (place > 0.0 && place < bit) depths.push_back(place);
+  double sharpest = 0.0, where = 0.0;
+  for (const double s : depths)
+    if (const double bend = scene.well.at(s).curvature.norm(); bend > sharpest)
+      sharpest = bend, where = s;
+  const double fall = scene.well.at(bit).position.z() - scene.well.at(0.0).position.z();
+  std::string text = fmt::sprintf(
+      "well        bit at %.5g m along the hole, %.5g m below its start, "
+      "inclination %.3g deg; ",
+      bit, fall, scene.well.inclination(bit) / constants::degree);
+  if (sharpest == 0.0) return text + "straight";
+  constexpr double perThirtyMetres = 30.0 / constants::degree;
+  return text +
+         fmt::sprintf("largest dogleg %.3g deg/30 m at %.5g m", sharpest * perThirtyMetres, where);
+}
+
+/// Weight, what hangs below the uppermost kind of component, the longest element.
+std::string describeString(const Scene& scene) {
+  const auto& string = scene.string;
+  const double mud = scene.list().isSublist("Mud")
+                         ? mud::readProperties(scene.list().sublist("Mud")).density
+                         : 0.0;
+  double mass = 0.0, displaced = 0.0, longest = 0.0, below = 0.0;
+  const std::string& uppermost = string.instances.front().component;
+  for (const Element& element : string.elements) {
+    mass += element.section().massPerLength() * element.length();
+    displaced += mud * element.section().area() * element.length();
+    longest = std::max(longest, element.length());
+    below += element.length();
+    const auto& instance = string.instances[static_cast<std::size_t>(element.instance)];
+    if (instance.component == uppermost) below = 0.0;
+  }
+  const double gravity = loads::acceleration(scene.loads).norm();
+  std::string text = fmt::sprintf("            longest element %.3g m; %.4g m below the last %s",
+                                  longest, below, uppermost);
+  if (gravity == 0.0) return text + "; no weight";
+  text += fmt::sprintf("; weight %.4g kN in air", mass * gravity / 1e3);
+  if (mud > 0.0) text += fmt::sprintf(", %.4g kN in mud", (mass - displaced) * gravity / 1e3);
+  return text;
+}
+
+}  // namespace
+
 std::string describeScene(const Scene& scene) {
   std::string text =
-      fmt::sprintf("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs",
+      fmt::sprintf("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs\n",
                    scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
                    scene.well.length(), scene.freeDofs());
+  text += describeString(scene) + "\n" + describeWell(scene);
   for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
   if (scene.contact && scene.contact->law->atRest(scene.contactPoints)->largestPull() > 0.0)
     text += "\ncontact     the law " + inQuotes(scene.contact->lawName) +

@@ -93,6 +93,46 @@ TEST(Mesh, LeavesNoSliverAtTheSurface) {
   EXPECT_EQ(hung(2.0).instances.size(), 1u) << "the bit alone";
 }
 
+namespace {
+
+std::string filling(const std::string& assembly, const std::string& depth = "") {
+  return list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) + tube("joint", 1.0, 1, 0.08, 0.05) +
+                                tube("bit", 2.0, 2, 0.07, 0.03) +
+                                list("stand", array("Parts", "pipe, joint"))) +
+         array("Assembly", assembly) + (depth.empty() ? "" : real("Bit Depth", depth));
+}
+
+}  // namespace
+
+TEST(Mesh, FillsTheStringUpToTheSurface) {
+  const DrillString string = build(filling("fill*stand, bit", "33.5"));
+  EXPECT_NEAR(string.length(), 33.5, 1e-12);
+  ASSERT_EQ(string.instances.size(), 5u) << "four stands, the uppermost cut, and the bit";
+  EXPECT_EQ(string.elementCount(), 2 + 3 * 4 + 2);
+  EXPECT_NEAR(build(filling("fill*stand, bit")).length(), 1000.0, 1e-9) << "to the end of the well";
+  EXPECT_EQ(build(filling("fill*stand, bit", "32")).instances.size(), 4u)
+      << "no sliver of a fourth";
+  EXPECT_NEAR(build(filling("5*stand, bit", "33.5")).length(), 33.5, 1e-12) << "cut without a fill";
+}
+
+TEST(Mesh, RefusesAFillThatCannotBe) {
+  const auto refused = [](const std::string& assembly, const std::string& depth,
+                          const std::string& words) {
+    const std::string error = errorOf(filling(assembly, depth));
+    EXPECT_NE(error.find(words), std::string::npos) << error;
+  };
+  refused("bit, fill*stand", "30", "\"fill*stand\" is not the first entry");
+  refused("fill*stand, 20*bit", "30", "is 40 m long, but the bit is at 30 m");
+  refused("2*stand, bit", "30", "does not reach the surface from a bit at 30 m");
+  refused("fill*stand, bit", "2000", "but the well ends at 1000 m");
+  refused("fill*stnd, bit", "30", "Did you mean \"stand\"?");
+  EXPECT_NE(errorOf(list("Components", tube("pipe", 9.0, 3, 0.06, 0.05) +
+                                           list("stand", array("Parts", "fill*pipe"))) +
+                    array("Assembly", "stand"))
+                .find("only the first entry of an Assembly"),
+            std::string::npos);
+}
+
 TEST(Mesh, ClearanceIsTheSmallerOneWhereSectionOrBoreChange) {
   const well::Well well(well::straight(100.0), 0.1, {{"casing", 0.0, 10.0, 0.15}});
   const DrillString string = build(
