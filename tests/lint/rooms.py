@@ -37,8 +37,9 @@ DRILLSTRING = {
     "equilibrium": ("beam contact", GROUND, "the static state"),
     "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
     "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
-    "drillstring/case": ("beam contact drilling drillstring drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
-    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
+    "drillstring/scene": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to typed values and the static state"),
+    "drillstring/case": ("beam contact drilling drillstring drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string as a case: records, results, figures"),
+    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 
 

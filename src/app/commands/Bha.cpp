@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands/Commands.hpp"
 #include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
 #include "common/Error.hpp"
 #include "substructures/drillstring/analyses/BottomHole.hpp"
 
@@ -15,6 +16,7 @@ void bha(const RunOptions& options) {
         ": a bottom-hole assembly is part of a string in its well. Give a deck with the "
         "lists Well and Drillstring.");
   drillstring::reportBottomHole(*string, options.output);
+  reportAtEnd(cases::analysisFolder(*one, options.output, "bha"), one->output().report);
 }
 
 }  // namespace tooljoint::app

@@ -16,7 +16,7 @@
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/analyses/BottomHoleState.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 #include "substructures/well/ArcChain.hpp"
 #include "substructures/well/Frames.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "substructures/drillstring/case/BottomHoleParameters.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::drillstring {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "substructures/drillstring/analyses/BottomHole.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

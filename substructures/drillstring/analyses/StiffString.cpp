@@ -9,8 +9,8 @@
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/beam/VonMises.hpp"
 #include "substructures/drillstring/analyses/Hanging.hpp"
-#include "substructures/drillstring/case/RestProblem.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 
 namespace tooljoint::drillstring {

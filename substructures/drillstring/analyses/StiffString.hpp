@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "substructures/drillstring/EquationBuilder.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/softstring/SoftString.hpp"
 

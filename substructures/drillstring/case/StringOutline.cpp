@@ -7,7 +7,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

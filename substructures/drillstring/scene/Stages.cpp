@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,8 @@
 #include "substructures/contact/Eccentric.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
 #include "substructures/drillstring/SidedFeatures.hpp"
-#include "substructures/drillstring/case/RestProblem.hpp"
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 

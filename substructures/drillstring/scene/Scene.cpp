@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
-#include "substructures/drillstring/case/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 #include "transient/Integrator.hpp"
 

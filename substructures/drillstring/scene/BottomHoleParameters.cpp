@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <Teuchos_ParameterList.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/RestProblem.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
 
 #include <algorithm>
 #include <string>
