@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "reduction/Reduce.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cpack: the Debian packages tooljoint (program, libraries, documents, scenes) and libtooljoint-dev (headers, find_package). What depends on
-# what is looked up by dpkg-shlibdeps; cmake/DebianFiles.cmake brings the installed files into the form of the distribution.
+# cpack: the Debian packages tooljoint (program, libraries, documents, scenes), libtooljoint-dev (headers, find_package) and
+# python3-tooljoint (the Python package, where it is built). What depends on what is looked up by dpkg-shlibdeps; cmake/DebianFiles.cmake brings the installed files into the form of the distribution.
 if(NOT UNIX OR APPLE)
   return()
 endif()
@@ -14,6 +14,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_COMPONENTS_ALL program dev)
+if(TARGET tooljoint_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
 set(CPACK_TOOLJOINT_CHANGES ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
@@ -50,4 +53,14 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "tooljoint (= ${PROJECT_VERSION}), libopenmpi-dev, libhdf5-openmpi-dev, trilinos-all-dev, libptscotch-dev, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers of the libraries behind Tooljoint and the files with which CMake
 finds them: find_package(Tooljoint).")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-tooljoint)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "tooljoint (= ${PROJECT_VERSION}), python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy, python3-scipy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "Tooljoint in Python: parts from scipy matrices, their reduction, coupling,
+modes, error estimates and motions; decks that are read, changed and run in
+process; bases and point laws written in Python.")
 include(CPack)

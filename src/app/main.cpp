@@ -167,7 +167,7 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
       "report", "one HTML file with figures, plots and a 3-D view of a results folder");
   report
       ->add_option("DIR", options.reported,
-                   "folder of run, study or map, or the --output of torque-drag or modes")
+                   "folder of run, study or map, or the --output of torque-drag, bha or modes")
       ->type_name("DIR")
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")
@@ -213,6 +213,13 @@ void addAnalyses(CLI::App& program, tooljoint::app::RunOptions& options,
       "hook load, surface torque, buckling and yield margins against the depth of the bit");
   addDeckOptions(*torqueDragCommand, options, Output::Wanted);
   torqueDragCommand->callback([&] { command = [&] { tooljoint::app::torqueDrag(options); }; });
+
+  auto* bhaCommand = program.add_subcommand(
+      "bha",
+      "side force and tilt at the bit, contacts, bending and sag of a bottom-hole assembly "
+      "against weight on bit, inclination and tool face");
+  addDeckOptions(*bhaCommand, options, Output::Always, "_bha");
+  bhaCommand->callback([&] { command = [&] { tooljoint::app::bha(options); }; });
 
   auto* campbellCommand = program.add_subcommand(
       "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");

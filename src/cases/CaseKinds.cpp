@@ -47,20 +47,36 @@ const CaseKind& CaseKinds::of(const std::vector<std::string>& lists) const {
   return it == kinds_.end() ? kinds_.front() : *it;
 }
 
-std::unique_ptr<Case> readCase(const std::string& file, const std::vector<std::string>& overrides) {
+namespace {
+
+/// The case of the deck that read() gives with the description that `file` asks for.
+std::unique_ptr<Case> makeCase(
+    const std::string& file, const std::function<deck::Deck(const deck::Deck::ChooseSpec&)>& read) {
   const CaseKind* kind = nullptr;
-  auto deck = deck::Deck::read(
-      file,
-      [&](const std::vector<std::string>& lists) {
-        try {
-          kind = &CaseKinds::instance().of(lists);
-        } catch (const DeckError& error) {
-          throw DeckError(file + ": " + error.what());
-        }
-        return kind->parameters();
-      },
-      overrides);
+  auto deck = read([&](const std::vector<std::string>& lists) {
+    try {
+      kind = &CaseKinds::instance().of(lists);
+    } catch (const DeckError& error) {
+      throw DeckError(file + ": " + error.what());
+    }
+    return kind->parameters();
+  });
   return kind->make(std::move(deck));
+}
+
+}  // namespace
+
+std::unique_ptr<Case> readCase(const std::string& file, const std::vector<std::string>& overrides) {
+  return makeCase(file, [&](const deck::Deck::ChooseSpec& choose) {
+    return deck::Deck::read(file, choose, overrides);
+  });
+}
+
+std::unique_ptr<Case> parseCase(const std::string& text, const std::string& file,
+                                const std::vector<std::string>& overrides) {
+  return makeCase(file, [&](const deck::Deck::ChooseSpec& choose) {
+    return deck::Deck::parse(text, file, choose, overrides);
+  });
 }
 
 }  // namespace tooljoint::cases

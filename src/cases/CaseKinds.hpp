@@ -40,5 +40,9 @@ class CaseKinds {
 /// Reads the deck once, finds its kind and makes the case. DeckError, ModelError, FileError.
 /// Collective.
 std::unique_ptr<Case> readCase(const std::string& file, const std::vector<std::string>& overrides);
+/// The same of a deck in memory, the same on all ranks; `file` is what errors call it, and relative
+/// names of files are relative to its folder.
+std::unique_ptr<Case> parseCase(const std::string& text, const std::string& file,
+                                const std::vector<std::string>& overrides);
 
 }  // namespace tooljoint::cases

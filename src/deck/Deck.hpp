@@ -46,6 +46,8 @@ class Deck {
   /// The same from a text in memory; `file` is what errors call it. Not collective.
   static Deck parse(const std::string& text, const std::string& file, const ListSpec& scene,
                     const std::vector<std::string>& overrides = {});
+  static Deck parse(const std::string& text, const std::string& file, const ChooseSpec& choose,
+                    const std::vector<std::string>& overrides = {});
 
   /// This deck with these overrides instead of its own, from the text that has been parsed.
   Deck with(const std::vector<std::string>& overrides) const;
@@ -85,8 +87,6 @@ class Deck {
  private:
   struct Source;  ///< what was read, and its description
   struct Map;     ///< path -> place
-  static Deck parse(const std::string& text, const std::string& file, const ChooseSpec& choose,
-                    const std::vector<std::string>& overrides);
   static Deck make(std::shared_ptr<const Source> source, const std::string& file,
                    const std::vector<std::string>& overrides);
   std::string relative(const std::string& path) const;

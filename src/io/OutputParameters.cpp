@@ -62,9 +62,10 @@ deck::ListSpec parameters() {
                  {"displacement", "velocity", "acceleration", "normal_force"},
                  "Motions and forces of all nodes recorded at every sample; {} records none.")
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
-      .boolean("Report", defaults.report,
-               "Write report.html at the end of `tooljoint run`, `study`, `map` and `torque-drag "
-               "--output`: figures, plots and a 3-D view of the results in one file.")
+      .boolean(
+          "Report", defaults.report,
+          "Write report.html at the end of `tooljoint run`, `study`, `map`, `bha` and `torque-drag "
+          "--output`: figures, plots and a 3-D view of the results in one file.")
       .boolean("XDMF", defaults.xdmf,
                "Write results.xdmf for ParaView: the string in its well, coloured by contact force "
                "and speed.")

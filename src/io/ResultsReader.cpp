@@ -121,6 +121,14 @@ std::vector<std::size_t> ResultsReader::shape(const std::string& path) const {
   return extents(dataset.get());
 }
 
+ResultsReader::Kind ResultsReader::kind(const std::string& path) const {
+  const Handle dataset = openDataset(file_, path);
+  if (!dataset.valid()) fail("dataset " + path);
+  const Handle type(H5Dget_type(dataset.get()), H5Tclose);
+  const H5T_class_t found = H5Tget_class(type.get());
+  return found == H5T_STRING ? Kind::Text : found == H5T_INTEGER ? Kind::Integer : Kind::Real;
+}
+
 std::vector<double> ResultsReader::numbers(const std::string& path) const {
   const Handle dataset = openDataset(file_, path);
   if (!dataset.valid()) fail("dataset " + path);

@@ -22,6 +22,8 @@ class ResultsReader {
   bool has(const std::string& path) const;
   /// Paths of all datasets, in alphabetical order.
   std::vector<std::string> datasets() const;
+  enum class Kind { Real, Integer, Text };
+  Kind kind(const std::string& path) const;
   /// Extents; empty for a scalar.
   std::vector<std::size_t> shape(const std::string& path) const;
   /// All values, row-major.

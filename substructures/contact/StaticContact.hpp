@@ -7,6 +7,7 @@
 
 #include <utility>
 
+#include "common/Types.hpp"
 #include "substructures/contact/ContactPoints.hpp"
 
 namespace tooljoint::contact {
@@ -49,8 +50,8 @@ class StaticContact {
 
   /// Forces of all points: uv (2 per point: u, v [m]) -> f (kForces per point); with `tangent` not
   /// null also df/d(u, v), row by row (kForces x 2 per point).
-  void evaluate(const Options& options, const double* uv, double* f,
-                double* tangent = nullptr) const;
+  virtual void evaluate(const Options& options, const double* uv, double* f,
+                        double* tangent = nullptr) const;
 
   /// Normal force F_n [N] per point, positive when the wall pushes; with `slope` not null also
   /// dF_n/dG [N/m].
@@ -59,6 +60,9 @@ class StaticContact {
 
   /// What the law pulls an open point with at most [N]; 0 where it never does.
   virtual double largestPull() const = 0;
+
+  /// Centre of contact of a point from the axis of the string [m].
+  virtual Eigen::Vector2d offset(int /*point*/) const { return Eigen::Vector2d::Zero(); }
 
  protected:
   ContactPoints points_;

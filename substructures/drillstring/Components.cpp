@@ -6,6 +6,7 @@
 #include <charconv>
 #include <utility>
 
+#include "common/Constants.hpp"
 #include "common/Text.hpp"
 
 namespace tooljoint::drillstring {
@@ -18,6 +19,9 @@ using Teuchos::ParameterList;
 
 const std::array<const char*, 4> generalNames = {"Area", "Inertia X", "Inertia Y",
                                                  "Torsion Constant"};
+
+/// Largest angle of a bend [rad]: displacements are linear in it.
+constexpr double largestBend = 10.0 * constants::degree;
 
 deck::ListSpec materialSpec() {
   return deck::ListSpec("Material",
@@ -54,6 +58,18 @@ void addSegmentParameters(deck::ListSpec& spec, const deck::Default& length) {
   beam::declareElement(spec, Optional{},
                        "Finite element of this piece, where it differs from Drillstring/Element.");
   spec.list(materialSpec());
+}
+
+/// A bend or a pad: how much, where, and to which side.
+deck::ListSpec sidedSpec(const std::string& name, const std::string& doc, const Range& range,
+                         const std::string& size, const std::string& unit,
+                         const std::string& sizeDoc) {
+  return deck::ListSpec(name, doc)
+      .real(size, unit, Required{}, range, sizeDoc)
+      .real("Position", "m", Required{}, Range::nonNegative(),
+            "Distance from the top of the component; a node must stand there.")
+      .real("Direction", "rad", 0.0, Range::any(),
+            "Side it points to, from Drillstring/Tool Face, clockwise looking down the hole.");
 }
 
 double valueOr(const ParameterList& list, const char* name, double standard) {
@@ -108,6 +124,8 @@ class ComponentReader {
       readParts(name, list, component);
     }
     readGauge(name, list, component);
+    component.bend = sided(list, "Bend", "Angle");
+    component.pad = sided(list, "Pad", "Force");
     return component;
   }
 
@@ -204,9 +222,26 @@ class ComponentReader {
       fail(name,
            std::string("A gauge needs both Gauge Position and Gauge Radius (or Gauge Diameter); ") +
                (position ? "Gauge Radius" : "Gauge Position") + " is missing.");
+    for (const char* eccentric : {"Gauge Offset", "Gauge Offset Direction"})
+      if (list.isParameter(eccentric) && !position)
+        fail(name + "/" + eccentric,
+             "Only a gauge can be eccentric: give Gauge Position and Gauge Radius too.");
+    if (list.isParameter("Gauge Offset Direction") && !list.isParameter("Gauge Offset"))
+      fail(name + "/Gauge Offset Direction",
+           "It has no effect on a gauge without Gauge Offset. Give that, or leave it out.");
     if (!position) return;
     component.gaugePosition = list.get<double>("Gauge Position");
     component.gaugeRadius = list.get<double>("Gauge Radius");
+    component.gaugeOffset = valueOr(list, "Gauge Offset", 0.0);
+    component.gaugeDirection = valueOr(list, "Gauge Offset Direction", 0.0);
+  }
+
+  static std::optional<SidedFeature> sided(const ParameterList& list, const char* name,
+                                           const char* size) {
+    if (!list.isSublist(name)) return std::nullopt;
+    const ParameterList& own = list.sublist(name);
+    return SidedFeature{own.get<double>("Position"), own.get<double>(size),
+                        own.get<double>("Direction")};
   }
 
   const SegmentDefaults& standard_;
@@ -257,6 +292,20 @@ deck::ListSpec componentParameters() {
             "must stand there.");
   spec.radius("Gauge Radius", Optional{}, Range::positive(),
               "Radius of the gauge; it replaces the outer radius in contact at that node.");
+  spec.real("Gauge Offset", "m", Optional{}, Range::positive(),
+            "Distance of the centre of an eccentric gauge from that of the string.")
+      .expert();
+  spec.real("Gauge Offset Direction", "rad", Optional{}, Range::any(),
+            "Side the eccentric gauge stands out to, from Drillstring/Tool Face; 0 when absent.")
+      .expert();
+  spec.list(sidedSpec("Bend", "Bend without stress, as of a bent housing or a bent sub.",
+                      deck::Range{0.0, largestBend, true, false}, "Angle", "rad",
+                      "Angle by which the string below points to one side."));
+  spec.list(sidedSpec("Pad",
+                      "Pad that presses on the wall, as of a rotary steerable tool; it does not "
+                      "turn with the string.",
+                      Range::positive(), "Force", "N",
+                      "Force of the pad on the wall; the string is pushed the other way."));
   return spec;
 }
 

@@ -36,7 +36,14 @@ struct AssemblyEntry {
   bool fill = false;
 };
 
-/// A component: either segments or parts, and perhaps a gauge.
+/// Something at a place of a component that points to one side of the string.
+struct SidedFeature {
+  double position = 0.0;   ///< from the top of the component [m]; must be a node
+  double size = 0.0;       ///< angle of a bend [rad], force of a pad [N]
+  double direction = 0.0;  ///< from the tool face, clockwise looking down the hole [rad]
+};
+
+/// A component: either segments or parts, and perhaps a gauge, a bend and a pad.
 struct Component {
   std::string name;
   std::string
@@ -45,7 +52,11 @@ struct Component {
   std::vector<AssemblyEntry> parts;
   std::optional<double>
       gaugePosition;  ///< distance of the gauge from the top of the component [m]; must be a node
-  double gaugeRadius = 0.0;  ///< [m]
+  double gaugeRadius = 0.0;     ///< [m]
+  double gaugeOffset = 0.0;     ///< of the centre of the gauge from that of the string [m]
+  double gaugeDirection = 0.0;  ///< of the offset, from the tool face [rad]
+  std::optional<SidedFeature> bend;
+  std::optional<SidedFeature> pad;
 };
 
 /// What pieces take that give none of their own.

@@ -32,6 +32,13 @@ struct Element {
   const beam::Section& section() const { return formulation->section(); }
 };
 
+/// Something at a node that points to one side of the string, as the scribe line has it.
+struct SidedNode {
+  int node = 0;            ///< 0-based
+  double size = 0.0;       ///< [rad] of a bend, [m] of an eccentric gauge, [N] of a pad
+  double direction = 0.0;  ///< from the tool face, clockwise looking down the hole [rad]
+};
+
 /// One occurrence of a component in the string.
 struct Instance {
   std::string component;  ///< name of the component
@@ -49,6 +56,12 @@ struct DrillString {
       instances;  ///< entries of the assembly, in order; every element belongs to exactly one
   std::vector<Instance>
       nested;  ///< the components inside them ("stand 2/pipe 1"), outer before inner
+
+  std::vector<SidedNode> bends;            ///< the string below points there without stress
+  std::vector<SidedNode> eccentricGauges;  ///< the centre of the gauge lies there
+  std::vector<SidedNode> pads;             ///< they press on the wall there
+  double toolFace = 0.0;  ///< of the scribe line, from the high side at the bit, clockwise looking
+                          ///< down the hole [rad]
 
   int nodeCount() const { return static_cast<int>(nodes.size()); }
   int elementCount() const { return static_cast<int>(elements.size()); }

@@ -96,6 +96,10 @@ deck::ListSpec drillstringParameters() {
                       "Young's modulus E.")
                 .real("Poisson Ratio", "", steel.poissonRatio, Range{-1.0, 0.5, true, false},
                       "Ratio of lateral contraction to stretch (Poisson)."));
+  spec.real("Tool Face", "rad", 0.0, Range::any(),
+            "Side that bends, eccentric gauges and pads of direction 0 point to: from the high "
+            "side of the hole at the bit (from north in a vertical hole), clockwise looking down "
+            "the hole.");
   beam::declareElement(spec, std::string("Timoshenko"),
                        "Finite element of components that give none.");
   return spec;
@@ -105,6 +109,7 @@ StringSettings readDrillstring(const deck::Deck& deck) {
   const Teuchos::ParameterList& list = deck.list().sublist(here);
   StringSettings settings;
   settings.defaults = {readMaterial(list), beam::readElement(list, {})};
+  settings.toolFace = list.get<double>("Tool Face");
   settings.assemblyWhere = deck.where(here + "/Assembly");
   std::vector<std::string> faults;
   if (list.isParameter("Library")) {
@@ -142,7 +147,10 @@ DrillString buildDrillString(const StringSettings& settings, const well::Well& w
   if (!bit) bit = settings.bitDepth;
   if (!bit && fills) bit = well.length();
   const auto assembly = bit ? filled(settings, *bit) : settings.assembly;
-  return buildDrillString(settings.library, assembly, well, settings.assemblyWhere, bit);
+  DrillString string =
+      buildDrillString(settings.library, assembly, well, settings.assemblyWhere, bit);
+  string.toolFace = settings.toolFace;
+  return string;
 }
 
 }  // namespace tooljoint::drillstring

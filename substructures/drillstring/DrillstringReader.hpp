@@ -22,6 +22,7 @@ struct StringSettings {
   std::optional<double> bitDepth;       ///< [m]; none: where the assembly ends, or the end of the
                                         ///< well for one that fills
   SegmentDefaults defaults;             ///< of components that give none
+  double toolFace = 0.0;                ///< [rad]
 };
 
 /// Description of the list `Drillstring`.

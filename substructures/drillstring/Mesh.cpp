@@ -31,9 +31,9 @@ constexpr double shortestRest = 0.1;
 /// More elements than this are taken for a slip in a repeat count.
 constexpr int mostElements = 200000;
 
-struct Gauge {
-  double s;
-  double radius;
+/// A place on one occurrence of a component.
+struct Place {
+  double s;  ///< [m]
   const Component* component;
   double position;  ///< from the top of its component [m]
   int firstNode, lastNode;
@@ -56,6 +56,8 @@ class Mesher {
       checkLength();
       setClearances();
       setGauges();
+      setBends();
+      setPads();
       warnOfUnseenBores();
     }
     if (!faults_.empty()) throw DeckError(join(faults_, "\n"));
@@ -114,9 +116,13 @@ class Mesher {
       good = placeAll(entry, instance.path + "/", inner, component.where + "/Parts") && good;
     stack_.pop_back();
     instance.lastElement = out_.elementCount() - 1;
-    if (component.gaugePosition)
-      gauges_.push_back({start + *component.gaugePosition, component.gaugeRadius, &component,
-                         *component.gaugePosition, instance.firstElement, out_.elementCount()});
+    const auto on = [&](double position) {
+      return Place{start + position, &component, position, instance.firstElement,
+                   out_.elementCount()};
+    };
+    if (component.gaugePosition) gauges_.push_back(on(*component.gaugePosition));
+    if (component.bend) bends_.push_back(on(component.bend->position));
+    if (component.pad) pads_.push_back(on(component.pad->position));
     if (top)
       out_.instances.back() = instance;
     else
@@ -173,14 +179,18 @@ class Mesher {
     const auto gone = cutInstances(out_.instances, first);
     for (Element& element : out_.elements) element.instance -= gone;
     cutInstances(out_.nested, first);
-    for (Gauge& gauge : gauges_) {
-      gauge.s -= above;
-      gauge.firstNode = std::max(0, gauge.firstNode - first);
-      gauge.lastNode -= first;
+    for (auto* places : {&gauges_, &bends_, &pads_}) cutPlaces(*places, above, first);
+  }
+
+  static void cutPlaces(std::vector<Place>& places, double above, int removed) {
+    for (Place& place : places) {
+      place.s -= above;
+      place.firstNode = std::max(0, place.firstNode - removed);
+      place.lastNode -= removed;
     }
-    gauges_.erase(std::remove_if(gauges_.begin(), gauges_.end(),
-                                 [](const Gauge& gauge) { return gauge.s < samePlace; }),
-                  gauges_.end());
+    places.erase(std::remove_if(places.begin(), places.end(),
+                                [](const Place& place) { return place.s < samePlace; }),
+                 places.end());
   }
 
   /// The number of instances that stood above.
@@ -240,49 +250,77 @@ class Mesher {
   }
 
   void setGauges() {
-    for (const Gauge& gauge : gauges_) {
-      int at = -1;
-      for (int i = gauge.firstNode; i <= gauge.lastNode; ++i)
-        if (std::abs(out_.nodes[static_cast<std::size_t>(i)].s - gauge.s) < samePlace) at = i;
-      if (at < 0) {
-        offNode(gauge);
-        continue;
-      }
-      Node& node = out_.nodes[static_cast<std::size_t>(at)];
-      const double bore =
-          std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
-      const double clearance = bore - gauge.radius;
-      const std::string gaugeText = "The gauge radius " + formatNumber(gauge.radius) + " m ";
-      if (clearance < tightFit)
-        fault(gauge.component->where, gaugeText + "does not fit into the hole of radius " +
-                                          formatNumber(bore) + " m at " + formatNumber(node.s) +
-                                          " m (node " + std::to_string(at + 1) + ").");
-      if (clearance > node.clearance - tightFit)
-        fault(gauge.component->where,
-              gaugeText + "is below the outer radius of the body at " + formatNumber(node.s) +
-                  " m, " + formatNumber(node.contactRadius) + " m, so it would never touch.");
-      node.clearance = std::max(0.0, clearance);
-      node.contactRadius = gauge.radius;
-      node.gauge = true;
-      node.component = gauge.component->name;
+    for (const Place& place : gauges_) {
+      const int at = nodeAt(place, "Gauge Position");
+      if (at >= 0) setGauge(place, at);
     }
   }
 
-  void offNode(const Gauge& gauge) {
-    const double start = gauge.s - gauge.position;
+  void setGauge(const Place& place, int at) {
+    const Component& gauge = *place.component;
+    Node& node = out_.nodes[static_cast<std::size_t>(at)];
+    const double bore =
+        std::min(well_.boreRadius(node.s - samePlace), well_.boreRadius(node.s + samePlace));
+    const double clearance = bore - gauge.gaugeRadius;
+    const std::string gaugeText = "The gauge radius " + formatNumber(gauge.gaugeRadius) + " m ";
+    if (clearance < tightFit)
+      fault(gauge.where, gaugeText + "does not fit into the hole of radius " + formatNumber(bore) +
+                             " m at " + formatNumber(node.s) + " m (node " +
+                             std::to_string(at + 1) + ").");
+    if (clearance - gauge.gaugeOffset > node.clearance - tightFit)
+      fault(gauge.where, gaugeText + "is below the outer radius of the body at " +
+                             formatNumber(node.s) + " m, " + formatNumber(node.contactRadius) +
+                             " m, so it would never touch.");
+    if (gauge.gaugeOffset > bore)
+      fault(gauge.where, "The Gauge Offset " + formatNumber(gauge.gaugeOffset) +
+                             " m is above the radius of the hole, " + formatNumber(bore) +
+                             " m. Give the distance between the centres of gauge and string.");
+    node.clearance = std::max(0.0, clearance);
+    node.contactRadius = gauge.gaugeRadius;
+    node.gauge = true;
+    node.component = gauge.name;
+    if (gauge.gaugeOffset > 0.0)
+      out_.eccentricGauges.push_back({at, gauge.gaugeOffset, gauge.gaugeDirection});
+  }
+
+  void setBends() {
+    for (const Place& place : bends_) {
+      const int at = nodeAt(place, "Bend/Position");
+      if (at < 0) continue;
+      if (at == 0 || at == out_.elementCount())
+        fault(place.component->where,
+              "The bend stands at the end of the string, where it bends nothing. Give a Position "
+              "above the bit and below the top.");
+      out_.bends.push_back({at, place.component->bend->size, place.component->bend->direction});
+    }
+  }
+
+  void setPads() {
+    for (const Place& place : pads_) {
+      const int at = nodeAt(place, "Pad/Position");
+      if (at >= 0)
+        out_.pads.push_back({at, place.component->pad->size, place.component->pad->direction});
+    }
+  }
+
+  /// The node at a place (0-based); a fault and -1 when there is none.
+  int nodeAt(const Place& place, const char* parameter) {
+    const double start = place.s - place.position;
     double nearest = 0.0;
     double distance = std::numeric_limits<double>::infinity();
-    for (int i = gauge.firstNode; i <= gauge.lastNode; ++i) {
-      const double position = out_.nodes[static_cast<std::size_t>(i)].s - start;
-      if (std::abs(position - gauge.position) >= distance) continue;
-      distance = std::abs(position - gauge.position);
-      nearest = position;
+    for (int i = place.firstNode; i <= place.lastNode; ++i) {
+      const double s = out_.nodes[static_cast<std::size_t>(i)].s;
+      if (std::abs(s - place.s) < samePlace) return i;
+      if (std::abs(s - place.s) >= distance) continue;
+      distance = std::abs(s - place.s);
+      nearest = s - start;
     }
-    fault(gauge.component->where,
-          "The Gauge Position " + formatNumber(gauge.position) +
+    fault(place.component->where,
+          std::string("The ") + parameter + " " + formatNumber(place.position) +
               " m is not at a node of the component; the nearest stands at " +
               formatNumber(std::round(nearest * 1e9) / 1e9) +
-              " m. Move the gauge or change the number of Elements.");
+              " m. Move it or change the number of Elements.");
+    return -1;
   }
 
   void warnOfUnseenBores() const {
@@ -303,7 +341,7 @@ class Mesher {
   std::optional<double> bit_;  ///< depth of the lower end; none: the whole assembly hangs
   DrillString out_;
   std::vector<const Segment*> segments_;  ///< of each element
-  std::vector<Gauge> gauges_;
+  std::vector<Place> gauges_, bends_, pads_;
   std::vector<std::string> stack_;
   std::vector<std::string> faults_;
   std::set<int> tooWide_;

@@ -255,6 +255,7 @@ void asTheSource(StaticProblem& problem, Stages& stages, StaticSwitches switches
 void describeContact(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
   const int nodes = input.nodes;
   state.normalForce = state.tangentialForce = state.frictionTorque = Vector::Zero(nodes);
+  state.contactForce = Matrix::Zero(2, nodes);
   state.gap = Vector::Constant(nodes, -std::numeric_limits<double>::infinity());
   if (input.contact == nullptr) return;
   Vector forces;
@@ -264,8 +265,9 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
   for (int p = 0; p < points.size(); ++p) {
     const auto i = static_cast<std::size_t>(p);
     const int n = points.node[i] - 1;
-    const double u = state.displacement(6 * n);
-    const double v = state.displacement(6 * n + 1);
+    const Eigen::Vector2d offset = input.contact->offset(p);
+    const double u = state.displacement(6 * n) + offset.x();
+    const double v = state.displacement(6 * n + 1) + offset.y();
     const double r = std::hypot(u, v);
     state.gap(n) = r - points.clearance[i];
     state.normalForce(n) = normal(p);
@@ -274,6 +276,7 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
         forces.segment<contact::StaticContact::kForces>(contact::StaticContact::kForces * p);
     state.tangentialForce(n) = r > 0.0 ? (u * force(1) - v * force(0)) / r : 0.0;
     state.frictionTorque(n) = force(3);
+    state.contactForce.col(n) = force.head<2>();
     const auto dof = static_cast<std::size_t>(6 * n);
     if ((input.held[dof] == 0 || input.held[dof + 1] == 0) && state.gap(n) > 0.0)
       ++state.contactNodes;
@@ -288,13 +291,12 @@ void describeContact(const StaticInput& input, const StaticProblem& problem, Sta
 
 /// Torques about the axis of the string. A spin of all sections by the same angle meets no elastic
 /// force, so the torque at the top balances loads, friction and supports below.
-void describeTorque(const StaticInput& input, const StaticProblem& problem, StaticState& state) {
+void describeTorque(const StaticInput& input, StaticState& state) {
   state.topTorque = state.torque(0);
-  const Vector unbalanced = problem.unbalanced(state.displacement);
   for (int n = 1; n < input.nodes; ++n) {
     const int dof = 6 * n + 5;
     state.appliedTorque += input.load(dof);
-    if (input.held[static_cast<std::size_t>(dof)] != 0) state.appliedTorque += unbalanced(dof);
+    if (input.held[static_cast<std::size_t>(dof)] != 0) state.appliedTorque += state.reaction(dof);
   }
   for (const StaticElement& element : input.elements)
     state.torqueScale = std::max(state.torqueScale, element.bendingMoment);
@@ -328,7 +330,10 @@ StaticState describe(const StaticInput& input, const StaticProblem& problem,
   state.lastElementAxialForce = state.axialForce(elements - 1);
   state.lastElementTorque = state.torque(elements - 1);
   describeContact(input, problem, state);
-  describeTorque(input, problem, state);
+  state.reaction = problem.unbalanced(displacement);
+  for (std::size_t dof = 0; dof < input.held.size(); ++dof)
+    if (input.held[dof] == 0) state.reaction(static_cast<int>(dof)) = 0.0;
+  describeTorque(input, state);
   return state;
 }
 

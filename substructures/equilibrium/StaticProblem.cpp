@@ -24,6 +24,7 @@ void check(const StaticInput& input) {
   const bool fits = input.nodes == static_cast<int>(input.elements.size()) + 1 &&
                     input.load.size() == dofs &&
                     (input.pathReaction.size() == 0 || input.pathReaction.size() == dofs) &&
+                    (input.kinks.empty() || input.kinks.size() == input.elements.size()) &&
                     static_cast<int>(input.held.size()) == dofs;
   if (!fits)
     throw ModelError(
@@ -91,6 +92,12 @@ StaticProblem::StaticProblem(const StaticInput& input)
     if (input.pathReaction.size() > 0)
       largest = std::max(largest, arm * std::abs(input.pathReaction(i)));
   }
+  // a bend beta: the force E I beta/L^2 that holds a string of the whole length straight
+  for (std::size_t e = 0; e < input.kinks.size(); ++e) {
+    const auto& section = input.elements[e].formulation->section();
+    largest = std::max(largest, section.youngModulus() * section.inertiaX() *
+                                    input.kinks[e].norm() / (length * length));
+  }
   forceScale_ = largest > 0.0 ? largest : 1.0;
   momentScale_ = forceScale_ * mean;
 }
@@ -109,17 +116,21 @@ Vector StaticProblem::restrict(const Vector& full) const {
   return x;
 }
 
+beam::Vector12 StaticProblem::motion(int element, const Vector& full) const {
+  const beam::Vector12 d = full.segment<12>(kDofs * element);
+  return input_.kinks.empty() ? d : beam::Vector12(d + input_.kinks[at(element)]);
+}
+
 double StaticProblem::axialForce(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
-  return e.pretension +
-         axialStiffness_[at(element)] *
-             (e.rotation.row(8) - e.rotation.row(2)).dot(full.segment<12>(kDofs * element));
+  return e.pretension + axialStiffness_[at(element)] *
+                            (e.rotation.row(8) - e.rotation.row(2)).dot(motion(element, full));
 }
 
 double StaticProblem::torque(int element, const Vector& full) const {
   const StaticElement& e = input_.elements[at(element)];
   return torsionalStiffness_[at(element)] *
-         (e.rotation.row(11) - e.rotation.row(5)).dot(full.segment<12>(kDofs * element));
+         (e.rotation.row(11) - e.rotation.row(5)).dot(motion(element, full));
 }
 
 beam::Matrix12 StaticProblem::geometricStiffness(int element, const Vector& full) const {
@@ -165,7 +176,7 @@ Vector StaticProblem::unbalanced(const Vector& full) const {
   if (switches_.pathReaction && input_.pathReaction.size() > 0) external += input_.pathReaction;
   Vector r = -external - pretension_;
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
-    const beam::Vector12 d = full.segment<12>(kDofs * e);
+    const beam::Vector12 d = motion(e, full);
     const StaticElement& element = input_.elements[at(e)];
     r.segment<12>(kDofs * e) += (element.stiffness + geometricStiffness(e, full)) * d;
   }
@@ -183,7 +194,7 @@ void StaticProblem::jacobian(const Vector& x, Sparse& jacobian) const {
   assembler_.clear(jacobian);
   for (int e = 0; e < static_cast<int>(input_.elements.size()); ++e) {
     const StaticElement& element = input_.elements[at(e)];
-    const beam::Vector12 d = full.segment<12>(kDofs * e);
+    const beam::Vector12 d = motion(e, full);
     beam::Matrix12 k = element.stiffness + geometricStiffness(e, full);
     if (switches_.geometricStiffness && switches_.exactJacobian) {
       // dK_gpo/dD D: F_apo and T_apo change with D
@@ -232,12 +243,15 @@ Vector StaticProblem::moved(const Vector& x, const Vector& dx, double s) const {
     const std::size_t dof = at(kDofs * (points.node[p] - 1));
     const int u = index_[dof], v = index_[dof + 1];
     if (u < 0 || v < 0) continue;
-    const double before = std::hypot(x(u), x(v)), after = std::hypot(there(u), there(v));
+    const Eigen::Vector2d offset = input_.contact->offset(static_cast<int>(p));
+    const Eigen::Vector2d from = Eigen::Vector2d(x(u), x(v)) + offset;
+    const Eigen::Vector2d to = Eigen::Vector2d(there(u), there(v)) + offset;
+    const double before = std::hypot(from.x(), from.y()), after = std::hypot(to.x(), to.y());
     if (before == 0.0 || after <= points.clearance[p]) continue;
-    const double alongNormal = (x(u) * there(u) + x(v) * there(v)) / before;
+    const double alongNormal = (from.x() * to.x() + from.y() * to.y()) / before;
     if (alongNormal < 0.5 * after) continue;  // half around the hole: no sliding along the wall
-    there(u) *= alongNormal / after;
-    there(v) *= alongNormal / after;
+    there(u) = to.x() * (alongNormal / after) - offset.x();
+    there(v) = to.y() * (alongNormal / after) - offset.y();
   }
   return there;
 }

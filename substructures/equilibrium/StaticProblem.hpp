@@ -31,6 +31,9 @@ struct StaticElement {
 struct StaticInput {
   int nodes = 0;
   std::vector<StaticElement> elements;
+  /// What elements have turned by against their nodes without stress (bends of the string), added
+  /// to D of each element [rad]; empty means none.
+  std::vector<beam::Vector12> kinks;
   Vector load;             ///< F_s: weight, mud, WOB, TOB [N, N m]
   Vector pathReaction;     ///< R_ipa; empty means zero
   std::vector<char> held;  ///< 1 where a support (or the choice of dof families) holds the dof
@@ -107,6 +110,8 @@ class StaticProblem : public model::NonlinearProblem {
 
  private:
   contact::StaticContact::Options contactOptions() const;
+  /// D of the ends of an element, kinks included.
+  beam::Vector12 motion(int element, const Vector& full) const;
   Vector lateral(const Vector& full) const;  ///< u, v of the contact points
   bool touches() const { return switches_.contact && input_.contact != nullptr; }
 

@@ -37,8 +37,10 @@ struct StaticState {
   Vector frictionTorque;   ///< per node about z [N m]
   Vector gap;  ///< G per node, positive in contact; NaN-free: -infinity where there is no contact
                ///< node [m]
-  Vector axialForce;  ///< F_apo per element, element frames, equation (20) [N]
-  Vector torque;      ///< T_apo per element [N m]
+  Matrix contactForce;  ///< of the wall on the string along u and v, 2 x nodes [N]
+  Vector reaction;      ///< of the supports on the string, 6 per node; 0 at free dofs [N, N m]
+  Vector axialForce;    ///< F_apo per element, element frames, equation (20) [N]
+  Vector torque;        ///< T_apo per element [N m]
   /// K_gpo(D_s) of each element in nodal frames; zero matrices when geometric stiffness is off.
   std::vector<beam::Matrix12> geometricStiffness;
 

@@ -57,6 +57,7 @@ void placeNodes(const PathInput& input, const PathOptions& options, const PathPr
   std::vector<double> guess = unstretchedDepths(input);
   for (std::size_t n = 0; n < nodePoses.size(); ++n) {
     state.position.push_back(nodePoses[n].position);
+    state.sectionAxis.push_back(nodePoses[n].triad.col(2));
     state.arcLength.push_back(footOnAxis(*input.trajectory, nodePoses[n].position, guess[n]));
   }
   if (options.mode == Mode::CentreLine) {
@@ -96,6 +97,7 @@ void describe(const PathInput& input, const PathOptions& options, const PathProb
     state.elementFrame.push_back(beam::elementTriad(state.position[i], state.position[i + 1],
                                                     state.frame[i], state.frame[i + 1]));
     state.chordLength.push_back(response.length);
+    state.force.push_back(response.force);
     state.axialForce(e) = response.axialForce;
     state.torque(e) = response.torque;
     if (withTangent) {

@@ -27,11 +27,15 @@ struct PathState {
   std::vector<Vector3> position;  ///< global [m]
   std::vector<Matrix3> frame;  ///< nodal frames Q, columns x, y, z; z is the well tangent (`Centre
                                ///< line`) or the axis of the node's cross section (`Imposed nodes`)
+  std::vector<Vector3> sectionAxis;  ///< axis of the cross section of each node, global; differs
+                                     ///< from z where bending jumps, at the ends above all
   std::vector<Vector3>
       offset;  ///< position minus foot on the axis, in the nodal frame [m]; zero in `Centre line`
   std::vector<Matrix3> elementFrame;  ///< E: z on the chord, x and y from the mean nodal frames
   std::vector<double> chordLength;    ///< l [m]
   Matrix reaction;                    ///< R_ipa = -Q' f_int, 6 x nodes, nodal frames [N, N m]
+  std::vector<beam::Vector12> force;  ///< internal forces and moments of each element at its nodes,
+                                      ///< global axes [N, N m]
   Vector axialForce;                  ///< F_apa per element [N]
   Vector torque;                      ///< T_apa per element [N m]
   /// Corotational tangent of each element at this state in nodal frames, moments included; empty

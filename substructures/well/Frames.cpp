@@ -56,6 +56,13 @@ Matrix3 smallestRotation(const Vector3& from, const Vector3& to) {
   return Matrix3::Identity() + cross + cross * cross / (1.0 + cosine);
 }
 
+Vector3 highSide(const Vector3& tangent) {
+  constexpr double vertical = 1e-6;  // [rad]
+  const bool hasHighSide = std::hypot(tangent.x(), tangent.y()) > vertical;
+  const Vector3 towards = hasHighSide ? Vector3(-Vector3::UnitZ()) : Vector3(Vector3::UnitX());
+  return (towards - towards.dot(tangent) * tangent).normalized();
+}
+
 std::vector<Matrix3> bishopFrames(const Trajectory& trajectory, const std::vector<double>& s) {
   std::vector<double> breaks = trajectory.breaks();
   auto nextBreak = breaks.begin();

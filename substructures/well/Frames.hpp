@@ -14,6 +14,11 @@ namespace tooljoint::well {
 /// opposite.
 Matrix3 smallestRotation(const Vector3& from, const Vector3& to);
 
+/// Unit vector across a hole towards its high side: away from gravity (+Z). In a vertical hole,
+/// which has none (inclination below 1e-6 rad), towards north (+X); the high side of a hole of
+/// azimuth 0 tends to it.
+Vector3 highSide(const Vector3& tangent);
+
 /// Rotation-minimising (Bishop) frames at the depths s [m], non-decreasing: matrices with columns
 /// x, y, z, where z is the tangent. At the surface x and y are global X and Y carried by the
 /// smallest rotation from Z to the tangent; from there they are transported without spin (double

@@ -53,6 +53,48 @@ double Well::boreRadius(double s) const {
   return covered ? inside : std::min(inside, boreRadius_);
 }
 
+namespace {
+
+/// A centre line from a depth on.
+class Below final : public Trajectory {
+ public:
+  Below(std::shared_ptr<const Trajectory> whole, double top)
+      : whole_(std::move(whole)), top_(top), origin_(whole_->at(top).position) {}
+
+  double length() const override { return whole_->length() - top_; }
+  WellPoint at(double s) const override {
+    WellPoint point = whole_->at(top_ + s);
+    point.position -= origin_;
+    return point;
+  }
+  std::vector<double> breaks() const override {
+    std::vector<double> depths;
+    for (const double depth : whole_->breaks())
+      if (depth > top_) depths.push_back(depth - top_);
+    return depths;
+  }
+
+ private:
+  std::shared_ptr<const Trajectory> whole_;
+  double top_;
+  Vector3 origin_;
+};
+
+}  // namespace
+
+Well Well::below(double top, std::shared_ptr<const Trajectory> centreLine) const {
+  std::vector<BoreInterval> lower;
+  for (auto interval : intervals_) {
+    if (!(interval.to > top)) continue;
+    interval.from -= top;
+    interval.to -= top;
+    lower.push_back(interval);
+  }
+  return Well(std::move(centreLine), boreRadius_, std::move(lower));
+}
+
+Well Well::below(double top) const { return below(top, std::make_shared<Below>(trajectory_, top)); }
+
 double Well::inclination(double s) const {
   const Vector3 tangent = trajectory_->at(s).tangent;
   return std::atan2(std::hypot(tangent.x(), tangent.y()), tangent.z());

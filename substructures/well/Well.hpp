@@ -36,6 +36,10 @@ class Well {
   /// Angle between the tangent and the vertical at the depth s [rad].
   double inclination(double s) const;
   const std::vector<BoreInterval>& intervals() const { return intervals_; }
+  /// The bore below the depth `top` [m] about another centre line, which starts there.
+  Well below(double top, std::shared_ptr<const Trajectory> centreLine) const;
+  /// The same about its own centre line.
+  Well below(double top) const;
 
  private:
   std::shared_ptr<const Trajectory> trajectory_;

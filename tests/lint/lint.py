@@ -16,7 +16,7 @@ import tempfile
 import rooms
 
 LONGEST = 500  # lines of a source file; beyond, it is two ideas
-ROOMS = ["src", "substructures", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
+ROOMS = ["src", "substructures", "python", "tests", "examples", "benchmarks", "cmake", "docs", "xml"]
 TOP = ["CMakeLists.txt", "CMakePresets.json", "README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CITATION.cff", "quickstart", ".ci/run"]
 SOURCES = {".cpp", ".hpp", ".py", ".sh", ".cmake", ".in"}
 TEXTS = SOURCES | {".txt", ".md", ".xml", ".json", ".csv", ".cff", ".yml", ".yaml", ".supp", ""}
@@ -107,6 +107,8 @@ def self_test():
         "substructures/drillstring/case/S.cpp": (spdx + '#include "study/Row.hpp"\n', "may not include src/study"),
         "substructures/path/G.cpp": (spdx + '#include "model/PointLaw.hpp"\n#include "substructures/beam/Section.hpp"\n#include <vector>\n', None),
         "substructures/beam/T.cpp": (spdx + '#include "substructures/path/PathState.hpp"\n', "substructures/beam may not include substructures/path"),
+        "python/core/V.cpp": (spdx + '#include "substructures/beam/Section.hpp"\n', "python/core binds the toolkit"),
+        "python/core/W.cpp": (spdx + '#include "study/Row.hpp"\n// a drill' + 'string\n', None),
         "src/attic/U.cpp": (spdx + '#include "common/Error.hpp"\n', "is not in tests/lint/rooms.py"),
         "docs/architecture.md": ("an old table\n", "lint.py --rooms"),
         "tests/unit/a/H.cpp": ("int x;\n", "no SPDX"),

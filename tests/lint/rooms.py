@@ -37,8 +37,9 @@ DRILLSTRING = {
     "equilibrium": ("beam contact", GROUND, "the static state"),
     "drillstring": ("beam contact drilling loads mud path well", GROUND, "components, mesh, supports, equations"),
     "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
-    "drillstring/case": ("beam contact drilling drillstring drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to a case"),
-    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
+    "drillstring/scene": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to typed values and the static state"),
+    "drillstring/case": ("beam contact drilling drillstring drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string as a case: records, results, figures"),
+    "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 
 
@@ -64,6 +65,8 @@ def included_room(included):
 def include_problem(path, included):
     """Why a file at `path` (in pieces) may not include `included`, or None."""
     room, target = room_of(path), included_room(included)
+    if path[0] == "python" and target and (target[0] != "src" or target[1] == "app"):
+        return f"python/core binds the toolkit, and may not include {'/'.join(target)} (tests/lint/rooms.py)"
     if room is None or target is None or room == target:
         return None
     side, name = room
@@ -87,4 +90,5 @@ def table():
         lines.append(f"| src/{name} | {holds} | {', '.join(sorted(rooms.split())) or '-'}{extra} |")
     for name, (own, toolkit, holds) in DRILLSTRING.items():
         lines.append(f"| substructures/{name} | {holds} | {', '.join(sorted(own.split()) + ['src/{' + ','.join(sorted(toolkit.split())) + '}'])} |")
+    lines.append("| python/core | the library in Python: a file for each concept of it | src/ but app |")
     return "\n".join(lines) + "\n"

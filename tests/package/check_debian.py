@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
 
-Packs what is built, unpacks both packages into an empty root, and uses them from there: the program makes a folder and runs its deck, the
-installed report answers, a client is configured with the headers. The libraries of the distribution are those of this machine. Lintian, where
+Packs what is built, unpacks the packages into an empty root, and uses them from there: the program makes a folder and runs its deck, the
+installed report answers, a client is configured with the headers, Python imports its package and computes. The libraries of the distribution are those of this machine. Lintian, where
 it is installed, finds no error.
 """
 import gzip
@@ -20,6 +20,8 @@ from checks import expect, finish, of_ranks  # noqa: E402
 
 CPACK, BUILD, VERSION, CMAKE = sys.argv[1:5]
 CLIENT = pathlib.Path(__file__).resolve().parent
+PYTHON = list(pathlib.Path(BUILD).glob("python/tooljoint/_core*.so"))
+NAMES = ["tooljoint", "libtooljoint-dev"] + ["python3-tooljoint"] * len(PYTHON)
 PACKED, ROOT = pathlib.Path("packed").resolve(), pathlib.Path("root").resolve()
 
 
@@ -28,13 +30,13 @@ def command(*words, **options):
 
 
 def pack():
-    """The files of both packages by their name."""
+    """The files of the packages by their name."""
     for folder in (PACKED, ROOT):
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
     done = command(CPACK, "--config", f"{BUILD}/CPackConfig.cmake", "-G", "DEB", "-B", PACKED)
     found = {path.name.split("_")[0]: path for path in PACKED.glob("*.deb")}
-    expect("cpack makes both packages", done.returncode == 0 and set(found) == {"tooljoint", "libtooljoint-dev"}, done.stdout[-600:] + done.stderr[-600:])
+    expect(f"cpack makes {', '.join(NAMES)}", done.returncode == 0 and set(found) == set(NAMES), done.stdout[-600:] + done.stderr[-600:])
     return found
 
 
@@ -45,14 +47,17 @@ def control(package):
 
 
 def fields(packages):
-    program, dev = (control(packages[name]) for name in ("tooljoint", "libtooljoint-dev"))
+    program, dev, *python = (control(packages[name]) for name in NAMES)
     needed = {word.strip().split(" ")[0] for word in program.get("Depends", "").split(",")}
     wanted = ("libc6", "libstdc++6", "libopenmpi", "libhdf5-openmpi", "libmumps", "libxml2", "libtrilinos-tpetra", "libtrilinos-nox", "libtrilinos-amesos2")
     expect("the program depends on the libraries it is linked to", all(any(name.startswith(word) for name in needed) for word in wanted), str(sorted(needed)))
     expect("and on no package of headers", not any(name.endswith("-dev") for name in needed), str(sorted(needed)))
     expect("its report is recommended", "python3-h5py" in program.get("Recommends", "") and "libjs-three" in program.get("Recommends", ""))
     expect("the headers depend on this program", f"tooljoint (= {VERSION})" in dev.get("Depends", "") and "trilinos-all-dev" in dev["Depends"], dev.get("Depends"))
-    for name, one in (("tooljoint", program), ("libtooljoint-dev", dev)):
+    for one in python:
+        expect("the Python package depends on this program, on its Python and on scipy",
+               all(word in one.get("Depends", "") for word in (f"tooljoint (= {VERSION})", "python3 (>= 3.", "python3 (<< 3.", "python3-scipy")), one.get("Depends"))
+    for name, one in zip(NAMES, (program, dev, *python)):
         expect(f"{name}: name, version, maintainer and description", one["Package"] == name and one["Version"] == VERSION and "@" in one["Maintainer"] and
                len(one["Description"].splitlines()) > 2, str(one))
 
@@ -61,7 +66,7 @@ def unpack(packages):
     for package in packages.values():
         done = command("dpkg-deb", "-x", package, ROOT)
         expect(f"{package.name} is unpacked", done.returncode == 0, done.stderr)
-    for name in ("tooljoint", "libtooljoint-dev"):
+    for name in NAMES:
         folder = ROOT / "usr/share/doc" / name
         copyright_ = (folder / "copyright").read_text(encoding="utf-8")
         expect(f"{name}: copyright", "License: BSD-3-clause" in copyright_ and "Redistribution and use" in copyright_ and "\n\n \n" not in copyright_)
@@ -77,7 +82,7 @@ def use():
     libraries = next(ROOT.glob("usr/lib/**/libtooljoint_toolkit.so.*")).parent
     environment = {**of_ranks(1), "LD_LIBRARY_PATH": str(libraries), "TOOLJOINT_REPORT": "off"}
     program = ROOT / "usr/bin/tooljoint"
-    for file in (program, *(path for path in libraries.glob("libtooljoint_*.so.*") if not path.is_symlink())):
+    for file in (program, *ROOT.glob("usr/lib/python3/dist-packages/tooljoint/_core*.so"), *(path for path in libraries.glob("libtooljoint_*.so.*") if not path.is_symlink())):
         paths = re.findall(r"\((?:RPATH|RUNPATH)\)", command("readelf", "-d", file).stdout)
         expect(f"{file.name}: no path of this machine in it", not paths, str(paths))
     loaded = command("ldd", program, env=environment).stdout
@@ -102,6 +107,14 @@ def develop():
     expect("a client finds the package", f"Tooljoint_DIR:PATH={ROOT}/usr/lib" in cache, done.stderr[-600:])
 
 
+def use_python():
+    """The package from the root with the interpreter it was built for, that of this test."""
+    libraries = next(ROOT.glob("usr/lib/**/libtooljoint_toolkit.so.*")).parent
+    folder = ROOT / "usr/lib/python3/dist-packages"
+    done = command(sys.executable, "-B", CLIENT.parent / "python/check_installed.py", folder, env={**of_ranks(1), "LD_LIBRARY_PATH": str(libraries), "PYTHONPATH": str(folder)})
+    expect("Python imports its package and computes", done.returncode == 0, done.stderr[-600:])
+
+
 def judge(packages):
     if not shutil.which("lintian"):
         print("lintian is not installed: not run")
@@ -112,11 +125,13 @@ def judge(packages):
 
 def main():
     packages = pack()
-    if len(packages) == 2:
+    if len(packages) == len(NAMES):
         fields(packages)
         unpack(packages)
         use()
         develop()
+        if PYTHON:
+            use_python()
         judge(packages)
     return finish()
 

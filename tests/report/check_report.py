@@ -284,6 +284,9 @@ def tables_alone():
     shutil.rmtree("tables", ignore_errors=True)
     tooljoint("torque-drag", STRING, "--output", "tables", "--set", "Torque and Drag/Depths={40, 42}")
     page("torque and drag alone", "tables", {"hook-load", "surface-torque", "buckling-1"})
+    shutil.rmtree("assembly", ignore_errors=True)
+    tooljoint("bha", str(pathlib.Path(__file__).resolve().parent.parent / "effects/bottom_hole.xml"), "--output", "assembly")
+    page("a bottom-hole assembly", "assembly", {"bha-high", "bha-right", "bha-moment"})
 
 
 def end_of_run():

@@ -10,8 +10,8 @@
 
 #include "coupling/assembly/Assembler.hpp"
 #include "reduction/Reduce.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 #include "transient/Transient.hpp"
 
 namespace tooljoint::testing_ {

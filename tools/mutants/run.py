@@ -172,7 +172,7 @@ class Tree:
 
 
 def target_of(entry):
-    return program_of(entry["test"]) or "tooljoint"
+    return program_of(entry["test"]) or ("tooljoint_python" if entry["test"].startswith("python.") else "tooljoint")
 
 
 def baseline(tree, entries):

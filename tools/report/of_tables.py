@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections and reports of tables: torque_drag.csv, modes.csv, basis.csv."""
+"""Sections and reports of tables: torque_drag.csv, bha.csv, modes.csv, basis.csv."""
 import math
 
 import plots
@@ -155,10 +155,47 @@ def add_modes(page, folder):
             page.add(file.split(".")[0].replace("_", "-"), title, table)
 
 
+def state_name(row):
+    """Weight, hole and tool face of a row of bha.csv."""
+    face = "rotating" if row["mode"] == "rotating" else f"tool face {math.degrees(row['tool_face']):.0f} deg"
+    return f"{row['weight_on_bit'] / 1e3:.0f} kN, {math.degrees(row['inclination']):.0f} deg, {face}"
+
+
+def along_assembly(name, label, caption, states, value):
+    """A line for each state; `value` of a row of bha_profile.csv."""
+    made, axes = plots.figure(plots.WIDE, 2.8)
+    for number, (state, own) in enumerate(states.items()):
+        axes.plot(numbers(own, "from_bit"), [value(row) for row in own], color=COLOURS[number % len(COLOURS)], linewidth=1.2, label=state)
+    axes.set_xlabel("distance from the bit [m]"), axes.set_ylabel(label)
+    plots.legend_above(axes, 2, -0.25)
+    return Figure(name, made, caption, True)
+
+
+def add_bha(page, folder):
+    """Forces and tilt at the bit, and the assembly in the hole under the largest weight."""
+    if not ((folder / "bha.csv").is_file() and (folder / "bha_profile.csv").is_file()):
+        return
+    rows, states = read_table(folder / "bha.csv"), {}
+    largest = max(numbers(rows, "weight_on_bit"))
+    for row in read_table(folder / "bha_profile.csv"):
+        if row["weight_on_bit"] == largest and row["inclination"] == rows[0]["inclination"]:
+            states.setdefault(state_name(row), []).append(row)
+    found = [along_assembly("bha-high", "to the high side [mm]", "Deflection of the assembly from the axis of the hole.", states, lambda row: 1e3 * row["deflection_high"]),
+             along_assembly("bha-right", "to the right side [mm]", "The same to the right, looking down the hole.", states, lambda row: 1e3 * row["deflection_right"]),
+             along_assembly("bha-moment", "bending moment [kN m]", "Bending moment.", states, lambda row: math.hypot(row["moment_high"], row["moment_right"]) / 1e3)]
+    degree = 180 / math.pi
+    table = tables.table(("state", "side force, high [kN]", "right [kN]", "tilt, high [deg]", "right [deg]", "largest moment [kN m]", "stress [MPa]"),
+                         [(state_name(row), *(f"{row[name] * factor:.3f}" for name, factor in (("side_force_high", 1e-3), ("side_force_right", 1e-3), ("tilt_high", degree), ("tilt_right", degree),
+                                                                                                ("largest_moment", 1e-3), ("largest_von_mises", 1e-6)))) for row in rows],
+                         range(1, 7), "Side force of the bit on the rock, to the high side and to the right side of the hole")
+    page.plots("bha", "Bottom-hole assembly", found, table)
+
+
 def page_of(folder):
     """Of a folder that holds tables alone."""
-    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
+    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
                                                                 if (folder / file).is_file()))
     add_torque_drag(page, folder)
+    add_bha(page, folder)
     add_modes(page, folder)
     return page

@@ -66,6 +66,9 @@ void modes(const RunOptions& options);
 /// against the depth of its bit; torque_drag.csv and torque_drag_profile.csv in the output folder,
 /// if one is given.
 void torqueDrag(const RunOptions& options);
+/// `tooljoint bha`: the lower part of a string at rest, against weight on bit, inclination and tool
+/// face.
+void bha(const RunOptions& options);
 /// `tooljoint campbell`: damped modes against the rotary speed, and critical speeds.
 void campbell(const RunOptions& options);
 /// `tooljoint response`: amplitude and phase under harmonic loads against speed or frequency.

@@ -2,7 +2,7 @@
 #include "app/commands/Commands.hpp"
 #include "deck/Manual.hpp"
 #include "substructures/drillstring/Components.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::app {
 

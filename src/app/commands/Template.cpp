@@ -8,7 +8,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "substructures/drillstring/Components.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::app {
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -63,15 +64,30 @@ std::string interpreter() {
   return "";
 }
 
-}  // namespace
-
-PythonScript::PythonScript(const std::string& name) : name_(name) {
+/// Folders that may hold share/tooljoint: those of the program (bin/..), then those of this library
+/// (lib/.. or lib/<architecture>/../..), for programs and interpreters from elsewhere.
+std::vector<std::filesystem::path> roots() {
   namespace fs = std::filesystem;
   std::error_code error;
   const auto program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const auto& root : {program.parent_path(), program}) {
+  std::vector<fs::path> all{program.parent_path(), program};
+  Dl_info library{};
+  if (dladdr(reinterpret_cast<const void*>(&interpreter), &library) != 0 &&
+      library.dli_fname != nullptr) {
+    const auto folder = fs::weakly_canonical(library.dli_fname, error).parent_path();
+    for (const auto& root : {folder, folder.parent_path(), folder.parent_path().parent_path()})
+      all.push_back(root);
+  }
+  return all;
+}
+
+}  // namespace
+
+PythonScript::PythonScript(const std::string& name) : name_(name) {
+  std::error_code error;
+  for (const auto& root : roots()) {
     const auto path = root / "share/tooljoint/tools" / name;
-    if (fs::exists(path, error)) {
+    if (std::filesystem::exists(path, error)) {
       path_ = path.string();
       return;
     }

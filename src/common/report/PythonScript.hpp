@@ -15,7 +15,8 @@ struct ScriptEnd {
   std::string errors;    ///< what it wrote to standard error, or why it was not started
 };
 
-/// A script beside the program, in the build tree as in the install tree (bin/../share).
+/// A script beside the program or this library, in the build tree as in the install tree
+/// (bin/../share).
 class PythonScript {
  public:
   /// `name` below share/tooljoint/tools, e.g. "plot_study.py"; a folder has a __main__.py.

@@ -3,7 +3,7 @@
 /// The string of a scene with its bit at another depth.
 #pragma once
 
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::drillstring {
 

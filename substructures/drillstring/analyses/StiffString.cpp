@@ -7,25 +7,15 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "substructures/beam/NodalDofs.hpp"
+#include "substructures/beam/VonMises.hpp"
 #include "substructures/drillstring/analyses/Hanging.hpp"
-#include "substructures/drillstring/case/RestProblem.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
 #include "substructures/equilibrium/Equilibrium.hpp"
 
 namespace tooljoint::drillstring {
 
 using namespace beam::nodal;
-
-double vonMises(const beam::Section& section, double tension, double torque, double curvature) {
-  double largest = 0.0;
-  for (const double radius : {section.innerRadius(), section.outerRadius()}) {
-    const double axial =
-        std::abs(tension) / section.area() + section.youngModulus() * curvature * radius;
-    const double shear = torque * radius / section.torsion();
-    largest = std::max(largest, std::sqrt(axial * axial + 3.0 * shear * shear));
-  }
-  return largest;
-}
 
 StiffString::StiffString(const Scene& scene, double bit)
     : scene_(hungAt(scene, bit)),
@@ -84,8 +74,8 @@ StiffLoads StiffString::under(const softstring::Operation& operation) const {
     loads.tension.push_back(state.axialForce(e));
     loads.torque.push_back(state.torque(e));
     loads.moment.push_back(moment);
-    loads.vonMises.push_back(
-        vonMises(section, state.axialForce(e), state.torque(e), moment / bending_[at(e)].rigidity));
+    loads.vonMises.push_back(beam::vonMises(section, state.axialForce(e), state.torque(e),
+                                            moment / bending_[at(e)].rigidity));
   }
   return loads;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "substructures/drillstring/EquationBuilder.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/path/PathState.hpp"
 #include "substructures/softstring/SoftString.hpp"
 
@@ -26,7 +26,7 @@ struct StiffLoads {
   std::vector<double> depth;                    ///< of the nodes, from the surface [m]
   std::vector<double> contactForce;             ///< of each node [N]
   std::vector<double> tension, torque, moment;  ///< of each element, at its middle [N, N m]
-  std::vector<double> vonMises;                 ///< of each element, as vonMises() [Pa]
+  std::vector<double> vonMises;                 ///< of each element, by beam::vonMises() [Pa]
 
   bool found() const { return failure.empty(); }
   template <class Archive>
@@ -35,13 +35,6 @@ struct StiffLoads {
             contactForce, tension, torque, moment, vonMises);
   }
 };
-
-/// Largest von Mises stress of a round section at both walls and on both sides of the bend [Pa].
-/// Equal pressure inside and outside is hydrostatic in the wall and part of the effective tension
-/// T:
-///
-///     sigma^2 = (T/S +- E kappa R)^2 + 3 (M R/J)^2
-double vonMises(const beam::Section& section, double tension, double torque, double curvature);
 
 /// The string with its bit at one depth. The nodes stand where they are in the loaded string, the
 /// hanging one without friction: displacements are those by drag, weight on bit and contact alone.

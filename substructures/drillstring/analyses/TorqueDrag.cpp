@@ -10,6 +10,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "deck/Defaults.hpp"
+#include "substructures/beam/VonMises.hpp"
 #include "substructures/drillstring/analyses/StiffRows.hpp"
 #include "substructures/softstring/Buckling.hpp"
 
@@ -189,7 +190,7 @@ TorqueDragProfile torqueDragAt(const SoftModel& model,
     profile.sinusoidal.push_back(limits.sinusoidal);
     profile.helical.push_back(limits.helical);
     profile.vonMises.push_back(
-        vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
+        beam::vonMises(stretch.section, loads.tension[i], loads.torque[i], point.curvature.norm()));
     if (settings.yieldStrength && profile.vonMises.back() > 0.0)
       keepLeast(row.yield, *settings.yieldStrength / profile.vonMises.back(), s);
     if (loads.tension[i] < 0.0) {

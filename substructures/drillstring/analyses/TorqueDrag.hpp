@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "substructures/drillstring/analyses/StiffString.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/softstring/SoftString.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 

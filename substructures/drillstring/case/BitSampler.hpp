@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cases/PointRecord.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
 #include "substructures/drillstring/figures/BitFigures.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/loads/Load.hpp"
 
 namespace tooljoint::drillstring {

@@ -12,7 +12,7 @@
 #include "substructures/drillstring/case/StringOutline.hpp"
 #include "substructures/drillstring/case/StringRecord.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 

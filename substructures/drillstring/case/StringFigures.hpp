@@ -12,10 +12,10 @@
 #include "cases/figures/OrbitFigures.hpp"
 #include "cases/figures/SignalFigures.hpp"
 #include "io/OutputFolder.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
 #include "substructures/drillstring/figures/BendingFigures.hpp"
 #include "substructures/drillstring/figures/BitFigures.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

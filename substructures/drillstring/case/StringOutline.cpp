@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "substructures/drillstring/case/StringOutline.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "common/Constants.hpp"
 #include "common/Text.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -47,6 +49,16 @@ std::vector<cases::OutlineItem> physics(const Scene& scene) {
   items.push_back({drive, "top drive",
                    drive ? drilling::describe(scene.topDrive)
                          : "no Top Drive list: it turns with the rotary speed"});
+  const double toolFace = scene.string.toolFace / constants::degree;
+  const auto sided = [&](const std::vector<SidedNode>& nodes, const char* what) {
+    if (!nodes.empty())
+      items.push_back({true, what,
+                       std::to_string(nodes.size()) + ", tool face " +
+                           formatNumber(std::round(1e3 * toolFace) / 1e3) + " deg"});
+  };
+  sided(scene.string.bends, "bends");
+  sided(scene.string.eccentricGauges, "eccentric gauges");
+  sided(scene.string.pads, "pads");
   if (scene.loads.empty()) items.push_back({false, "loads", "no Loads list"});
   for (const auto& load : scene.loads)
     for (const auto& remark : load->describe(scene.rotary))

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cases/Case.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 namespace tooljoint::drillstring {
 

@@ -10,9 +10,9 @@
 
 #include "cases/PointRecord.hpp"
 #include "substructures/drillstring/case/BitSampler.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
 #include "substructures/drillstring/case/StringFigures.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

@@ -11,7 +11,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "io/Csv.hpp"
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 

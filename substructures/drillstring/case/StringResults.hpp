@@ -9,8 +9,8 @@
 #include "io/OutputFolder.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/Summary.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

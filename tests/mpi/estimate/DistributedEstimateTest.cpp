@@ -10,8 +10,8 @@
 #include "coupling/assembly/Assembler.hpp"
 #include "estimate/AdaptiveReduction.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {

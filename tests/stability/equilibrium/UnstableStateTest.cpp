@@ -10,7 +10,7 @@
 #include "estimate/ModeComparison.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "substructures/beam/Section.hpp"
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 #include "tests/support/Scenes.hpp"
 
 namespace {

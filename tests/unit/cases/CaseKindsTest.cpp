@@ -84,6 +84,18 @@ TEST(CaseKinds, VariantsOfACaseDoNotReadTheFileAgain) {
   EXPECT_EQ(other->nodes(), one->nodes());
 }
 
+TEST(CaseKinds, ADeckInMemoryIsThatOfItsFile) {
+  const auto text = io::readText(ofParts);
+  const auto file = cases::readCase(ofParts, {"!Reduction"});
+  const auto memory = cases::parseCase(text, ofParts, {"!Reduction"});  // its part files beside it
+  EXPECT_TRUE(is<cases::ImportedCase>(memory));
+  EXPECT_EQ(memory->freeDofs(), file->freeDofs());
+  EXPECT_EQ(memory->deck().sha256(), file->deck().sha256());
+  EXPECT_FALSE(memory->reduces());
+  const auto refused = errorText([&] { cases::parseCase("<ParameterList", "mine.xml", {}); });
+  EXPECT_EQ(refused.rfind("mine.xml:1", 0), 0U) << refused;
+}
+
 TEST(CaseKinds, PartsThatAreSharedAreCheckedForEachReduction) {
   const auto one = cases::readCase(ofParts, {});
   EXPECT_NO_THROW(one->with({"Reduction/Load Vectors=None"}));

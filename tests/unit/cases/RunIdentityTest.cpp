@@ -12,7 +12,7 @@
 
 #include "cases/imported/ImportedDeck.hpp"
 #include "io/TextFile.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "tests/unit/io/Scratch.hpp"
 
 namespace {

@@ -50,6 +50,10 @@ TEST_F(Io, DatasetsComeBackWithUnitsAndNames) {
   }
   const io::ResultsReader reader(at("results.h5"));
   EXPECT_EQ(reader.numbers("/model/s"), (std::vector<double>{0.0, 1.5, 4.0}));
+  using Kind = io::ResultsReader::Kind;
+  EXPECT_EQ(reader.kind("/model/s"), Kind::Real);
+  EXPECT_EQ(reader.kind("/model/nodes"), Kind::Integer);
+  EXPECT_THROW(reader.kind("/model/nothing"), FileError);
   EXPECT_EQ(reader.unit("/model/s"), "m");
   EXPECT_EQ(reader.longName("/model/s"), "Depth");
   EXPECT_EQ(reader.integers("/model/nodes"), (std::vector<int>{1, 2}));

@@ -118,3 +118,24 @@ TEST(BishopFrames, AreExactOnASurvey) {
 TEST(BishopFrames, RefuseDecreasingDepths) {
   EXPECT_THROW(bishopFrames(*straight(10.0), {5.0, 4.0}), ModelError);
 }
+
+TEST(HighSide, LooksUpAcrossTheHoleAndTheRightSideLiesClockwiseLookingDown) {
+  const double inclination = 0.7, azimuth = 2.1;
+  const Vector3 tangent(std::sin(inclination) * std::cos(azimuth),
+                        std::sin(inclination) * std::sin(azimuth), std::cos(inclination));
+  const Vector3 high = highSide(tangent);
+  EXPECT_NEAR(high.norm(), 1.0, 1e-15);
+  EXPECT_NEAR(high.dot(tangent), 0.0, 1e-15);
+  EXPECT_NEAR(high.z(), -std::sin(inclination), 1e-15) << "Z is down";
+  // looking along the azimuth the right hand points to azimuth + 90 deg, level
+  const Vector3 right = tangent.cross(high);
+  EXPECT_NEAR(right.x(), -std::sin(azimuth), 1e-15);
+  EXPECT_NEAR(right.y(), std::cos(azimuth), 1e-15);
+  EXPECT_NEAR(right.z(), 0.0, 1e-15);
+}
+
+TEST(HighSide, OfAVerticalHoleIsNorth) {
+  EXPECT_EQ(highSide(Vector3::UnitZ()), Vector3::UnitX());
+  const double slight = 1e-3;  // rad, azimuth 0
+  EXPECT_NEAR(highSide({std::sin(slight), 0.0, std::cos(slight)}).x(), 1.0, 1e-6);
+}

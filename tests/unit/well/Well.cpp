@@ -120,3 +120,26 @@ TEST(Well, FaultsNameTheirPlaceInTheDeck) {
           .find("/scene/Well/Bore: The bore interval \"a\" ends at 4 m"),
       std::string::npos);
 }
+
+TEST(Below, IsTheSameHoleFromADepthOn) {
+  ArcShape shape;
+  shape.kickOffDepth = 100.0;
+  shape.radius = 400.0;
+  shape.endInclination = 0.5;
+  shape.azimuth = 1.0;
+  const Well whole(arc(shape), 0.108, {{"casing", 0.0, 150.0, 0.12}, {"shoe", 170.0, 180.0, 0.1}});
+  const Well lower = whole.below(120.0);
+  EXPECT_DOUBLE_EQ(lower.length(), whole.length() - 120.0);
+  for (const double s : {0.0, 12.0, 30.0, 45.0, 55.0, 70.0, 150.0}) {
+    EXPECT_EQ(lower.at(s).tangent, whole.at(120.0 + s).tangent) << s;
+    EXPECT_EQ(lower.at(s).curvature, whole.at(120.0 + s).curvature) << s;
+    EXPECT_EQ(lower.boreRadius(s), whole.boreRadius(120.0 + s)) << s;
+    EXPECT_LT(
+        (lower.at(s).position - (whole.at(120.0 + s).position - whole.at(120.0).position)).norm(),
+        1e-12)
+        << s;
+  }
+  const Well above = whole.below(50.0);
+  ASSERT_EQ(above.trajectory().breaks().size(), 1U);
+  EXPECT_DOUBLE_EQ(above.trajectory().breaks().front(), 50.0) << "the kick-off point";
+}

@@ -9,7 +9,7 @@
 #include "coupling/Synthesis.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace {
 

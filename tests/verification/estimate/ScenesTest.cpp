@@ -19,8 +19,8 @@
 #include "estimate/AdaptiveReduction.hpp"
 #include "estimate/ModeComparison.hpp"
 #include "substructures/drillstring/case/DrillstringCase.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 #include "tests/support/Scenes.hpp"
 #include "tests/support/TrackedDecks.hpp"
 

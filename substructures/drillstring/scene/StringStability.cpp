@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 #include "model/Substructure.hpp"
 #include "stability/StateStability.hpp"
 #include "substructures/drillstring/StringModel.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/equilibrium/StaticState.hpp"
 #include "substructures/path/PathState.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +14,11 @@
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "substructures/beam/NodalDofs.hpp"
+#include "substructures/contact/Eccentric.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
-#include "substructures/drillstring/case/RestProblem.hpp"
-#include "substructures/drillstring/case/StringStability.hpp"
+#include "substructures/drillstring/SidedFeatures.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
+#include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -52,12 +54,25 @@ StaticFriction staticFriction(const Scene& scene) {
 
 namespace {
 
-ContactBatch contactInMotion(const Scene& scene) {
+/// The loads that hold bends against the stiffness of the linearised string, -(K_pa + K_gpo) kink.
+void addBends(const equilibrium::StaticInput& input, const equilibrium::StaticState& state,
+              StringModel& model) {
+  if (input.kinks.empty()) return;
+  Vector load = Vector::Zero(kNodeDofs * model.nodes);
+  for (std::size_t e = 0; e < input.kinks.size(); ++e)
+    load.segment<12>(kNodeDofs * static_cast<int>(e)) -=
+        (input.elements[e].stiffness + state.geometricStiffness[e]) * input.kinks[e];
+  model.loads.push_back({"bend", model.lawIndex(model::ScalarLaw::one()), std::move(load)});
+}
+
+ContactBatch contactInMotion(const Scene& scene, const path::PathState& path) {
   ContactBatch contact;
   if (scene.contactPoints.size() == 0) return contact;
   const auto rotary = scene.rotary;
   contact.law = scene.contact->law->inMotion(scene.contactPoints,
                                              [rotary](double t) { return rotary.speed(t); });
+  if (auto offsets = gaugeOffsets(scene.string, path, scene.contactPoints); !offsets.empty())
+    contact.law = contact::eccentric(contact.law, std::move(offsets));
   for (int node : scene.contactPoints.node) contact.nodes.push_back(node - 1);
   return contact;
 }
@@ -223,7 +238,8 @@ StaticStage findEquilibrium(const Scene& scene) {
   const auto solver = staticSolver(scene);
   const auto finish = [&] {
     stage.equations = linearise(equations, stage.state.geometricStiffness, stage.state.displacement,
-                                scene.damping, contactInMotion(scene));
+                                scene.damping, contactInMotion(scene, stage.path));
+    addBends(input, stage.state, stage.equations);
     addDrilling(scene, stage.equations);
     stage.stability = stability::assess(assemble(stage.equations), startTime(scene));
   };

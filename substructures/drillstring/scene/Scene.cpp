@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "common/Index.hpp"
 #include "common/Text.hpp"
 #include "estimate/AdaptiveReduction.hpp"
+#include "model/laws/PointLawRegistry.hpp"
 #include "parts/PartsParameters.hpp"
 #include "reduction/Reduce.hpp"
 #include "reduction/selection/ModeSelection.hpp"
@@ -17,6 +18,7 @@
 #include "substructures/drillstring/ContactNodes.hpp"
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 #include "transient/Integrator.hpp"
 
@@ -42,6 +44,7 @@ deck::ListSpec sceneSpec() {
   scene.list(path::parameters());
   scene.list(equilibrium::parameters());
   scene.list(softstring::torqueDragParameters());
+  scene.list(bottomHoleParameters());
   scene.list(partitionParameters());
   scene.list(coupling::parameters());
   scene.list(parts::parameters());
@@ -153,6 +156,23 @@ void checkTopDrive(const Scene& scene, Faults& faults) {
                "Supports/Top.");
 }
 
+/// What bends and eccentric gauges ask of the other lists.
+void checkSidedFeatures(const Scene& scene, Faults& faults) {
+  const auto& string = scene.string;
+  const auto refuse = [&](const std::string& what, int node) {
+    faults.add("Transient", "moves a string with " + what + " (node " + std::to_string(node + 1) +
+                                "), which is modelled at rest alone. Leave Transient out, or " +
+                                what + ".");
+  };
+  if (scene.moves() && !string.bends.empty()) refuse("a bend", string.bends.front().node);
+  if (string.eccentricGauges.empty()) return;
+  if (scene.moves()) refuse("an eccentric gauge", string.eccentricGauges.front().node);
+  if (scene.contact && model::PointLawRegistry::instance().entries().count(scene.contact->lawName))
+    faults.add("Contact/Law", "is " + inQuotes(scene.contact->lawName) +
+                                  ", a point law, for which no gauge can be eccentric. Take "
+                                  "\"Clamped\", or leave Gauge Offset out.");
+}
+
 /// What only several lists together can tell.
 void crossCheck(const Scene& scene, Faults& faults) {
   const auto& list = scene.list();
@@ -187,6 +207,7 @@ void crossCheck(const Scene& scene, Faults& faults) {
     faults.add("Contact/Friction",
                "has no effect in a scene that neither turns nor moves. Add Rotary Speed or "
                "Transient, or leave Friction out.");
+  checkSidedFeatures(scene, faults);
   if (scene.bit) checkBit(scene, faults);
   if (list.isSublist("Top Drive")) checkTopDrive(scene, faults);
   if (scene.freeDofs() == 0)

@@ -8,7 +8,7 @@
 
 #include "model/NonlinearSolve.hpp"
 #include "substructures/drillstring/EquationBuilder.hpp"
-#include "substructures/drillstring/case/Scene.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/equilibrium/StaticProblem.hpp"
 #include "substructures/path/PathState.hpp"
 

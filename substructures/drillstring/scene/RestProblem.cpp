@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/drillstring/case/RestProblem.hpp"
+#include "substructures/drillstring/scene/RestProblem.hpp"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "common/Index.hpp"
 #include "statics/NoxSolver.hpp"
 #include "substructures/beam/NodalDofs.hpp"
+#include "substructures/contact/Eccentric.hpp"
+#include "substructures/drillstring/SidedFeatures.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -25,8 +28,10 @@ path::PathState bendIntoWell(const Scene& scene) {
 }
 
 PathEquations equationsOnPath(const Scene& scene, const path::PathState& path) {
-  return buildEquations({scene.string, scene.well, path, scene.held, scene.mud.get(), scene.rotary,
-                         scene.loads, scene.damping});
+  auto equations = buildEquations({scene.string, scene.well, path, scene.held, scene.mud.get(),
+                                   scene.rotary, scene.loads, scene.damping});
+  addPads(scene.string, path, equations);
+  return equations;
 }
 
 std::vector<double> hangingTension(const PathEquations& equations) {
@@ -66,10 +71,13 @@ equilibrium::StaticInput restProblem(const Scene& scene, const path::PathState& 
     if (!pretension.empty()) element.pretension = pretension[i];
     input.elements.push_back(element);
   }
+  input.kinks = kinks(scene.string, path);
   input.load = equations.load;
   input.pathReaction = equations.pathReaction;
   input.sliding = sliding;
   if (points.size() > 0) input.contact = scene.contact->law->atRest(points);
+  if (auto offsets = gaugeOffsets(scene.string, path, points); !offsets.empty())
+    input.contact = contact::eccentric(input.contact, std::move(offsets));
   return input;
 }
 

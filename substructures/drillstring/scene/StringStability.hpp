@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/Summary.hpp"
-#include "substructures/drillstring/case/Stages.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 

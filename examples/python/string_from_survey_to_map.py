@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A string from survey to map: the well of the template follows a survey made here; the string lies in it, turns, and two figures of merit
+are mapped over rotary speed and weight on bit.
+"""
+import pathlib
+
+import common  # beside this script
+import numpy as np
+import tooljoint as tj
+
+TEMPLATE = pathlib.Path(__file__).resolve().parents[2] / "xml/templates/well.xml"
+
+
+def stations(depth, turn):
+    """Measured depth [ft], inclination and azimuth [deg]: vertical to 1500 ft, then built to 30 degrees while the azimuth turns."""
+    at = np.array([0, 1500, 2000, 2500, depth])
+    return np.column_stack([at, np.interp(at, [1500, 2500], [0, 30]), np.interp(at, [1500, depth], [40, 40 + turn])]).round(3)
+
+
+def well(turn):
+    deck = tj.Deck(TEMPLATE)
+    del deck["Well/Survey/File"]
+    deck["Well/Survey/Depth Unit"] = "ft"
+    deck["Well/Survey/Stations"] = stations(3600, turn).ravel()
+    deck["Transient/Step"] = "2 ms"
+    return deck
+
+
+def main():
+    options = common.options(__doc__)
+    figure, (wall, moves, cells) = common.figure(3)
+    for turn in (0, 60):
+        deck = well(turn)
+        del deck["Transient"]
+        results = deck.run(options.output / f"well_{turn}")
+        depth, force = results["model/s"], results["static/normal_force"]
+        wall.plot(force / 1e3, depth, label=f"azimuth turns by {turn} deg")
+        print(f"turn of {turn} deg: {force.sum() / 1e3:.1f} kN on the wall")
+    wall.set(title="At rest", xlabel="Normal force [kN]", ylabel=depth.label)
+    wall.invert_yaxis()
+    wall.legend()
+
+    deck = well(60)
+    deck["Transient/End Time"] = 0.2 if options.short else 2.0
+    deck.add("Loads/Unbalance", {"bent joint": {"Node": 60, "Moment": 1.0}})
+    results = deck.run(options.output / "motion")
+    displacement = results["transient/displacement"]
+    lateral = np.hypot(*np.moveaxis(displacement[:, :, :2] - displacement[:1, :, :2], 2, 0))
+    moves.plot(1e3 * lateral.max(axis=0), results["model/s"])
+    moves.set(title=f"A bent joint, motion of {results['transient/time'][-1]:g} s", xlabel="Largest lateral displacement [mm]")
+    moves.invert_yaxis()
+
+    speeds, weights = (["80 rpm", "120 rpm"], ["5 klbf", "15 klbf"]) if options.short else (
+        [f"{speed} rpm" for speed in range(60, 181, 30)], [f"{weight} klbf" for weight in (5, 10, 15, 20)])
+    del deck["Transient"]
+    deck.add("Map", {
+        "Grid": {"speed": {"Parameter": "Rotary Speed/Constant/Speed", "Values": speeds}, "weight": {"Parameter": "Loads/Weight On Bit", "Values": weights}},
+        "Values": {"torque": {"Key": "static.top_torque"}, "contacts": {"Key": "static.contact_nodes"}}})
+    rows = deck.map(options.output / "map")
+    torque = np.array([row["torque"] for row in rows]).reshape(len(speeds), len(weights))
+    image = cells.pcolormesh(abs(torque.T) / 1e3)
+    cells.set(title="Torque at the top [kN m]", xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5, xticklabels=speeds, yticklabels=weights)
+    figure.colorbar(image)
+    common.save(figure, options, "string_from_survey_to_map")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Point laws: those of the registry, and laws written in Python.
+#include <map>
+#include <memory>
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Arrays.hpp"
+#include "Bind.hpp"
+#include "Calls.hpp"
+#include "Lists.hpp"
+#include "PythonLaw.hpp"
+#include "common/Index.hpp"
+#include "model/laws/PointLawRegistry.hpp"
+#include "model/laws/StatefulPointLaw.hpp"
+
+namespace tooljoint::python {
+
+namespace {
+
+using model::PointLaw;
+
+/// A law that decks can name.
+struct Registered {
+  int width;
+  Kept force, tangent, power;
+  py::dict names;
+};
+
+/// By name; changed and read with the GIL only, never destroyed.
+std::map<std::string, Registered>& registered() {
+  static auto* laws = new std::map<std::string, Registered>;
+  return *laws;
+}
+
+std::unique_ptr<PointLaw> makeRegistered(const std::string& name, const Teuchos::ParameterList& own,
+                                         const model::PointLawPlace& place) {
+  std::unique_ptr<PointLaw> law;
+  fromPython("The point law \"" + name + "\"", [&] {
+    const auto& one = registered().at(name);
+    if (one.width > place.coordinates)
+      throw DeckError("The point law \"" + name + "\" takes " + std::to_string(one.width) +
+                      " coordinates, but its place has " + std::to_string(place.coordinates) + ".");
+    law = std::make_unique<PythonLaw>(
+        name, place.points, one.width,
+        LawFunctions{one.force, one.tangent, one.power, Kept(keywords(own, one.names))});
+  });
+  return law;
+}
+
+void registerLaw(const std::string& name, const std::string& doc, const py::list& parameters,
+                 const py::dict& names, int width, const py::object& force,
+                 const py::object& tangent, const py::object& power) {
+  auto& laws = registered();
+  const bool own = laws.count(name) != 0;
+  auto& registry = model::PointLawRegistry::instance();
+  if (!own && registry.entries().count(name) != 0)
+    throw UsageError("There is a point law \"" + name + "\" already. Choose another name.");
+  if (own && !laws.at(name).names.equal(names))
+    throw UsageError("The point law \"" + name +
+                     "\" was registered with other parameters. Choose another name, or start "
+                     "Python anew.");
+  laws.insert_or_assign(name, Registered{width, Kept(force), Kept(tangent), Kept(power), names});
+  if (own) return;
+  registry.add(name,
+               {doc, specFrom(name, doc, parameters),
+                [name](const Teuchos::ParameterList& list, const model::PointLawPlace& place) {
+                  return makeRegistered(name, list, place);
+                }});
+}
+
+Vector evaluate(const PointLaw& law, double t, const Vector& d, const Vector& v) {
+  const Eigen::Index wanted = law.size() * law.width();
+  if (d.size() != wanted || v.size() != wanted)
+    throw UsageError("The law has " + std::to_string(law.size()) + " points with " +
+                     std::to_string(law.width()) + " coordinates: give " + std::to_string(wanted) +
+                     " positions and velocities.");
+  if (dynamic_cast<const model::StatefulPointLaw*>(&law) != nullptr)
+    throw UsageError("The force of a law with states depends on its motion: integrate it.");
+  std::vector<int> all(at(law.size()));
+  for (int p = 0; p < law.size(); ++p) all[at(p)] = p;
+  Vector f(wanted);
+  law.evaluate(t, all, d.data(), v.data(), f.data());
+  return f;
+}
+
+}  // namespace
+
+void bindLaws(py::module_& module) {
+  py::class_<PointLaw, std::shared_ptr<PointLaw>>(module, "PointLaw",
+                                                  "Forces of points f(t, d, v), all of one law.")
+      .def_property_readonly("size", &PointLaw::size, "Number of points.")
+      .def_property_readonly("width", &PointLaw::width, "Coordinates of a point.")
+      .def("force", &evaluate, py::arg("t"), py::arg("d"), py::arg("v"),
+           "Forces [N] at positions d [m] and velocities v [m/s], points x width in one row.");
+  module.def(
+      "point_law",
+      [](const std::string& name, const List& list, int points, int coordinates) {
+        return std::shared_ptr<PointLaw>(model::PointLawRegistry::instance().make(
+            name, *list, model::PointLawPlace{points, coordinates}));
+      },
+      py::arg("name"), py::arg("parameters"), py::arg("points"), py::arg("coordinates"),
+      "A law of the registry.");
+  module.def("register_point_law", &registerLaw, py::arg("name"), py::arg("doc"),
+             py::arg("parameters"), py::arg("keywords"), py::arg("width"), py::arg("force"),
+             py::arg("tangent"), py::arg("power"), "Register a law written in Python.");
+  module.def(
+      "point_law_names", [] { return model::PointLawRegistry::instance().names(); },
+      "Names of the laws there are.");
+}
+
+}  // namespace tooljoint::python

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Models and parts as Python holds them: shared, so that what refers to one keeps it alive.
+#pragma once
+
+#include <memory>
+#include <pybind11/pybind11.h>
+#include <vector>
+
+#include "model/Substructure.hpp"
+
+namespace tooljoint::python {
+
+namespace py = pybind11;
+
+using ModelPointer = std::shared_ptr<model::SecondOrderModel>;
+using PartPointer = std::shared_ptr<model::Substructure>;
+
+/// The parts as values; what they hold is shared.
+std::vector<model::Substructure> valuesOf(const std::vector<PartPointer>& parts);
+
+}  // namespace tooljoint::python

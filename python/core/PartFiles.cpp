@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts as files, to be imported by decks.
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Bind.hpp"
+#include "Calls.hpp"
+#include "Models.hpp"
+#include "common/Error.hpp"
+#include "common/Index.hpp"
+#include "common/Parallel.hpp"
+#include "parts/file/PartFile.hpp"
+
+namespace tooljoint::python {
+
+namespace {
+
+using Sets = std::map<std::string, std::vector<int>>;
+
+parts::InterfaceSet interfaceSet(const model::SecondOrderModel& model, const std::string& name,
+                                 const std::vector<int>& dofs) {
+  parts::InterfaceSet set{name, dofs, {}};
+  for (const int i : dofs) {
+    if (i < 0 || i >= model.size())
+      throw ModelError("The interface \"" + name + "\" names dof " + std::to_string(i) +
+                       "; the part has " + std::to_string(model.size()) + ".");
+    const auto node = model.dofs[at(i)].entity;
+    if (std::find(set.nodes.begin(), set.nodes.end(), node) == set.nodes.end())
+      set.nodes.push_back(node);
+  }
+  return set;
+}
+
+void write(const PartPointer& part, const std::string& path, const Sets& interfaces,
+           const std::map<std::int64_t, Vector>& positions) {
+  parts::PartContent content;
+  content.part = *part;
+  for (const auto& [name, dofs] : interfaces)
+    content.interfaces.push_back(interfaceSet(part->model, name, dofs));
+  for (const auto& [node, position] : positions) {
+    if (position.size() != 3)
+      throw ModelError("The position of node " + std::to_string(node) + " has " +
+                       std::to_string(position.size()) + " coordinates; expected are three.");
+    content.positions.emplace(node, Vector3(position[0], position[1], position[2]));
+  }
+  for (const auto& points : part->model.points) content.omitted.push_back(points.name);
+  const auto ending = path.rfind(".h5");
+  const bool hdf5 = ending != std::string::npos && ending + 3 == path.size();
+  longCall([&] {  // all ranks wait for the one that writes
+    parallel::agree([&] {
+      parts::writePart(content, path, hdf5 ? parts::FileKind::Hdf5 : parts::FileKind::MatrixMarket);
+    });
+  });
+}
+
+PartPointer read(const std::string& path, const std::string& name) {
+  return longCall([&] {
+    auto content = parts::readPartEverywhere(path, name);
+    content.part.name = name;
+    return std::make_shared<model::Substructure>(std::move(content.part));
+  });
+}
+
+}  // namespace
+
+void bindPartFiles(py::module_& module) {
+  module.def("write_part", &write, py::arg("part"), py::arg("path"), py::arg("interfaces"),
+             py::arg("positions"), "Write a part: a file .h5, or a folder.");
+  module.def("read_part", &read, py::arg("path"), py::arg("name"),
+             "Read a part; its interface are all its interface sets.");
+}
+
+}  // namespace tooljoint::python

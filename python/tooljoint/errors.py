@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors a user can act on: the sentence says what was found, what is expected and what to change.
+
+An interrupt (Ctrl-C, or SIGTERM, which mpirun sends in its place) ends a long call with KeyboardInterrupt.
+"""
+
+
+class Error(Exception):
+    """Any error of the toolkit. `code` is the exit code the program `tooljoint` ends with."""
+
+    code = 70
+
+
+class UsageError(Error):
+    """A call that makes no sense (exit code 1)."""
+
+    code = 1
+
+
+class DeckError(Error):
+    """An invalid deck or parameter, or a file named in a deck that is missing or malformed (exit code 2)."""
+
+    code = 2
+
+
+class ModelError(Error):
+    """No model can be built: a floating part, a singular matrix, matrices that do not fit (exit code 3)."""
+
+    code = 3
+
+
+class ConvergenceError(Error):
+    """A solver did not converge: what was tried and what to change (exit code 4)."""
+
+    code = 4
+
+
+class FileError(Error):
+    """A file is missing, a folder cannot be written, the disk is full (exit code 5)."""
+
+    code = 5

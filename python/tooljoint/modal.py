@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Modes of models and their comparison."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+from .quantity import Quantity
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from .parts import MatrixLike
+
+    HasModel = _core.Model | _core.Part | _core.ReducedPart | _core.Synthesis
+
+
+class Modes:
+    """Modes of a model: `frequency` [Hz] (negative where omega^2 is), `shapes` (dofs x modes), `residuals` (relative).
+    Damped ones also have `values`, s [1/s], and `damping`, the damping ratios; their shapes are complex.
+    """
+
+    def __init__(self, frequency: ArrayLike, shapes: np.ndarray, residuals: np.ndarray, values: np.ndarray | None = None):
+        self.frequency = Quantity(frequency, "Hz", "Frequency")
+        self.shapes, self.residuals = shapes, residuals
+        if values is not None:
+            size = np.abs(values)
+            self.values = Quantity(values, "1/s", "Eigenvalue")
+            self.damping = Quantity(np.divide(-values.real, size, out=np.zeros(len(size)), where=size > 0), "", "Damping ratio")
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    def __repr__(self):
+        return f"<Modes: {len(self)}, {', '.join(f'{one:.6g}' for one in self.frequency[:5])}{', ...' if len(self) > 5 else ''} Hz>"
+
+
+def _model(of: HasModel) -> _core.Model:
+    return of if isinstance(of, _core.Model) else of.model
+
+
+def modes(of: HasModel, count: int) -> Modes:
+    """The `count` lowest undamped modes of a model, a part, a reduced part or a synthesis, closed contacts linear.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> mass = tj.part("mass", [[1.0]], [[(2 * np.pi) ** 2]])
+    >>> tj.modes(mass, 1)
+    <Modes: 1, 1 Hz>
+    """
+    values, shapes, residuals = _core.undamped_modes(_model(of), count)
+    return Modes(np.sign(values) * np.sqrt(np.abs(values)) / (2 * np.pi), shapes, residuals)
+
+
+def damped_modes(of: HasModel, count: int, t: float = 0.0) -> Modes:
+    """The `count` damped modes of smallest |s|, one of each conjugate pair, with the matrices of the time t.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> mass = tj.part("mass", [[1.0]], [[100.0]], damping=[[2.0]])
+    >>> round(float(tj.damped_modes(mass, 1).damping[0]), 12)
+    0.1
+    """
+    values, shapes, residuals = _core.damped_modes(_model(of), count, t)
+    return Modes(np.abs(values) / (2 * np.pi), shapes, residuals, values)
+
+
+def mac(a: ArrayLike, b: ArrayLike, mass: MatrixLike) -> np.ndarray:
+    """Modal assurance criterion of the columns of two arrays of shapes, weighted with the mass matrix: columns of a x columns of b.
+
+    >>> import numpy as np
+    >>> mac(np.eye(2), np.array([[1.0, 1.0], [0.0, 1.0]]), np.eye(2)).round(3).tolist()
+    [[1.0, 0.5], [0.0, 0.5]]
+    """
+    return _core.modal_assurance(mass, a, b)
+
+
+def compare_modes(synthesis: _core.Synthesis, count: int, full: HasModel | None = None, t: float | None = None) -> list[dict[str, Any]]:
+    """Modes of the full model, each with the coupled mode of its shape: a list of dicts with full_hz, coupled_hz, mac, error (relative,
+    of the frequency) and estimate (of the error, without the full model; None where the basis has none). full: the model to compare
+    with; by default the unreduced parts, coupled. t: compare damped modes at that time instead.
+    """
+    return _core.compare_modes(synthesis, count, t, full if full is None else _model(full))
+
+
+def estimate_frequencies(synthesis: _core.Synthesis, count: int) -> list[dict[str, Any]]:
+    """Estimated relative errors of the lowest coupled frequencies, without the full model: a list of dicts with frequency_hz, error,
+    by_part (what the truncated modes of each part contribute) and definite (False: a part lacks a mode below this frequency)."""
+    return _core.estimate_frequencies(synthesis, count)

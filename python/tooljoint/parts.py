@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts from matrices, and their reduction and coupling."""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _core
+from .lists import checked, describe, placed
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from scipy.sparse import spmatrix
+
+    MatrixLike = Union[ArrayLike, spmatrix]
+
+
+def part(name: str, mass: MatrixLike, stiffness: MatrixLike, *, interface: Iterable[int] = (), retained: Iterable[int] = (), damping: MatrixLike | None = None,
+         load: ArrayLike | None = None, nodes: ArrayLike | None = None, components: ArrayLike | None = None, component_names: Sequence[str] = ("u",)) -> _core.Part:
+    """A part from its matrices.
+
+    mass, stiffness, damping: scipy.sparse matrices or arrays, dofs x dofs [kg, N/m, N s/m]; load: a constant load, dofs [N].
+    nodes: number of the node of each dof, 1 or more; by default the dofs go through the nodes 1, 2, ... one after the other.
+    components: for each dof the position of its component in `component_names`; by default they repeat node by node.
+    interface: positions of the dofs that may be joined with equal ones (node and component) of other parts.
+    retained: positions of further dofs that stay as they are when the part is reduced.
+
+    ModelError for matrices that do not fit each other or are not symmetric.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> bar = tj.part("bar", np.eye(3), [[2, -1, 0], [-1, 2, -1], [0, -1, 1]], interface=[2], nodes=[1, 2, 3])
+    >>> bar
+    <Part "bar": 3 dofs, 1 of them interface>
+    >>> bar.model.dof_names[2]
+    'u of node 3'
+    """
+    size, width = (np.shape(mass) or (0,))[0], len(component_names)
+    if nodes is None:
+        nodes = np.arange(size) // width + 1
+    if components is None:
+        components = _repeating(nodes, width)
+    model = _core.Model(mass, stiffness, np.asarray(nodes, int), np.asarray(components, int), list(component_names))
+    if damping is not None:
+        model.add_damping(damping)
+    if load is not None:
+        model.add_load(load)
+    return _core.Part(name, model, sorted(map(int, interface)), sorted(map(int, retained)))
+
+
+def _repeating(nodes, width):
+    """0, 1, ... for the dofs of each node in their order."""
+    seen = {}
+    components = []
+    for node in nodes:
+        components.append(seen.get(node, 0))
+        seen[node] = components[-1] + 1
+    return components
+
+
+def write_part(part: _core.Part, path: str | os.PathLike, interfaces: Mapping[str, Iterable[int]] | None = None,
+               positions: Mapping[int, ArrayLike] | None = None) -> None:
+    """Write a part for `Parts/Imported` of a deck: one file when the path ends with .h5, else a folder of Matrix Market files.
+
+    interfaces: positions of dofs by the name of their set, for Parts/Joints; by default all of the interface as "interface".
+    positions: coordinates [m] of nodes by their number, for pictures and for moved parts. Point laws are no part of the format.
+    """
+    sets = {"interface": part.interface} if interfaces is None else interfaces
+    _core.write_part(part, str(path), {name: list(map(int, dofs)) for name, dofs in sets.items() if len(list(dofs))}, dict(positions or {}))
+
+
+def read_part(path: str | os.PathLike, name: str = "part") -> _core.Part:
+    """Read a part: a file .h5 or .json, or a folder with a part.json. DeckError for what is malformed, ModelError."""
+    return _core.read_part(str(path), name)
+
+
+def reduction(method: str = "Craig-Bampton", **parameters: Any) -> _core.DeckList:
+    """The deck list Reduction from keyword arguments, checked as in a deck: names in snake_case, of the list itself, of its list Mode
+    Selection and of the list of the method. A dict where a list is to be given as such.
+
+    >>> reduction("Craig-Bampton", cut_off_frequency="30 Hz").to_dict()["Mode Selection"]
+    {'Cut-off Frequency': 30.0}
+    >>> reduction("Craig-Bampton", mods=6)
+    Traceback (most recent call last):
+    ...
+    tooljoint.errors.DeckError: /Reduction/Mode Selection/Mods is not a parameter. Did you mean "Modes"? ...
+    """
+    places = ["Mode Selection", method, parameters.get("interface_reduction")]
+    values = placed(describe("Reduction"), {"basis": method, **parameters}, places)
+    return checked("Reduction", values)
+
+
+def reduce(parts: _core.Part | Sequence[_core.Part], method: str = "Craig-Bampton", **parameters: Any) -> _core.ReducedPart | list[_core.ReducedPart]:
+    """Reduce a part, or each of a list of parts by itself.
+
+    method and parameters: as `reduction()`; "modes=6" or "cut_off_frequency='30 Hz'", for example. Collective under MPI.
+    Returns a ReducedPart, or a list of them. DeckError, ModelError, ConvergenceError.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> chain = tj.part("chain", np.eye(5), 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1), interface=[0, 4])
+    >>> tj.reduce(chain, modes=2)
+    <ReducedPart "chain": 4 coordinates, 2 of them modes>
+    """
+    if isinstance(parts, _core.Part):
+        return _core.reduce([parts], reduction(method, **parameters))[0]
+    return _core.reduce(list(parts), reduction(method, **parameters))
+
+
+def _joining(coupling):
+    return checked("Coupling", coupling) if isinstance(coupling, dict) else coupling
+
+
+def couple(parts: Iterable[Any], coupling: dict | _core.Connections | None = None) -> _core.Model:
+    """The model of parts joined by equal labels of their interface dofs: unreduced parts give the full model, reduced parts the
+    reduced one. coupling: the deck list Coupling as a dict (unreduced parts), for springs, hinges, constraints, frames and point laws.
+    ModelError names what cannot be joined.
+    """
+    parts = list(parts)
+    if parts and isinstance(parts[0], _core.ReducedPart):
+        return _core.couple_reduced(parts)
+    return _core.couple(parts, _joining(coupling))
+
+
+def synthesise(parts: Sequence[_core.Part], method: str = "Craig-Bampton", coupling: dict | _core.Connections | None = None, **parameters: Any) -> _core.Synthesis:
+    """Component mode synthesis: reduce the parts, couple them, augment bases that need the coupled model, reduce the interface where
+    asked for. parameters: as `reduction()`; with frequency_tolerance the modes are chosen by the estimated error. Collective under MPI.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> K = 2 * np.eye(5) - np.eye(5, k=1) - np.eye(5, k=-1)
+    >>> left = tj.part("left", np.eye(5), K, nodes=[1, 2, 3, 4, 5], interface=[4])
+    >>> right = tj.part("right", np.eye(5), K, nodes=[5, 6, 7, 8, 9], interface=[0])
+    >>> both = tj.synthesise([left, right], modes=2)
+    >>> both
+    <Synthesis of 2 parts, 5 dofs>
+    """
+    return _core.synthesise(list(parts), reduction(method, **parameters), _joining(coupling))

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bases and point laws written in Python. They join the registries: calls, decks and studies of this process name them like any other."""
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from . import _core
+from .lists import checked, title
+
+_written = set()  # names of the variants written in Python
+
+
+class Parameter:
+    """A parameter of a variant: its default (None: it must be given), SI unit and a sentence. The default decides the type; without one
+    it is a real number.
+    """
+
+    def __init__(self, default: bool | int | float | str | None = None, unit: str = "", doc: str = ""):
+        self.default, self.unit, self.doc = default, unit, doc
+
+    def row(self, name: str) -> tuple:
+        """As the description of a deck list takes it: name, kind, unit, default, sentence."""
+        kinds = {bool: "boolean", int: "integer", str: "text"}
+        return (name, kinds.get(type(self.default), "real"), self.unit, self.default, self.doc or f"Parameter {name} of the function.")
+
+
+def _parameters(function, taken):
+    """Rows and names of the keyword parameters of a function behind the first `taken` arguments."""
+    given = list(inspect.signature(function).parameters.values())[taken:]
+    rows, names = [], {}
+    for one in given:
+        default = None if one.default is inspect.Parameter.empty else one.default
+        own = default if isinstance(default, Parameter) else Parameter(default)
+        rows.append(own.row(title(one.name)))
+        names[title(one.name)] = one.name
+    return rows, names
+
+
+def _sentence(function):
+    return (inspect.getdoc(function) or "Written in Python.").strip().splitlines()[0]
+
+
+def basis(name: str) -> Callable[[Callable], Callable]:
+    """Registers a function as a reduction basis: build(part, count, **parameters) returns vectors of the interior, interior dofs x any
+    number of columns. Constraint modes and the `count` lowest Ritz vectors of what they span become the basis. part is a PartView.
+    Further arguments of the function are parameters of its deck list, described by their default or a Parameter.
+
+    >>> import numpy as np, tooljoint as tj
+    >>> @tj.basis("Static Responses")
+    ... def static_responses(part, count, steps=2):
+    ...     '''Static responses to pushes, made smooth by inverse steps.'''
+    ...     vectors = np.eye(len(part.interior))[:, ::2]
+    ...     for step in range(steps):
+    ...         vectors = part.solve_interior(part.interior_mass @ vectors)
+    ...     return vectors
+    >>> chain = tj.part("chain", np.eye(7), 2 * np.eye(7) - np.eye(7, k=1) - np.eye(7, k=-1), interface=[0, 6])
+    >>> tj.reduce(chain, "Static Responses", modes=2, steps=3)
+    <ReducedPart "chain": 4 coordinates, 2 of them modes>
+    """
+
+    def register(build):
+        rows, names = _parameters(build, 2)
+        _core.register_basis(name, _sentence(build), rows, names, build)
+        _written.add(name)
+        return build
+
+    return register
+
+
+def point_law(name: str, *, width: int = 1, tangent: Callable | None = None, power: Callable | None = None) -> Callable[[Callable], Callable]:
+    """Registers a function as a point law: force(t, d, v, **parameters) for positions d [m] and velocities v [m/s] of all points at once,
+    arrays of (points,), or (points, width) where width > 1; it returns the forces [N] in the same shape. The first coordinate is a
+    separation: a positive force pushes apart.
+
+    tangent: like force, returns (df/dd, df/dv), each points x width x width; without it they are differences (exact to 1e-10 for smooth
+    laws, one more call). power: like force, returns (stored energy [J], power lost in damping, in friction, fed in [W]) summed over the
+    points, for the energy balance; without it the force at rest is taken to have a potential (found by integration), and what velocities
+    add to it is damping. The functions run with the GIL held: for trying, not for long motions.
+
+    >>> import tooljoint as tj
+    >>> @tj.point_law("Hardening")
+    ... def hardening(t, d, v, stiffness=tj.Parameter(unit="N/m"), cubic=tj.Parameter(0.0, "N/m3")):
+    ...     '''A spring that hardens.'''
+    ...     return -stiffness * d - cubic * d**3
+    >>> tj.law("Hardening", stiffness="2 kN/m").force(0.0, [0.1], [0.0]).tolist()
+    [-200.0]
+    """
+
+    def register(force):
+        rows, names = _parameters(force, 3)
+        _core.register_point_law(name, _sentence(force), rows, names, width, force, tangent, power)
+        _written.add(name)
+        return force
+
+    return register
+
+
+def law(name: str, *, points: int = 1, coordinates: int = 3, **parameters: Any) -> _core.PointLaw:
+    """A point law by its name in the deck, with its parameters (snake_case), for `model.add_points`: all points have these parameters.
+    coordinates: at most so many for each point. DeckError as in a deck.
+
+    >>> import tooljoint as tj
+    >>> spring = tj.law("Spring", stiffness="3 kN/m", damping=10.0)
+    >>> spring.force(0.0, [0.1], [2.0]).tolist()
+    [-320.0]
+    """
+    return _core.point_law(name, checked(name, parameters), points, coordinates)
+
+
+def any_written() -> bool:
+    """Whether variants written in Python take part: a later process cannot know whether they are still the same."""
+    return bool(_written)

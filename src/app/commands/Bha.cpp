@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/commands/Commands.hpp"
+#include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
+#include "common/Error.hpp"
+#include "substructures/drillstring/analyses/BottomHole.hpp"
+
+namespace tooljoint::app {
+
+void bha(const RunOptions& options) {
+  const auto one = cases::readCase(options.deck, options.overrides);
+  const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
+  if (string == nullptr)
+    throw DeckError(
+        options.deck +
+        ": a bottom-hole assembly is part of a string in its well. Give a deck with the "
+        "lists Well and Drillstring.");
+  drillstring::reportBottomHole(*string, options.output);
+  reportAtEnd(cases::analysisFolder(*one, options.output, "bha"), one->output().report);
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `tooljoint bha`: the lower part of a string at rest in its hole. Sides of the hole at a place
+/// are those of its own high side h and of its right side t x h (t down the hole).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "substructures/drillstring/case/DrillstringCase.hpp"
+#include "substructures/drillstring/scene/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+
+namespace tooljoint::drillstring {
+
+/// To the high side and to the right side.
+using Sides = Eigen::Vector2d;
+
+/// What is varied.
+struct BottomHolePoint {
+  std::optional<double> inclination;  ///< at the bit [rad]; none: the deck's hole
+  double weight = 0.0;                ///< on bit [N]
+  double toolFace = 0.0;              ///< [rad]
+};
+
+/// A gauge above the bit.
+struct GaugeContact {
+  std::string component;
+  double fromBit = 0.0;         ///< [m]
+  Sides force = Sides::Zero();  ///< of the wall on the gauge [N]
+};
+
+/// A node of the string, from the bit up.
+struct BottomHoleStation {
+  double fromBit = 0.0;              ///< [m]
+  Sides deflection = Sides::Zero();  ///< from the axis of the hole [m]
+  double clearance = 0.0;            ///< radial [m]
+  Sides wallForce = Sides::Zero();   ///< of the wall on the string [N]
+  Sides moment = Sides::Zero();      ///< E I times the curvature towards the sides [N m]
+  double axialForce = 0.0;           ///< effective tension [N]
+  double torque = 0.0;               ///< [N m]
+  double vonMises = 0.0;             ///< [Pa]
+};
+
+/// One static state, or the average of a string that turns.
+struct BottomHoleState {
+  Sides sideForce = Sides::Zero();  ///< of the bit on the rock [N]
+  Sides tilt = Sides::Zero();       ///< of the bit against the axis of the hole [rad]
+  Sides sag = Sides::Zero();        ///< of the string against the hole at the survey tool [rad]
+  std::vector<GaugeContact> gauges;
+  std::vector<BottomHoleStation> stations;
+  /// Distance from the bit of the lowest place where the body touches the wall above all gauges
+  /// that touch; negative: none [m].
+  double tangency = -1.0;
+  /// Forces that do not balance, of the buoyed weight and the weight on bit; moments likewise, of
+  /// the sum of the moments of all forces across the string about the bit.
+  double forceDefect = 0.0, momentDefect = 0.0;
+  bool stable = true;
+};
+
+/// What of the string is looked at.
+class BottomHole {
+ public:
+  /// DeckError: no weight or no wall, supports or forces at nodes of their own, lengths beyond the
+  /// string. The scene must outlive the object. Collective.
+  BottomHole(const Scene& scene, const BottomHoleSettings& settings);
+
+  /// The static state of this length of string above the bit, with bends and eccentric gauges
+  /// turned by `turned` [rad] from the tool face. ConvergenceError, ModelError.
+  BottomHoleState solve(const BottomHolePoint& point, double length, double turned = 0.0) const;
+  /// The average over evenly spaced angles; stresses and defects are the largest ones.
+  BottomHoleState rotating(const BottomHolePoint& point, double length) const;
+
+  /// Whether anything of this length turns with the string.
+  bool turns(double length) const;
+  double wholeLength() const { return string_.length(); }  ///< [m]
+
+ private:
+  /// The node (0-based) where this length above the bit begins.
+  int topNode(double length) const;
+  Scene lowerPart(const BottomHolePoint& point, double length, double turned) const;
+
+  const Scene& scene_;
+  BottomHoleSettings settings_;
+  DrillString string_;  ///< whole, with divided elements
+};
+
+/// The length modelled, and what is known of it.
+struct ModelledLength {
+  double length = 0.0;          ///< above the bit [m]
+  double checkedAgainst = 0.0;  ///< another length [m]
+  double change = 0.0;  ///< between the two: of the force on the bit by the largest force on a
+                        ///< wall, or of the tilt by the largest slope of the string
+};
+
+/// A row of the sweep.
+struct BottomHoleRow {
+  BottomHolePoint point;
+  bool rotating = false;
+  BottomHoleState state;
+};
+
+struct BottomHoleSweep {
+  ModelledLength length;
+  std::vector<BottomHoleRow> rows;
+};
+
+/// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none.
+BottomHoleSettings bottomHoleSettings(const Scene& scene);
+
+/// Every combination of the settings. A string on which nothing turns has no rows of its own for
+/// rotating.
+BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings);
+
+/// Prints the sweep and writes bha.csv, bha_contacts.csv, bha_profile.csv, bha.h5 and summary.json.
+/// Collective.
+void reportBottomHole(const DrillstringCase& one, const std::string& folder);
+
+}  // namespace tooljoint::drillstring

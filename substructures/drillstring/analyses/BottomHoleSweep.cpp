@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "substructures/drillstring/analyses/BottomHole.hpp"
+
+namespace tooljoint::drillstring {
+namespace {
+
+/// First length tried, and factor from one to the next. A tangency point lies within some tens of
+/// metres.
+constexpr double firstLength = 30.0, growth = 1.5;
+/// Change of force and tilt at the bit below which a length is long enough.
+constexpr double enough = 0.01;
+
+/// Largest of the changes of the force on the bit, by the largest force on a wall, and of its tilt,
+/// by the largest slope of the string against its hole.
+double changeOf(const BottomHoleState& from, const BottomHoleState& to) {
+  double force = to.sideForce.norm(), slope = to.tilt.norm();
+  for (std::size_t i = 0; i < to.stations.size(); ++i) {
+    force = std::max(force, to.stations[i].wallForce.norm());
+    if (i == 0) continue;
+    const auto& lower = to.stations[i - 1];
+    const auto& upper = to.stations[i];
+    slope = std::max(
+        slope, (upper.deflection - lower.deflection).norm() / (upper.fromBit - lower.fromBit));
+  }
+  const double ofForce = force > 0.0 ? (to.sideForce - from.sideForce).norm() / force : 0.0;
+  const double ofTilt = slope > 0.0 ? (to.tilt - from.tilt).norm() / slope : 0.0;
+  return std::max(ofForce, ofTilt);
+}
+
+ModelledLength lengthFor(const BottomHole& assembly, const BottomHolePoint& point,
+                         const BottomHoleSettings& settings) {
+  const double whole = assembly.wholeLength();
+  ModelledLength found;
+  if (settings.length) {
+    found.length = *settings.length;
+    found.checkedAgainst = std::min(whole, growth * found.length);
+    if (found.checkedAgainst > found.length)
+      found.change = changeOf(assembly.solve(point, found.length),
+                              assembly.solve(point, found.checkedAgainst));
+    return found;
+  }
+  found.length = std::min(whole, std::max(firstLength, growth * settings.surveyTool.value_or(0.0)));
+  found.checkedAgainst = found.length;
+  auto state = assembly.solve(point, found.length);
+  while (found.length < whole) {
+    found.checkedAgainst = found.length;
+    found.length = std::min(whole, growth * found.length);
+    const auto longer = assembly.solve(point, found.length);
+    found.change = changeOf(state, longer);
+    if (found.change < enough) return found;
+    state = longer;
+  }
+  return found;
+}
+
+/// The longest that any hole asks for, under the largest weight on bit.
+ModelledLength modelledLength(const BottomHole& assembly, const BottomHoleSettings& settings,
+                              const std::vector<std::optional<double>>& holes) {
+  const double weight = *std::max_element(settings.weights.begin(), settings.weights.end());
+  ModelledLength longest;
+  for (const auto& hole : holes) {
+    const auto one = lengthFor(assembly, {hole, weight, settings.toolFaces.front()}, settings);
+    if (one.length > longest.length ||
+        (one.length == longest.length && one.change > longest.change))
+      longest = one;
+  }
+  return longest;
+}
+
+}  // namespace
+
+BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings) {
+  const BottomHole assembly(scene, settings);
+  std::vector<std::optional<double>> holes(settings.inclinations.begin(),
+                                           settings.inclinations.end());
+  if (holes.empty()) holes.emplace_back();
+  BottomHoleSweep sweep;
+  sweep.length = modelledLength(assembly, settings, holes);
+  const double length = sweep.length.length;
+  for (const auto& hole : holes)
+    for (const double weight : settings.weights) {
+      for (const double toolFace : settings.toolFaces) {
+        const BottomHolePoint point{hole, weight, toolFace};
+        sweep.rows.push_back({point, false, assembly.solve(point, length)});
+      }
+      if (!assembly.turns(length)) continue;
+      const BottomHolePoint point{hole, weight, settings.toolFaces.front()};
+      sweep.rows.push_back({point, true, assembly.rotating(point, length)});
+    }
+  return sweep;
+}
+
+}  // namespace tooljoint::drillstring

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motions of reduced models: against scipy, and point laws written in Python against the same in C++."""
+import os
+import signal
+import threading
+import time
+import unittest
+
+import beams
+import numpy as np
+import scipy.integrate
+import scipy.sparse as sparse
+import tooljoint as tj
+
+CUBIC, LINEAR, DAMPING = 4e8, 3e4, 20.0
+
+
+@tj.point_law("Tip Spring")
+def tip_spring(t, d, v, stiffness=tj.Parameter(unit="N/m"), cubic=tj.Parameter(0.0, "N/m3"), damping=tj.Parameter(0.0, "N s/m")):
+    """f = -k d - k3 d^3 - c v."""
+    return -stiffness * d - cubic * d**3 - damping * v
+
+
+def synthesis(law=None, load=None):
+    """The cantilever reduced, with a law at the tip of the right half and a start there."""
+    left, right, _, _ = beams.halves(tj)
+    tip = right.model.position(25, "v")
+    if law is not None:
+        right.model.add_points("tip", law, sparse.csr_matrix(([1.0], ([0], [tip])), (1, len(right))), nodes=[25])
+    if load is not None:
+        right.model.add_load(np.eye(len(right))[tip], "push", load)
+    return tj.synthesise([left, right], modes=4)
+
+
+def push(t):
+    return 800.0 * np.sin(2 * np.pi * 15.0 * t)
+
+
+END, SAMPLING = 0.2, 2e-3
+
+
+def tip_motion(model, **parameters):
+    return np.asarray(tj.integrate(model, END, sampling_interval=SAMPLING, **parameters).at(25, "v"))
+
+
+class Motions(unittest.TestCase):
+    def test_python_law_is_the_law_in_cpp_and_that_of_scipy(self):
+        parameters = dict(stiffness=LINEAR, damping=DAMPING)
+        cpp = synthesis(tj.law("Spring", cubic_stiffness=CUBIC, **parameters), push)
+        python = synthesis(tj.law("Tip Spring", cubic=CUBIC, **parameters), push)
+        fine = dict(step=5e-5)
+        one, other = tip_motion(cpp, **fine), tip_motion(python, **fine)
+        size = abs(one).max()
+        self.assertGreater(CUBIC * size**2, 0.1 * LINEAR, "the cubic term does not show")
+        # The same steps; Newton iterates to 1e-9, with tangents by differences in one of them.
+        self.assertLess(abs(one - other).max(), 1e-7 * size, "the law in Python moves otherwise than the one in C++")
+
+        model = cpp.model
+        M, K, C = model.mass.toarray(), model.stiffness().toarray(), model.damping().toarray()
+        row = model.recovery[list(model.recovery_nodes).index(25) * 2].toarray().ravel()
+        inverse = np.linalg.inv(M)
+
+        def rates(t, y):
+            q, v = np.split(y, 2)
+            d, w = row @ q, row @ v
+            f = model.load(t) + row * (-LINEAR * d - CUBIC * d**3 - DAMPING * w)
+            return np.r_[v, inverse @ (f - K @ q - C @ v)]
+
+        times = np.arange(len(one)) * SAMPLING
+        truth = scipy.integrate.solve_ivp(rates, (0, END), np.zeros(2 * len(model)), "DOP853", times, rtol=1e-10, atol=1e-14)
+        exact = row @ truth.y[: len(model)]
+        # Generalised-alpha is of second order: a quarter of the error with half of the step.
+        errors = [abs(tip_motion(python, step=step) - exact).max() / size for step in (2e-4, 1e-4, 5e-5)]
+        self.assertLess(errors[2], 2e-3, f"errors {errors}")
+        for coarse, better in zip(errors, errors[1:]):
+            self.assertTrue(3.0 < coarse / better < 5.0, f"errors {errors}: not of second order")
+        self.assertLess(abs(tip_motion(python, integrator="RK4", step=2e-5) - exact).max(), 1e-6 * size)
+
+    def test_motion_has_units_and_recovers_interior_nodes(self):
+        both = synthesis(tj.law("Spring", stiffness=LINEAR), push)
+        motion = tj.integrate(both, END, sampling_interval=SAMPLING, step=1e-4)
+        self.assertEqual([motion.time.unit, motion.at(7, "v", "acceleration").unit, motion.at(7, "theta").unit], ["s", "m/s2", "rad"])
+        self.assertEqual(motion.velocity.unit, "m kg^0.5/s, m/s, rad/s")
+        self.assertEqual(len(motion.model.dof_units), motion.displacement.shape[1])
+        full = tj.couple([*both.unreduced])
+        reference = tj.integrate(full, END, sampling_interval=SAMPLING, step=1e-4)
+        found, want = np.asarray(motion.at(7, "v")), np.asarray(reference.at(7, "v"))  # node 7 is inside the left half
+        self.assertLess(abs(found - want).max(), 0.01 * abs(want).max())
+        self.assertEqual(motion.report["integrator"], "Generalized-alpha")
+        self.assertLess(abs(motion.report["energy"]["residual"]), 0.05)
+        with self.assertRaisesRegex(tj.ModelError, "no v of node 99"):
+            motion.at(99, "v")
+
+    def test_tangent_given_is_that_of_differences(self):
+        def slopes(t, d, v, stiffness, cubic, damping):
+            return (-stiffness - 3 * cubic * d**2)[:, None, None], np.full((len(d), 1, 1), -damping)
+
+        def energy(t, d, v, stiffness, cubic, damping):
+            return [float(sum(stiffness * d**2 / 2 + cubic * d**4 / 4)), float(sum(damping * v**2))]
+
+        tj.point_law("Tip Spring Exact", tangent=slopes, power=energy)(tip_spring)
+        given = dict(stiffness=LINEAR, cubic=CUBIC, damping=DAMPING)
+        one = tip_motion(synthesis(tj.law("Tip Spring Exact", **given), push), step=1e-4)
+        other = tip_motion(synthesis(tj.law("Tip Spring", **given), push), step=1e-4)
+        self.assertLess(abs(one - other).max(), 1e-7 * abs(one).max())
+
+    def test_energies_of_a_law_without_a_function_of_its_power(self):
+        given = dict(stiffness=LINEAR, damping=DAMPING)
+        reports = [tj.integrate(synthesis(law, push), END, sampling_interval=SAMPLING, step=1e-4).report["energy"] for law in (
+            tj.law("Spring", cubic_stiffness=CUBIC, **given), tj.law("Tip Spring", cubic=CUBIC, **given))]
+        for name in ("contact", "contact_damping", "residual"):
+            self.assertAlmostEqual(reports[0][name], reports[1][name], delta=1e-6 * abs(reports[0]["loads"]), msg=name)
+
+        @tj.point_law("Shaken")
+        def shaken(t, d, v):
+            return 1e3 * np.sin(20 * t) - 4e4 * d
+
+        mass = tj.part("mass", [[1.0]], [[0.0]])
+        mass.model.add_points("base", tj.law("Shaken"), [[1.0]])
+        energy = tj.integrate(mass, 1.0, sampling_interval=0.01, step=2e-4).report["energy"]
+        self.assertLess(abs(energy["residual"]), 0.01)
+
+        @tj.point_law("Wall")
+        def wall(t, d, v):
+            return np.where(d < -0.01, -1e6 * (d + 0.01), 0.0)
+
+        ball = tj.part("ball", [[1.0]], [[0.0]])
+        ball.model.add_points("wall", tj.law("Wall"), [[1.0]])
+        ball.model.set_start([0.0], [-1.0])
+        bounce = tj.integrate(ball, 0.05, sampling_interval=0.001, step=2e-5)
+        # 10 ms of flight, half a period of contact, then back at the speed it came with.
+        back = 0.01 + np.pi / 1e3
+        self.assertAlmostEqual(float(bounce.velocity[-1, 0]), 1.0, delta=1e-3)
+        self.assertAlmostEqual(float(bounce.displacement[-1, 0]), -0.01 + (0.05 - back), delta=1e-4)
+
+    def test_laws_of_two_coordinates(self):
+        seen = []
+
+        @tj.point_law("Skew", width=2)
+        def skew(t, d, v, stiffness=tj.Parameter(100.0, "N/m")):
+            seen.append(d.shape)
+            return -stiffness * d @ np.array([[2.0, 1.0], [1.0, 3.0]])
+
+        law = tj.law("Skew", points=2)
+        self.assertEqual((law.size, law.width), (2, 2))
+        force = law.force(0.0, [1.0, 0.0, 0.0, 1.0], np.zeros(4))
+        self.assertEqual(force.tolist(), [-200.0, -100.0, -100.0, -300.0])
+        self.assertEqual(seen, [(2, 2)])
+        # As stiffness of a model: its frequencies are those of the matrix.
+        part = tj.part("plane", np.eye(4), np.zeros((4, 4)), component_names=("u", "v"))
+        part.model.add_points("skew", law, np.eye(4))
+        want = np.sqrt(np.sort(np.repeat(np.linalg.eigvalsh(100 * np.array([[2.0, 1.0], [1.0, 3.0]])), 2))) / (2 * np.pi)
+        found = tj.modes(part, 4).frequency
+        self.assertTrue(np.allclose(found, want, rtol=1e-8), f"{found} against {want}")
+
+    def test_an_exception_in_a_law_comes_out_with_its_cause(self):
+        @tj.point_law("Broken")
+        def broken(t, d, v):
+            if t > 0.01:
+                raise ValueError("no force beyond 10 ms")
+            return 0 * d
+
+        @tj.point_law("Wrong Shape")
+        def wrong(t, d, v):
+            return np.zeros(7)
+
+        with self.assertRaisesRegex(tj.ModelError, 'The point law "Broken" raised ValueError: no force beyond 10 ms') as caught:
+            tip_motion(synthesis(tj.law("Broken")), step=1e-3)
+        self.assertIsInstance(caught.exception.__cause__, ValueError)
+        with self.assertRaisesRegex(tj.ModelError, "returned an array of 7; expected are 1 x 1"):
+            tip_motion(synthesis(tj.law("Wrong Shape")), step=1e-3)
+        with self.assertRaises(tj.ModelError) as caught:  # the cause of the last call is not that of this one
+            tj.part("no matrix", "mass", np.eye(2))
+        self.assertIsNone(caught.exception.__cause__)
+
+
+class Threads(unittest.TestCase):
+    def test_the_gil_is_released_in_a_motion(self):
+        model = synthesis(tj.law("Spring", stiffness=LINEAR), None)
+        count, ended = 0, False
+
+        def work():
+            nonlocal ended
+            tj.integrate(model, 2.0, sampling_interval=0.1, step=2e-5)
+            ended = True
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        begin = time.perf_counter()
+        while not ended:
+            time.sleep(1e-3)
+            count += 1
+        wall = time.perf_counter() - begin
+        thread.join()
+        self.assertGreater(wall, 0.1, "the motion is too short to tell")
+        self.assertGreater(count, 20, f"this thread ran {count} times in {wall:.2f} s beside a motion")
+
+    def test_calls_of_several_threads_run_one_after_the_other(self):
+        model = synthesis(tj.law("Tip Spring", stiffness=LINEAR), push)
+        want = tip_motion(model, step=1e-3)
+        found = [None] * 4
+
+        def work(k):
+            found[k] = tip_motion(model, step=1e-3)
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(60)
+        for one in found:
+            self.assertTrue(np.array_equal(one, want))
+        with self.assertRaises(KeyboardInterrupt):  # signals are Python's again
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(5)
+
+    def test_a_function_may_call_the_toolkit(self):
+        inner = tj.part("inner", [[1.0]], [[4.0]])
+
+        @tj.point_law("Inner Frequency")
+        def law(t, d, v):
+            return -np.asarray(tj.modes(inner, 1).frequency)[0] * (2 * np.pi) ** 2 * d  # 1 / pi Hz
+
+        mass = tj.part("mass", [[1.0]], [[0.0]])
+        mass.model.add_points("law", tj.law("Inner Frequency"), [[1.0]])
+        self.assertAlmostEqual(float(tj.modes(mass, 1).frequency[0]), np.sqrt(4 * np.pi) / (2 * np.pi), places=8)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parts from scipy matrices: reduction, coupling and modes against scipy.linalg.eigh of the whole."""
+import gc
+import pathlib
+import unittest
+
+import beams
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sparse
+import tooljoint as tj
+
+
+def exact(K, M, count):
+    """Frequencies [Hz] and shapes of the pencil."""
+    values, shapes = scipy.linalg.eigh(K.toarray(), M.toarray())
+    return np.sqrt(values[:count]) / (2 * np.pi), shapes[:, :count]
+
+
+class Matrices(unittest.TestCase):
+    def test_matrices_come_back_without_copies(self):
+        left, _, K, M = beams.halves(tj)
+        model = left.model
+        given = M[: len(left), : len(left)].toarray()[:-2, :-2]  # all but the interface, where the right half adds
+        self.assertTrue(np.allclose(model.mass.toarray()[:-2, :-2], given, rtol=1e-14))
+        first, second = model.mass, model.mass
+        self.assertTrue(np.shares_memory(first.data, second.data), "two reads of one mass matrix have copies")
+        with self.assertRaises(ValueError, msg="a shared matrix can be written to"):
+            first.data[0] = 1.0
+
+    def test_an_array_outlives_what_it_came_from(self):
+        left, _, _, _ = beams.halves(tj)
+        mass, expected = left.model.mass, left.model.mass.toarray()
+        model = left.model
+        del left
+        gc.collect()
+        self.assertEqual(len(model), expected.shape[0])
+        del model
+        gc.collect()
+        self.assertTrue(np.array_equal(mass.toarray(), expected))
+
+    def test_any_matrix_is_taken(self):
+        K, M = beams.beam(1.0, 3)
+        K, M = K[2:, 2:], M[2:, 2:]
+        want = tj.modes(tj.part("csr", M, K, component_names=("v", "theta")), 3).frequency
+        # Every entry stands twice in its row, with half of its value.
+        twice = sparse.csr_matrix((np.repeat(K.data / 2, 2), np.repeat(K.indices, 2), 2 * K.indptr), K.shape)
+        for name, matrix in {"csc": K.tocsc(), "dense": K.toarray(), "lists": K.toarray().tolist(), "entries given twice": twice}.items():
+            part = tj.part(name, M, matrix, component_names=("v", "theta"))
+            self.assertTrue(np.array_equal(part.model.stiffness().toarray(), K.toarray()), name)
+            self.assertTrue(np.allclose(tj.modes(part, 3).frequency, want, rtol=1e-10), name)
+
+    def test_what_is_no_matrix_is_refused(self):
+        for mass in ("mass", np.eye(3), [[1.0, np.nan], [np.nan, 1.0]]):
+            with self.assertRaises(tj.ModelError) as caught:
+                tj.part("bad", mass, np.eye(2))
+            self.assertGreater(len(str(caught.exception)), 20)
+        with self.assertRaisesRegex(tj.ModelError, "2 rows, but 3 nodes"):
+            tj.part("bad", np.eye(2), np.eye(2), nodes=[1, 2, 3], components=[0, 0, 0])
+
+
+class Reduction(unittest.TestCase):
+    def setUp(self):
+        self.left, self.right, self.K, self.M = beams.halves(tj)
+        self.frequency, self.shapes = exact(self.K, self.M, 6)
+
+    def test_unreduced_parts_are_the_whole(self):
+        full = tj.couple([self.left, self.right])
+        self.assertEqual(len(full), self.K.shape[0])
+        found = tj.modes(full, 6)
+        self.assertEqual(found.frequency.unit, "Hz")
+        self.assertTrue(np.allclose(found.frequency, self.frequency, rtol=1e-9), f"{found.frequency} against {self.frequency}")
+
+    def test_four_methods_against_the_whole(self):
+        # The sixth frequency of the cantilever needs a third bending mode of each half: eight modes bring all six within 0.1 %.
+        for method, tolerance, above in (("Craig-Bampton", 1e-3, True), ("Rubin", 1e-3, True), ("Krylov", 1e-3, True), ("Dual Craig-Bampton", 1e-3, False)):
+            with self.subTest(method):
+                synthesis = tj.synthesise([self.left, self.right], method, modes=8)
+                error = np.asarray(tj.modes(synthesis, 6).frequency) / self.frequency - 1
+                self.assertLess(abs(error).max(), tolerance, f"{method}: errors {error}")
+                if above:  # Rayleigh-Ritz
+                    self.assertGreater(error.min(), -1e-9, f"{method}: errors {error}")
+
+    def test_more_modes_are_better_and_all_are_exact(self):
+        errors = []
+        for modes in (1, 3, 9):
+            found = tj.modes(tj.synthesise([self.left, self.right], modes=modes), 3).frequency
+            errors.append(max(np.asarray(found) / self.frequency[:3] - 1))
+        self.assertTrue(errors[0] > 10 * errors[1] > 100 * errors[2], f"{errors}")
+        found = tj.modes(tj.synthesise([self.left, self.right], all_modes=True), 6).frequency
+        self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8))
+
+    def test_reduce_and_couple_step_by_step(self):
+        reduced = tj.reduce([self.left, self.right], "Craig-Bampton", cut_off_frequency="2 kHz")
+        for part, like in zip(reduced, (self.left, self.right)):
+            basis = part.basis
+            self.assertEqual(basis.shape, (len(like), len(part)))
+            projected = basis.T @ like.model.stiffness() @ basis
+            self.assertTrue(np.allclose(projected.toarray(), part.model.stiffness().toarray(), atol=1e-9 * abs(projected).max()))
+            self.assertTrue((part.frequencies_hz <= 2000).all() and len(part.frequencies_hz) == part.modes > 0)
+        step = tj.modes(tj.couple(reduced), 6).frequency
+        once = tj.modes(tj.synthesise([self.left, self.right], cut_off_frequency=2000), 6).frequency
+        self.assertTrue(np.allclose(step, once, rtol=1e-10))
+        self.assertIn("fixed-interface", reduced[0].table())
+
+    def test_mac_and_comparison(self):
+        synthesis = tj.synthesise([self.left, self.right], modes=6)
+        for row, frequency in zip(tj.compare_modes(synthesis, 4), self.frequency):
+            self.assertAlmostEqual(row["full_hz"] / frequency, 1.0, places=8)
+            self.assertAlmostEqual(row["mac"], 1.0, places=4)
+            self.assertTrue(row["estimate"] / 2 < row["error"] < 2 * row["estimate"] + 1e-10, f"estimate {row['estimate']}, error {row['error']}")
+        # The definition, with the shapes of the whole: M-orthogonal, so that MAC is the identity.
+        found = tj.mac(self.shapes, -3 * self.shapes, self.M)
+        self.assertTrue(np.allclose(found, np.eye(6), atol=1e-9))
+        turned = self.shapes[:, :1] + self.shapes[:, 1:2]
+        self.assertTrue(np.allclose(tj.mac(turned, self.shapes[:, :3], self.M), [[0.5, 0.5, 0.0]], atol=1e-9))
+
+    def test_a_tolerance_chooses_the_modes(self):
+        synthesis = tj.synthesise([self.left, self.right], frequency_tolerance=1e-5, estimated_frequencies=4)
+        error = np.asarray(tj.modes(synthesis, 4).frequency) / self.frequency[:4] - 1
+        self.assertTrue(0 <= error.max() < 1e-5, f"{error}")
+        self.assertTrue(synthesis.rounds)
+        self.assertLess(len(synthesis.model), len(self.left) + len(self.right) - 10)
+
+    def test_springs_between_parts_of_the_list_coupling(self):
+        # A spring to the ground at the tip is a term on the diagonal of K.
+        stiffness = 5e4
+        springs = {"Point Laws": {"tip": {"First": "right:25", "Component": "v", "Type": "Spring", "Spring": {"Stiffness": stiffness}}}}
+        K = self.K.tolil()
+        K[-2, -2] += stiffness
+        want, _ = exact(K.tocsr(), self.M, 4)
+        found = tj.modes(tj.couple([self.left, self.right], springs), 4).frequency
+        self.assertTrue(np.allclose(found, want, rtol=1e-8), f"{found} against {want}")
+
+    def test_damped_modes(self):
+        beta = 1e-4
+        left, right, K, M = beams.halves(tj)
+        for part in (left, right):
+            part.model.add_damping(beta * part.model.stiffness())
+        found = tj.damped_modes(tj.couple([left, right]), 3)
+        want = beta * 2 * np.pi * self.frequency[:3] / 2  # zeta = beta omega / 2
+        self.assertTrue(np.allclose(found.damping, want, rtol=1e-6), f"{found.damping} against {want}")
+
+    def test_parts_as_files_take_part_in_a_deck(self):
+        parts = "".join(f'<ParameterList name="{name}"><Parameter name="File" type="string" value="{file}"/></ParameterList>'
+                        for name, file in (("left", "left.h5"), ("right", "right")))
+        pathlib.Path("beam.xml").write_text(f"""<ParameterList name="beam">
+  <ParameterList name="Parts"><ParameterList name="Imported">{parts}</ParameterList>
+    <Parameter name="Joints" type="Array(string)" value="{{left:middle = right:middle}}"/></ParameterList></ParameterList>""", encoding="utf-8")
+        if tj.rank() == 0:
+            pathlib.Path("right").mkdir(exist_ok=True)
+        tj.write_part(self.left, "left.h5", {"middle": self.left.interface})
+        tj.write_part(self.right, "right", {"middle": self.right.interface})
+        for part, again in ((self.left, tj.read_part("left.h5", "left")), (self.right, tj.read_part("right", "right"))):
+            self.assertEqual(again.name, part.name)
+            self.assertEqual(again.interface.tolist(), part.interface.tolist())
+            self.assertTrue(np.array_equal(again.model.mass.toarray(), part.model.mass.toarray()))
+            self.assertEqual(again.model.dof_names, part.model.dof_names)
+        found = tj.modes(tj.Deck("beam.xml").at_rest().full(), 6).frequency
+        self.assertTrue(np.allclose(found, self.frequency, rtol=1e-8), f"{found} against {self.frequency}")
+        with self.assertRaises(tj.DeckError):
+            tj.read_part("nowhere.h5")
+
+
+if __name__ == "__main__":
+    unittest.main()
