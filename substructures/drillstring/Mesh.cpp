@@ -168,7 +168,9 @@ class Mesher {
     if (above < samePlace) return;
     int first = 0;
     const auto left = [&](int e) { return out_.nodes[at(e + 1)].s - above; };
-    while (left(first) < shortestRest * out_.elements[at(first)].length()) ++first;
+    while (first + 1 < out_.elementCount() &&
+           left(first) < shortestRest * out_.elements[at(first)].length())
+      ++first;
     const Segment& cut = *segments_[at(first)];
     out_.elements[at(first)].formulation = cut.element.make(cut.section, left(first));
 

@@ -91,6 +91,7 @@ TEST(Mesh, LeavesNoSliverAtTheSurface) {
   EXPECT_EQ(string.nested.front().path, "stand 1/joint 1");
   EXPECT_EQ(hung(22.0).elementCount(), 10) << "the whole string";
   EXPECT_EQ(hung(2.0).instances.size(), 1u) << "the bit alone";
+  EXPECT_NEAR(hung(0.05).length(), 0.05, 1e-12) << "no neighbour takes the last sliver";
 }
 
 namespace {
