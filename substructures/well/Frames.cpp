@@ -10,6 +10,10 @@
 namespace tooljoint::well {
 namespace {
 
+/// The chord of points nearer to each other than this is rounding and has no direction: they have
+/// one frame [m].
+constexpr double samePlace = 1e-8;
+
 Vector3 reflected(const Vector3& a, const Vector3& normal, double squaredNorm) {
   return a - (2.0 / squaredNorm * normal.dot(a)) * normal;
 }
@@ -29,6 +33,10 @@ Vector3 doubleReflection(const WellPoint& from, const WellPoint& to, const Vecto
 /// Carries x along a stretch without curvature jumps inside, starting at `point`, which is moved to
 /// `to`.
 void transport(const Trajectory& trajectory, double from, double to, WellPoint& point, Vector3& x) {
+  if (to - from < samePlace) {
+    point = trajectory.at(to);
+    return;
+  }
   // local error of a step is of order (kappa h)^5, so kappa h <= 2e-3 leaves nothing above rounding
   const double kappa = std::max(point.curvature.norm(), trajectory.at(to).curvature.norm());
   const double step = std::min(0.25, 2e-3 / std::max(kappa, 1e-12));

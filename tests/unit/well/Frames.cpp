@@ -7,6 +7,7 @@
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
+#include "substructures/well/Well.hpp"
 
 using namespace tooljoint;
 using namespace tooljoint::well;
@@ -113,6 +114,26 @@ TEST(BishopFrames, AreExactOnASurvey) {
                                 well->at(stations[i].depth).tangent) *
                expected;
   EXPECT_LT((bishopFrames(*well, {120.0}).front() - expected).norm(), 1e-11);
+}
+
+/// Nodes beside a depth where the curvature jumps, as rounding leaves them: the chord between them
+/// has no direction.
+TEST(BishopFrames, PassAJumpOfCurvatureAtANode) {
+  const Well whole(
+      minimumCurvature(
+          {{0.0, 0.0, 0.0}, {4894.7, 0.0, 0.0}, {4909.7, 0.05, 1.0}, {5000.0, 0.05, 1.0}}),
+      0.1);
+  const Well lower = whole.below(4850.0);
+  const auto* well = &lower.trajectory();
+  ASSERT_GE(well->breaks().size(), 2u);
+  for (const double jump : well->breaks())
+    for (const double off : {-1e-9, -1e-12, -4e-13, -1e-13, 0.0, 1e-13, 4e-13, 1e-12, 1e-9}) {
+      const auto frames = bishopFrames(*well, {jump - 1.0, jump + off, jump + 1.0});
+      for (const Matrix3& frame : frames)
+        EXPECT_LT((frame.transpose() * frame - Matrix3::Identity()).norm(), 1e-10) << off;
+      EXPECT_GT(frames[0].col(1).dot(frames[1].col(1)), 0.999) << off;
+      EXPECT_GT(frames[1].col(1).dot(frames[2].col(1)), 0.999) << off;
+    }
 }
 
 TEST(BishopFrames, RefuseDecreasingDepths) {
