@@ -10,6 +10,7 @@
 #include "common/report/Log.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -187,7 +188,8 @@ std::string beside(double stiff, double soft) {
   return fmt::format("{:+.1f} %", 100.0 * (stiff / soft - 1.0));
 }
 
-void printStiff(const TorqueDragProfile& profile, const softstring::TorqueDragSettings& settings) {
+void printStiff(const Scene& scene, const TorqueDragProfile& profile,
+                const softstring::TorqueDragSettings& settings) {
   const TorqueDragRow& row = profile.row;
   const StiffLoads& stiff = *profile.stiff;
   if (!stiff.found())
@@ -200,7 +202,7 @@ void printStiff(const TorqueDragProfile& profile, const softstring::TorqueDragSe
       beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, "", 2),
       text(largestContact(stiff).factor / 1e3, " kN", 2),
       text(stiffYield(stiff, settings).factor, "", 2)));
-  if (stiff.torqueDefect > worthAWarning)
+  if (stiff.torqueDefect > worthAWarning && prestressRemark(scene).empty())
     log::warn(
         fmt::format("{} with the bit at {:.0f} m: the torque of the stiff string is out of "
                     "balance by {:.1f} %. Use shorter elements where the well bends most.",
@@ -230,7 +232,8 @@ void reportTorqueDrag(const Scene& scene, const std::string& folder) {
                           "", "surface torque", "", "turns", "contact", "yield"));
     for (const auto& profile : profiles)
       if (profile.stiff && (profile.row.bit == deepest || !profile.stiff->found()))
-        printStiff(profile, settings);
+        printStiff(scene, profile, settings);
+    if (const auto remark = prestressRemark(scene); !remark.empty()) log::warn(remark);
   }
   if (folder.empty()) return;
   std::string files = "torque_drag.csv, torque_drag_profile.csv";
