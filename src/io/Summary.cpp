@@ -276,6 +276,7 @@ const std::vector<std::string>& documentedKeys() {
       "bha.length",
       "bha.checked_length",
       "bha.length_change",
+      "bha.missing",
       "bha.force_defect",
       "bha.moment_defect",
       "bha.rows[].inclination",

@@ -294,6 +294,21 @@ def lying():
     near("in the middle a metre bears its own buoyed weight", middle, 8 * weight, 5e-3)
 
 
+def missing():
+    """A weight without an equilibrium is warned of; the others keep their rows."""
+    scene = str(SOURCES / "tests/effects/bottom_hole.xml")
+    settings = ("--set", "Bottom-Hole Assembly/Weight On Bit={10 kN, 2000 kN}", "--set", "Static/Max Iterations=10")
+    done = tooljoint("bha", scene, "--output", "missing", *settings)
+    expect("bha ends well without one of its rows", done.returncode == 0, done.stderr)
+    found = rows("missing", "bha.csv")
+    expect("the rows of 10 kN are there", {row["weight_on_bit"] for row in found} == {1e4} and len(found) == 2, found)
+    expect("those of 2000 kN are told", done.stderr.count("Without an equilibrium, and in no table: 2000.0 kN on the bit") == 2, done.stderr)
+    with open("missing/summary.json", encoding="utf-8") as file:
+        expect("and counted", json.load(file)["bha"]["missing"] == 2)
+    done = tooljoint("bha", scene, "--output", "missing_all", *settings[2:], "--set", "Bottom-Hole Assembly/Weight On Bit={2000 kN}")
+    expect("bha without any row does not converge", done.returncode == 4 and "did not converge" in done.stderr, f"{done.returncode} {done.stderr}")
+
+
 def refused():
     """Decks that have no answer, each with a sentence."""
     good = deck("good", {2.0: gauge(0.107), 4.0: bend(0.5)})
@@ -322,7 +337,7 @@ def refused():
 
 
 def main():
-    for check in (slick, inclined, stabiliser, bent, eccentric, pads, curved, turned, example, lying, refused):
+    for check in (slick, inclined, stabiliser, bent, eccentric, pads, curved, turned, example, lying, missing, refused):
         check()
     return finish()
 

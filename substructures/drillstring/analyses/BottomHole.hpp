@@ -101,16 +101,25 @@ struct BottomHoleRow {
   BottomHoleState state;
 };
 
+/// A point without an equilibrium.
+struct MissingRow {
+  BottomHolePoint point;
+  bool rotating = false;
+  std::string reason;
+};
+
 struct BottomHoleSweep {
   ModelledLength length;
   std::vector<BottomHoleRow> rows;
+  std::vector<MissingRow> missing;
 };
 
 /// The deck's list `Bottom-Hole Assembly`; its defaults where the deck has none.
 BottomHoleSettings bottomHoleSettings(const Scene& scene);
 
 /// Every combination of the settings. A string on which nothing turns has no rows of its own for
-/// rotating.
+/// rotating. A combination without an equilibrium is among the missing ones; ConvergenceError when
+/// none has one.
 BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& settings);
 
 /// Prints the sweep and writes bha.csv, bha_contacts.csv, bha_profile.csv, bha.h5 and summary.json.

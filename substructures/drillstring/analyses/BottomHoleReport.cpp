@@ -74,6 +74,7 @@ class Report {
       moment = std::max(moment, row.state.momentDefect);
       summary.append("bha.rows", summaryRow(row));
     }
+    summary.set("bha.missing", static_cast<long>(sweep_.missing.size()));
     summary.set("bha.force_defect", force);
     summary.set("bha.moment_defect", moment);
   }
@@ -131,6 +132,14 @@ class Report {
           "Forces or moments do not balance: {:.1f} % and {:.1f} %. Displacements are taken as "
           "small; use smaller bends, or a smaller Element Length.",
           100.0 * force, 100.0 * moment));
+    for (const auto& one : sweep_.missing)
+      log::warn(fmt::format(
+          "Without an equilibrium, and in no table: {:.1f} kN on the bit{}{}. {}",
+          one.point.weight / 1e3,
+          one.point.inclination
+              ? fmt::format(", inclination {:.1f} deg", *one.point.inclination / constants::degree)
+              : "",
+          one.rotating ? ", rotating" : "", one.reason));
     if (unstable > 0)
       log::warn(
           fmt::format("{} of {} states are unstable: the string buckles under that weight on bit.",

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
+#include "common/Error.hpp"
 #include "substructures/drillstring/analyses/BottomHole.hpp"
 
 namespace tooljoint::drillstring {
@@ -56,17 +59,26 @@ ModelledLength lengthFor(const BottomHole& assembly, const BottomHolePoint& poin
   return found;
 }
 
-/// The longest that any hole asks for, under the largest weight on bit.
+/// The longest that any hole asks for, under the largest weight on bit with an equilibrium.
 ModelledLength modelledLength(const BottomHole& assembly, const BottomHoleSettings& settings,
                               const std::vector<std::optional<double>>& holes) {
-  const double weight = *std::max_element(settings.weights.begin(), settings.weights.end());
+  auto weights = settings.weights;
+  std::sort(weights.rbegin(), weights.rend());
   ModelledLength longest;
-  for (const auto& hole : holes) {
-    const auto one = lengthFor(assembly, {hole, weight, settings.toolFaces.front()}, settings);
-    if (one.length > longest.length ||
-        (one.length == longest.length && one.change > longest.change))
-      longest = one;
-  }
+  std::string failure;
+  for (const auto& hole : holes)
+    for (const double weight : weights) {
+      try {
+        const auto one = lengthFor(assembly, {hole, weight, settings.toolFaces.front()}, settings);
+        if (one.length > longest.length ||
+            (one.length == longest.length && one.change > longest.change))
+          longest = one;
+        break;
+      } catch (const ConvergenceError& error) {
+        failure = error.what();
+      }
+    }
+  if (longest.length == 0.0) throw ConvergenceError(failure);
   return longest;
 }
 
@@ -80,16 +92,21 @@ BottomHoleSweep bottomHoleSweep(const Scene& scene, const BottomHoleSettings& se
   BottomHoleSweep sweep;
   sweep.length = modelledLength(assembly, settings, holes);
   const double length = sweep.length.length;
+  const auto add = [&](const BottomHolePoint& point, bool rotating) {
+    try {
+      sweep.rows.push_back(
+          {point, rotating,
+           rotating ? assembly.rotating(point, length) : assembly.solve(point, length)});
+    } catch (const ConvergenceError& error) {
+      sweep.missing.push_back({point, rotating, error.what()});
+    }
+  };
   for (const auto& hole : holes)
     for (const double weight : settings.weights) {
-      for (const double toolFace : settings.toolFaces) {
-        const BottomHolePoint point{hole, weight, toolFace};
-        sweep.rows.push_back({point, false, assembly.solve(point, length)});
-      }
-      if (!assembly.turns(length)) continue;
-      const BottomHolePoint point{hole, weight, settings.toolFaces.front()};
-      sweep.rows.push_back({point, true, assembly.rotating(point, length)});
+      for (const double toolFace : settings.toolFaces) add({hole, weight, toolFace}, false);
+      if (assembly.turns(length)) add({hole, weight, settings.toolFaces.front()}, true);
     }
+  if (sweep.rows.empty()) throw ConvergenceError(sweep.missing.front().reason);
   return sweep;
 }
 
