@@ -81,12 +81,21 @@ def house(root):
         yield "docs/architecture.md:1: has not the table of rooms that lint.py --rooms prints"
 
 
+def strangers(root):
+    """Complaints about what git keeps at the top level and no room holds: results of a run, most often."""
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
+    known = set(ROOMS) | {"tools", ".ci"}
+    firsts = {name.partition("/")[0]: name for name in sorted(listed.split("\0"), reverse=True) if "/" in name}
+    for room in sorted(set(firsts) - known):
+        yield f"{firsts[room]}:1: stands in no room of the project: results of runs stay out of git (git rm -r --cached {room})"
+
+
 def lint(root):
     """All complaints about a tree as texts, and the number of files read."""
     files = [root / name for name in TOP if (root / name).is_file()]
     for room in ROOMS:
         files += sorted(path for path in files_of(root, room) if path.is_file() and path.suffix in TEXTS and "__pycache__" not in path.parts)
-    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)] + list(modes(root)) + list(house(root))
+    complaints = [f"{path.relative_to(root)}:{line}: {what}" for path in files for line, what in lint_file(root, path)] + [*modes(root), *house(root), *strangers(root)]
     return complaints, len(files)
 
 
@@ -117,6 +126,7 @@ def self_test():
         "docs/K.md": ("this is not " + "implemented\n", "says"),
         "src/io/L.cpp": (spdx + "\n" * LONGEST, "more than"),
         "tools/M.py": ("#!/usr/bin/env python3\n# SPDX-License-Identifier: BSD-3-Clause\n", "is not executable"),
+        "run2/summary.json": ("{}\n", "stay out of git"),
         "quickstart": ("#!/usr/bin/env bash\n# SPDX-License-Identifier: BSD-3-Clause\n", None),
     }
     failures = 0
@@ -125,6 +135,8 @@ def self_test():
         for name, (text, _) in cases.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
+        subprocess.run(["git", "init", "-q", str(root)], check=True)
+        subprocess.run(["git", "-C", str(root), "add", "run2"], check=True)
         complaints, _ = lint(root)
         for name, (_, expected) in cases.items():
             mine = [one for one in complaints if one.startswith(name + ":")]
