@@ -22,10 +22,8 @@ class SampleRecovery {
   /// call, and `q` and `qDot`.
   Sample recover(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
     // D = offset + Phi q, D' = Phi q', D'' = Phi q''
-    recovery_.multiply(q, displacement_);
+    recovery_.multiply({&q, &qDot, &qDDot}, {&displacement_, &velocity_, &acceleration_});
     displacement_ += model_.recoveryOffset;
-    recovery_.multiply(qDot, velocity_);
-    recovery_.multiply(qDDot, acceleration_);
     return {t, q, qDot, displacement_, velocity_, acceleration_, states_};
   }
 

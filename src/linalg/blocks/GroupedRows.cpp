@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "common/Index.hpp"
+
 namespace tooljoint::linalg {
 namespace {
 
@@ -28,8 +30,7 @@ GroupedRows::GroupedRows(const Sparse& matrix) : rest_(matrix.rows(), matrix.col
           rest.emplace_back(row, static_cast<int>(it.col()), it.value());
       continue;
     }
-    Group group{rows, columns, Matrix(rows.size(), columns.size()), Vector(columns.size()),
-                Vector(rows.size())};
+    Group group{rows, columns, Matrix(rows.size(), columns.size()), Matrix(), Matrix()};
     for (std::size_t i = 0; i < rows.size(); ++i) {
       Eigen::Index j = 0;
       for (Sparse::InnerIterator it(matrix, rows[i]); it; ++it)
@@ -40,15 +41,32 @@ GroupedRows::GroupedRows(const Sparse& matrix) : rest_(matrix.rows(), matrix.col
   rest_.setFromTriplets(rest.begin(), rest.end());
 }
 
-void GroupedRows::multiply(const Vector& x, Vector& y) const {
-  y.noalias() = rest_ * x;
+template <std::size_t N>
+void GroupedRows::multiplyAll(const std::array<const Vector*, N>& x,
+                              const std::array<Vector*, N>& y) const {
+  for (std::size_t k = 0; k < N; ++k) y[k]->noalias() = rest_ * *x[k];
+  constexpr auto width = static_cast<Eigen::Index>(N);
   for (const Group& group : groups_) {
-    for (std::size_t j = 0; j < group.columns.size(); ++j)
-      group.in[static_cast<Eigen::Index>(j)] = x[group.columns[j]];
-    group.out.noalias() = group.values * group.in;
-    for (std::size_t i = 0; i < group.rows.size(); ++i)
-      y[group.rows[i]] = group.out[static_cast<Eigen::Index>(i)];
+    const auto rows = sizeOf(group.rows), columns = sizeOf(group.columns);
+    group.in.resize(width, columns);
+    group.out.setZero(rows, width);
+    for (int j = 0; j < columns; ++j)
+      for (std::size_t k = 0; k < N; ++k)
+        group.in(static_cast<Eigen::Index>(k), j) = (*x[k])[group.columns[at(j)]];
+    for (int j = 0; j < columns; ++j)
+      for (Eigen::Index k = 0; k < width; ++k)
+        group.out.col(k) += group.in(k, j) * group.values.col(j);
+    for (std::size_t k = 0; k < N; ++k)
+      for (int i = 0; i < rows; ++i)
+        (*y[k])[group.rows[at(i)]] = group.out(i, static_cast<Eigen::Index>(k));
   }
+}
+
+void GroupedRows::multiply(const Vector& x, Vector& y) const { multiplyAll<1>({&x}, {&y}); }
+
+void GroupedRows::multiply(const std::array<const Vector*, 3>& x,
+                           const std::array<Vector*, 3>& y) const {
+  multiplyAll(x, y);
 }
 
 }  // namespace tooljoint::linalg

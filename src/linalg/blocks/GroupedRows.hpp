@@ -6,6 +6,7 @@
 /// sparse.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/Types.hpp"
@@ -20,13 +21,18 @@ class GroupedRows {
   Eigen::Index rows() const { return rest_.rows(); }
   /// y = A x; y and x are different vectors.
   void multiply(const Vector& x, Vector& y) const;
+  /// The same of three vectors, in one pass over A: it is memory that a product waits for.
+  void multiply(const std::array<const Vector*, 3>& x, const std::array<Vector*, 3>& y) const;
 
  private:
   struct Group {
     std::vector<int> rows, columns;
     Matrix values;
-    mutable Vector in, out;
+    mutable Matrix in, out;  ///< a column for each vector
   };
+  template <std::size_t N>
+  void multiplyAll(const std::array<const Vector*, N>& x, const std::array<Vector*, N>& y) const;
+
   std::vector<Group> groups_;
   Sparse rest_;  ///< the rows of no group
 };

@@ -30,6 +30,12 @@ TEST(GroupedRows, multiplyAsTheSparseMatrix) {
     const Vector x = Vector::NullaryExpr(60, [&] { return uniform(random); });
     grouped.multiply(x, y);
     EXPECT_LT((y - A * x).cwiseAbs().maxCoeff(), 1e-15);
+    const Vector second = 2.0 * x, third = -x;
+    Vector twice, minus;
+    grouped.multiply({&x, &second, &third}, {&y, &twice, &minus});
+    EXPECT_LT((y - A * x).cwiseAbs().maxCoeff(), 1e-15);
+    EXPECT_EQ(twice, Vector(2.0 * y));
+    EXPECT_EQ(minus, Vector(-y));
   }
 }
 
