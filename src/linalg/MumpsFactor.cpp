@@ -90,7 +90,7 @@ struct MumpsFactor::Impl {
     open = true;
     for (const int stream : {1, 2, 3}) control(stream) = -1;  // no output
     control(4) = 0;
-    control(7) = 5;  // ordering by METIS
+    control(7) = 7;  // an ordering that this MUMPS has and deems best
     control(14) = firstRoom;
     control(27) = blockOfColumns;
   }
@@ -179,7 +179,10 @@ long MumpsFactor::entries() const {
   return entries < 0 ? -1000000L * entries : entries;
 }
 
-int MumpsFactor::negativePivots() const { return impl_->info(12); }
+std::optional<int> MumpsFactor::negativePivots() const {
+  if (!impl_->factored || impl_->symmetry == Symmetry::None) return {};
+  return impl_->info(12);
+}
 
 bool suitsMumps(const Sparse& A) {
   return A.rows() >= fewRows && A.nonZeros() > entriesOfAString * A.rows();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// Multifrontal factors by MUMPS (Amestoy, Duff, L'Excellent and Koster 2001), for matrices whose
-/// factors fill: solids and shells. On this rank alone, with the ordering of METIS.
+/// factors fill: solids and shells. On this rank alone, with an ordering that MUMPS chooses.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ class MumpsFactor {
   Matrix solve(const Matrix& b) const;
   /// Entries of the factors.
   long entries() const;
-  /// Negative eigenvalues of A (Sylvester), of symmetric factors.
-  int negativePivots() const;
+  /// Negative eigenvalues of A (Sylvester); none without factors of a symmetric A.
+  std::optional<int> negativePivots() const;
 
  private:
   struct Impl;

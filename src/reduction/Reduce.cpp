@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
@@ -47,9 +48,11 @@ int buckledModes(const PartView& part, const Basis& basis) {
   return buckled;
 }
 
-ReducedCore makeCore(const PartView& part, const Basis& basis, const ReductionOptions& options) {
+ReducedCore makeCore(const PartView& part, Basis made, const ReductionOptions& options) {
   ReducedCore core;
-  core.basis = basis;
+  core.basis = std::move(made);
+  const Basis& basis = core.basis;
+  part.releaseFactors();
   {
     const Stage stage("projection");
     core.matrices = projectMatrices(part, basis);
@@ -241,7 +244,8 @@ class Team {
         if (!isWhole(bases_[p])) addLoadVectors(views_[p], options_.loadVectors, bases_[p]);
       });
       forOwned([&](std::size_t p) {
-        cores_[p] = std::make_shared<const ReducedCore>(makeCore(views_[p], bases_[p], options_));
+        cores_[p] = std::make_shared<const ReducedCore>(
+            makeCore(views_[p], std::move(bases_[p]), options_));
       });
     });
     exchange();

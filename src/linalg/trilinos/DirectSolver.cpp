@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "common/Error.hpp"
@@ -134,6 +135,10 @@ class Factors {
     Matrix x = b;
     for (Eigen::Index j = 0; j < x.cols(); ++j) chain_.solve(x.col(j).data());
     return x;
+  }
+
+  std::optional<int> negativePivots() const {
+    return byBlocks_ || !byMumps_ ? std::nullopt : filled_.negativePivots();
   }
 
   long entries() const {
@@ -325,6 +330,9 @@ Matrix DirectSolver::apply(const Matrix& b) const {
 }
 Matrix DirectSolver::solveColumns(const Matrix& b) const { return impl_->solve(b); }
 int DirectSolver::size() const { return static_cast<int>(impl_->matrix.rows()); }
+std::optional<int> DirectSolver::negativeEigenvalues() const {
+  return impl_->factors.negativePivots();
+}
 double DirectSolver::lastResidual() const { return impl_->residual; }
 long DirectSolver::factorEntries() const { return size() == 0 ? 0 : impl_->factors.entries(); }
 

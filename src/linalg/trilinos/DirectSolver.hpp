@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -71,6 +72,8 @@ class DirectSolver {
   Matrix apply(const Matrix& b) const;
 
   int size() const;
+  /// Negative eigenvalues of A, where its factors tell them: a symmetric A, factored by MUMPS.
+  std::optional<int> negativeEigenvalues() const;
   /// Backward error of the last solve (largest of its columns); 0 before the first.
   double lastResidual() const;
   /// Entries of both factors, for cost reports.

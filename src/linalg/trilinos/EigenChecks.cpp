@@ -24,10 +24,17 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 using ColumnSparse = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<ColumnSparse, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
-/// Negative pivots of L D L' = A without pivoting, and how well the factors reproduce A.
+/// Error of factors beyond which their pivots do not tell the inertia.
+constexpr double largestError = 1e-10;
+/// The same of factors without pivoting, which may be good by chance: others are tried above it.
+constexpr double doubtfulError = 1e-13;
+
+/// Negative pivots of L D L' = A, how well the factors reproduce A, and whether others may do so
+/// better.
 struct Inertia {
   int negative = 0;
   double error = std::numeric_limits<double>::infinity();
+  double enough = doubtfulError;
 };
 
 /// The same by MUMPS, with pivoting.
@@ -35,7 +42,7 @@ Inertia inertiaByMumps(const Sparse& A) {
   MumpsFactor factor;
   if (!factor.factor(A, MumpsFactor::Symmetry::Indefinite)) return {};
   const Vector b = scatteredNumbers(A.rows(), 1, 7);
-  return {factor.negativePivots(), backwardError(A, factor.solve(b), b)};
+  return {factor.negativePivots().value(), backwardError(A, factor.solve(b), b), largestError};
 }
 
 Inertia inertiaOf(const Sparse& A) {
@@ -48,7 +55,7 @@ Inertia inertiaOf(const Sparse& A) {
   const Vector b = scatteredNumbers(A.rows(), 1, 7);
   const Vector x = ldlt.solve(b);
   if (!x.allFinite()) return {};
-  return {static_cast<int>((d.array() < 0.0).count()), backwardError(A, x, b)};
+  return {static_cast<int>((d.array() < 0.0).count()), backwardError(A, x, b), doubtfulError};
 }
 
 /// C A C' with C = I + scattered couplings of neighbours, diagonally dominant in its rows: the same
@@ -249,11 +256,11 @@ int eigenvaluesBelow(const Sparse& K, const Sparse& M, double bound) {
   const Stage stage("inertia counts");
   const Sparse A = equilibrated(Sparse(K - bound * M));
   Inertia best = inertiaOf(A);
-  for (std::uint64_t seed = 1; seed <= 8 && best.error > 1e-13; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8 && best.error > best.enough; ++seed) {
     const Inertia other = inertiaOf(congruent(A, seed));
     if (other.error < best.error) best = other;
   }
-  if (!(best.error <= 1e-10))
+  if (!(best.error <= largestError))
     throw ConvergenceError("The eigenvalues below " + scientific(bound) +
                            " could not be counted: K - lambda M has no stable LDL' factors there.");
   return best.negative;

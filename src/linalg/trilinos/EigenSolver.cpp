@@ -28,6 +28,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// times the largest over the lowest eigenvalue, does not allow much less.
 constexpr double iterationShare = 1e-4;
 
+/// An eigenvalue below this part of the largest is too near zero for a shift of zero.
+constexpr double wellAboveZero = 1e-10;
+
 /// A checked symmetric pencil and what is derived from it once.
 struct Pencil {
   Sparse K, M;
@@ -57,7 +60,7 @@ double shiftBelowSpectrum(const Pencil& pencil, const EigenOptions& options) {
                        std::to_string(below) + " eigenvalue(s): give a lower one, or none.");
     return *options.shift;
   }
-  const double floor = 1e-10 * pencil.scale;
+  const double floor = wellAboveZero * pencil.scale;
   if (floor == 0.0) return -1.0;  // K = 0
   const int low = pencil.below(floor);
   if (low == 0) return 0.0;
@@ -155,9 +158,14 @@ EigenPairs krylovSchur(const Pencil& pencil, const DirectSolver& factors, double
   const auto map = serialMap(pencil.size());
   Teuchos::ParameterList list = solverParameters(pencil, wanted, attempt, options);
   const int block = list.get<int>("Block Size");
-  // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu
-  const Teuchos::RCP<tpetra::Operator> inverse = Teuchos::rcp(
-      new FunctionOperator(map, [&](const Matrix& x) { return factors.solve(pencil.M * x); }));
+  // nu phi = (K - sigma M)^-1 M phi,  lambda = sigma + 1/nu. The first attempt at a large pencil
+  // takes solutions as the factors give them: refining takes three times as long, and the checks of
+  // the modes refine theirs.
+  const bool refine = attempt > 0 || !factors.negativeEigenvalues().has_value();
+  const Teuchos::RCP<tpetra::Operator> inverse =
+      Teuchos::rcp(new FunctionOperator(map, [&](const Matrix& x) {
+        return refine ? factors.solve(pencil.M * x) : factors.apply(pencil.M * x);
+      }));
   const Teuchos::RCP<tpetra::Operator> mass = Teuchos::rcp(
       new FunctionOperator(map, [&](const Matrix& x) { return Matrix(pencil.M * x); }));
   const auto start = toTpetra(
@@ -248,12 +256,9 @@ EigenPairs checkedModes(const Pencil& pencil, const DirectSolver& factors, doubl
   return modes;
 }
 
-EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
-  const double shift = shiftBelowSpectrum(pencil, options);
-  const DirectSolver factors = [&] {
-    const Stage stage("factorisation for modes");
-    return DirectSolver(Sparse(pencil.K - shift * pencil.M), options.name);
-  }();
+/// The modes nearest above the shift, with the factors of K - shift M.
+EigenPairs modesAbove(double shift, const DirectSolver& factors, const Pencil& pencil, int count,
+                      const EigenOptions& options) {
   std::string reason;
   int extra = 4;
   constexpr int attempts = 4;
@@ -269,6 +274,20 @@ EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& opti
                          std::to_string(attempts) + " attempts. The last one: " + reason +
                          ". Raise \"Num Blocks\", \"Block Size\" or \"Maximum Restarts\", or lower "
                          "\"Convergence Tolerance\".");
+}
+
+EigenPairs sparseModes(const Pencil& pencil, int count, const EigenOptions& options) {
+  if (options.stiffness != nullptr && !options.shift &&
+      options.stiffness->negativeEigenvalues() == 0) {
+    EigenPairs modes = modesAbove(0.0, *options.stiffness, pencil, count, options);
+    if (modes.values[0] > wellAboveZero * pencil.scale) return modes;
+  }
+  const double shift = shiftBelowSpectrum(pencil, options);
+  const DirectSolver factors = [&] {
+    const Stage stage("factorisation for modes");
+    return DirectSolver(Sparse(pencil.K - shift * pencil.M), options.name);
+  }();
+  return modesAbove(shift, factors, pencil, count, options);
 }
 
 EigenPairs modesOf(const Pencil& pencil, int count, const EigenOptions& options) {

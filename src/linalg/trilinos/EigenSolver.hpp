@@ -39,7 +39,9 @@ struct EigenOptions {
   int denseBelow = 200;  ///< matrices smaller than this are solved dense, as are requests for more
                          ///< than a third of the modes
   std::optional<double>
-      shift;      ///< shift below all eigenvalues; chosen from the matrices when absent
+      shift;  ///< shift below all eigenvalues; chosen from the matrices when absent
+  const DirectSolver* stiffness =
+      nullptr;    ///< factors of K, where they exist already: taken where a shift of zero serves
   DofNamer name;  ///< names of the dofs for messages
   const Teuchos::ParameterList* anasazi =
       nullptr;  ///< laid over the parameters of Anasazi::BlockKrylovSchurSolMgr

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reduction/part/RowFiller.hpp"
 #include "reduction/vectors/ModalVectors.hpp"
 
 namespace tooljoint::reduction {
@@ -34,20 +35,23 @@ void setVectors(const Partition& partition, const Sparse& psi, const InteriorVec
                 Basis& basis) {
   basis.partition = partition;
   const int boundary = sizeOf(partition.boundary);
-  Triplets entries;
-  forEachEntry(psi, [&](int i, int j, double value) { entries.emplace_back(i, j, value); });
+  RowFiller columns(partition.size, boundary + vectors.kept);
+  forEachEntry(psi, [&](int i, int, double) { columns.expect(i, 1); });
+  for (int k = 0; k < vectors.kept; ++k) {
+    const ModalVector& vector = vectors.vectors[at(k)];
+    columns.expect(vectors.groups[at(vector.group)], vector.shape);
+  }
+  columns.start();
+  forEachEntry(psi, [&](int i, int j, double value) { columns.put(i, j, value); });
   basis.eigenvalues.resize(vectors.kept);
   basis.modeKind.clear();
   for (int k = 0; k < vectors.kept; ++k) {
     const ModalVector& vector = vectors.vectors[at(k)];
     basis.eigenvalues[k] = vector.eigenvalue;
     basis.modeKind.push_back(vector.kind);
-    const auto& positions = vectors.groups[at(vector.group)];
-    for (int i = 0; i < sizeOf(positions); ++i)
-      if (vector.shape[i] != 0.0)
-        entries.emplace_back(positions[at(i)], boundary + k, vector.shape[i]);
+    columns.put(vectors.groups[at(vector.group)], {boundary + k}, vector.shape);
   }
-  basis.vectors = sparse(partition.size, boundary + vectors.kept, entries);
+  basis.vectors = columns.result();
 }
 
 void addConstraintRows(const PartView& part, const Partition& partition, const Vector& residuals,

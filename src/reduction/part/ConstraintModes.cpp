@@ -3,22 +3,28 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/report/StageTimes.hpp"
 #include "reduction/part/PartView.hpp"
+#include "reduction/part/RowFiller.hpp"
 
 namespace tooljoint::reduction {
 
-ConstraintModeBuilder::ConstraintModeBuilder(const Partition& partition)
-    : partition_(partition), residuals_(Vector::Zero(sizeOf(partition.boundary))) {
-  for (int j = 0; j < sizeOf(partition.boundary); ++j)
-    entries_.emplace_back(partition.boundary[at(j)], j, 1.0);
-}
+namespace {
 
-void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, const Matrix& phi,
+/// Shapes solved for at a time: what stands beside the result is that of so many columns.
+constexpr int columnsAtATime = 64;
+
+}  // namespace
+
+ConstraintModeBuilder::ConstraintModeBuilder(const Partition& partition)
+    : partition_(partition), residuals_(Vector::Zero(sizeOf(partition.boundary))) {}
+
+void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, Matrix phi,
                                 const std::vector<int>& inner, const std::vector<int>& touched) {
   const Matrix defect = KII * phi + KIC;
   double norm = 0;
@@ -31,13 +37,19 @@ void ConstraintModeBuilder::add(const Sparse& KII, const Matrix& KIC, const Matr
     const double scale = norm * phi.col(j).cwiseAbs().maxCoeff() + KIC.col(j).cwiseAbs().maxCoeff();
     double& residual = residuals_[touched[at(j)]];
     if (scale > 0.0) residual = std::max(residual, defect.col(j).cwiseAbs().maxCoeff() / scale);
-    for (int i = 0; i < sizeOf(inner); ++i)
-      if (phi(i, j) != 0.0) entries_.emplace_back(inner[at(i)], touched[at(j)], phi(i, j));
   }
+  pieces_.push_back({inner, touched, std::move(phi)});
 }
 
 ConstraintModes ConstraintModeBuilder::result() const {
-  return {sparse(partition_.size, residuals_.size(), entries_), residuals_};
+  RowFiller vectors(partition_.size, residuals_.size());
+  for (int i : partition_.boundary) vectors.expect(i, 1);
+  for (const Piece& piece : pieces_) vectors.expect(piece.inner, piece.shapes);
+  vectors.start();
+  for (int j = 0; j < sizeOf(partition_.boundary); ++j)
+    vectors.put(partition_.boundary[at(j)], j, 1.0);
+  for (const Piece& piece : pieces_) vectors.put(piece.inner, piece.touched, piece.shapes);
+  return {vectors.result(), residuals_};
 }
 
 ConstraintModes constraintModes(const PartView& part) {
@@ -46,11 +58,16 @@ ConstraintModes constraintModes(const PartView& part) {
   for (int i = 0; i < part.blocks(); ++i) {
     const InteriorBlock& b = part.interiorBlock(i);
     if (b.floats()) continue;  // no motion of a boundary dof reaches it
-    std::vector<int> outer;
-    for (int j : b.touched) outer.push_back(part.partition().boundary[at(j)]);
-    const Matrix KIC = block(part.stiffness(), b.positions, outer);
-    const Matrix phi = part.solveBlock(i, -KIC);  // K_II phi_C = -K_IC
-    modes.add(b.stiffness, KIC, phi, b.positions, b.touched);
+    for (std::size_t first = 0; first < b.touched.size(); first += columnsAtATime) {
+      const auto begin = b.touched.begin() + static_cast<std::ptrdiff_t>(first);
+      const std::vector<int> touched(
+          begin, begin + std::min<std::ptrdiff_t>(columnsAtATime, b.touched.end() - begin));
+      std::vector<int> outer;
+      for (int j : touched) outer.push_back(part.partition().boundary[at(j)]);
+      const Matrix KIC = block(part.stiffness(), b.positions, outer);
+      modes.add(b.stiffness, KIC, part.solveBlock(i, -KIC), b.positions,
+                touched);  // K_II phi_C = -K_IC
+    }
   }
   return modes.result();
 }

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "common/Types.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::reduction {
@@ -24,14 +25,19 @@ class ConstraintModeBuilder {
  public:
   explicit ConstraintModeBuilder(const Partition& partition);
   /// Takes `phi`, a solution of K_II phi = -K_IC for the interior dofs at the positions `inner` and
-  /// the boundary dofs with the indices `touched`.
-  void add(const Sparse& KII, const Matrix& KIC, const Matrix& phi, const std::vector<int>& inner,
+  /// the boundary dofs with the indices `touched`. Pieces with the same `inner` follow each other
+  /// in the order of their boundary dofs.
+  void add(const Sparse& KII, const Matrix& KIC, Matrix phi, const std::vector<int>& inner,
            const std::vector<int>& touched);
   ConstraintModes result() const;
 
  private:
+  struct Piece {
+    std::vector<int> inner, touched;
+    Matrix shapes;
+  };
   const Partition& partition_;
-  Triplets entries_;
+  std::vector<Piece> pieces_;
   Vector residuals_;
 };
 

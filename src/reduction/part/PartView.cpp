@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/Error.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "model/DofNames.hpp"
 #include "reduction/part/InteriorStatics.hpp"
 
@@ -193,6 +194,20 @@ Matrix PartView::solveInterior(const Matrix& loads) const { return solve(loads, 
 Matrix PartView::solveSymmetricInterior(const Matrix& loads) const { return solve(loads, true); }
 Matrix PartView::solveBlock(int number, const Matrix& loads) const {
   return factor(number, false).solve(loads);
+}
+
+const linalg::DirectSolver* PartView::sharedFactors(int number) const {
+  const InteriorBlock& b = interiorBlock(number);
+  if (b.floats() || !linalg::suitsMumps(b.symmetricStiffness)) return nullptr;
+  return &factor(number, true).solver;
+}
+
+void PartView::releaseFactors() const {
+  for (int i = 0; i < sizeOf(state_->blocks); ++i)
+    if (linalg::suitsMumps(interiorBlock(i).stiffness)) {
+      state_->blocks[at(i)].full = {};
+      state_->blocks[at(i)].symmetric = {};
+    }
 }
 
 const ConstraintModes& PartView::constraintModes() const {

@@ -73,6 +73,11 @@ class PartView {
   Matrix solveSymmetricInterior(const Matrix& loads) const;
   /// The same of one block, rows of the block x columns.
   Matrix solveBlock(int number, const Matrix& loads) const;
+  /// The factors of sym(K)_II of a block, for others to use, where they are worth sharing: of a
+  /// large one (linalg::suitsMumps) that is held. Null otherwise.
+  const linalg::DirectSolver* sharedFactors(int number) const;
+  /// Gives back the memory of such factors; a later use computes them again.
+  void releaseFactors() const;
 
   const ConstraintModes& constraintModes() const;
 

@@ -10,6 +10,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
+#include "linalg/MumpsFactor.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
@@ -26,6 +27,9 @@ constexpr double zeroEnergy = 1e-12;
 /// two more.
 constexpr int zeroEnergyCandidates = 8;
 
+/// Shapes recovered at a time, so that a check needs little memory beside the basis.
+constexpr Eigen::Index shapesAtATime = 64;
+
 /// Mass-normalised shapes phi with omega^2 = phi' K phi.
 int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenvalues) {
   const Sparse absolute = K.cwiseAbs();
@@ -37,17 +41,42 @@ int countZeroEnergy(const Sparse& K, const Matrix& shapes, const Vector& eigenva
   return found;
 }
 
+/// The same of the shapes Phi q.
+int countZeroEnergy(const Sparse& K, const Matrix& Phi, const Matrix& q,
+                    const Vector& eigenvalues) {
+  int found = 0;
+  for (Eigen::Index k = 0; k < q.cols(); k += shapesAtATime) {
+    const auto count = std::min(shapesAtATime, q.cols() - k);
+    found += countZeroEnergy(K, Phi * q.middleCols(k, count), eigenvalues.segment(k, count));
+  }
+  return found;
+}
+
+/// Zero-energy modes of the whole part. Of a large one by counts of eigenvalues: those between
+/// -omega^2 and omega^2 with an omega^2 that is no energy for a motion of equal displacements,
+/// u' |K| u / u' M u summed over the dofs.
+int zeroEnergyOfWhole(const PartView& part) {
+  const Sparse &K = part.symmetricStiffness(), &M = part.mass();
+  if (!linalg::suitsMumps(K) || linalg::hasMasslessDofs(M)) {
+    const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
+        K, M, std::min(zeroEnergyCandidates, part.model().size()), linalg::EigenOptions());
+    return countZeroEnergy(K, lowest.vectors, lowest.values);
+  }
+  const double bound = zeroEnergy * K.cwiseAbs().sum() / M.diagonal().sum();
+  const int below = linalg::eigenvaluesBelow(K, M, bound);
+  return below == 0 ? 0 : below - linalg::eigenvaluesBelow(K, M, -bound);
+}
+
 void checkRank(const Basis& basis, BasisReport& report) {
   const Stage stage("check of the rank");
-  const Matrix Phi =
-      Matrix(basis.vectors)
-          .leftCols(basis.vectors.cols() - basis.forces());  // residual flexibility may be nothing
-  if (Phi.cols() == 0) {
+  // Without residual flexibility, which may be nothing.
+  const Eigen::Index size = basis.vectors.cols() - basis.forces();
+  if (size == 0) {
     report.rank = 0;
     report.conditioning = 1;
     return;
   }
-  Matrix scaled = Phi;
+  Matrix scaled = basis.vectors.leftCols(size);
   for (Eigen::Index j = 0; j < scaled.cols(); ++j) {
     const double length = scaled.col(j).norm();
     if (length > 0) scaled.col(j) /= length;
@@ -184,7 +213,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
   const Matrix m = Matrix(reduced.mass).topLeftCorner(size, size);
   const Sparse& K = part.symmetricStiffness();
   const Matrix k = Matrix(symmetricPart(reduced.constantStiffness)).topLeftCorner(size, size);
-  const Matrix vectors = Matrix(basis.vectors).leftCols(size);
+  const Matrix vectors = basis.vectors.leftCols(size);
   if (m.rows() == 0) {
     report.largestOmega = 0;
     report.explicitStep = 0;
@@ -199,7 +228,7 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
                                std::to_string(size) + " coordinates: implicit integrators only");
     else
       report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    report.zeroEnergyReduced = countZeroEnergy(K, vectors * pairs.vectors, pairs.values);
+    report.zeroEnergyReduced = countZeroEnergy(K, vectors, pairs.vectors, pairs.values);
   } else {
     const Eigen::LLT<Matrix> factor(m);
     if (factor.info() != Eigen::Success)
@@ -214,11 +243,9 @@ void checkFrequencies(const PartView& part, const Basis& basis, const ProjectedM
     const Matrix& shapes = pairs.eigenvectors();
     report.largestOmega = std::sqrt(std::max(0.0, pairs.eigenvalues().maxCoeff()));
     report.explicitStep = report.largestOmega > 0 ? rk4StabilityLimit / report.largestOmega : 0;
-    report.zeroEnergyReduced = countZeroEnergy(K, vectors * shapes, pairs.eigenvalues());
+    report.zeroEnergyReduced = countZeroEnergy(K, vectors, shapes, pairs.eigenvalues());
   }
-  const linalg::EigenPairs lowest = linalg::lowestFiniteModes(
-      K, part.mass(), std::min(zeroEnergyCandidates, part.model().size()), linalg::EigenOptions());
-  report.zeroEnergyFull = countZeroEnergy(K, lowest.vectors, lowest.values);
+  report.zeroEnergyFull = zeroEnergyOfWhole(part);
 }
 
 }  // namespace

@@ -17,6 +17,11 @@ namespace {
 constexpr double enforceBelow = 1e-10;
 /// Entries below this times |Phi|' |A| |Phi| are rounding of the projection itself.
 constexpr double roundingLevel = 1e-14;
+/// Share of entries from which a basis is multiplied as a dense matrix.
+constexpr double fullFrom = 0.1;
+/// Rows from which a full basis is taken by some columns at a time, so that products need little
+/// memory beside it.
+constexpr Eigen::Index manyRows = 2000, columnsAtATime = 64;
 
 double norm(const Sparse& A) { return A.norm(); }
 double product(const Sparse& A, const Sparse& B) { return A.cwiseProduct(B).sum(); }
@@ -47,9 +52,26 @@ std::optional<std::pair<double, double>> rayleighCoefficients(const Sparse& A, c
   return std::nullopt;
 }
 
+/// So many entries that dense columns are no longer than sparse ones.
+bool isFull(const Sparse& Phi) {
+  return static_cast<double>(Phi.nonZeros()) >=
+         fullFrom *
+             std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
+}
+
 /// Natural size of phi_i' A phi_j: s_i s_j with s_i^2 = |phi_i|' |A| |phi_i|.
 Vector naturalSize(const Sparse& A, const Sparse& Phi) {
   const Sparse absolute = A.cwiseAbs();
+  if (isFull(Phi) && Phi.rows() >= manyRows) {
+    Vector sizes(Phi.cols());
+    for (Eigen::Index j = 0; j < Phi.cols(); j += columnsAtATime) {
+      const auto count = std::min(columnsAtATime, Phi.cols() - j);
+      const Matrix shapes = Matrix(Phi.middleCols(j, count)).cwiseAbs();
+      sizes.segment(j, count) =
+          shapes.cwiseProduct(Matrix(absolute * shapes)).colwise().sum().cwiseSqrt();
+    }
+    return sizes;
+  }
   const Sparse shapes = Phi.cwiseAbs();
   const Sparse product = absolute * shapes;
   Vector sizes = Vector::Zero(Phi.cols());
@@ -178,10 +200,7 @@ std::vector<model::MatrixTerm> stiffnessTerms(const model::SecondOrderModel& mod
 }
 
 Sparse project(const Sparse& A, const Sparse& Phi) {
-  const double filling =
-      static_cast<double>(Phi.nonZeros()) /
-      std::max(1.0, static_cast<double>(Phi.rows()) * static_cast<double>(Phi.cols()));
-  if (filling < 0.1) {
+  if (!isFull(Phi)) {
     const Sparse transposed = Phi.transpose();
     const Sparse right = A * Phi;
     return withoutZeros(transposed * right);

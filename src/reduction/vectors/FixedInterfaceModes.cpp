@@ -25,10 +25,12 @@ struct Progress {
 /// Modes to compute for one block. Two more than requested detect a cut through a pair. Dofs
 /// without mass are static: the finite modes and the constraint modes hold every motion of
 /// the others.
-linalg::EigenPairs solve(const InteriorBlock& block, const ModeRequest& request, int count,
+linalg::EigenPairs solve(const PartView& part, int number, const ModeRequest& request, int count,
                          Progress& progress) {
+  const InteriorBlock& block = part.interiorBlock(number);
   linalg::EigenOptions options = request.eigen ? *request.eigen : linalg::EigenOptions();
   options.name = block.name;
+  options.stiffness = part.sharedFactors(number);
   const Sparse &K = block.symmetricStiffness, &M = block.mass;
   const bool below = request.kind == ModeRequest::Kind::Below;
   if (linalg::hasMasslessDofs(M)) {
@@ -110,10 +112,9 @@ InteriorVectors fixedInterfaceModes(const PartView& part, const ModeRequest& req
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       try {
         if (perBlock > 0 || request.kind == ModeRequest::Kind::Below) {
-          const InteriorBlock& block = part.interiorBlock(blocks[i]);
-          const auto pairs = solve(block, request, perBlock, progress[i]);
+          const auto pairs = solve(part, blocks[i], request, perBlock, progress[i]);
           progress[i].computed = pairs.count();
-          append(result, block, blocks[i], pairs);
+          append(result, part.interiorBlock(blocks[i]), blocks[i], pairs);
         }
       } catch (const Error& error) {
         const std::string sentence = part.who(what) + error.what();

@@ -18,6 +18,7 @@
 #include "linalg/Deterministic.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "linalg/trilinos/EigenChecks.hpp"
+#include "linalg/trilinos/EigenSolver.hpp"
 
 namespace {
 
@@ -168,12 +169,32 @@ TEST(MumpsFactor, standsBehindTheDirectSolver) {
   const DirectSolver solver(solid());
   EXPECT_LT(backwardError(solid(), solver.solve(b), b), 1e-13);
   EXPECT_LT(solver.lastResidual(), 1e-13);
+  EXPECT_EQ(solver.negativeEigenvalues(), 0);
+  EXPECT_GT(DirectSolver(shifted(solid(), 0.3)).negativeEigenvalues().value(), 0);
+  EXPECT_FALSE(DirectSolver(grid().topLeftCorner(100, 100)).negativeEigenvalues().has_value());
   try {
     const DirectSolver free(solid(true));
     FAIL() << "a free solid was factored";
   } catch (const ModelError& error) {
     EXPECT_NE(std::string(error.what()).find("nothing resists a motion"), std::string::npos)
         << error.what();
+  }
+}
+
+/// Modes with the factors of K from elsewhere are those without them; where a shift of zero does
+/// not serve, below no eigenvalue, it is not taken.
+TEST(MumpsFactor, servesTheModesOfTheSameMatrix) {
+  Sparse one(solid().rows(), solid().rows());
+  one.setIdentity();
+  for (const double shift : {0.0, 0.2}) {
+    const Sparse K = shifted(solid(), shift);
+    const DirectSolver factors(K);
+    const EigenPairs alone = lowestModes(K, one, 6);
+    EigenOptions options;
+    options.stiffness = &factors;
+    const EigenPairs shared = lowestModes(K, one, 6, options);
+    EXPECT_LT((shared.values - alone.values).cwiseAbs().maxCoeff(), 1e-10);
+    EXPECT_EQ(shared.method.find("shift 0,") != std::string::npos, shift == 0.0) << shared.method;
   }
 }
 
