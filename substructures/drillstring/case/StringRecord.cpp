@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <utility>
 
 #include "common/Constants.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
 
 namespace tooljoint::drillstring {
@@ -164,14 +165,13 @@ void StringRecord::summarise(io::Summary& summary) const {
 }
 
 std::string StringRecord::describe() const {
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "            bit speed %.4g to %.4g rpm, mean %.4g rpm; largest penetration %.3g mm",
-      figures_.minBitSpeed * constants::rpmPerRadianPerSecond,
-      figures_.maxBitSpeed * constants::rpmPerRadianPerSecond,
-      figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond, figures_.maxPenetration * 1e3);
-  return merits_.known() ? text + ("\n" + merits_.describe()) : text;
+  const deck::PrintedUnit speed("rpm");
+  const std::string text = fmt::format(
+      "            bit speed {:.4g} to {:.4g} rpm, mean {:.4g} rpm; largest "
+      "penetration {}",
+      speed(figures_.minBitSpeed), speed(figures_.maxBitSpeed), speed(figures_.meanBitSpeed()),
+      deck::printed(figures_.maxPenetration, "mm", 3));
+  return merits_.known() ? text + "\n" + merits_.describe() : text;
 }
 
 std::vector<std::string> StringRecord::warnings() const {
