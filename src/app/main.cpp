@@ -19,6 +19,8 @@
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "linalg/blocks/LargePages.hpp"
 
 namespace {
@@ -70,6 +72,11 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Outp
                   "is not modelled")
       ->type_name("LIST")
       ->allow_extra_args(false);
+  command
+      .add_option("--units", options.units,
+                  "units of printed results: si (with kN, rpm, deg) or field (ft, klbf, kft-lbf, "
+                  "psi); files hold SI units")
+      ->type_name("{" + tooljoint::join(tooljoint::deck::printedSystemNames(), ",") + "}");
   if (output != Output::None)
     command
         .add_option(
@@ -352,7 +359,13 @@ int run(int argc, char** argv) {
   for (const auto& list : options.without) edits.push_back("!" + list);
   options.overrides.insert(options.overrides.begin(), edits.begin(), edits.end());
   tooljoint::installInterruptHandlers();
-  return guarded(command);
+  return guarded([&] {
+    namespace deck = tooljoint::deck;
+    deck::printIn(deck::printedSystemOf(options.units));
+    if (deck::printedSystem() == deck::PrintedSystem::Field)
+      tooljoint::log::info("units       of the field in print; files hold SI units");
+    command();
+  });
 }
 
 }  // namespace

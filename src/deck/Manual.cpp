@@ -9,6 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "deck/Describe.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "deck/reading/Units.hpp"
 
 namespace tooljoint::deck {
@@ -299,6 +300,15 @@ std::string unitsMarkdown(int headingLevel) {
     text += "| " + symbol.quantity + " | `" + symbol.symbol + "` | " + join(also, ", ") + " | " +
             formatNumber(symbol.unit.factor) + " " + symbol.si + " |\n";
   }
+  text +=
+      "\n" + std::string(static_cast<std::size_t>(headingLevel + 1), '#') +
+      " Printed results\n\nCommands that read a deck print results in the units of the second "
+      "column, with `--units field` in those of the third; others (s, Hz, rpm, deg, rad, J) are "
+      "the same in both. Files hold SI units.\n\n| Quantity | Printed in | With `--units field` "
+      "| Value in SI |\n|---|---|---|---|\n";
+  for (const FieldUnit& unit : fieldUnits())
+    text += "| " + unit.quantity + " | " + unit.usual + " | " + unit.field + " | " +
+            formatNumber(unit.factor()) + " " + unit.si + " |\n";
   return text;
 }
 

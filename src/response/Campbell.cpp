@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "cases/nodes/NodeDofs.hpp"
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "estimate/ModeMatching.hpp"
 #include "linalg/DynamicStiffness.hpp"
 #include "response/ModeTracker.hpp"
-#include "response/NodeDofs.hpp"
 #include "response/SweepParameters.hpp"
 #include "response/SweepProgress.hpp"
 
@@ -41,7 +41,7 @@ class Whirl {
   Whirl(const model::SecondOrderModel& model, const std::string& axis)
       : recovery_(model.recovery),
         width_(static_cast<Eigen::Index>(model.componentNames.size())),
-        lateral_(lateralComponents(model, axis)) {}
+        lateral_(cases::lateralComponents(model, axis)) {}
 
   double operator()(const Eigen::VectorXcd& shape) const {
     if (lateral_[0] < 0 || lateral_[1] < 0) return 0.0;

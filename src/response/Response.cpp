@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "cases/nodes/NodeDofs.hpp"
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
@@ -29,8 +30,8 @@ constexpr int goldenSteps = 20;
 
 /// Rows of the recovery that the deck names.
 struct Rows {
-  std::vector<NodeRow> loads, outputs;
-  std::vector<std::array<NodeRow, 2>> unbalances;
+  std::vector<cases::NodeRow> loads, outputs;
+  std::vector<std::array<cases::NodeRow, 2>> unbalances;
 };
 
 /// A load at one rotary speed in any model of the case.
@@ -47,7 +48,7 @@ class Loads {
         ComplexMatrix f = ComplexMatrix::Zero(model.size(), 1);
         for (std::size_t i = 0; i < rows_.loads.size(); ++i)
           f += std::polar(settings_.loads[i].value, settings_.loads[i].phase) *
-               coefficients(model, rows_.loads[i]);
+               cases::coefficients(model, rows_.loads[i]);
         return f;
       }
       case Excitation::Transfer:
@@ -67,17 +68,17 @@ class Loads {
     for (std::size_t i = 0; i < rows_.unbalances.size(); ++i) {
       const auto& one = settings_.unbalances[i];
       const Complex turning = std::polar(one.value * speed * speed, one.phase);
-      f += turning * coefficients(model, rows_.unbalances[i][0]) -
-           imaginary * turning * coefficients(model, rows_.unbalances[i][1]);
+      f += turning * cases::coefficients(model, rows_.unbalances[i][0]) -
+           imaginary * turning * cases::coefficients(model, rows_.unbalances[i][1]);
     }
     return f;
   }
 
   static ComplexMatrix columns(const model::SecondOrderModel& model,
-                               const std::vector<NodeRow>& rows) {
+                               const std::vector<cases::NodeRow>& rows) {
     ComplexMatrix c(model.size(), static_cast<Eigen::Index>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
-      c.col(static_cast<Eigen::Index>(i)) = coefficients(model, rows[i]).cast<Complex>();
+      c.col(static_cast<Eigen::Index>(i)) = cases::coefficients(model, rows[i]).cast<Complex>();
     return c;
   }
 
@@ -91,7 +92,7 @@ class Margins {
   Margins(const RotatingCase& rotating, const std::string& axis) {
     const auto& model = rotating.model();
     const auto measures = rotating.rest().measures();
-    const auto lateral = lateralComponents(model, axis);
+    const auto lateral = cases::lateralComponents(model, axis);
     if (lateral[0] < 0 || lateral[1] < 0) return;
     const Vector rest = rotating.rest().rest();
     const auto width = static_cast<Eigen::Index>(model.componentNames.size());
@@ -161,9 +162,9 @@ class Sweep {
     return names;
   }
 
-  NodeRow row(const NodeDof& dof) const {
-    const auto found = findRow(rotating_.rest(), rotating_.model(), dof);
-    if (coefficients(rotating_.model(), found).isZero(0.0))
+  cases::NodeRow row(const cases::NodeDof& dof) const {
+    const auto found = cases::findRow(rotating_.rest(), rotating_.model(), dof);
+    if (cases::coefficients(rotating_.model(), found).isZero(0.0))
       throw DeckError(dof.where + " is " + dof.component + " of node " + std::to_string(dof.node) +
                       ", which is held. Choose a dof that is free.");
     return found;
@@ -174,12 +175,12 @@ class Sweep {
     Rows rows;
     for (const auto& load : settings_.loads) rows.loads.push_back(row(load.dof));
     for (const auto& output : settings_.outputs) rows.outputs.push_back(row(output.dof));
-    const auto lateral = lateralComponents(model, settings_.axis);
+    const auto lateral = cases::lateralComponents(model, settings_.axis);
     for (const auto& one : settings_.unbalances) {
       if (lateral[0] < 0 || lateral[1] < 0)
         throw DeckError(one.dof.where + " is an unbalance about the axis " + settings_.axis +
                         ", but the nodes of the scene have no translations across it.");
-      std::array<NodeRow, 2> pair;
+      std::array<cases::NodeRow, 2> pair;
       for (std::size_t i = 0; i < 2; ++i) {
         auto dof = one.dof;
         dof.component = model.componentNames[tooljoint::at(lateral[i])];

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "cases/nodes/NodeDofs.hpp"
 #include "deck/ListSpec.hpp"
-#include "response/NodeDofs.hpp"
 #include "response/RotatingCase.hpp"
 
 namespace tooljoint::response {
@@ -25,7 +25,7 @@ enum class Excitation {
 /// A harmonic load or an unbalance as the deck gives it.
 struct ResponseLoad {
   std::string name;
-  NodeDof dof;
+  cases::NodeDof dof;
   double value = 0.0;  ///< [N], [N m]; of an unbalance m e [kg m]
   double phase = 0.0;  ///< [rad]
 };
@@ -33,7 +33,7 @@ struct ResponseLoad {
 /// A dof whose response is wanted.
 struct ResponseOutput {
   std::string name;
-  NodeDof dof;
+  cases::NodeDof dof;
 };
 
 /// The deck list `Response`.

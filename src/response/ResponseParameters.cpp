@@ -27,7 +27,7 @@ constexpr const char* excitations[] = {"Unbalance", "Harmonic", "Transfer"};
 
 ListSpec loadParameters() {
   ListSpec list("load", "A load on one dof; the name is free.");
-  declareNode(list, "that is loaded");
+  cases::declareNode(list, "that is loaded");
   return list.text("Component", deck::Required{}, "Component of the node.")
       .real(
           "Value", "N or N m", 1.0, Range::any(),
@@ -38,7 +38,7 @@ ListSpec loadParameters() {
 
 ListSpec unbalanceParameters() {
   ListSpec list("unbalance", "A mass off the axis; the name is free.");
-  declareNode(list, "that carries it");
+  cases::declareNode(list, "that carries it");
   return list
       .real("Moment", "kg m", deck::Required{}, Range::positive(), "Mass times eccentricity.")
       .real("Phase", "rad", 0.0, Range::any(), "Angle of the mass, from x towards y about z.");
@@ -46,7 +46,7 @@ ListSpec unbalanceParameters() {
 
 ListSpec outputParameters() {
   ListSpec list("output", "A dof whose response is wanted; the name is that of its columns.");
-  declareNode(list, "that is looked at");
+  cases::declareNode(list, "that is looked at");
   return list.text("Component", deck::Required{}, "Component of the node.");
 }
 
@@ -161,14 +161,14 @@ ResponseSettings readResponse(const ParameterList& list) {
   readSweep(list, settings);
   forEachList(list, "Loads", [&](const std::string& name, const ParameterList& one) {
     settings.loads.push_back(
-        {name, readNode(one), one.get<double>("Value"), one.get<double>("Phase")});
+        {name, cases::readNode(one), one.get<double>("Value"), one.get<double>("Phase")});
   });
   forEachList(list, "Unbalance", [&](const std::string& name, const ParameterList& one) {
     settings.unbalances.push_back(
-        {name, readNode(one), one.get<double>("Moment"), one.get<double>("Phase")});
+        {name, cases::readNode(one), one.get<double>("Moment"), one.get<double>("Phase")});
   });
   forEachList(list, "Outputs", [&](const std::string& name, const ParameterList& one) {
-    settings.outputs.push_back({name, readNode(one)});
+    settings.outputs.push_back({name, cases::readNode(one)});
   });
   settings.friction = wantsFriction(list);
   settings.spotChecks = list.get<int>("Spot Checks");

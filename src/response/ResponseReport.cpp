@@ -12,6 +12,7 @@
 #include "common/Index.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/StageTimes.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "response/Columns.hpp"
 #include "response/Response.hpp"
 
@@ -32,15 +33,17 @@ class Report {
   void print() const {
     log::info(fmt::format("largest amplitudes of {}:",
                           settings_.bySpeed() ? "the sweep by speed" : "the sweep by frequency"));
-    for (const auto& peak : response_.peaks)
+    for (const auto& peak : response_.peaks) {
+      const deck::PrintedUnit unit(unitOf(peak.load, peak.output));
       log::info(fmt::format(
           "  {:<24} {:>9.2f} rpm {:>10.4f} Hz  {:.4e} {:<10} phase {:>7.1f} deg{}",
           nameOf(peak.load, peak.output), rpm(peak.at.speed), peak.at.frequency,
-          std::abs(peak.at.x(peak.output, peak.load)), unitOf(peak.load, peak.output),
+          unit(std::abs(peak.at.x(peak.output, peak.load))), unit.name(),
           std::arg(peak.at.x(peak.output, peak.load)) * degrees,
-          peak.at.estimate.size() > 0
-              ? fmt::format("  estimated error {:.1e}", peak.at.estimate(peak.output, peak.load))
-              : ""));
+          peak.at.estimate.size() > 0 ? fmt::format("  estimated error {:.1e}",
+                                                    unit(peak.at.estimate(peak.output, peak.load)))
+                                      : ""));
+    }
     if (response_.peaks.empty()) log::info("  no local maximum in this range");
     if (!response_.checks.empty())
       log::info(fmt::format(

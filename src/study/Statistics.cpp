@@ -3,72 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <unsupported/Eigen/FFT>
+#include <utility>
 
-#include "common/Constants.hpp"
+#include "cases/figures/Spectrum.hpp"
 #include "common/Error.hpp"
 
 namespace tooljoint::study {
 namespace {
 
-constexpr std::size_t fewestSamples = 32;  ///< of a spectrum
-constexpr double dynamicRange = 1e-6;      ///< 60 dB
-
-/// Welch's mean of modified periodograms of many signals of one length.
-class Welch {
- public:
-  Welch(std::size_t samples, double interval) : interval_(interval) {
-    if (samples < fewestSamples) return;
-    // the largest power of two of which seven halves-overlapping segments fit
-    length_ = 16;
-    while (2 * length_ * 4 <= samples) length_ *= 2;
-    hann_.resize(length_);
-    for (std::size_t i = 0; i < length_; ++i) {
-      hann_[i] = 0.5 - 0.5 * std::cos(constants::twoPi * static_cast<double>(i) /
-                                      static_cast<double>(length_));
-      power_ += hann_[i] * hann_[i];
-    }
-    sum_.assign(length_ / 2 + 1, 0.0);
-    segment_.resize(length_);
-  }
-
-  void add(const std::vector<double>& signal) {
-    if (length_ == 0) return;
-    for (std::size_t first = 0; first + length_ <= signal.size(); first += length_ / 2)
-      addSegment(signal.data() + first);
-  }
-
-  /// S(f_k) = 2 dt sum |X_k|^2 / (segments sum w^2), without the factor 2 at f = 0 and at Nyquist.
-  void finish(std::size_t signals, std::vector<double>& frequency,
-              std::vector<double>& spectrum) const {
-    if (length_ == 0 || segments_ == 0 || signals == 0) return;
-    const double segmentsPerSignal = static_cast<double>(segments_) / static_cast<double>(signals);
-    for (std::size_t k = 0; k < sum_.size(); ++k) {
-      const double sides = k == 0 || 2 * k == length_ ? 1.0 : 2.0;
-      frequency.push_back(static_cast<double>(k) / (static_cast<double>(length_) * interval_));
-      spectrum.push_back(sides * interval_ * sum_[k] / (segmentsPerSignal * power_));
-    }
-  }
-
- private:
-  void addSegment(const double* values) {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < length_; ++i) mean += values[i] / static_cast<double>(length_);
-    for (std::size_t i = 0; i < length_; ++i) segment_[i] = hann_[i] * (values[i] - mean);
-    fft_.fwd(transform_, segment_);
-    for (std::size_t k = 0; k < sum_.size(); ++k) sum_[k] += std::norm(transform_[k]);
-    ++segments_;
-  }
-
-  double interval_;
-  std::size_t length_ = 0;
-  double power_ = 0.0;
-  std::vector<double> hann_, sum_, segment_;
-  std::vector<std::complex<double>> transform_;
-  Eigen::FFT<double> fft_;
-  std::size_t segments_ = 0;
-};
+constexpr double dynamicRange = 1e-6;  ///< 60 dB
 
 /// Mean density in bands a third of an octave wide, from the second line of the spectrum on.
 std::vector<double> thirdOctaves(const std::vector<double>& frequency,
@@ -137,7 +80,8 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
   for (double level : quantileLevels)
     if (!speeds.empty()) s.bitSpeed.push_back(quantile(speeds, level));
 
-  Welch welch(samples.size(), history.time[samples[1]] - history.time[samples[0]]);
+  cases::WelchSpectrum welch(cases::shortSegments(samples.size()),
+                             history.time[samples[1]] - history.time[samples[0]]);
   std::vector<double> signal(samples.size());
   for (std::size_t n = 0; n < history.nodes; ++n) {
     double touching = 0.0;
@@ -153,7 +97,9 @@ MotionStatistics statisticsOf(const HistoryView& history, const std::vector<doub
     }
     s.lateralRms.push_back(std::sqrt(variance));
   }
-  welch.finish(history.nodes, s.frequency, s.spectrum);
+  auto spectrum = welch.sumOver(history.nodes);
+  s.frequency = std::move(spectrum.frequency);
+  s.spectrum = std::move(spectrum.density);
   return s;
 }
 

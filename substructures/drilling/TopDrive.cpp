@@ -7,6 +7,7 @@
 #include "common/Error.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "model/laws/PointLawRegistry.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drilling/BitLaw.hpp"
@@ -157,14 +158,14 @@ std::string describe(const TopDrive& drive) {
   if (drive.control == DriveControl::Stiff)
     text = "stiff";
   else if (drive.control == DriveControl::Torque)
-    text = drive.torqueGiven ? "constant torque of " + formatNumber(drive.torque) + " N m"
+    text = drive.torqueGiven ? "constant torque of " + deck::printed(drive.torque, "N m")
                              : "constant torque of the static state";
   else
-    text = "speed controlled, k_p = " + formatNumber(drive.proportionalGain) +
-           " N m s/rad, k_i = " + formatNumber(drive.integralGain) + " N m/rad";
-  if (drive.turnsFreely()) text += ", inertia " + formatNumber(drive.inertia) + " kg m2";
-  if (drive.torqueLimit > 0.0) text += ", at most " + formatNumber(drive.torqueLimit) + " N m";
-  if (drive.blockSpeed > 0.0) text += ", block down at " + formatNumber(drive.blockSpeed) + " m/s";
+    text = "speed controlled, k_p = " + deck::printed(drive.proportionalGain, "N m s/rad") +
+           ", k_i = " + deck::printed(drive.integralGain, "N m/rad");
+  if (drive.turnsFreely()) text += ", inertia " + deck::printed(drive.inertia, "kg m2");
+  if (drive.torqueLimit > 0.0) text += ", at most " + deck::printed(drive.torqueLimit, "N m");
+  if (drive.blockSpeed > 0.0) text += ", block down at " + deck::printed(drive.blockSpeed, "m/s");
   return text + (drive.constantHookLoad ? ", constant hook load" : "");
 }
 

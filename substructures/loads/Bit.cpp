@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/loads/Load.hpp"
 
 namespace tooljoint::loads {
@@ -26,8 +26,8 @@ class Bit final : public Load {
   }
 
   std::vector<LoadRemark> describe(const RotarySpeed&) const override {
-    return {{weight_ != 0.0, "weight on bit", formatNumber(weight_) + " N"},
-            {torque_ != 0.0, "torque on bit", formatNumber(torque_) + " N m"}};
+    return {{weight_ != 0.0, "weight on bit", deck::printed(weight_, "N")},
+            {torque_ != 0.0, "torque on bit", deck::printed(torque_, "N m")}};
   }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/loads/Load.hpp"
 
 namespace tooljoint::loads {
@@ -20,7 +20,7 @@ class Gravity final : public Load {
 
   std::vector<LoadRemark> describe(const RotarySpeed&) const override {
     return {{gravity_ != 0.0, "weight",
-             gravity_ != 0.0 ? "g = " + formatNumber(gravity_) + " m/s2" : "Gravity is 0"}};
+             gravity_ != 0.0 ? "g = " + deck::printed(gravity_, "m/s2") : "Gravity is 0"}};
   }
 
  private:

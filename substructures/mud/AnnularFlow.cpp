@@ -10,6 +10,7 @@
 #include "common/Text.hpp"
 #include "common/report/EvaluationCounters.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 
 namespace tooljoint::mud {
 namespace {
@@ -22,7 +23,7 @@ constexpr double filmConfinement = 20.0;
 
 double square(double x) { return x * x; }
 
-std::string metres(double value) { return formatNumber(value) + " m"; }
+std::string metres(double value) { return deck::printed(value, "m"); }
 
 /// Turns (u, v) into (v, -u) and (theta_x, theta_y) into (theta_y, -theta_x) at both ends. It
 /// commutes with the isotropic lateral integrals, so int N'N times it couples the two planes: its u

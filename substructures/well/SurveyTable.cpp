@@ -7,8 +7,8 @@
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "deck/reading/Units.hpp"
+#include "deck/tables/DelimitedText.hpp"
 #include "substructures/well/ArcChain.hpp"
-#include "substructures/well/DelimitedText.hpp"
 
 namespace tooljoint::well {
 namespace {
@@ -67,8 +67,8 @@ class SurveyReader {
   }
 
   SurveyTable read() {
-    const DelimitedText text = split();
-    for (const DelimitedRow& row : text.rows) take(row);
+    const deck::DelimitedText text = split();
+    for (const deck::DelimitedRow& row : text.rows) take(row);
     finish();
     remark(text);
     return std::move(table_);
@@ -85,9 +85,9 @@ class SurveyReader {
   }
 
  private:
-  DelimitedText split() const {
+  deck::DelimitedText split() const {
     try {
-      return splitDelimited(readInput(file_, largestSurvey));
+      return deck::splitDelimited(readInput(file_, largestSurvey));
     } catch (const FileError& error) {
       throw DeckError(std::string("The survey file ") + error.what());
     } catch (const DeckError& error) {
@@ -120,12 +120,12 @@ class SurveyReader {
     throw DeckError(join(first, "\n"));
   }
 
-  void take(const DelimitedRow& row) {
+  void take(const deck::DelimitedRow& row) {
     line_ = row.line;
     std::vector<std::string> cells = row.cells;
     const bool first = !started_;
     started_ = true;
-    if (first && !cells[0].empty() && !cellNumber(cells[0]) &&
+    if (first && !cells[0].empty() && !deck::cellNumber(cells[0]) &&
         std::isdigit(static_cast<unsigned char>(cells[0][0])) == 0 &&
         std::string("+-.").find(cells[0][0]) == std::string::npos) {
       header(cells);
@@ -188,7 +188,7 @@ class SurveyReader {
     bool any = false;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const std::string& cell = cells[position_[k]];
-      if (cellNumber(cell)) return false;
+      if (deck::cellNumber(cell)) return false;
       any = any || unitFactor(kinds[k], withoutBrackets(cell)).has_value();
     }
     if (!any) return false;
@@ -216,7 +216,7 @@ class SurveyReader {
   std::optional<double> number(std::size_t k, std::string cell) {
     if (k > 0 && endsInDegreeSign(cell) && factor_[k] != 1.0)
       cell = trim(cell.substr(0, cell.size() - degreeSign.size()));
-    const auto read = cellNumber(cell);
+    const auto read = deck::cellNumber(cell);
     if (!read) {
       fault("the " + std::string(kinds[k].name) + " " + inQuotes(cell) +
             " is not a finite number.");
@@ -267,7 +267,7 @@ class SurveyReader {
     stations.push_back(now);
   }
 
-  void remark(const DelimitedText& text) {
+  void remark(const deck::DelimitedText& text) {
     std::vector<std::string> how;
     if (text.separator != ',')
       how.push_back(text.separator == ';' ? "cells separated by semicolons"

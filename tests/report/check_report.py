@@ -197,6 +197,9 @@ def lesser_strings():
     for name, arguments in {"bare": ["--set", "Output/Fields={}"], "free": ["--without", "Contact", "--without", "Mud"], "full": ["--without", "Reduction", "--without", "Substructures"]}.items():
         run(name, STRING, *arguments)
         page(f"string, {name}", name, WITHOUT_MOTION - {"side"})
+    run("measured", str(ROOT / "tests/effects/log.xml"))
+    text = page("string with a measured log", "measured", {f"measured-{kind}{number}" for kind in ("", "spectrum-") for number in (1, 2)})[1]
+    expect("string with a measured log: differences stand above the figures", "Computed less measured over the common window" in text)
 
 
 def old_results():

@@ -2,7 +2,7 @@
 """The report of a run: of a string in its well, or of imported parts."""
 import pathlib
 
-from report import checks, deck, figures, figures_parts, of_tables, results, scene3d, tables
+from report import checks, deck, figures, figures_measured, figures_parts, of_tables, results, scene3d, tables
 from report.page import Page, cards
 from report.quantities import both, percent
 
@@ -107,6 +107,7 @@ def page_of(folder):
         string_sections(page, run)
     elif "/model/part" in run.file:
         part_sections(page, run)
+    page.plots("measured", "Measured log", figures_measured.beside(run), figures_measured.overview(run))
     page.add("reduction", "Reduction and errors", tables.of_reduction(run) + of_tables.basis_table(folder))
     measured = checks.measured(run.summary)
     page.add("checks", "Checks", tables.of_checks(measured) if measured else "")

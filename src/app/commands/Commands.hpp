@@ -19,6 +19,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< "PATH=VALUE", or "!PATH" for a list taken out
   std::vector<std::string> without;    ///< lists taken out before the other overrides
   std::string output;                  ///< results folder; empty: results/<name of the deck>
+  std::string units = "si";            ///< of printed results: "si" or "field"
   bool cost = false;    ///< `check` also solves for the state at rest and reduces, to compare
                         ///< the cost of a step
   bool fresh = false;   ///< `study` and `map` forget the runs they have done before

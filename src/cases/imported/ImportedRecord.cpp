@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <utility>
 
 #include "cases/imported/MeasuredComponents.hpp"
 #include "coupling/input/ComponentAxes.hpp"
+#include "deck/PrintedUnits.hpp"
 
 namespace tooljoint::cases {
 
@@ -156,9 +157,11 @@ void ImportedRecord::write(io::ResultsFile& file) const {
 }
 
 std::string ImportedRecord::describe() const {
-  char text[100];
-  std::snprintf(text, sizeof text, "            largest displacement %.4g", largest_);
-  return text;
+  constexpr int digits = 4;
+  const bool lengths = std::all_of(components_.begin(), components_.end(),
+                                   [](const auto& name) { return unitOf(name) == "m"; });
+  return "            largest displacement " + (lengths ? deck::printed(largest_, "m", digits)
+                                                        : fmt::format("{:.{}g}", largest_, digits));
 }
 
 }  // namespace tooljoint::cases

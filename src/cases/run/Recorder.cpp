@@ -20,6 +20,7 @@ constexpr double flushFraction = 0.1;
 Recorder::Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
                    const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file)
     : record_(std::move(record)),
+      model_(model),
       file_(file),
       recovery_(model),
       time_(file.series("/transient/time", {}, "s", "Time of the samples")),
@@ -60,6 +61,14 @@ void Recorder::addTable() {
     table_.row(std::vector<double>(row, row + width));
 }
 
+void Recorder::compareWith(const MeasuredLog& log, const RestingCase& rest) {
+  measured_ = std::make_unique<LogRecorder>(log, rest, model_, *record_, file_);
+}
+
+std::vector<SignalComparison> Recorder::comparisons() const {
+  return measured_ ? measured_->compare() : std::vector<SignalComparison>();
+}
+
 void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) {
   const auto sample = recovery_.recover(t, q, qDot, qDDot);
   record_->sample(sample);
@@ -70,6 +79,7 @@ void Recorder::sample(double t, const Vector& q, const Vector& qDot, const Vecto
   if (velocitySeries_) velocitySeries_->append(sample.velocity.data());
   if (accelerationSeries_) accelerationSeries_->append(sample.acceleration.data());
   for (const auto& channel : channels_) channel.series->append(channel.values);
+  if (measured_) measured_->sample(sample);
   if (pictures_ && pictures_->due(t)) pictures_->append(frame(sample));
   if (t >= nextFlush_) file_.flush();
   while (t >= nextFlush_) nextFlush_ += flushInterval_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cases/MotionRecord.hpp"
+#include "cases/measured/LogRecorder.hpp"
 #include "cases/run/SampleRecovery.hpp"
 #include "io/OutputFolder.hpp"
 #include "io/OutputParameters.hpp"
@@ -33,6 +34,12 @@ class Recorder : public transient::SampleSink {
   Recorder(std::unique_ptr<MotionRecord> record, const model::SecondOrderModel& model,
            const io::OutputSettings& output, TimeSpan span, io::ResultsFile& file);
 
+  /// Records what a measured log is compared with. The log and `rest` must outlive the recorder.
+  /// Call before the first sample. Collective; errors are those of LogRecorder.
+  void compareWith(const MeasuredLog& log, const RestingCase& rest);
+  /// Of the columns of the log; none without one.
+  std::vector<SignalComparison> comparisons() const;
+
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
   void states(const Vector& x) override { recovery_.states(x); }
   void save(std::vector<double>& memory) const;
@@ -53,6 +60,7 @@ class Recorder : public transient::SampleSink {
   io::XdmfFrame frame(const Sample& sample) const;
 
   std::unique_ptr<MotionRecord> record_;
+  const model::SecondOrderModel& model_;
   io::ResultsFile& file_;
   SampleRecovery recovery_;
   io::TimeSeries& time_;
@@ -60,6 +68,7 @@ class Recorder : public transient::SampleSink {
   io::TimeSeries* velocitySeries_ = nullptr;
   io::TimeSeries* accelerationSeries_ = nullptr;
   std::vector<Series> channels_;
+  std::unique_ptr<LogRecorder> measured_;
   std::unique_ptr<io::XdmfRecorder> pictures_;
   io::Csv table_;
   io::TimeSeries* tableSeries_ = nullptr;

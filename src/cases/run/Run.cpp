@@ -8,8 +8,11 @@
 
 #include "cases/PartsExport.hpp"
 #include "cases/ReducedCase.hpp"
+#include "cases/measured/LogReport.hpp"
+#include "cases/measured/MeasuredLog.hpp"
 #include "cases/run/Report.hpp"
 #include "cases/run/ResultsWriter.hpp"
+#include "common/Error.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
@@ -70,6 +73,7 @@ class Run {
   void stages() {
     log::info("Tooljoint " + programVersion() + ": " + case_.deck().name());
     announce(case_);
+    log_ = loadMeasuredLog(case_);
     comeToRest();
     if (case_.reduces() && (case_.moves() || case_.reducesWithoutMotion())) reduce();
     if (!case_.moves()) return;
@@ -132,6 +136,7 @@ class Run {
     recorder_ = std::make_unique<Recorder>(
         rest_->record(model), model, case_.output(),
         TimeSpan{list.get<double>("Start Time"), list.get<double>("End Time")}, files_.results());
+    if (log_.isCompared()) compareWithLog();
     if (estimates_ && files_.goesOn())
       log::warn(
           "The error of the motion is not estimated in a run that goes on from a checkpoint.");
@@ -144,9 +149,27 @@ class Run {
     log::info(describeTransient(report, recorder_->record()));
     for (const auto& warning : recorder_->record().warnings()) log::warn(warning);
     recorder_->record().write(files_.results());
+    if (log_.isCompared()) reportLog();
     if (!case_.output().csv) return;
     recorder_->stageTable(files_.folder());
     recorder_->record().stageTables(files_.folder());
+  }
+
+  void compareWithLog() {
+    try {
+      recorder_->compareWith(log_, *rest_);
+    } catch (const DeckError& fault) {
+      throw DeckError(case_.deck().located(fault.what()));
+    }
+  }
+
+  void reportLog() {
+    const auto columns = recorder_->comparisons();
+    const ComparedLog compared{log_, columns};
+    log::info(describe(compared));
+    summarise(compared, files_.summary());
+    write(compared, files_.results());
+    if (case_.output().csv) stageTables(compared, files_.folder());
   }
 
   transient::TransientReport integrateEstimating(const model::SecondOrderModel& model) {
@@ -163,6 +186,7 @@ class Run {
   RunFiles files_;
   std::shared_ptr<const RestingCase> rest_;
   ReducedCase reduced_;
+  MeasuredLog log_;
   bool estimates_ = false;
   std::unique_ptr<Recorder> recorder_;
 };

@@ -9,6 +9,7 @@
 
 #include "cases/CaseLists.hpp"
 #include "cases/ListText.hpp"
+#include "cases/measured/MeasuredLog.hpp"
 #include "common/Parallel.hpp"
 #include "common/Sha256.hpp"
 #include "common/Text.hpp"
@@ -68,7 +69,7 @@ class Describer {
       const auto& name = list.name(it);
       const std::string path = above + name;
       if (list.isSublist(name)) {
-        if (isAnalysis(path)) continue;
+        if (isAnalysis(path) && path != measuredLogName) continue;  // its signals are recorded
         if (path != "Output") lines_[path] = "list";  // an empty list is something too
         add(list.sublist(name), path + "/");
         continue;

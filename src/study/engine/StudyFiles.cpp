@@ -8,6 +8,7 @@
 #include "cases/run/ResultsWriter.hpp"
 #include "common/Constants.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/ResultsFile.hpp"
 #include "io/TextFile.hpp"
 
@@ -213,11 +214,14 @@ std::string describeReference(const StudyResult& result) {
     text = "reference   own error unknown: its check failed";
   }
   if (const auto* moved = result.find(RunKind::Sensitivity); moved != nullptr && moved->errors) {
+    const deck::PrintedUnit length("m");
+    const char* const unit = length.name().c_str();
     std::snprintf(line, sizeof line,
-                  "\n            a change of %.0e m at the start is one of %.1e m at %g s and of "
-                  "%.1e m at %g s: vibration error %.1e over the window",
-                  result.plan.settings.perturbation, growthAt(*moved, result.plan.windowEnd),
-                  result.plan.windowEnd, growthAt(*moved, result.plan.end), result.plan.end,
+                  "\n            a change of %.0e %s at the start is one of %.1e %s at %g s and of "
+                  "%.1e %s at %g s: vibration error %.1e over the window",
+                  length(result.plan.settings.perturbation), unit,
+                  length(growthAt(*moved, result.plan.windowEnd)), unit, result.plan.windowEnd,
+                  length(growthAt(*moved, result.plan.end)), unit, result.plan.end,
                   moved->errors->vibration);
     text += line;
   }

@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
+#include "io/SummaryUnits.hpp"
 #include "study/engine/StudyFiles.hpp"
 
 namespace tooljoint::study {
@@ -141,9 +143,11 @@ std::string describe(const MapPlan& plan, const std::vector<MapRow>& rows) {
       text += fmt::format("map         {}: no point has it\n", value.name);
       continue;
     }
-    text += fmt::format("map         {}: {:.4g} ({}) to {:.4g} ({})", value.name, range.least,
-                        plan.points[range.leastPoint].plan.label, range.largest,
-                        plan.points[range.largestPoint].plan.label);
+    const deck::PrintedUnit unit(io::unitOfKey(value.key));
+    const std::string name = unit.name().empty() ? "" : " " + unit.name();
+    text += fmt::format("map         {}: {:.4g}{} ({}) to {:.4g}{} ({})", value.name,
+                        unit(range.least), name, plan.points[range.leastPoint].plan.label,
+                        unit(range.largest), name, plan.points[range.largestPoint].plan.label);
     if (value.unsafeAbove || value.unsafeBelow)
       text += fmt::format("; {} of {} points unsafe", range.unsafe, range.known);
     text += "\n";

@@ -8,6 +8,7 @@
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/analyses/BottomHole.hpp"
 
@@ -38,20 +39,21 @@ class Report {
 
   void print() const {
     const auto& length = sweep_.length;
-    log::info(
-        fmt::format("bottom-hole assembly: {:.1f} m above the bit are modelled; {}", length.length,
-                    length.checkedAgainst == length.length
-                        ? std::string("that is the whole string")
-                        : fmt::format("with {:.1f} m force and tilt at the bit differ by {:.2g} %",
-                                      length.checkedAgainst, 100.0 * length.change)));
+    log::info(fmt::format("bottom-hole assembly: {} above the bit are modelled; {}",
+                          metres(length.length),
+                          length.checkedAgainst == length.length
+                              ? std::string("that is the whole string")
+                              : fmt::format("with {} force and tilt at the bit differ by {:.2g} %",
+                                            metres(length.checkedAgainst), 100.0 * length.change)));
     log::info(
         "side force of the bit on the rock, tilt of the bit, sag of the survey tool: high side, "
         "right side");
     log::info(fmt::format("{:>5} {:>6} {:>9} {:>14} {:>14} {:>14} {:>8} {:>13} {:>6}", "incl.",
                           "WOB", "tool face", "side force", "tilt", "sag", "tangency", "moment",
                           "stress"));
-    log::info(fmt::format("{:>5} {:>6} {:>9} {:>14} {:>14} {:>14} {:>8} {:>13} {:>6}", "deg", "kN",
-                          "deg", "kN", "deg", "deg", "m", "kN m at m", "MPa"));
+    log::info(fmt::format("{:>5} {:>6} {:>9} {:>14} {:>14} {:>14} {:>8} {:>13} {:>6}", "deg",
+                          force_.name(), "deg", force_.name(), "deg", "deg", length_.name(),
+                          moment_.name() + " at " + length_.name(), stress_.name()));
     for (const auto& row : sweep_.rows) print(row);
     judge();
   }
@@ -80,6 +82,10 @@ class Report {
   }
 
  private:
+  /// "12.3 m", or in the unit lengths are printed in.
+  std::string metres(double length) const {
+    return fmt::format("{:.1f} {}", length_(length), length_.name());
+  }
   double inclination(const BottomHoleRow& row) const {
     return row.point.inclination.value_or(holeInclination_);
   }
@@ -95,25 +101,24 @@ class Report {
   void print(const BottomHoleRow& row) const {
     const auto& state = row.state;
     const auto& bent = mostBent(state);
-    constexpr double kilo = 1e3, mega = 1e6;
-    log::info(
-        fmt::format("{:>5.1f} {:>6.1f} {:>9} {:>14} {:>14} {:>14} {:>8} {:>13} {:>6.0f}",
-                    degrees(inclination(row)), row.point.weight / kilo,
-                    row.rotating ? "rotating" : fmt::format("{:.0f}", degrees(row.point.toolFace)),
-                    pair(state.sideForce, kilo, 2), pair(state.tilt, constants::degree, 3),
-                    settings_.surveyTool ? pair(state.sag, constants::degree, 3) : "-",
-                    state.tangency >= 0.0 ? fmt::format("{:.1f}", state.tangency) : "-",
-                    fmt::format("{:.1f} at {:.1f}", bent.moment.norm() / kilo, bent.fromBit),
-                    mostStressed(state).vonMises / mega));
+    log::info(fmt::format(
+        "{:>5.1f} {:>6.1f} {:>9} {:>14} {:>14} {:>14} {:>8} {:>13} {:>6.0f}",
+        degrees(inclination(row)), force_(row.point.weight),
+        row.rotating ? "rotating" : fmt::format("{:.0f}", degrees(row.point.toolFace)),
+        pair(state.sideForce, force_.factor(), 2), pair(state.tilt, constants::degree, 3),
+        settings_.surveyTool ? pair(state.sag, constants::degree, 3) : "-",
+        state.tangency >= 0.0 ? fmt::format("{:.1f}", length_(state.tangency)) : "-",
+        fmt::format("{:.1f} at {:.1f}", moment_(bent.moment.norm()), length_(bent.fromBit)),
+        stress_(mostStressed(state).vonMises)));
   }
 
   void judge() const {
     const auto& length = sweep_.length;
     if (length.change > largestChange)
       log::warn(fmt::format(
-          "Force and tilt at the bit differ by {:.1f} % between {:.1f} m and {:.1f} m of string "
-          "above the bit. {}",
-          100.0 * length.change, length.checkedAgainst, length.length,
+          "Force and tilt at the bit differ by {:.1f} % between {} and {} of string above the bit. "
+          "{}",
+          100.0 * length.change, metres(length.checkedAgainst), metres(length.length),
           settings_.length ? "Give a larger Length, or none."
                            : "The string of the deck ends there. Give more of it."));
     double force = 0.0, moment = 0.0;
@@ -134,8 +139,8 @@ class Report {
           100.0 * force, 100.0 * moment));
     for (const auto& one : sweep_.missing)
       log::warn(fmt::format(
-          "Without an equilibrium, and in no table: {:.1f} kN on the bit{}{}. {}",
-          one.point.weight / 1e3,
+          "Without an equilibrium, and in no table: {:.1f} {} on the bit{}{}. {}",
+          force_(one.point.weight), force_.name(),
           one.point.inclination
               ? fmt::format(", inclination {:.1f} deg", *one.point.inclination / constants::degree)
               : "",
@@ -323,6 +328,7 @@ class Report {
     return one;
   }
 
+  const deck::PrintedUnit length_{"m"}, force_{"kN"}, moment_{"kN m"}, stress_{"MPa"};
   const BottomHoleSettings& settings_;
   const BottomHoleSweep& sweep_;
   double holeInclination_;  ///< at the bit of the deck [rad]

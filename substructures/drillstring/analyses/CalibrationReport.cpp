@@ -4,6 +4,7 @@
 
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/analyses/Calibration.hpp"
 
@@ -20,18 +21,20 @@ void print(const Calibration& fit) {
   std::string settings;
   for (const Fitted& one : fit.fitted) {
     const bool force = one.name == "block weight";
-    const double unit = force ? 1e3 : 1.0;
-    const std::string digits = force ? "{:.1f}" : "{:.3f}";
-    const auto text = [&](double value) { return fmt::format(fmt::runtime(digits), value / unit); };
+    const deck::PrintedUnit unit(force ? "kN" : "");
+    const std::string suffix = force ? " " + unit.name() : "";
+    const auto text = [&](double value) {
+      return fmt::format("{:.{}f}", unit(value), force ? 1 : 3);
+    };
     log::info(fmt::format("{:<28}{:>9} {} {}{}   (deck: {})", one.name, text(one.value),
-                          one.atBound ? "at its bound," : "+-", text(one.uncertainty),
-                          force ? " kN" : "", text(one.deck)));
-    settings +=
-        fmt::format(" --set \"{}={}{}\"", one.parameter, text(one.value), force ? " kN" : "");
+                          one.atBound ? "at its bound," : "+-", text(one.uncertainty), suffix,
+                          text(one.deck)));
+    settings += fmt::format(" --set \"{}={}{}\"", one.parameter, text(one.value), suffix);
   }
-  log::info(
-      fmt::format("misfit      {:.1f} kN of hook load, {:.2f} kN m of torque (root mean square)",
-                  fit.hookLoadMisfit / 1e3, fit.torqueMisfit / 1e3));
+  const deck::PrintedUnit force("kN"), torque("kN m");
+  log::info(fmt::format(
+      "misfit      {:.1f} {} of hook load, {:.2f} {} of torque (root mean square)",
+      force(fit.hookLoadMisfit), force.name(), torque(fit.torqueMisfit), torque.name()));
   log::info("in a deck  " + settings);
 }
 

@@ -9,7 +9,8 @@
 #include "common/InputFile.hpp"
 #include "common/Text.hpp"
 #include "deck/reading/Units.hpp"
-#include "substructures/well/DelimitedText.hpp"
+#include "deck/tables/ColumnHeading.hpp"
+#include "deck/tables/DelimitedText.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -34,7 +35,7 @@ class Reader {
       : file_(std::move(file)), operations_(operations) {}
 
   std::vector<Measurement> read() {
-    const auto text = splitDelimited(readInput(file_, largestFile));
+    const auto text = deck::splitDelimited(readInput(file_, largestFile));
     if (text.rows.empty()) throw DeckError(file_ + ": the table of measurements is empty.");
     header(text.rows.front());
     for (std::size_t i = 1; i < text.rows.size() && faults_.empty(); ++i) row(text.rows[i]);
@@ -48,11 +49,11 @@ class Reader {
     faults_.push_back(file_ + ":" + std::to_string(line) + ": " + sentence);
   }
 
-  void header(const DelimitedRow& row) {
+  void header(const deck::DelimitedRow& row) {
     position_.fill(-1);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
-      const auto open = row.cells[i].find_first_of("[(");
-      std::string name = lower(trim(row.cells[i].substr(0, open)));
+      const auto heading = deck::splitHeading(row.cells[i]);
+      std::string name = lower(heading.name);
       std::replace(name.begin(), name.end(), '_', ' ');
       const auto kind = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
         return std::count(column.headings.begin(), column.headings.end(), name) > 0;
@@ -63,13 +64,8 @@ class Reader {
         fault(row.line, "the column " + std::string(kind->name) + " stands twice in the header.");
       position_[k] = static_cast<int>(i);
       if (*kind->si == '\0') continue;
-      const std::string unit =
-          open == std::string::npos
-              ? ""
-              : trim(row.cells[i].substr(open + 1,
-                                         row.cells[i].find_first_of("])", open) - open - 1));
-      std::string reason;
-      const auto factor = deck::toSi("1 " + unit, kind->si, reason);
+      const std::string& unit = heading.unit;
+      const auto factor = deck::unitFactor(unit, kind->si);
       if (!factor)
         fault(row.line, "the column " + std::string(kind->name) + " has " +
                             (unit.empty() ? "no unit" : "the unit " + inQuotes(unit)) +
@@ -85,7 +81,7 @@ class Reader {
             "the header has neither \"hook load\" nor \"surface torque\": nothing was measured.");
   }
 
-  void row(const DelimitedRow& row) {
+  void row(const deck::DelimitedRow& row) {
     Measurement one;
     const auto depth = number(row, Depth);
     one.operation = cell(row, Operation);
@@ -103,7 +99,7 @@ class Reader {
     if (one.hookLoad || one.surfaceTorque) found_.push_back(one);
   }
 
-  std::string cell(const DelimitedRow& row, Kind k) const {
+  std::string cell(const deck::DelimitedRow& row, Kind k) const {
     const int i = position_[k];
     return i < 0 || i >= static_cast<int>(row.cells.size())
                ? ""
@@ -111,10 +107,10 @@ class Reader {
   }
 
   /// Empty where the cell is.
-  std::optional<double> number(const DelimitedRow& row, Kind k) {
+  std::optional<double> number(const deck::DelimitedRow& row, Kind k) {
     const std::string text = cell(row, k);
     if (text.empty()) return std::nullopt;
-    const auto read = cellNumber(text);
+    const auto read = deck::cellNumber(text);
     if (!read) {
       fault(row.line,
             "the " + std::string(columns[k].name) + " " + inQuotes(text) +

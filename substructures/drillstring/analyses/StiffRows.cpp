@@ -11,6 +11,7 @@
 #include "common/RankGroups.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/Stopwatch.hpp"
+#include "deck/PrintedUnits.hpp"
 
 namespace tooljoint::drillstring {
 namespace {
@@ -49,8 +50,9 @@ std::vector<Row> stiffRows(const Scene& scene, const std::vector<double>& depths
       const Stopwatch watch;
       const auto k = static_cast<std::size_t>(i);
       rows[k] = rowAt(scene, depths[k], operations);
-      log::info(fmt::format("stiff string, bit at {:.0f} m ({} of {} depths): {:.2g} s", depths[k],
-                            i + 1, depths.size(), watch.wall()));
+      const deck::PrintedUnit length("m");
+      log::info(fmt::format("stiff string, bit at {:.0f} {} ({} of {} depths): {:.2g} s",
+                            length(depths[k]), length.name(), i + 1, depths.size(), watch.wall()));
     }
   });
   for (auto& row : rows) {

@@ -8,6 +8,7 @@
 
 #include "common/Constants.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/analyses/TorqueDrag.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
@@ -159,27 +160,31 @@ io::Csv stiffProfileTable(const std::vector<TorqueDragProfile>& profiles, double
   return table;
 }
 
-std::string text(double value, const char* unit, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}{}", value, digits, unit) : "-";
+std::string text(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
+}
+/// An SI value in the unit it is printed in.
+std::string text(double value, const char* usual, int digits) {
+  const deck::PrintedUnit unit(usual);
+  return std::isfinite(value) ? text(unit(value), digits) + " " + unit.name() : "-";
 }
 
 void print(const TorqueDragRow& row) {
   log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", row.operation,
-                        text(row.hookLoad / 1e3, " kN", 1),
-                        text(row.surfaceTorque / 1e3, " kN m", 2),
-                        text(row.twist / constants::twoPi, "", 2),
-                        text(row.largestSideForce / 1e3, " kN/m", 2), text(row.yield.factor, "", 2),
-                        text(row.sinusoidal.factor, "", 2), text(row.helical.factor, "", 2)));
+                        text(row.hookLoad, "kN", 1), text(row.surfaceTorque, "kN m", 2),
+                        text(row.twist / constants::twoPi, 2),
+                        text(row.largestSideForce, "kN/m", 2), text(row.yield.factor, 2),
+                        text(row.sinusoidal.factor, 2), text(row.helical.factor, 2)));
   if (row.lockUpDepth >= 0.0)
     log::warn(
-        fmt::format("{} with the bit at {:.0f} m: the string locks up at {:.0f} m. No force "
-                    "from the surface reaches the bit.",
-                    row.operation, row.bit, row.lockUpDepth));
+        fmt::format("{} with the bit at {}: the string locks up at {}. No force from the surface "
+                    "reaches the bit.",
+                    row.operation, text(row.bit, "m", 0), text(row.lockUpDepth, "m", 0)));
   else if (row.hookLoad < 0.0)
     log::warn(
-        fmt::format("{} with the bit at {:.0f} m: the hook load is {:.1f} kN. The string has "
-                    "to be pushed from the surface.",
-                    row.operation, row.bit, row.hookLoad / 1e3));
+        fmt::format("{} with the bit at {}: the hook load is {}. The string has to be pushed from "
+                    "the surface.",
+                    row.operation, text(row.bit, "m", 0), text(row.hookLoad, "kN", 1)));
 }
 
 /// "+1.2 %" of the soft string's value.
@@ -193,20 +198,19 @@ void printStiff(const Scene& scene, const TorqueDragProfile& profile,
   const TorqueDragRow& row = profile.row;
   const StiffLoads& stiff = *profile.stiff;
   if (!stiff.found())
-    return log::warn(fmt::format("{} with the bit at {:.0f} m: the stiff string has no result. {}",
-                                 row.operation, row.bit, stiff.failure));
+    return log::warn(fmt::format("{} with the bit at {}: the stiff string has no result. {}",
+                                 row.operation, text(row.bit, "m", 0), stiff.failure));
   const double hookLoad = stiff.hookLoad + settings.blockWeight;
   log::info(fmt::format(
-      "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad / 1e3, " kN", 1),
-      beside(hookLoad, row.hookLoad), text(stiff.surfaceTorque / 1e3, " kN m", 2),
-      beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, "", 2),
-      text(largestContact(stiff).factor / 1e3, " kN", 2),
-      text(stiffYield(stiff, settings).factor, "", 2)));
+      "{:<18}{:>13}{:>9}{:>15}{:>9}{:>9}{:>14}{:>8}", row.operation, text(hookLoad, "kN", 1),
+      beside(hookLoad, row.hookLoad), text(stiff.surfaceTorque, "kN m", 2),
+      beside(stiff.surfaceTorque, row.surfaceTorque), text(stiff.twist / constants::twoPi, 2),
+      text(largestContact(stiff).factor, "kN", 2), text(stiffYield(stiff, settings).factor, 2)));
   if (stiff.torqueDefect > worthAWarning && prestressRemark(scene).empty())
     log::warn(
-        fmt::format("{} with the bit at {:.0f} m: the torque of the stiff string is out of "
-                    "balance by {:.1f} %. Use shorter elements where the well bends most.",
-                    row.operation, row.bit, 100.0 * stiff.torqueDefect));
+        fmt::format("{} with the bit at {}: the torque of the stiff string is out of balance by "
+                    "{:.1f} %. Use shorter elements where the well bends most.",
+                    row.operation, text(row.bit, "m", 0), 100.0 * stiff.torqueDefect));
 }
 
 }  // namespace
@@ -217,9 +221,8 @@ void reportTorqueDrag(const Scene& scene, const std::string& folder) {
   double deepest = 0.0;
   for (const auto& profile : profiles) deepest = std::max(deepest, profile.row.bit);
   log::info(
-      fmt::format("torque and drag, soft string, bit at {:.1f} m; margins are allowed over "
-                  "present load",
-                  deepest));
+      fmt::format("torque and drag, soft string, bit at {}; margins are allowed over present load",
+                  text(deepest, "m", 1)));
   log::info(fmt::format("{:<18}{:>13}{:>15}{:>9}{:>14}{:>8}{:>8}{:>8}", "operation", "hook load",
                         "surface torque", "turns", "side force", "yield", "sinus.", "helix"));
   for (const auto& profile : profiles)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/Constants.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/beam/NodalDofs.hpp"
 #include "substructures/drillstring/figures/BendingElements.hpp"
@@ -172,13 +173,16 @@ std::string StringFigures::describe() const {
   if (!known()) return "";
   const auto lateral = cases::worst(lateral_.peak());
   const auto bending = cases::worst(elementColumns()[1].values);
+  const auto acceleration = [](double value) { return deck::printed(value, "m/s2", 3); };
+  const auto depth = [](double value) { return deck::printed(value, "m", 4); };
   return fmt::sprintf(
       "figures     %.4g to %.4g s: stick-slip index %.3g, stuck %.3g %% of the time\n"
-      "            acceleration: axial %.3g m/s2 rms, lateral %.3g m/s2 rms, %.3g m/s2 at most "
-      "(%.4g m); bending range %.3g kN m (%.4g m)",
-      first_, last_, bit_.stickSlipIndex(), 100.0 * bit_.stuckShare(), axial_.overallRms(),
-      lateral_.overallRms(), lateral.value, nodeDepth_[lateral.row], bending.value / 1e3,
-      elementDepth_[bending.row]);
+      "            acceleration: axial %s rms, lateral %s rms, %s at most (%s); bending range %s "
+      "(%s)",
+      first_, last_, bit_.stickSlipIndex(), 100.0 * bit_.stuckShare(),
+      acceleration(axial_.overallRms()), acceleration(lateral_.overallRms()),
+      acceleration(lateral.value), depth(nodeDepth_[lateral.row]),
+      deck::printed(bending.value, "kN m", 3), depth(elementDepth_[bending.row]));
 }
 
 void StringFigures::write(io::ResultsFile& file) const {

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 #include <utility>
 
 #include "common/Constants.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "substructures/drillstring/case/StringResults.hpp"
 
 namespace tooljoint::drillstring {
@@ -30,7 +31,11 @@ io::XdmfScene pictureOf(const Scene& scene, const StaticStage& stage) {
 
 StringRecord::StringRecord(const Scene& scene, const StaticStage& stage,
                            const model::SecondOrderModel& model)
-    : scene_(scene), merits_(scene, stage), bit_(scene), row_(columns().size()) {
+    : scene_(scene),
+      merits_(scene, stage),
+      bit_(scene),
+      surface_(scene, stage),
+      row_(columns().size()) {
   const auto nodes = static_cast<std::size_t>(scene.string.nodeCount());
   const auto& output = scene.output;
   if (output.xdmf) picture_ = pictureOf(scene, stage);
@@ -60,7 +65,18 @@ std::array<cases::FieldText, 3> StringRecord::fields() const {
 
 std::vector<cases::Channel> StringRecord::channels() const {
   std::vector<cases::Channel> out{
-      {"/transient/speed", {}, "rad/s", "Rotary speed imposed at the surface", &rotarySpeed_}};
+      {"/transient/speed", {}, "rad/s", "Rotary speed imposed at the surface", &rotarySpeed_},
+      {"/transient/surface_speed", {}, "rad/s", "Speed of the first node", &surface_.speed()},
+      {"/transient/surface_torque",
+       {},
+       "N m",
+       "Torque in the uppermost element, against the rotation",
+       &surface_.torque()},
+      {"/transient/hook_load",
+       {},
+       "N",
+       "Effective tension in the uppermost element",
+       &surface_.hookLoad()}};
   if (recordsForce_)
     out.push_back({"/transient/normal_force",
                    {static_cast<std::size_t>(normalForce_.size())},
@@ -89,6 +105,7 @@ std::vector<io::Csv::Column> StringRecord::columns() const {
 
 void StringRecord::sample(const cases::Sample& sample) {
   rotarySpeed_ = scene_.rotary.speed(sample.t);
+  surface_.sample(sample);
   for (auto& one : drilling_) one.sample(sample);
   sampleContact(sample);
   measureBit(sample);
@@ -164,14 +181,13 @@ void StringRecord::summarise(io::Summary& summary) const {
 }
 
 std::string StringRecord::describe() const {
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "            bit speed %.4g to %.4g rpm, mean %.4g rpm; largest penetration %.3g mm",
-      figures_.minBitSpeed * constants::rpmPerRadianPerSecond,
-      figures_.maxBitSpeed * constants::rpmPerRadianPerSecond,
-      figures_.meanBitSpeed() * constants::rpmPerRadianPerSecond, figures_.maxPenetration * 1e3);
-  return merits_.known() ? text + ("\n" + merits_.describe()) : text;
+  const deck::PrintedUnit speed("rpm");
+  const std::string text = fmt::format(
+      "            bit speed {:.4g} to {:.4g} rpm, mean {:.4g} rpm; largest "
+      "penetration {}",
+      speed(figures_.minBitSpeed), speed(figures_.maxBitSpeed), speed(figures_.meanBitSpeed()),
+      deck::printed(figures_.maxPenetration, "mm", 3));
+  return merits_.known() ? text + "\n" + merits_.describe() : text;
 }
 
 std::vector<std::string> StringRecord::warnings() const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// What is recorded of the motion of a string beside its nodes: rotary speed, normal forces, the
-/// speed of the bit, penetrations, pictures.
+/// What is recorded of the motion of a string beside its nodes: rotary speed, speed, torque and
+/// hook load at the surface, normal forces, the speed of the bit, penetrations, pictures.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,7 @@
 #include "cases/PointRecord.hpp"
 #include "substructures/drillstring/case/BitSampler.hpp"
 #include "substructures/drillstring/case/StringFigures.hpp"
+#include "substructures/drillstring/case/SurfaceSampler.hpp"
 #include "substructures/drillstring/scene/Scene.hpp"
 #include "substructures/drillstring/scene/Stages.hpp"
 
@@ -65,6 +66,7 @@ class StringRecord : public cases::MotionRecord {
   MotionFigures figures_;
   StringFigures merits_;
   BitSampler bit_;
+  SurfaceSampler surface_;
   bool recordsForce_ = false;
   std::vector<Contact> contacts_;
   std::vector<cases::PointRecord> drilling_;  ///< bit and top drive

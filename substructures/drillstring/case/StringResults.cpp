@@ -10,6 +10,7 @@
 #include "common/Constants.hpp"
 #include "common/Index.hpp"
 #include "common/Text.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 
@@ -220,13 +221,12 @@ std::string describeWell(const Scene& scene) {
       sharpest = bend, where = s;
   const double fall = scene.well.at(bit).position.z() - scene.well.at(0.0).position.z();
   std::string text = fmt::sprintf(
-      "well        bit at %.5g m along the hole, %.5g m below its start, "
-      "inclination %.3g deg; ",
-      bit, fall, scene.well.inclination(bit) / constants::degree);
+      "well        bit at %s along the hole, %s below its start, inclination %.3g deg; ",
+      deck::printed(bit, "m", 5), deck::printed(fall, "m", 5),
+      scene.well.inclination(bit) / constants::degree);
   if (sharpest == 0.0) return text + "straight";
-  constexpr double perThirtyMetres = 30.0 / constants::degree;
-  return text +
-         fmt::sprintf("largest dogleg %.3g deg/30 m at %.5g m", sharpest * perThirtyMetres, where);
+  return text + fmt::sprintf("largest dogleg %s at %s", deck::printed(sharpest, "deg/30 m", 3),
+                             deck::printed(where, "m", 5));
 }
 
 /// Weight, what hangs below the uppermost kind of component, the longest element.
@@ -246,11 +246,11 @@ std::string describeString(const Scene& scene) {
     if (instance.component == uppermost) below = 0.0;
   }
   const double gravity = loads::acceleration(scene.loads).norm();
-  std::string text = fmt::sprintf("            longest element %.3g m; %.4g m below the last %s",
-                                  longest, below, uppermost);
+  std::string text = "            longest element " + deck::printed(longest, "m", 3) + "; " +
+                     deck::printed(below, "m", 4) + " below the last " + uppermost;
   if (gravity == 0.0) return text + "; no weight";
-  text += fmt::sprintf("; weight %.4g kN in air", mass * gravity / 1e3);
-  if (mud > 0.0) text += fmt::sprintf(", %.4g kN in mud", (mass - displaced) * gravity / 1e3);
+  text += "; weight " + deck::printed(mass * gravity, "kN", 4) + " in air";
+  if (mud > 0.0) text += ", " + deck::printed((mass - displaced) * gravity, "kN", 4) + " in mud";
   return text;
 }
 
@@ -258,9 +258,10 @@ std::string describeString(const Scene& scene) {
 
 std::string describeScene(const Scene& scene) {
   std::string text =
-      fmt::sprintf("string      %d nodes, %d elements, %.4g m in a well of %.4g m, %d free dofs\n",
-                   scene.string.nodeCount(), scene.string.elementCount(), scene.string.length(),
-                   scene.well.length(), scene.freeDofs());
+      fmt::sprintf("string      %d nodes, %d elements, %s in a well of %s, %d free dofs\n",
+                   scene.string.nodeCount(), scene.string.elementCount(),
+                   deck::printed(scene.string.length(), "m", 4),
+                   deck::printed(scene.well.length(), "m", 4), scene.freeDofs());
   text += describeString(scene) + "\n" + describeWell(scene);
   for (const auto& remark : scene.well.trajectory().remarks()) text += "\nsurvey      " + remark;
   if (scene.contact && scene.contact->law->atRest(scene.contactPoints)->largestPull() > 0.0)
@@ -273,28 +274,28 @@ std::string describeStatic(const StaticStage& stage) {
   const auto& path = stage.path.report;
   const auto& s = stage.state;
   std::string text =
-      fmt::sprintf("path        %d iterations in %d load steps, nodes within %.2g m of the axis\n",
-                   path.iterations, path.increments, path.maxPositionError);
+      fmt::sprintf("path        %d iterations in %d load steps, nodes within %s of the axis\n",
+                   path.iterations, path.increments, deck::printed(path.maxPositionError, "m", 2));
   text += fmt::sprintf(
       "static      %d iterations, residual %.1e: %d nodes in contact, %d elements in compression\n",
       s.report.iterations, s.report.residual, s.contactNodes, s.compressedElements);
+  const auto force = [](double value) { return deck::printed(value, "kN", 4); };
+  const auto torque = [](double value) { return deck::printed(value, "kN m", 4); };
   text += fmt::sprintf(
-      "            axial force %.4g kN at the top, %.4g kN in the last element; torque %.4g kN m "
-      "at the top, %.4g kN m in the "
-      "last element\n",
-      s.topAxialForce / 1e3, s.lastElementAxialForce / 1e3, s.topTorque / 1e3,
-      s.lastElementTorque / 1e3);
+      "            axial force %s at the top, %s in the last element; torque %s at the top, %s in "
+      "the last element\n",
+      force(s.topAxialForce), force(s.lastElementAxialForce), torque(s.topTorque),
+      torque(s.lastElementTorque));
   if (s.maxNormalForceNode > 0)
-    text += fmt::sprintf("            contact %.4g kN in all, at most %.4g kN at node %d\n",
-                         s.totalNormalForce / 1e3, s.maxNormalForce / 1e3, s.maxNormalForceNode);
+    text += fmt::sprintf("            contact %s in all, at most %s at node %d\n",
+                         force(s.totalNormalForce), force(s.maxNormalForce), s.maxNormalForceNode);
   text += fmt::sprintf("            friction: %s", stage.friction.why.c_str());
   if (stage.friction.speed > 0.0)
     text += fmt::sprintf(", %.4g rpm", stage.friction.speed * constants::rpmPerRadianPerSecond);
   text += fmt::sprintf(
-      "\n            top torque %.4g kN m by the balance of torque, defect %.4g N m (%.2g %% of "
-      "%.4g kN m)",
-      s.topTorqueEquilibrium() / 1e3, s.torqueBalanceDefect(), 100.0 * s.relativeTorqueDefect(),
-      s.torqueScale / 1e3);
+      "\n            top torque %s by the balance of torque, defect %s (%.2g %% of %s)",
+      torque(s.topTorqueEquilibrium()), deck::printed(s.torqueBalanceDefect(), "N m", 4),
+      100.0 * s.relativeTorqueDefect(), torque(s.torqueScale));
   if (stage.perturbations > 0)
     text +=
         fmt::sprintf("\n            perturbed %d times along unstable modes", stage.perturbations);

@@ -11,6 +11,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 #include "linalg/trilinos/DirectSolver.hpp"
 #include "reduction/part/Partition.hpp"
 #include "substructures/beam/NodalDofs.hpp"
@@ -269,13 +270,15 @@ void judgeTorqueBalance(const Scene& scene, const StaticStage& stage) {
   const auto& state = stage.state;
   const double defect = state.relativeTorqueDefect();
   if (defect <= worthAWarning) return;
-  const std::string found = "The displacements of the static state give a torque of " +
-                            formatNumber(std::round(state.topTorque)) +
-                            " N m at the top, loads, friction and supports below give " +
-                            formatNumber(std::round(state.topTorqueEquilibrium())) +
-                            " N m: the balance of torque is off by " +
-                            formatNumber(std::round(1e3 * defect) / 10.0) + " % of " +
-                            formatNumber(std::round(state.torqueScale)) + " N m. ";
+  const deck::PrintedUnit torque("N m");
+  const auto text = [&](double value) {
+    return formatNumber(std::round(torque(value))) + " " + torque.name();
+  };
+  const std::string found =
+      "The displacements of the static state give a torque of " + text(state.topTorque) +
+      " at the top, loads, friction and supports below give " + text(state.topTorqueEquilibrium()) +
+      ": the balance of torque is off by " + formatNumber(std::round(1e3 * defect) / 10.0) +
+      " % of " + text(state.torqueScale) + ". ";
   const bool round = std::all_of(
       scene.string.elements.begin(), scene.string.elements.end(),
       [](const Element& e) { return e.section().inertiaX() == e.section().inertiaY(); });
@@ -306,9 +309,11 @@ void judgeStretch(const Scene& scene, const StaticStage& stage) {
     if (angle > turn) turn = angle, depth = depths[node], shift = w;
   }
   if (turn <= worthAWarning) return;
-  log::warn("Loads move the string by " + formatNumber(std::round(10 * std::abs(shift)) / 10) +
-            " m along the well at " + formatNumber(std::round(depth)) +
-            " m, where the well turns by " +
+  const deck::PrintedUnit length("m");
+  log::warn("Loads move the string by " +
+            formatNumber(std::round(10 * std::abs(length(shift))) / 10) + " " + length.name() +
+            " along the well at " + formatNumber(std::round(length(depth))) + " " + length.name() +
+            ", where the well turns by " +
             formatNumber(std::round(10 * turn / constants::degree) / 10) +
             " deg over that length. Displacements are small ones about the nodes as they were "
             "meshed, so that side forces and friction are too large there. Set Static/Reference "

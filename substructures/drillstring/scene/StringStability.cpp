@@ -5,6 +5,7 @@
 
 #include "common/Error.hpp"
 #include "common/report/Log.hpp"
+#include "deck/PrintedUnits.hpp"
 
 namespace tooljoint::drillstring {
 
@@ -23,9 +24,10 @@ std::string counted(int count, const std::string& what) {
 std::string modeText(const StaticStage& stage) {
   const auto& mode = stage.stability.outline;
   if (mode.node == 0) return "no node moves along";
-  return fmt::format("{}, largest in {} of node {} (s = {:.4g} m)",
-                     counted(mode.halfWaves, "half wave"), mode.component, mode.node,
-                     stage.path.arcLength[static_cast<std::size_t>(mode.node - 1)]);
+  return fmt::format(
+      "{}, largest in {} of node {} (s = {})", counted(mode.halfWaves, "half wave"), mode.component,
+      mode.node,
+      deck::printed(stage.path.arcLength[static_cast<std::size_t>(mode.node - 1)], "m", 4));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tooljoint {
+namespace tooljoint::deck {
 
 /// Line of the text (1-based) and its cells without blanks around them.
 struct DelimitedRow {
@@ -40,4 +40,4 @@ struct CellNumber {
 /// both, no groups of thousands).
 std::optional<CellNumber> cellNumber(const std::string& cell);
 
-}  // namespace tooljoint
+}  // namespace tooljoint::deck

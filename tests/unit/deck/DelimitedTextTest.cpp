@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/well/DelimitedText.hpp"
+#include "deck/tables/DelimitedText.hpp"
 
 #include <gtest/gtest.h>
 
 #include "common/Error.hpp"
 
-namespace tooljoint {
+namespace tooljoint::deck {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -56,4 +56,4 @@ TEST(CellNumber, TakesAPointOrAComma) {
 }
 
 }  // namespace
-}  // namespace tooljoint
+}  // namespace tooljoint::deck

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// Dofs of nodes as a deck names them, in any model of a case: loads and outputs of responses.
+/// Dofs of nodes as a deck names them, in any model of a case: loads and outputs of responses,
+/// columns of measured logs.
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
@@ -11,7 +12,7 @@
 #include "cases/Case.hpp"
 #include "deck/ListSpec.hpp"
 
-namespace tooljoint::response {
+namespace tooljoint::cases {
 
 /// A component of a node, in the words of a deck.
 struct NodeDof {
@@ -33,8 +34,7 @@ struct NodeRow {
 
 /// The row that a deck names. DeckError where the part, the node (or more than one of this number)
 /// or the component is not there, or all of the node is held.
-NodeRow findRow(const cases::RestingCase& rest, const model::SecondOrderModel& model,
-                const NodeDof& dof);
+NodeRow findRow(const RestingCase& rest, const model::SecondOrderModel& model, const NodeDof& dof);
 
 /// The coefficients c of a displacement c'q, and of a unit load there c, dofs of the model; zero
 /// where the model does not have the node or the dof is held.
@@ -44,4 +44,4 @@ Vector coefficients(const model::SecondOrderModel& model, const NodeRow& row);
 /// "x", "y" or "z", in the sense of the rotation; -1 for one that the nodes lack.
 std::array<int, 2> lateralComponents(const model::SecondOrderModel& model, const std::string& axis);
 
-}  // namespace tooljoint::response
+}  // namespace tooljoint::cases

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "substructures/well/DelimitedText.hpp"
+#include "deck/tables/DelimitedText.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,7 @@
 #include "common/Error.hpp"
 #include "common/Text.hpp"
 
-namespace tooljoint {
+namespace tooljoint::deck {
 namespace {
 
 /// Without a byte-order mark, and with degree signs of UTF-8.
@@ -98,4 +98,4 @@ std::optional<CellNumber> cellNumber(const std::string& cell) {
   return number;
 }
 
-}  // namespace tooljoint
+}  // namespace tooljoint::deck

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "response/NodeDofs.hpp"
+#include "cases/nodes/NodeDofs.hpp"
 
 #include <algorithm>
 #include <set>
@@ -11,7 +11,7 @@
 #include "coupling/input/ComponentAxes.hpp"
 #include "coupling/input/DofLookup.hpp"
 
-namespace tooljoint::response {
+namespace tooljoint::cases {
 
 void declareNode(deck::ListSpec& list, const std::string& what) {
   list.text("Part", deck::Optional{},
@@ -34,7 +34,7 @@ NodeDof readNode(const Teuchos::ParameterList& list) {
 namespace {
 
 /// Numbers in the scene of the nodes a deck names: of one part, or of any.
-std::set<std::int64_t> numbersOf(const cases::RestingCase& rest, const NodeDof& dof) {
+std::set<std::int64_t> numbersOf(const RestingCase& rest, const NodeDof& dof) {
   const auto parts = rest.parts().parts;
   const auto contents = rest.contents(parts);
   const auto names = coupling::namesOf(parts);
@@ -52,8 +52,7 @@ std::set<std::int64_t> numbersOf(const cases::RestingCase& rest, const NodeDof& 
 
 }  // namespace
 
-NodeRow findRow(const cases::RestingCase& rest, const model::SecondOrderModel& model,
-                const NodeDof& dof) {
+NodeRow findRow(const RestingCase& rest, const model::SecondOrderModel& model, const NodeDof& dof) {
   const auto found = numbersOf(rest, dof);
   if (found.empty())
     throw DeckError(dof.where + "/Node is " + std::to_string(dof.node) + ", but " +
@@ -92,4 +91,4 @@ std::array<int, 2> lateralComponents(const model::SecondOrderModel& model,
   return {axes[(along + 1) % 3], axes[(along + 2) % 3]};
 }
 
-}  // namespace tooljoint::response
+}  // namespace tooljoint::cases

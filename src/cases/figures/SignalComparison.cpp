@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cases/figures/SignalComparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/Error.hpp"
+
+namespace tooljoint::cases {
+namespace {
+
+/// Of a time: samples at the ends of a window belong to it.
+constexpr double rounding = 1e-9;
+/// Distances of samples that differ by less than this share are equal.
+constexpr double jitter = 1e-3;
+/// Of the median distance: what lies further apart has a gap between.
+constexpr double gap = 2.5;
+
+SampledSignal within(const SampledSignal& signal, double begin, double end) {
+  const double slack = rounding * std::max(1.0, std::abs(end) + std::abs(begin));
+  SampledSignal out;
+  for (std::size_t i = 0; i < signal.time.size(); ++i)
+    if (signal.time[i] >= begin - slack && signal.time[i] <= end + slack) {
+      out.time.push_back(signal.time[i]);
+      out.value.push_back(signal.value[i]);
+    }
+  return out;
+}
+
+/// Samples of equal distances and that distance.
+struct EvenSignal {
+  std::vector<double> value;
+  double interval = 0.0;  ///< [s]
+};
+
+EvenSignal evenly(const SampledSignal& signal) {
+  const auto& t = signal.time;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
+  auto sorted = steps;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double interval = *middle;
+  if (std::all_of(steps.begin(), steps.end(),
+                  [&](double step) { return std::abs(step - interval) <= jitter * interval; }))
+    return {signal.value, (t.back() - t.front()) / static_cast<double>(steps.size())};
+  std::size_t first = 0, best = 0, last = 0;
+  for (std::size_t i = 1; i <= t.size(); ++i)
+    if (i == t.size() || steps[i - 1] > gap * interval) {
+      if (t[i - 1] - t[first] > t[last] - t[best]) best = first, last = i - 1;
+      first = i;
+    }
+  EvenSignal out{{}, interval};
+  const double slack = rounding * interval;
+  for (long k = 0; t[best] + static_cast<double>(k) * interval <= t[last] + slack; ++k)
+    out.value.push_back(
+        valueAt(signal, std::min(t[best] + static_cast<double>(k) * interval, t[last])));
+  return out;
+}
+
+ComparedSignal describe(SampledSignal samples, const SpectrumSettings& settings) {
+  ComparedSignal out;
+  for (const double value : samples.value) out.figures.add(value);
+  const auto even = evenly(samples);
+  out.spectrum =
+      spectrumOf(even.value, even.interval, longSegments(even.value.size(), settings.segments));
+  out.peaks = largestPeaks(out.spectrum, settings.peaks);
+  out.samples = std::move(samples);
+  return out;
+}
+
+}  // namespace
+
+double valueAt(const SampledSignal& signal, double t) {
+  const auto& time = signal.time;
+  const auto above = std::lower_bound(time.begin(), time.end(), t) - time.begin();
+  const auto i = static_cast<std::size_t>(above);
+  if (i == time.size()) return signal.value.back();
+  if (i == 0 || time[i] == t) return signal.value[i];
+  const double share = (t - time[i - 1]) / (time[i] - time[i - 1]);
+  return signal.value[i - 1] + share * (signal.value[i] - signal.value[i - 1]);
+}
+
+SignalComparison compareSignals(const SampledSignal& computed, const SampledSignal& measured,
+                                double begin, double end, const SpectrumSettings& settings) {
+  SignalComparison out;
+  if (computed.time.empty() || measured.time.empty())
+    throw Error(ExitCode::Internal, "Signals without samples cannot be compared.");
+  out.begin = std::max({begin, computed.time.front(), measured.time.front()});
+  out.end = std::min({end, computed.time.back(), measured.time.back()});
+  auto mine = within(computed, out.begin, out.end), theirs = within(measured, out.begin, out.end);
+  if (mine.time.size() < 2 || theirs.time.size() < 2)
+    throw Error(ExitCode::Internal, "Signals that are compared need two samples in their window.");
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < theirs.time.size(); ++i) {
+    const double difference = valueAt(computed, theirs.time[i]) - theirs.value[i];
+    out.difference.push_back(difference);
+    sum += difference;
+    squares += difference * difference;
+    out.largest = std::max(out.largest, std::abs(difference));
+  }
+  const auto count = static_cast<double>(theirs.time.size());
+  out.mean = sum / count;
+  out.rms = std::sqrt(squares / count);
+  out.computed = describe(std::move(mine), settings);
+  out.measured = describe(std::move(theirs), settings);
+  return out;
+}
+
+}  // namespace tooljoint::cases

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Logs in the Log ASCII Standard, version 2.0 (Canadian Well Logging Society, 1992, updated 2014).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/tables/ColumnHeading.hpp"
+#include "deck/tables/DelimitedText.hpp"
+
+namespace tooljoint::deck {
+
+struct LasFile {
+  std::vector<ColumnHeading> curves;  ///< of ~C, the index first
+  int curveLine = 0;                  ///< line of ~C
+  std::optional<double> null;         ///< what stands for "not measured" (NULL of ~W)
+  std::vector<DelimitedRow> rows;     ///< of ~A, as many cells as curves; wrapped lines are joined
+};
+
+/// True for a text that begins, after comments and empty lines, with a section ("~").
+bool looksLikeLas(const std::string& text);
+
+/// Sections ~V, ~W, ~C and ~A; others are not read. Versions 1.2 and 2.0, which differ in texts
+/// that are not read. DeckError, a line for each fault, with `file`, line, what was found and what
+/// is expected: no ~V at the begin, another version, no WRAP, a line without ".", no ~C or ~A, a
+/// row with another number of values than there are curves.
+LasFile parseLas(const std::string& text, const std::string& file);
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/tables/LogTable.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "common/Error.hpp"
+#include "common/InputFile.hpp"
+#include "common/Text.hpp"
+#include "deck/reading/Units.hpp"
+#include "deck/tables/ColumnHeading.hpp"
+#include "deck/tables/DelimitedText.hpp"
+#include "deck/tables/LasFile.hpp"
+
+namespace tooljoint::deck {
+namespace {
+
+constexpr std::uint64_t largestLog = 1U << 26U;  // bytes
+/// Faults that are told; the others are counted.
+constexpr std::size_t mostFaults = 10;
+/// Headings of the time, where the deck names none.
+const std::vector<std::string> timeNames{"time", "elapsed time", "etim", "t"};
+
+/// Names are compared without case, "_" and blanks around them.
+std::string plain(const std::string& name) {
+  std::string text = lower(trim(name));
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+/// A wanted column and its place in the file.
+struct Column {
+  WantedColumn wanted;
+  std::size_t place = 0;
+  double factor = 1.0;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  std::vector<LogSignal> read(const WantedColumn& time, const std::vector<WantedColumn>& wanted) {
+    load();
+    columns_.push_back({time});
+    for (const auto& one : wanted) columns_.push_back({one});
+    for (auto& column : columns_) find(column);
+    raise();
+    signals_.resize(wanted.size());
+    for (std::size_t i = firstRow_; i < rows_.size(); ++i) take(rows_[i]);
+    for (std::size_t i = 0; i < signals_.size(); ++i)
+      if (faults_.empty() && signals_[i].value.size() < 2)
+        fault(headerLine_, "the column " + inQuotes(wanted[i].name) + " has " +
+                               std::to_string(signals_[i].value.size()) +
+                               " values, at least two are needed.");
+    raise();
+    return std::move(signals_);
+  }
+
+ private:
+  void fault(int line, const std::string& sentence) {
+    faults_.push_back(file_ + ":" + std::to_string(line) + ": " + sentence);
+  }
+  void raise() const {
+    if (faults_.empty()) return;
+    auto told = faults_;
+    if (told.size() > mostFaults) {
+      told.resize(mostFaults);
+      told.push_back(file_ + ": " + std::to_string(faults_.size() - mostFaults) +
+                     " more errors follow.");
+    }
+    throw DeckError(join(told, "\n"));
+  }
+
+  void load() {
+    std::string text;
+    try {
+      text = readInput(file_, largestLog);
+    } catch (const FileError& error) {
+      throw DeckError(std::string("The measured log ") + error.what());
+    }
+    if (looksLikeLas(text)) {
+      auto las = parseLas(text, file_);
+      las_ = true;
+      headings_ = std::move(las.curves);
+      rows_ = std::move(las.rows);
+      null_ = las.null;
+      headerLine_ = las.curveLine;
+      return;
+    }
+    DelimitedText table;
+    try {
+      table = splitDelimited(text);
+    } catch (const DeckError& error) {
+      throw DeckError("The measured log " + file_ + " " + error.what());
+    }
+    if (table.rows.empty()) throw DeckError("The measured log " + file_ + " is empty.");
+    rows_ = std::move(table.rows);
+    header();
+  }
+
+  /// The first row of a CSV file, and units in the row below it where that holds no number.
+  void header() {
+    auto cells = rows_.front().cells;
+    while (!cells.empty() && cells.back().empty()) cells.pop_back();
+    headerLine_ = rows_.front().line;
+    for (const auto& cell : cells) headings_.push_back(splitHeading(cell));
+    firstRow_ = 1;
+    if (rows_.size() < 2 || rows_[1].cells.size() < headings_.size()) return;
+    const auto& below = rows_[1].cells;
+    if (std::any_of(below.begin(), below.end(),
+                    [](const std::string& cell) { return cellNumber(cell).has_value(); }))
+      return;
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      const auto bracketed = splitHeading(below[i]);
+      const std::string& unit = bracketed.unit.empty() ? bracketed.name : bracketed.unit;
+      if (headings_[i].unit.empty()) headings_[i].unit = unit;
+    }
+    firstRow_ = 2;
+  }
+
+  void find(Column& column) {
+    std::vector<std::string> names;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < headings_.size(); ++i) {
+      names.push_back(headings_[i].name);
+      const bool sought =
+          column.wanted.name.empty()
+              ? (las_ ? i == 0
+                      : std::count(timeNames.begin(), timeNames.end(), plain(names.back())) > 0)
+              : plain(names.back()) == plain(column.wanted.name);
+      if (sought) places.push_back(i);
+    }
+    if (places.empty()) return missing(column.wanted, names);
+    if (places.size() > 1)
+      return fault(headerLine_, "the column " + inQuotes(names[places[0]]) +
+                                    " stands more than once in the header. Rename one.");
+    column.place = places[0];
+    if (column.wanted.name.empty()) column.wanted.name = names[places[0]];
+    unit(column, headings_[column.place].unit);
+  }
+
+  void missing(const WantedColumn& wanted, const std::vector<std::string>& names) {
+    if (wanted.name.empty())
+      return fault(headerLine_,
+                   "the header has no column \"Time\". Name the column of the time in "
+                   "Measured Log/Time Column. Columns: " +
+                       quotedList(names) + ".");
+    const auto meant = closest(wanted.name, names);
+    fault(headerLine_, "the header has no column " + inQuotes(wanted.name) + "." +
+                           (meant.empty() ? "" : " Did you mean " + inQuotes(meant) + "?") +
+                           " Columns: " + quotedList(names) + ".");
+  }
+
+  void unit(Column& column, const std::string& given) {
+    const auto& wanted = column.wanted;
+    const auto ofFile = unitFactor(given, wanted.si), ofDeck = unitFactor(wanted.unit, wanted.si);
+    const std::string known = quotedList(unitsLike(wanted.si)) + ".";
+    const std::string name = "the column " + inQuotes(wanted.name);
+    if (given.empty() && wanted.unit.empty())
+      return fault(headerLine_, name +
+                                    " has no unit. Write one into the header, or give it in the "
+                                    "deck: " +
+                                    known);
+    if (!given.empty() && !ofFile)
+      return fault(headerLine_, name + " has the unit " + inQuotes(given) +
+                                    ", which does not measure what it is compared with (" +
+                                    wanted.si + "). Expected is one of " + known);
+    if (!wanted.unit.empty() && !ofDeck)
+      return fault(headerLine_, "the unit " + inQuotes(wanted.unit) + " that the deck gives for " +
+                                    name + " does not measure what it is compared with (" +
+                                    wanted.si + "). Expected is one of " + known);
+    if (ofFile && ofDeck && *ofFile != *ofDeck)
+      return fault(headerLine_, name + " has the unit " + inQuotes(given) + ", the deck gives " +
+                                    inQuotes(wanted.unit) + ". Leave out the one of the deck.");
+    column.factor = ofFile ? *ofFile : *ofDeck;
+  }
+
+  void take(const DelimitedRow& row) {
+    if (faults_.size() > mostFaults) {
+      faults_.push_back("");  // only counted
+      return;
+    }
+    auto cells = row.cells;
+    while (cells.size() > headings_.size() && cells.back().empty()) cells.pop_back();
+    if (cells.size() != headings_.size())
+      return fault(row.line, "found " + std::to_string(cells.size()) +
+                                 " cells where the header has " + std::to_string(headings_.size()) +
+                                 ".");
+    const auto time = number(row.line, cells, columns_[0]);
+    if (!time) {
+      if (cells[columns_[0].place].empty() || isNull(cells[columns_[0].place]))
+        fault(row.line, "the time is missing. Leave out rows without one.");
+      return;
+    }
+    if (lastTime_ && !(*time > *lastTime_))
+      return fault(row.line, "the time " + inQuotes(cells[columns_[0].place]) +
+                                 " does not increase from the row before. Sort the log, and leave "
+                                 "out rows that are there twice.");
+    lastTime_ = time;
+    for (std::size_t i = 0; i < signals_.size(); ++i)
+      if (const auto value = number(row.line, cells, columns_[i + 1])) {
+        signals_[i].time.push_back(*time);
+        signals_[i].value.push_back(*value);
+      }
+  }
+
+  bool isNull(const std::string& cell) const {
+    const auto read = cellNumber(cell);
+    return null_ && read && read->value == *null_;
+  }
+
+  /// SI; nothing for a gap, and for a fault that has been kept.
+  std::optional<double> number(int line, const std::vector<std::string>& cells,
+                               const Column& column) {
+    const std::string& cell = cells[column.place];
+    if (cell.empty() || isNull(cell)) return std::nullopt;
+    const auto read = cellNumber(cell);
+    if (!read) {
+      fault(line, "the value " + inQuotes(cell) + " of the column " + inQuotes(column.wanted.name) +
+                      " is not a finite number. " +
+                      (las_ ? "Write NULL where nothing was measured."
+                            : "Leave the cell empty where nothing was measured."));
+      return std::nullopt;
+    }
+    if (read->comma && pointLine_ > 0)
+      fault(line, "the value " + inQuotes(cell) + " has a decimal comma, line " +
+                      std::to_string(pointLine_) +
+                      " a decimal point. Write one of them, and no groups of thousands.");
+    if (read->point && commaLine_ > 0)
+      fault(line, "the value " + inQuotes(cell) + " has a decimal point, line " +
+                      std::to_string(commaLine_) +
+                      " a decimal comma. Write one of them, and no groups of thousands.");
+    if (read->comma && commaLine_ == 0) commaLine_ = line;
+    if (read->point && pointLine_ == 0) pointLine_ = line;
+    return read->value * column.factor;
+  }
+
+  std::string file_;
+  bool las_ = false;
+  int headerLine_ = 1;
+  std::vector<ColumnHeading> headings_;
+  std::vector<DelimitedRow> rows_;
+  std::size_t firstRow_ = 0;
+  std::optional<double> null_, lastTime_;
+  int commaLine_ = 0, pointLine_ = 0;  ///< first line with such a number
+  std::vector<Column> columns_;        ///< the time first
+  std::vector<LogSignal> signals_;
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+std::vector<LogSignal> readLog(const std::string& file, const WantedColumn& time,
+                               const std::vector<WantedColumn>& wanted) {
+  return Reader(file).read(time, wanted);
+}
+
+}  // namespace tooljoint::deck

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// Measured logs as CSV and LAS files write them, and the units of their headers.
+#include "deck/tables/LogTable.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "common/Error.hpp"
+#include "deck/tables/ColumnHeading.hpp"
+#include "deck/tables/LasFile.hpp"
+
+using namespace tooljoint::deck;
+
+namespace {
+
+std::vector<LogSignal> read(const std::string& text, const std::vector<WantedColumn>& wanted,
+                            const WantedColumn& time = {"", "s", ""}) {
+  const auto path = std::filesystem::temp_directory_path() / "tooljoint_log_table_test.txt";
+  std::ofstream(path) << text;
+  return readLog(path.string(), time, wanted);
+}
+
+TEST(UnitFactor, TakesUnitsAsLogsWriteThem) {
+  EXPECT_DOUBLE_EQ(*unitFactor("KLBF", "N"), 4448.2216152605);
+  EXPECT_DOUBLE_EQ(*unitFactor("kft.lbf", "N m"), 1355.8179483314004);
+  EXPECT_DOUBLE_EQ(*unitFactor("KFT-LBF", "N m"), 1355.8179483314004);
+  EXPECT_DOUBLE_EQ(*unitFactor("KN.M", "N m"), 1000.0);
+  EXPECT_DOUBLE_EQ(*unitFactor("G", "m/s2"), 9.80665);
+  EXPECT_DOUBLE_EQ(*unitFactor("MIN", "s"), 60.0);
+  EXPECT_DOUBLE_EQ(*unitFactor("RPM", "rad/s"), *unitFactor("rpm", "rad/s"));
+  EXPECT_FALSE(unitFactor("", "N"));
+  EXPECT_FALSE(unitFactor("kN", "s"));
+  EXPECT_FALSE(unitFactor("furlong", "m"));
+}
+
+TEST(LogTable, UnitsStandInTheHeaderOrBelowIt) {
+  for (const char* head : {"Time [s]; Torque (kN m)\n", "time;torque\ns;kN m\n"}) {
+    const auto found = read(std::string(head) + "0;1,5\n1;\n2;2,5\n", {{"torque", "N m", ""}});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
+    EXPECT_EQ(found[0].value, (std::vector<double>{1500, 2500}));
+  }
+}
+
+TEST(LogTable, UnitsOfTheDeckFillIn) {
+  const auto found = read("t,x\n0,1\n1,2\n", {{"x", "N", "klbf"}}, {"t", "s", "min"});
+  EXPECT_EQ(found[0].time[1], 60.0);
+  EXPECT_DOUBLE_EQ(found[0].value[0], 4448.2216152605);
+}
+
+constexpr const char* head =
+    "~Version\nVERS. 2.0 : x\nWRAP. YES : x\n~Well\nNULL. -999.25 : x\n~Curve\nTIME.S : t\n"
+    "A.M  00 1 : first: of two\nB.KN : second\n~A TIME A B\n";
+
+TEST(LasFile, WrappedLinesAreJoined) {
+  const auto las = parseLas(std::string(head) + "0\n1 2\n1\n-999.25 4\n", "log.las");
+  ASSERT_EQ(las.curves.size(), 3U);
+  EXPECT_EQ(las.curves[1].name, "A");
+  EXPECT_EQ(las.curves[1].unit, "M");
+  EXPECT_EQ(*las.null, -999.25);
+  ASSERT_EQ(las.rows.size(), 2U);
+  EXPECT_EQ(las.rows[1].cells, (std::vector<std::string>{"1", "-999.25", "4"}));
+  EXPECT_EQ(las.rows[1].line, 13);
+  const auto found =
+      read(std::string(head) + "0\n1 2\n1\n-999.25 4\n2\n5 6\n", {{"a", "m", ""}, {"B", "N", ""}});
+  EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
+  EXPECT_EQ(found[1].value, (std::vector<double>{2000, 4000, 6000}));
+}
+
+TEST(LasFile, FaultsNameTheirLine) {
+  try {
+    parseLas(std::string(head) + "0\n1 2 3\n", "log.las");
+    FAIL();
+  } catch (const tooljoint::DeckError& error) {
+    EXPECT_STREQ(error.what(),
+                 "log.las:12: found 4 values where ~C names 3 curves (values are separated by "
+                 "blanks; a value not measured is NULL).");
+  }
+}
+
+}  // namespace
