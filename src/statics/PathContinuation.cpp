@@ -3,7 +3,9 @@
 
 #include <LOCA_GlobalData.H>
 #include <LOCA_MultiContinuation_AbstractStrategy.H>
+#include <LOCA_MultiContinuation_ExtendedVector.H>
 #include <LOCA_Stepper.H>
+#include <NOX_Solver_Generic.H>
 #include <NOX_StatusTest_Combo.H>
 #include <NOX_StatusTest_FiniteValue.H>
 #include <NOX_StatusTest_MaxIters.H>
@@ -13,6 +15,7 @@
 #include <Teuchos_oblackholestream.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/Error.hpp"
 #include "common/Text.hpp"
@@ -41,7 +44,11 @@ Teuchos::RCP<Teuchos::ParameterList> locaParameters(const PathOptions& options, 
   stepper.set("Max Value", options.to / scale);
   stepper.set("Max Steps", options.maxSteps);
   stepper.set("Max Nonlinear Iterations", options.maxIterations);
-  stepper.set("Enable Arc Length Scaling", false);  // the weights of the problem are the scale
+  // Tangents get the length 1, and the parameter keeps its scale: a contribution to that length is
+  // never above 1.
+  stepper.set("Enable Arc Length Scaling", true);
+  stepper.set("Initial Scale Factor", 1.0);
+  stepper.set("Max Arc Length Parameter Contribution", 2.0);
   // otherwise LOCA would go to a bound after the last step
   stepper.set("Return Failed on Reaching Max Steps", true);
   stepper.set("Bordered Solver Method", "Bordering");
@@ -63,7 +70,47 @@ Teuchos::RCP<Teuchos::ParameterList> locaParameters(const PathOptions& options, 
   return list;
 }
 
-/// LOCA's stepper, which does not take long steps over bifurcations.
+/// sqrt(x'x) of a vector of x and parameter, by the weights of the problem.
+double lengthOf(const LOCA::MultiContinuation::AbstractStrategy& group,
+                const NOX::Abstract::Vector& x) {
+  return std::sqrt(group.computeScaledDotProduct(x, x));
+}
+
+/// Length of the last Newton step of a state, at most.
+constexpr double smallUpdate = 1e-6;
+
+/// Converged when the last Newton step is small by the weights of the problem: where hardly
+/// anything resists a motion, a small residual does not say that a state is near.
+class SmallUpdate : public NOX::StatusTest::Generic {
+ public:
+  NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic& solver,
+                                          NOX::StatusTest::CheckType) override {
+    status_ = NOX::StatusTest::Unconverged;
+    if (solver.getNumIterations() == 0) return status_;
+    const auto& now = solver.getSolutionGroup();
+    const auto change = now.getX().clone(NOX::DeepCopy);
+    change->update(-1.0, solver.getPreviousSolutionGroup().getX(), 1.0);
+    update_ =
+        lengthOf(dynamic_cast<const LOCA::MultiContinuation::AbstractStrategy&>(now), *change);
+    if (update_ <= smallUpdate) status_ = NOX::StatusTest::Converged;
+    return status_;
+  }
+  NOX::StatusTest::StatusType getStatus() const override { return status_; }
+  std::ostream& print(std::ostream& stream, int indent) const override {
+    return stream << std::string(static_cast<std::size_t>(indent), ' ')
+                  << "length of the Newton step = " << update_ << '\n';
+  }
+
+ private:
+  double update_ = 0.0;
+  NOX::StatusTest::StatusType status_ = NOX::StatusTest::Unevaluated;
+};
+
+/// A step may end this many times its length away: the path turns by 60 degrees. Behind a sharper
+/// turn, as where a contact closes, a solution can be on another part of the path.
+constexpr double farthest = 2.0;
+
+/// LOCA's stepper, which takes neither long steps over bifurcations nor steps to far-off solutions.
 class PathStepper : public LOCA::Stepper {
  public:
   using LOCA::Stepper::Stepper;
@@ -73,6 +120,8 @@ class PathStepper : public LOCA::Stepper {
   StepStatus compute(StepStatus before) override {
     const auto status = LOCA::Stepper::compute(before);
     if (status != Successful) return status;
+    if (distance() > farthest * std::abs(stepSize) * lengthOf(*curGroupPtr, *curPredictorPtr))
+      return Unsuccessful;
     auto& here = pathGroup(*curGroupPtr);
     const auto& last = pathGroup(*prevGroupPtr);
     if (!grew_) pivots_ = last.negativePivots(), grew_ = true;
@@ -90,16 +139,26 @@ class PathStepper : public LOCA::Stepper {
     return dynamic_cast<PathGroup&>(*group.getBaseLevelUnderlyingGroup());
   }
 
+  /// From the last point of the path.
+  double distance() const {
+    const auto moved = curGroupPtr->getX().clone(NOX::DeepCopy);
+    moved->update(-1.0, prevGroupPtr->getX(), 1.0);
+    return lengthOf(*curGroupPtr, *moved);
+  }
+
   std::optional<bool> grew_;   ///< the parameter, in the last step
   std::optional<int> pivots_;  ///< negative ones at the end of it
 };
 
 Teuchos::RCP<NOX::StatusTest::Combo> statusTests(const PathOptions& options) {
   using namespace NOX::StatusTest;
+  const auto solved = Teuchos::rcp(new Combo(
+      Combo::AND,
+      Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled)),
+      Teuchos::rcp(new SmallUpdate())));
   const auto tests = Teuchos::rcp(new Combo(Combo::OR));
   tests->addStatusTest(Teuchos::rcp(new FiniteValue()));
-  tests->addStatusTest(
-      Teuchos::rcp(new NormF(options.tolerance, NOX::Abstract::Vector::MaxNorm, NormF::Unscaled)));
+  tests->addStatusTest(solved);
   tests->addStatusTest(Teuchos::rcp(new MaxIters(options.maxIterations)));
   return tests;
 }
@@ -128,8 +187,7 @@ void check(const model::ParametricProblem& problem, const Vector& start,
 void conclude(const PathOptions& options, bool began, bool stopped, const std::string& thrown,
               PathReport& report) {
   const double same = sameParameter * (options.to - options.from);
-  const std::string at =
-      " at " + formatNumber(report.parameter) + " after " + std::to_string(report.steps) + " steps";
+  const std::string at = " at " + formatNumber(report.parameter);
   if (stopped) {
     report.end = PathEnd::Stopped;
     report.explanation = "The path was stopped" + at + ".";
@@ -166,7 +224,10 @@ PathReport followPath(const model::ParametricProblem& problem, const Vector& sta
   const double scale = problem.parameterScale();
   const auto context = std::make_shared<PathContext>(PathContext{
       problem, problem.residualScale(), problem.pathWeights(), scale, nullptr, nullptr});
+  const double slack = sameParameter * (options.to - options.from);
   const auto observe = [&](double parameter, const Vector& x) {
+    // the last step but one may lead beyond the end
+    if (parameter > options.to + slack || parameter < options.from - slack) return;
     report.parameter = parameter;
     report.steps = points++;
     if (!observer({report.steps, parameter, x, problem.negativePivots(x, parameter)})) throw Stop{};
@@ -186,12 +247,12 @@ PathReport followPath(const model::ParametricProblem& problem, const Vector& sta
   const auto global = LOCA::createGlobalData(list);
   bool stopped = false;
   std::string thrown;
+  std::unique_ptr<PathStepper> stepper;
   try {
     const auto group = Teuchos::rcp(new PathGroup(context, start, options.from));
-    PathStepper stepper(global, group, statusTests(options), list);
-    stepper.bifurcationStep = options.bifurcationStep;
-    stepper.run();
-    report.failedSteps = stepper.getNumFailedSteps();
+    stepper = std::make_unique<PathStepper>(global, group, statusTests(options), list);
+    stepper->bifurcationStep = options.bifurcationStep;
+    stepper->run();
   } catch (const Stop&) {
     stopped = true;
   } catch (const std::exception& error) {
@@ -199,10 +260,19 @@ PathReport followPath(const model::ParametricProblem& problem, const Vector& sta
   } catch (const char* error) {
     thrown = error;
   }
+  if (stepper) report.failedSteps = stepper->getNumFailedSteps();
+  stepper.reset();
   LOCA::destroyGlobalData(global);
   if (context->error) std::rethrow_exception(context->error);
   conclude(options, points > 0, stopped, thrown, report);
   return report;
+}
+
+bool startsPath(const model::ParametricProblem& problem, const Vector& start,
+                const PathOptions& options) {
+  return options.from >= options.to || followPath(problem, start, options, [](const PathPoint&) {
+                                         return false;
+                                       }).end == PathEnd::Stopped;
 }
 
 }  // namespace tooljoint::statics

@@ -43,7 +43,6 @@ struct PathReport {
   PathEnd end = PathEnd::Failed;
   int steps = 0;            ///< converged, beside the start
   int failedSteps = 0;      ///< tried again in half
-  int iterations = 0;       ///< of Newton's method, all converged steps
   double parameter = 0.0;   ///< of the last point
   std::string explanation;  ///< one sentence: how it ended, at which parameter, and why
 };
@@ -66,5 +65,9 @@ using PathObserver = std::function<bool(const PathPoint&)>;
 /// sent. ModelError: sizes or bounds do not fit.
 PathReport followPath(const model::ParametricProblem& problem, const Vector& start,
                       const PathOptions& options, const PathObserver& observer);
+
+/// Whether followPath() finds its first point from this start.
+bool startsPath(const model::ParametricProblem& problem, const Vector& start,
+                const PathOptions& options);
 
 }  // namespace tooljoint::statics
