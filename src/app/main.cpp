@@ -173,8 +173,9 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
   auto* report = program.add_subcommand(
       "report", "one HTML file with figures, plots and a 3-D view of a results folder");
   report
-      ->add_option("DIR", options.reported,
-                   "folder of run, study or map, or the --output of torque-drag, bha or modes")
+      ->add_option(
+          "DIR", options.reported,
+          "folder of run, study or map, or the --output of torque-drag, bha, buckling or modes")
       ->type_name("DIR")
       ->required();
   report->add_option("--output,-o", options.output, "file to write (default: DIR/report.html)")
@@ -227,6 +228,13 @@ void addAnalyses(CLI::App& program, tooljoint::app::RunOptions& options,
       "against weight on bit, inclination and tool face");
   addDeckOptions(*bhaCommand, options, Output::Always, "_bha");
   bhaCommand->callback([&] { command = [&] { tooljoint::app::bha(options); }; });
+
+  auto* bucklingCommand = program.add_subcommand(
+      "buckling",
+      "static states under a growing weight on bit, past buckling into the bore, beside theory "
+      "(list Buckling)");
+  addDeckOptions(*bucklingCommand, options, Output::Always, "_buckling");
+  bucklingCommand->callback([&] { command = [&] { tooljoint::app::buckling(options); }; });
 
   auto* campbellCommand = program.add_subcommand(
       "campbell", "damped modes against the rotary speed, and critical speeds (list Campbell)");

@@ -64,7 +64,8 @@ deck::ListSpec parameters() {
       .boolean("CSV", defaults.csv, "Write tables for spreadsheets beside results.h5.")
       .boolean(
           "Report", defaults.report,
-          "Write report.html at the end of `tooljoint run`, `study`, `map`, `bha` and `torque-drag "
+          "Write report.html at the end of `tooljoint run`, `study`, `map`, `bha`, `buckling` and "
+          "`torque-drag "
           "--output`: figures, plots and a 3-D view of the results in one file.")
       .boolean("XDMF", defaults.xdmf,
                "Write results.xdmf for ParaView: the string in its well, coloured by contact force "

@@ -16,7 +16,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from checks import expect, finish, tooljoint  # noqa: E402
 
 PROGRAM, MPIEXEC, DECK, PARTS_DECK, PLOTTER = sys.argv[1:6]
-COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "bha", "campbell", "response")
+COMMANDS = ("run", "study", "check", "modes", "export", "compare", "doc", "template", "new", "report", "torque-drag", "bha", "buckling", "campbell", "response")
 FULL = ["--without", "Reduction", "--without", "Substructures"]
 
 

@@ -24,6 +24,7 @@ COMMANDS = {STUDY: "study", MAP: "map"}  # of decks that are not run
 ANALYSES = {  # command -> its tables; the keys of its figures begin with its name
     "torque-drag": ["file:torque_drag.csv", "file:torque_drag_broomstick.csv", "file:torque_drag_calibration.csv"],
     "bha": ["file:bha.csv", "file:bha_profile.csv"],
+    "buckling": ["file:buckling.csv", "file:buckling_profile.csv"],
     "campbell": ["file:campbell.csv", "file:crossings.csv", "file:spot_checks.csv"],
     "response": ["file:response.csv"],
 }

@@ -39,6 +39,7 @@ DRILLSTRING = {
     "drillstring/figures": ("beam drillstring path", f"{GROUND} io cases", "figures of merit of a bit and of bending"),
     "drillstring/scene": ("beam contact drilling drillstring equilibrium loads mud path softstring well", f"{CASES} cases", "from a deck to typed values and the static state"),
     "drillstring/case": ("beam contact drilling drillstring drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string as a case: records, results, figures"),
+    "drillstring/buckling": ("beam contact drilling drillstring drillstring/case drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "a string past buckling"),
     "drillstring/analyses": ("beam contact drilling drillstring drillstring/case drillstring/figures drillstring/scene equilibrium loads mud path softstring well", f"{CASES} cases", "what engineers ask of a string beside its motion"),
 }
 

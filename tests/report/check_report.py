@@ -290,6 +290,9 @@ def tables_alone():
     shutil.rmtree("assembly", ignore_errors=True)
     tooljoint("bha", str(pathlib.Path(__file__).resolve().parent.parent / "effects/bottom_hole.xml"), "--output", "assembly")
     page("a bottom-hole assembly", "assembly", {"bha-high", "bha-right", "bha-moment"})
+    shutil.rmtree("buckled", ignore_errors=True)
+    tooljoint("buckling", str(pathlib.Path(__file__).resolve().parent.parent / "effects/buckling.xml"), "--output", "buckled")
+    page("a string that buckles", "buckled", {"buckling-path", "buckling-contact", "buckling-shape"})
 
 
 def end_of_run():

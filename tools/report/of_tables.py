@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sections and reports of tables: torque_drag.csv, bha.csv, modes.csv, basis.csv."""
+"""Sections and reports of tables: torque_drag.csv, bha.csv, buckling.csv, modes.csv, basis.csv."""
 import math
 
 import plots
@@ -10,6 +10,7 @@ from report.page import Page
 from report.quantities import FOOT, POUND, percent, plain
 from report.results import read_table
 
+BUCKLING_ROWS = 40  # of a page; buckling.csv has all
 BASIS_ROWS = 60  # of a page; basis.csv has all
 
 
@@ -191,11 +192,53 @@ def add_bha(page, folder):
     page.plots("bha", "Bottom-hole assembly", found, table)
 
 
+def against_weight(name, label, caption, rows, lines, scale):
+    """Columns of buckling.csv against the weight on bit; jumps are gaps."""
+    made, axes = plots.figure(plots.WIDE, 2.8)
+    for number, (column, legend) in enumerate(lines):
+        for branch in sorted(set(numbers(rows, "branch"))):
+            own = [row for row in rows if row["branch"] == branch]
+            axes.plot([x / 1e3 for x in numbers(own, "weight_on_bit")], [scale * x for x in numbers(own, column)], color=COLOURS[number], linewidth=1.2,
+                      linestyle="--" if number else "-", label=legend if branch == 0 else None)
+    axes.set_xlabel("weight on bit [kN]"), axes.set_ylabel(label)
+    plots.legend_above(axes, 2, -0.25)
+    return Figure(name, made, caption, True)
+
+
+def buckled_shape(rows):
+    """The last state to both sides of the hole."""
+    made, axes = plots.figure(plots.WIDE, 2.8)
+    for number, (column, legend) in enumerate((("deflection_high", "to the high side"), ("deflection_right", "to the right side"))):
+        axes.plot(numbers(rows, "depth"), [1e3 * x for x in numbers(rows, column)], color=COLOURS[number], linewidth=1.2, label=legend)
+    axes.set_xlabel("depth [m]"), axes.set_ylabel("deflection [mm]")
+    plots.legend_above(axes, 2, -0.25)
+    return Figure("buckling-shape", made, "Deflection from the axis of the hole under the last weight on bit.", True)
+
+
+def add_buckling(page, folder):
+    """Load and displacement, contact beside that of a helix, and the last state."""
+    if not ((folder / "buckling.csv").is_file() and (folder / "buckling_profile.csv").is_file()):
+        return
+    rows = read_table(folder / "buckling.csv")
+    found = [against_weight("buckling-path", "displacement [mm]", "Displacement of the bit down the hole, and the share of bending in it, up the hole; gaps are jumps.", rows,
+                            (("bit_advance", "bit"), ("shortening", "shortening by bending")), 1e3),
+             against_weight("buckling-contact", "contact force [N/m]", "Contact force per length of the middle half of the string, beside that of a helix, r F^2/(4 E I).", rows,
+                            (("contact_force", "contact force"), ("helical_contact_force", "helix")), 1.0),
+             buckled_shape(read_table(folder / "buckling_profile.csv"))]
+    shown = rows[::max(1, len(rows) // BUCKLING_ROWS)]
+    table = tables.table(("weight on bit [kN]", "bit [mm]", "largest contact force [kN]", "negative pivots", "half waves", "contact force [N/m]", "helix [N/m]", "jumps before"),
+                         [tuple(f"{row[name] * factor:.{digits}f}" for name, factor, digits in (("weight_on_bit", 1e-3, 2), ("bit_advance", 1e3, 3), ("largest_contact_force", 1e-3, 3), ("negative_pivots", 1, 0),
+                                                                                               ("half_waves", 1, 0), ("contact_force", 1, 1), ("helical_contact_force", 1, 1), ("branch", 1, 0))) for row in shown],
+                         range(8), "States of the path; buckling.csv has all")
+    page.plots("buckling", "Buckling", found, table)
+
+
 def page_of(folder):
     """Of a folder that holds tables alone."""
-    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
+    page = Page(folder.resolve().name, "tables of " + " and ".join(name for name, file in (("torque-drag", "torque_drag.csv"), ("bha", "bha.csv"), ("buckling", "buckling.csv"), ("modes", "modes.csv"), ("damped modes", "damped_modes.csv"))
                                                                 if (folder / file).is_file()))
     add_torque_drag(page, folder)
     add_bha(page, folder)
+    add_buckling(page, folder)
     add_modes(page, folder)
     return page

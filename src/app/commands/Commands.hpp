@@ -70,6 +70,8 @@ void torqueDrag(const RunOptions& options);
 /// `tooljoint bha`: the lower part of a string at rest, against weight on bit, inclination and tool
 /// face.
 void bha(const RunOptions& options);
+/// `tooljoint buckling`: static states under a growing weight on bit, past buckling.
+void buckling(const RunOptions& options);
 /// `tooljoint campbell`: damped modes against the rotary speed, and critical speeds.
 void campbell(const RunOptions& options);
 /// `tooljoint response`: amplitude and phase under harmonic loads against speed or frequency.

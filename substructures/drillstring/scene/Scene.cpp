@@ -19,6 +19,7 @@
 #include "substructures/drillstring/DrillstringReader.hpp"
 #include "substructures/drillstring/StringModel.hpp"
 #include "substructures/drillstring/scene/BottomHoleParameters.hpp"
+#include "substructures/drillstring/scene/BucklingParameters.hpp"
 #include "substructures/softstring/TorqueDragParameters.hpp"
 #include "transient/Integrator.hpp"
 
@@ -45,6 +46,7 @@ deck::ListSpec sceneSpec() {
   scene.list(equilibrium::parameters());
   scene.list(softstring::torqueDragParameters());
   scene.list(bottomHoleParameters());
+  scene.list(bucklingParameters());
   scene.list(partitionParameters());
   scene.list(coupling::parameters());
   scene.list(parts::parameters());

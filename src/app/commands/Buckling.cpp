@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/commands/Commands.hpp"
+#include "cases/CaseKinds.hpp"
+#include "cases/run/AnalysisFiles.hpp"
+#include "common/Error.hpp"
+#include "substructures/drillstring/buckling/BucklingPath.hpp"
+
+namespace tooljoint::app {
+
+void buckling(const RunOptions& options) {
+  const auto one = cases::readCase(options.deck, options.overrides);
+  const auto* string = dynamic_cast<const drillstring::DrillstringCase*>(one.get());
+  if (string == nullptr)
+    throw DeckError(options.deck +
+                    ": what buckles is a string in its well. Give a deck with the lists Well and "
+                    "Drillstring.");
+  drillstring::reportBuckling(*string, options.output);
+  reportAtEnd(cases::analysisFolder(*one, options.output, "buckling"), one->output().report);
+}
+
+}  // namespace tooljoint::app

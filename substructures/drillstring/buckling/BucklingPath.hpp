@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// `tooljoint buckling`: static states of a string in its hole under a growing weight on bit, past
+/// buckling, by continuation. Sides of the hole are its high side h and its right side t x h (t
+/// down the hole).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "statics/PathContinuation.hpp"
+#include "substructures/drillstring/case/DrillstringCase.hpp"
+#include "substructures/drillstring/scene/BucklingParameters.hpp"
+#include "substructures/drillstring/scene/Scene.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Loads at which buckling begins somewhere in the string, as weight on bit [N]; infinite where the
+/// formula gives none.
+struct BucklingTheory {
+  double sinusoidal = 0.0;  ///< softstring::bucklingLimits() at every element
+  double helical = 0.0;
+  /// 2.8 times the sinusoidal compression: up to here sinusoidal states are stable under a growing
+  /// load (R. F. Mitchell, SPE Drilling & Completion 12, 1997); a helix that is there stays so down
+  /// to the helical limit.
+  double spontaneous = 0.0;
+  /// Hinged pipe of this length in a straight hole, min over n of E I (n pi/L)^2 + (w sin/r) (L/(n
+  /// pi))^2 (Dawson and Paslay 1984; Euler without weight); 0 for a string of several sections, or
+  /// in a hole that bends.
+  double finiteLength = 0.0;
+  int finiteHalfWaves = 0;
+};
+
+/// Contact and shape of the middle half of the string, which its ends do not reach, beside the
+/// helix of Lubinski, Althouse and Logan (1962) with the compression F there: N = r F^2/(4 E I),
+/// pitch sqrt(8 pi^2 E I/F), shortening r^2 F/(4 E I).
+struct BucklingMiddle {
+  double compression = 0.0;                              ///< mean [N]
+  double contactForce = 0.0, helicalContactForce = 0.0;  ///< per length [N/m]
+  double shortening = 0.0, helicalShortening = 0.0;      ///< by bending, per length
+  std::optional<double> pitch;                           ///< where the string winds one way [m]
+  double helicalPitch = 0.0;                             ///< [m]
+};
+
+/// A static state of the path.
+struct BucklingState {
+  double weight = 0.0;      ///< on bit [N]
+  int branch = 0;           ///< jumps to other states that came before
+  double bitAdvance = 0.0;  ///< of the bit down the hole, from the unloaded string [m]
+  double shortening = 0.0;  ///< of it by bending, 1/2 int u'^2 + v'^2 ds [m]
+  double lateral = 0.0;     ///< largest displacement from the axis of the hole [m]
+  int contacts = 0;         ///< nodes at the wall
+  double largestContact = 0.0, totalContact = 0.0;  ///< [N]
+  int negativePivots = 0;                           ///< of the tangent; 0: stable
+  int halfWaves = 0;  ///< of the deflection to the right side, in a vertical hole to the
+                      ///< side it goes to most
+  std::optional<double> halfWaveLength;  ///< median distance of its zeros [m]
+  double turns = 0.0;                    ///< of the string about the axis of the hole, net
+  BucklingMiddle middle;
+  Matrix displacement;  ///< to the high and to the right side, 2 x nodes [m]
+  Vector contactForce;  ///< per node [N]
+  Vector compression;   ///< per element [N]
+};
+
+struct BucklingPath {
+  BucklingTheory theory;
+  /// Weight on bit at which the straight string has the first negative pivot; none: not on the way.
+  std::optional<double> limit;
+  double crookedness = 0.0, pitch = 0.0;  ///< amplitude and length of a turn [m]
+  std::vector<double> depth;              ///< of the nodes [m]
+  std::vector<BucklingState> states;
+  statics::PathReport report;
+};
+
+/// The deck's list `Buckling`; its defaults where the deck has none. DeckError: there is no last
+/// weight.
+BucklingSettings bucklingSettings(const Scene& scene);
+
+/// Follows the static states from no to the last weight on bit. There is no friction, the
+/// walls only push, laws of bit and drive are left out. DeckError: the string has no wall, the bit
+/// is held along the hole, or the geometric stiffness is left out; ConvergenceError: the first
+/// state is not found. A path that ends early says so in its report. The same on every rank.
+BucklingPath bucklingPath(const Scene& scene, const BucklingSettings& settings);
+
+/// Prints the path and writes buckling.csv, buckling.h5 and summary.json; ConvergenceError after
+/// that where the path did not reach the last weight. Collective.
+void reportBuckling(const DrillstringCase& one, const std::string& folder);
+
+}  // namespace tooljoint::drillstring

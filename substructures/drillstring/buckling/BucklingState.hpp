@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What is said of one static state of a buckled string, and of the theory beside it.
+#pragma once
+
+#include <vector>
+
+#include "substructures/drillstring/buckling/BucklingPath.hpp"
+#include "substructures/drillstring/scene/Stages.hpp"
+#include "substructures/equilibrium/StaticProblem.hpp"
+
+namespace tooljoint::drillstring {
+
+/// Measures states of one string on its path.
+class BucklingMeasure {
+ public:
+  /// All must outlive the object. \param input with the walls of the path
+  BucklingMeasure(const Scene& scene, const path::PathState& path,
+                  const equilibrium::StaticInput& input, const equilibrium::StaticProblem& problem);
+
+  /// \param displacement 6 per node; that of the unloaded string for advances
+  BucklingState state(double weight, const Vector& displacement) const;
+  /// \param tension of each element without weight on bit [N]
+  BucklingTheory theory(const Vector& tension) const;
+
+  /// Of each element: E I [N m2], mean radial clearance of its nodes [m].
+  const std::vector<double>& rigidity() const { return rigidity_; }
+  const std::vector<double>& clearance() const { return clearance_; }
+
+ private:
+  Matrix toSides(const Vector& displacement) const;
+  double shortening(int element, const Vector& displacement) const;
+  void addShape(BucklingState& state) const;
+  void addMiddle(const Vector& displacement, BucklingState& state) const;
+
+  const Scene& scene_;
+  const path::PathState& path_;
+  const equilibrium::StaticInput& input_;
+  const equilibrium::StaticProblem& problem_;
+  std::vector<double> depth_, weight_, rigidity_, clearance_;
+  std::vector<beam::Matrix12> unitAxial_;  ///< K_gF of each element per unit tension
+};
+
+}  // namespace tooljoint::drillstring

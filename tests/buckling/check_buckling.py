@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks `tooljoint buckling` through the program: limits, half waves, helices and contact against closed forms, its tables, refusals, ranks.
+
+    check_buckling.py PROGRAM MPIEXEC SOURCES
+"""
+import csv
+import json
+import math
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from checks import expect, finish, tooljoint  # noqa: E402
+
+SOURCES = pathlib.Path(sys.argv[3])
+BORE, OUTER, INNER, YOUNG, DENSITY, GRAVITY = 0.1, 0.05, 0.04, 2.1e11, 7850.0, 9.81
+AREA = math.pi * (OUTER**2 - INNER**2)
+RIGIDITY = YOUNG * math.pi / 4 * (OUTER**4 - INNER**4)
+WEIGHT = DENSITY * AREA * GRAVITY
+CLEARANCE = BORE - OUTER
+
+
+def parameter(name, value, kind="string"):
+    return f'<Parameter name="{name}" type="{kind}" value="{value}"/>'
+
+
+def listed(name, *content):
+    return f'<ParameterList name="{name}">' + "".join(content) + "</ParameterList>"
+
+
+def deck(name, length, elements, last, inclination=0.0, gravity=GRAVITY, bit="u v", contact=True, more=""):
+    """A uniform pipe between hinges in a straight hole."""
+    well = listed("Well", parameter("Trajectory", "Vertical"), listed("Vertical", parameter("Length", f"{length} m"), parameter("Inclination", f"{inclination} deg")),
+                  parameter("Bore Radius", f"{BORE} m"))
+    pipe = listed("pipe", parameter("Length", f"{length} m"), parameter("Elements", elements, "int"), parameter("Outer Radius", f"{OUTER} m"), parameter("Inner Radius", f"{INNER} m"),
+                  parameter("Shear Deformation", "false", "bool"))
+    string = listed("Drillstring", listed("Components", pipe), parameter("Assembly", "{pipe}", "Array(string)"),
+                    listed("Material", parameter("Density", f"{DENSITY} kg/m3"), parameter("Young Modulus", f"{YOUNG} Pa")))
+    supports = listed("Supports", parameter("Top", "u v w theta_z"), parameter("Bit", bit))
+    text = listed(name, well, string, supports, listed("Contact", parameter("Stiffness", "1e7 N/m")) if contact else "", listed("Loads", parameter("Gravity", f"{gravity} m/s2")),
+                  listed("Buckling", parameter("Last Weight On Bit", f"{last} N")) if last else "", more)
+    file = pathlib.Path(f"{name}.xml")
+    file.write_text('<?xml version="1.0"?>\n' + text.replace("><", ">\n<"), encoding="utf-8")
+    return str(file)
+
+
+def rows(folder, table="buckling.csv"):
+    with open(pathlib.Path(folder) / table, encoding="utf-8", newline="") as file:
+        return [{key.split(" [")[0]: float(value) if value else None for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def summary(folder):
+    return json.loads((pathlib.Path(folder) / "summary.json").read_text(encoding="utf-8"))["buckling"]
+
+
+def run(file, *settings, folder=None, ranks=1):
+    """Rows of buckling.csv and what the summary says."""
+    folder = folder or "out_" + pathlib.Path(file).stem
+    done = tooljoint("buckling", file, "--output", folder, *(part for one in settings for part in ("--set", one)), ranks=ranks)
+    expect(f"buckling of {file} ends well {settings}", done.returncode == 0, done.stderr)
+    found = rows(folder)
+    expect("weights of a branch grow", all(a["weight_on_bit"] < b["weight_on_bit"] for a, b in zip(found, found[1:])))
+    return found, summary(folder)
+
+
+def near(what, value, expected, tolerance):
+    expect(f"{what}: {value:.6g} against {expected:.6g}", abs(value - expected) <= tolerance * abs(expected), "")
+
+
+def euler():
+    """A weightless pipe of 20 m: Euler's load, one contact up to 4 of them (Timoshenko and Gere, 1.11), and then out of the plane, since beyond it would lie flat on the wall."""
+    length = 20.0
+    load = RIGIDITY * (math.pi / length) ** 2
+    found, said = run(deck("euler", length, 40, 6 * load, gravity=0.0), "Buckling/Crookedness=0.01", "Buckling/Largest Step=0.02")
+    # the first negative pivot lies within one step of 1/64 of the largest one, here 2e-3 of the load
+    near("Euler's load", said["limit"], load, 2.5e-3)
+    near("as the formula of the summary", said["theory"]["finite_length"], load, 1e-9)
+    expect("formulas of a pipe with weight stay out", said["theory"].get("sinusoidal") is None and said["theory"]["finite_half_waves"] == 1)
+    for row in found:
+        ratio = row["weight_on_bit"] / load
+        if row["contact_nodes"] == 0:
+            expect(f"no contact at {ratio:.3f} of Euler's load", ratio < 1.0)
+        elif 1.3 < ratio < 3.0:
+            # the deflection r by a force N in the middle, N = 4 u F r/(L (u - tan u)), u = L/2 sqrt(F/E I)
+            u = length / 2 * math.sqrt(row["weight_on_bit"] / RIGIDITY)
+            near(f"contact force at {ratio:.2f} of Euler's load", row["total_contact_force"], 4 * u * row["weight_on_bit"] * CLEARANCE / (length * (u - math.tan(u))), 1e-2)
+            expect("in a plane, at one node", row["contact_nodes"] == 1 and abs(row["turns"]) < 5e-3, row["turns"])
+    leaving = next(row["weight_on_bit"] for row in found if abs(row["turns"]) > 2e-2)
+    near("out of the plane from 4 Euler loads on", leaving, 4 * load, 5e-2)
+    expect("all of it stable", all(row["negative_pivots"] == 0 for row in found))
+
+
+def helix():
+    """A weightless pipe of 60 m winds: pitch, contact and shortening of Lubinski, Althouse and Logan (1962). The ends reach less far into the middle half the shorter the pitch is, a fifth of it at last."""
+    found, _ = run(deck("helix", 60.0, 120, 3e5, gravity=0.0))
+    row = found[-1]
+    force = row["compression"]
+    near("compression", force, 3e5, 1e-6)
+    # a pipe that presses on its wall is 0.1 to 0.4 mm farther out: 0.8 % of r
+    near("contact force r F^2/(4 E I)", row["contact_force"], CLEARANCE * force**2 / (4 * RIGIDITY), 1e-2)
+    near("pitch sqrt(8 pi^2 E I/F)", row["pitch"], math.sqrt(8 * math.pi**2 * RIGIDITY / force), 1e-2)
+    near("shortening r^2 F/(4 E I)", row["strain"], CLEARANCE**2 * force / (4 * RIGIDITY), 1.5e-2)
+    for name in ("contact_force", "strain", "pitch"):
+        formula = {"contact_force": CLEARANCE * force**2 / (4 * RIGIDITY), "strain": CLEARANCE**2 * force / (4 * RIGIDITY), "pitch": math.sqrt(8 * math.pi**2 * RIGIDITY / force)}[name]
+        near(f"helical_{name} of the table", row[f"helical_{name}"], formula, 1e-6)
+    # the bit moves by F L/(E S) and by the shortening; a step of the table is a small part of the path
+    for state in found:
+        near("advance of the bit", -state["bit_advance"], state["weight_on_bit"] * 60.0 / (YOUNG * AREA) + state["shortening"], 1e-6) if state["weight_on_bit"] else None
+    first, second = found[-3], found[-1]
+    slope = (first["bit_advance"] - second["bit_advance"]) / (second["weight_on_bit"] - first["weight_on_bit"])
+    near("slope of load and displacement, L/(E S) + r^2 L/(4 E I)", slope, 60.0 / (YOUNG * AREA) + CLEARANCE**2 * 60.0 / (4 * RIGIDITY), 2e-2)
+
+
+def horizontal():
+    """A pipe of 100 m in a horizontal hole: Dawson and Paslay (1984), the half wave, and the slope of the sinusoid of Mitchell (1997)."""
+    length, critical = 100.0, 2 * math.sqrt(RIGIDITY * WEIGHT / CLEARANCE)
+    found, said = run(deck("horizontal", length, 200, 1.6 * critical, inclination=90.0), "Buckling/Largest Step=0.02")
+    near("2 sqrt(E I w/r) in the summary", said["theory"]["sinusoidal"], critical, 1e-6)
+    near("2 sqrt(2) sqrt(E I w/r) in the summary", said["theory"]["helical"], math.sqrt(2) * critical, 1e-6)
+    # the hinges hold the ends on the axis, a clearance above where the pipe lies: a tenth of the length is off the wall
+    near("first buckling", said["limit"], critical, 2.5e-2)
+    buckled = [row for row in found if row["weight_on_bit"] > 1.1 * critical]
+    near("half wave pi (E I r/w)^(1/4)", buckled[0]["half_wave_length"], math.pi * (RIGIDITY * CLEARANCE / WEIGHT) ** 0.25, 3e-2)
+    before = [row for row in found if row["weight_on_bit"] < 0.7 * critical]
+    for row in before:
+        near("not buckled, the wall bears the weight", row["contact_force"], WEIGHT, 5e-3)
+    expect("and the table calls it so", all(row["half_waves"] == 0 for row in before), [row["half_waves"] for row in before])
+    # Mitchell (SPE Drilling & Completion 14, 1999, eq. 7): largest slope of the angle 1.1227/sqrt(2 E I) F^0.04 (F - F_p)^0.46
+    import h5py  # noqa: PLC0415
+    with h5py.File("out_horizontal/buckling.h5") as file:
+        depth, high, right = file["states/depth"][:], file["states/deflection_high"][-1], file["states/deflection_right"][-1]
+    angle = [math.atan2(y, -x) for x, y in zip(high, right)]
+    slopes = [abs(b - a) / (t - s) for a, b, s, t in zip(angle, angle[1:], depth, depth[1:]) if 0.25 * length < s < 0.75 * length]
+    force = found[-1]["compression"]
+    near("largest slope of the angle", max(slopes), 1.1227 / math.sqrt(2 * RIGIDITY) * force**0.04 * (force - critical) ** 0.46, 6e-2)
+
+
+def transition():
+    """60 deg, 100 m: under a growing load the pipe stays sinusoidal well beyond the load of a helix, to 2.8 times the first buckling (Mitchell 1997), and then jumps."""
+    critical = 2 * math.sqrt(RIGIDITY * WEIGHT * math.sin(math.radians(60)) / CLEARANCE)
+    found, said = run(deck("transition", 100.0, 200, 3.1e5, inclination=60.0))
+    jumps = [one["weight_on_bit"] for one in said.get("jumps", [])]
+    expect(f"the string jumps, under {jumps}", bool(jumps) and found[-1]["branch"] == len(jumps))
+    last = [row for row in found if row["branch"] == 0][-1]
+    # what is buckled half a wave longer or shorter turns over a few per cent of the load earlier or later
+    near("compression of the last sinusoidal state over the first buckling", last["compression"] / critical, 2.8, 0.1)
+    expect("its half waves are as long as at first", last["half_wave_length"] < 1.2 * math.pi * (RIGIDITY * CLEARANCE / (WEIGHT * math.sin(math.radians(60)))) ** 0.25)
+    expect("stable up to there and at the end", all(row["negative_pivots"] == 0 for row in found if row["branch"] == 0 and row is not last) and found[-1]["negative_pivots"] == 0)
+    expect("shorter after the jumps", found[-1]["strain"] > last["strain"])
+
+
+def followed():
+    """The path through unstable states, which turns; and two ranks."""
+    file = deck("followed", 60.0, 120, 3.6e5, inclination=60.0)
+    settings = ["--set", "Buckling/At A Limit=Follow", "--set", "Buckling/Max Steps=100"]
+    for folder, ranks in (("out_followed", 1), ("out_ranks", 2)):
+        done = tooljoint("buckling", file, "--output", folder, *settings, ranks=ranks)
+        expect("a path that does not reach its end has the exit code 4", done.returncode == 4, done.returncode)
+        expect("and says where it ended", "could be followed up to" in done.stderr, done.stderr)
+    one, two, said = rows("out_followed"), rows("out_ranks"), summary("out_followed")
+    expect("unstable states are counted", said["unstable_from"] > 0 and any(row["negative_pivots"] > 0 for row in one))
+    expect("the path turns", any(b["weight_on_bit"] < a["weight_on_bit"] for a, b in zip(one, one[1:])))
+    expect("two ranks: the same path", len(one) == len(two) and all(
+        abs(a[key] - b[key]) <= 1e-9 * max(abs(a[key]), 1e-3) for a, b in zip(one, two) for key in ("weight_on_bit", "bit_advance", "total_contact_force")))
+
+
+def refused(what, sentence, code, *arguments):
+    done = tooljoint("buckling", *arguments)
+    expect(f"{what} has the exit code {code}", done.returncode == code, done.returncode)
+    expect(f"{what}: \"{sentence}\"", sentence in done.stderr, done.stderr)
+
+
+def refusals():
+    good = deck("good", 20.0, 20, 1e5)
+    refused("no wall", "Add the list Contact", 2, deck("no_wall", 20.0, 20, 1e5, contact=False))
+    refused("a bit that is held", "cannot move the bit", 2, deck("held", 20.0, 20, 1e5, bit="u v w"))
+    refused("no last weight", "nothing says how far the weight on bit grows", 2, deck("no_weight", 20.0, 20, 0))
+    refused("steps the wrong way round", "has to lie between Smallest Step", 2, good, "--set", "Buckling/First Step=1")
+    refused("a string without geometric stiffness", "nothing buckles", 2, good, "--set", "Static/Geometric Stiffness=false")
+    refused("parts", "what buckles is a string in its well", 2, str(SOURCES / "xml/frame.xml"))
+    refused("a path of two steps", "no more were allowed", 4, good, "--output", "out_short", "--set", "Buckling/Max Steps=2")
+    refused("steps that cannot be halved", "does not converge", 4, good, "--output", "out_long_steps", "--set", "Loads/Gravity=0", "--set", "Buckling/Smallest Step=0.01",
+            "--set", "Buckling/At A Limit=Follow")
+    expect("what was found is in the tables", len(rows("out_short")) > 1 and summary("out_short")["end"] == "steps")
+    done = tooljoint("check", good)
+    expect("check takes the list", done.returncode == 0, done.stderr)
+
+
+euler()
+helix()
+horizontal()
+transition()
+followed()
+refusals()
+sys.exit(finish())
