@@ -196,6 +196,8 @@ def steady(program):
     near("torque of the last element at rest", run.summary["static"]["last_element_torque"], -torque, 1e-6 * torque)
     near("torque on bit at the start", run.data("transient/torque_on_bit")[0], torque, 1e-9 * torque)
     near("torque of the drive at the start", run.data("transient/top_drive_torque")[0], torque, 1e-6 * torque)
+    expect("the assessment of the static state leaves out the law of the drive, not that of the bit, which has no states",
+           run.summary["static"]["stability_without"] == ["top drive"], str(run.summary["static"]["stability_without"]))
     near("it stays", np.abs(run.nodes(THETA_Z) - run.nodes(THETA_Z)[0]).max(), 0.0, 1e-6)
 
 
@@ -333,6 +335,10 @@ def cutting(program):
             moved = run.nodes(component)[:, -1] - run.nodes(component)[0, -1]
             near(f"{name}: {what} of the bit over its change", np.abs(moved - exact_).max() / np.ptp(exact_), 0.0, 0.01)
         near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+    for name, run in runs.items():
+        without = run.summary["static"]["stability_without"]
+        expect(f"{name}: the assessment of the static state says that it holds the delay", without == ["bit", "top drive"]
+               and "chatter by the delay" in run.output, str(without))
     figures(runs["reduced"], feed)
     hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
     near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)
