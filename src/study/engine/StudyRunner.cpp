@@ -71,6 +71,7 @@ class HistoryRecorder : public transient::SampleSink {
   }
 
   void states(const Vector& x) override {
+    if (estimator_ != nullptr) estimator_->states(x);
     if (sink_ != nullptr) sink_->states(x);
   }
 
