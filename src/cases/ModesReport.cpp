@@ -21,6 +21,7 @@
 #include "io/Csv.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "reduction/part/Partition.hpp"
+#include "stability/StateStability.hpp"
 
 namespace tooljoint::cases {
 
@@ -40,8 +41,15 @@ std::string dampedHeading(double t) {
 /// Growth rates below this fraction of |s| are within the accuracy of s.
 constexpr double noGrowth = 1e-8;
 
-/// What the damped modes say of the stability of the state.
-std::string verdict(const std::vector<std::complex<double>>& values) {
+/// What the damped modes say of the stability of the state. \param held point sets whose states
+/// they leave as they are at rest
+std::string verdict(const std::vector<std::complex<double>>& values,
+                    const std::vector<std::string>& held) {
+  const std::string without =
+      held.empty() ? ""
+                   : " The states of " + quotedList(held) +
+                         " are held here, so that growth by them (chatter by the delay of a "
+                         "cutting bit) is not seen: the motion shows it.";
   std::size_t growing = 0;
   double fastest = 0;
   for (const auto& s : values)
@@ -50,10 +58,10 @@ std::string verdict(const std::vector<std::complex<double>>& values) {
       fastest = std::max(fastest, s.real());
     }
   if (growing == 0)
-    return "None of the " + std::to_string(values.size()) + " damped modes listed grows.";
+    return "None of the " + std::to_string(values.size()) + " damped modes listed grows." + without;
   return std::to_string(growing) + " of the " + std::to_string(values.size()) +
          " damped modes listed " + (growing == 1 ? "grows" : "grow") + ", the fastest as exp(" +
-         formatNumber(fastest) + " t): the state is unstable.";
+         formatNumber(fastest) + " t): the state is unstable." + without;
 }
 
 void reportTimes() {
@@ -123,7 +131,7 @@ void listFullModes(const model::SecondOrderModel& full, const ModesOptions& opti
     dampedTable.row(
         {static_cast<double>(i + 1), size / constants::twoPi, ratio, s.imag() / constants::twoPi});
   }
-  log::info(verdict({damped.values.begin(), damped.values.end()}));
+  log::info(verdict({damped.values.begin(), damped.values.end()}, stability::setsWithStates(full)));
   reportTimes();
   if (!options.output.empty()) dampedTable.writeInto(options.output, "damped_modes.csv");
 }
@@ -151,7 +159,7 @@ void listComparedModes(const model::SecondOrderModel& full, const std::vector<Sp
   log::info(estimate::comparisonTable(damped, true));
   std::vector<std::complex<double>> values;
   for (const auto& mode : damped) values.push_back(mode.full);
-  log::info(verdict(values));
+  log::info(verdict(values, stability::setsWithStates(full)));
   reportTimes();
   if (!options.output.empty()) writeTable(damped, options.output, "damped_modes.csv");
 }

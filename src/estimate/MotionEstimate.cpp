@@ -11,6 +11,7 @@
 #include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "estimate/PartResidual.hpp"
+#include "estimate/StateErrors.hpp"
 #include "estimate/TruncatedStart.hpp"
 #include "linalg/blocks/BlockFactor.hpp"
 #include "transient/compiled/CompiledModel.hpp"
@@ -63,11 +64,6 @@ struct MotionEstimator::Impl {
           "The error of the motion is not estimated with interface reduction, dependent "
           "coordinates (\"Residual Coordinates\" = \"Tied\") or dual assembly. Set \"Error "
           "Estimate\" to \"Frequencies\".");
-    if (compiled.stateSize() > 0)
-      throw ModelError(
-          "The error of the motion is not estimated for point laws with states. Set \"Error "
-          "Estimate\" to \"Frequencies\".");
-    std::size_t set = 0;
     for (std::size_t p = 0; p < parts.size(); ++p) {
       residuals.emplace_back(parts[p], synthesis_.parts[p], synthesis_.coupled.maps[p],
                              synthesis_.coupled.offsets[p]);
@@ -75,8 +71,13 @@ struct MotionEstimator::Impl {
       recovery.push_back(turn.size() > 0 ? Sparse(turn * parts[p].model.recovery)
                                          : Sparse(parts[p].model.recovery));
       for (const auto& points : parts[p].model.points)
-        pointSets.push_back({p, &points.rows, set++, {}, {}});
+        pointSets.push_back({p, &points.rows, {}, {}, nullptr});
     }
+    const auto batches = compiled.points().size();
+    while (pointSets.size() < batches) pointSets.push_back({joint, nullptr, {}, {}, nullptr});
+    for (std::size_t b = 0; b < batches; ++b)
+      if (compiled.points()[b].states() != nullptr)
+        pointSets[b].states = std::make_unique<StateErrors>(compiled.points()[b]);
     energies.assign(parts.size(), 0.0);
     w.assign(parts.size(), Vector());
     starts.resize(parts.size());
@@ -113,14 +114,17 @@ struct MotionEstimator::Impl {
   std::vector<PartResidual> residuals;
   std::vector<std::vector<int>> recovered;
   std::vector<Sparse> recovery;  ///< of the parts, in the common frame
-  /// The points of a part, and what the truncated motion does at them.
-  struct PartPoints {
-    std::size_t part;
+  static constexpr auto joint = static_cast<std::size_t>(-1);
+  /// A batch of the coupled model, which keeps the points of every part and has those between parts
+  /// after them, and what the truncated motion does at them: R s - w.
+  struct PointErrors {
+    std::size_t part;    ///< joint: between parts
     const Sparse* rows;  ///< of the part
-    std::size_t batch;   ///< in the coupled model, which keeps the points of every part
     Vector motion, rate;
+    std::unique_ptr<StateErrors> states;  ///< of a law with states
   };
-  std::vector<PartPoints> pointSets;
+  std::vector<PointErrors> pointSets;
+  Vector pointStates;  ///< of the run, at the sample to come
   transient::CompiledModel compiled;
   Factor mass, step;
   linalg::BlockValues values;
@@ -150,6 +154,11 @@ struct MotionEstimator::Impl {
     return x;
   }
   Vector pull(double t, double h, const std::vector<Vector>& wNew, const Vector& sNew);
+  Vector pointForce(std::size_t part);
+  void evaluatePoints(double t, double h, const Vector& at, const Vector& rate);
+  void beginStates(double t);
+  void followStates(double t, const Vector& qNew, const Vector& qDotNew, const Vector& middle,
+                    const Vector& middleRate);
 };
 
 MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts,
@@ -158,10 +167,14 @@ MotionEstimator::MotionEstimator(const std::vector<model::Substructure>& parts,
     : impl_(std::make_unique<Impl>(parts, synthesis, std::move(rest), std::move(options))) {}
 MotionEstimator::~MotionEstimator() = default;
 
+void MotionEstimator::states(const Vector& x) { impl_->pointStates = x; }
+
 void MotionEstimator::sample(double t, const Vector& q, const Vector& qDot,
                              const Vector& /*qDDot*/) {
   const auto start = std::chrono::steady_clock::now();
   Impl& m = *impl_;
+  if (m.pointStates.size() != m.compiled.stateSize())
+    throw Error(ExitCode::Internal, "The states of the point laws were not given to the estimate.");
   if (m.sums.samples > 0 && t > m.time) m.advance(t, q, qDot);
   m.time = t;
   m.q = q;
@@ -192,6 +205,88 @@ void MotionEstimator::Impl::begin(double t) {
     starts[p].begin(residuals[p], part.initialDisplacement - state.displacement,
                     part.initialVelocity - state.velocity);
   }
+  beginStates(t);
+}
+
+/// States of a start that is in error.
+void MotionEstimator::Impl::beginStates(double t) {
+  int offset = 0;
+  const Vector at = positions(q), rate = positions(qDot);
+  for (std::size_t b = 0; b < pointSets.size(); ++b) {
+    auto& points = pointSets[b];
+    if (points.states == nullptr) continue;
+    auto& batch = compiled.points()[b];
+    const auto rows = static_cast<Eigen::Index>(batch.points()) * batch.width();
+    Vector e = Vector::Zero(rows), eDot = e;
+    if (points.part != joint) {
+      const auto& part = parts[points.part].model;
+      const PartMotion state = residuals[points.part].motion(q, qDot, qDot);
+      e = *points.rows * (part.initialDisplacement - state.displacement);
+      eDot = *points.rows * (part.initialVelocity - state.velocity);
+    } else {
+      batch.gather(batch.everyPoint(), u.data(), e.data());
+      batch.gather(batch.everyPoint(), uDot.data(), eDot.data());
+    }
+    batch.gatherAll(at.data(), rate.data());
+    points.states->begin(t, pointStates.data() + offset, e, eDot);
+    offset += batch.states()->size();
+  }
+}
+
+/// The errors of the states over the interval that ends at t, and the motion accepted there.
+void MotionEstimator::Impl::followStates(double t, const Vector& qNew, const Vector& qDotNew,
+                                         const Vector& middle, const Vector& middleRate) {
+  const Vector at = positions(qNew), rate = positions(qDotNew);
+  for (std::size_t b = 0; b < pointSets.size(); ++b) {
+    auto& points = pointSets[b];
+    if (points.states == nullptr) continue;
+    auto& batch = compiled.points()[b];
+    // R u - (R s - w)
+    const auto errorOf = [&](const Vector& x, const Vector& truncated) {
+      Vector e(truncated.size());
+      batch.gather(batch.everyPoint(), x.data(), e.data());
+      return Vector(e - truncated);
+    };
+    points.states->follow(errorOf(middle, points.motion), errorOf(middleRate, points.rate),
+                          options.damping);
+    batch.gatherAll(at.data(), rate.data());
+    points.states->accept(t, errorOf(u, points.motion), errorOf(uDot, points.rate));
+  }
+}
+
+/// The points with tangents in the middle of an interval, the run's states there.
+void MotionEstimator::Impl::evaluatePoints(double t, double h, const Vector& at,
+                                           const Vector& rate) try {
+  int offset = 0;
+  for (std::size_t b = 0; b < pointSets.size(); ++b) {
+    auto& batch = compiled.points()[b];
+    if (pointSets[b].states != nullptr) {
+      pointSets[b].states->bind(pointStates.data() + offset, options.damping * h);
+      offset += batch.states()->size();
+    }
+    batch.look(t, h, at.data());
+    batch.evaluateWithTangent(t, at.data(), rate.data());
+  }
+} catch (const ConvergenceError&) {  // of a delay line: it ends at the last sample
+  throw ConvergenceError(
+      "The error of the motion cannot be estimated: at t = " + formatNumber(t) +
+      " s a point law looks back by less than the time between two samples. Reduce "
+      "Transient/Sampling Interval, or set \"Error Estimate\" to \"Frequencies\".");
+}
+
+/// R' f of the points of a part, as last evaluated.
+Vector MotionEstimator::Impl::pointForce(std::size_t part) {
+  Vector force = Vector::Zero(parts[part].model.size());
+  for (std::size_t b = 0; b < pointSets.size(); ++b) {
+    if (pointSets[b].part != part) continue;
+    const auto& batch = compiled.points()[b];
+    Vector f = Vector::Zero(static_cast<Eigen::Index>(batch.points()) * batch.width());
+    for (int point : batch.active())
+      for (int i = point * batch.width(); i < (point + 1) * batch.width(); ++i)
+        f[i] = batch.force()[i];
+    force += pointSets[b].rows->transpose() * f;
+  }
+  return force;
 }
 
 /// Phi' (K_t s + C_t s') with s = Phi P w - w; tangents of the points as last evaluated.
@@ -209,13 +304,14 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
   Vector force = -positions(own);
   compiled.addStiffness(sNew.data(), force.data());
   compiled.addDamping(sDot.data(), force.data());
-  for (auto& points : pointSets) {
-    auto& batch = compiled.points()[points.batch];
-    points.motion.setZero(points.rows->rows());
-    points.rate.setZero(points.rows->rows());
+  for (std::size_t b = 0; b < pointSets.size(); ++b) {
+    auto& points = pointSets[b];
+    auto& batch = compiled.points()[b];
+    points.motion.setZero(static_cast<Eigen::Index>(batch.points()) * batch.width());
+    points.rate.setZero(points.motion.size());
     batch.gather(batch.active(), sNew.data(), points.motion.data());
     batch.gather(batch.active(), sDot.data(), points.rate.data());
-    if (!residuals[points.part].complete()) {
+    if (points.part != joint && !residuals[points.part].complete()) {
       points.motion -= *points.rows * wNew[points.part];
       if (rated) points.rate -= *points.rows * (wNew[points.part] - w[points.part]) / h;
     }
@@ -228,6 +324,7 @@ Vector MotionEstimator::Impl::pull(double t, double h, const std::vector<Vector>
           f[point * width + i] -= batch.dfdd()[entry] * points.motion[point * width + j] +
                                   batch.dfdv()[entry] * points.rate[point * width + j];
         }
+    if (points.states != nullptr) f += points.states->force(t);
     batch.scatter(batch.active(), f.data(), force.data());
   }
   return force;
@@ -242,13 +339,17 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   const Vector velocity = (qNew - q) / h;
   const Vector displacement = 0.5 * (q + qNew) - h / 12.0 * (qDotNew - qDot);
 
+  compiled.setTime(middle);
+  const Vector at = positions(displacement), rate = positions(velocity);
+  evaluatePoints(middle, h, at, rate);
+
   // w of all parts, s = P w
   std::vector<Vector> wNew(parts.size());
   Vector g = Vector::Zero(model.size());
   for (std::size_t p = 0; p < parts.size(); ++p) {
     if (residuals[p].complete()) continue;
-    wNew[p] =
-        residuals[p].truncated(middle, residuals[p].motion(displacement, velocity, acceleration));
+    wNew[p] = residuals[p].truncated(
+        middle, residuals[p].motion(displacement, velocity, acceleration), pointForce(p));
     starts[p].add(middle - startTime, wNew[p]);
     if (w[p].size() == 0) w[p] = wNew[p];
     energies[p] += h * residuals[p].energy(wNew[p]);
@@ -256,12 +357,6 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   }
   const Vector sNew = mass.solve(positions(g));
 
-  compiled.setTime(middle);
-  const Vector at = positions(displacement), rate = positions(velocity);
-  for (auto& batch : compiled.points()) {
-    batch.look(middle, h, at.data());
-    batch.evaluateWithTangent(middle, at.data(), rate.data());
-  }
   Vector force = pull(middle, h, wNew, sNew);
 
   // M (u1' - u0')/h + C u' + K u = force with u' = (1-a) u0' + a u1', u = u0 + a h u'
@@ -285,8 +380,10 @@ void MotionEstimator::Impl::advance(double t, const Vector& qNew, const Vector& 
   const Vector momentum = uDot / (a * h);
   compiled.addMass(momentum.data(), force.data());
   const Vector mean = step.solve(force);
+  const Vector middleError = u + a * h * mean;
   u += h * mean;
   uDot += (mean - uDot) / a;
+  followStates(t, qNew, qDotNew, middleError, mean);
   w = wNew;
   s = sNew;
 }

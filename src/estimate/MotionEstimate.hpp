@@ -56,7 +56,8 @@ struct MotionLimit {
 ///
 /// what the modes do not represent of the state at the start, the part of e(0) outside of its
 /// modes, is no answer to r: it vibrates in the interiors (TruncatedStart) and joins w.
-/// k and c with the tangents of the point laws along the motion. One step per sample, residuals as
+/// k and c with the tangents of the point laws along the motion, the errors of their states with
+/// them (StateErrors). One step per sample, residuals as
 /// means over the interval (M D'' is M times the change of velocity), all matrices those of the
 /// model at that time. Not included: motion faster than the samples, and the error of the
 /// time integration. Compare the dual-weighted residuals of W. Bangerth and R. Rannacher, Adaptive
@@ -73,7 +74,9 @@ class MotionEstimator : public transient::SampleSink {
   MotionEstimator(const MotionEstimator&) = delete;
   MotionEstimator& operator=(const MotionEstimator&) = delete;
 
+  /// ConvergenceError: a point law with a delay remembers less than the time between two samples.
   void sample(double t, const Vector& q, const Vector& qDot, const Vector& qDDot) override;
+  void states(const Vector& x) override;
   MotionEstimate result() const;
   bool exceeds(const MotionLimit& limit) const;
 

@@ -57,11 +57,11 @@ Vector PartResidual::dampingTimes(double t, const Vector& x) const {
   return y;
 }
 
-Vector PartResidual::truncated(double t, const PartMotion& mean) const {
+Vector PartResidual::truncated(double t, const PartMotion& mean, const Vector& pointForce) const {
   Vector r = part_.model.mass * mean.acceleration + dampingTimes(t, mean.velocity) +
              stiffnessTimes(t, mean.displacement);
   for (const auto& load : part_.model.loads) r -= law(load.law, t) * load.vector;
-  r -= part_.model.pointForce(t, mean.displacement, mean.velocity);
+  r -= pointForce;
   const auto& interior = flexibility_.interior();
   Vector inner(static_cast<Eigen::Index>(interior.size()));
   for (std::size_t i = 0; i < interior.size(); ++i)

@@ -38,7 +38,7 @@ class PartResidual {
   PartMotion motion(const Vector& q, const Vector& qDot, const Vector& qDDot) const;
   /// w = -F r, r = M D'' + C(t) D' + K(t) D - F(t) - point forces; dofs of the part, zero where
   /// of boundary dofs.
-  Vector truncated(double t, const PartMotion& mean) const;
+  Vector truncated(double t, const PartMotion& mean, const Vector& pointForce) const;
   /// Phi' (M w), Phi' (K(t) w) and so on: into coupled dofs.
   void scatter(const Vector& force, Vector& coupled) const;
   /// sum of terms times x at time t.

@@ -57,6 +57,7 @@ const std::vector<std::string>& documentedKeys() {
       "static.friction_direction",
       "static.friction_speed_rpm",
       "static.stable",
+      "static.stability_without",
       "static.negative_pivots",
       "static.growth_rate",
       "static.growth_hz",

@@ -16,6 +16,7 @@
 #include "linalg/DynamicStiffness.hpp"
 #include "linalg/trilinos/EigenSolver.hpp"
 #include "linalg/trilinos/SemidefiniteModes.hpp"
+#include "model/laws/StatefulPointLaw.hpp"
 #include "reduction/part/Partition.hpp"
 
 namespace tooljoint::stability {
@@ -109,9 +110,17 @@ ShapeOutline outlineOf(const model::SecondOrderModel& model, const Vector& shape
 
 }  // namespace
 
+std::vector<std::string> setsWithStates(const model::SecondOrderModel& model) {
+  std::vector<std::string> names;
+  for (const auto& set : model.points)
+    if (model::stateSize(*set.law) > 0) names.push_back(set.name);
+  return names;
+}
+
 StateStability assess(const model::SecondOrderModel& model, double t) {
   const Stage stage("stability of the static state");
   StateStability found;
+  found.held = setsWithStates(model);
   const auto tangent = estimate::linearise(model, t);
   const Sparse symmetric =
       reduction::symmetricPart(model.stiffnessAt(t)) + coupling::normalStiffness(model);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "model/SecondOrderModel.hpp"
 
@@ -36,11 +37,17 @@ struct StateStability {
   int examined = 0;     ///< modes the damped equations were projected on; 0 where none was needed
   Vector shape;  ///< of the growing mode, dofs of the model, largest entry 1; empty when stable
   ShapeOutline outline;  ///< of that
+  /// Point sets whose laws have states (a delay line, the integral of a controller), which the
+  /// assessment leaves as they are at rest: what grows by them is not seen.
+  std::vector<std::string> held;
 
   bool stable() const { return shape.size() == 0; }
   /// The state is left without vibration: another state of rest exists.
   bool diverges() const { return !stable() && frequency == 0.0; }
 };
+
+/// Names of the point sets whose laws have states.
+std::vector<std::string> setsWithStates(const model::SecondOrderModel& model);
 
 /// Growth rates below this are not reported [1/s]: a disturbance takes more than a quarter of an
 /// hour to grow by e.
@@ -51,7 +58,8 @@ constexpr double slowestGrowth = 1e-3;
 /// make a motion grow without them, the damped equations are projected on the lowest modes of the
 /// symmetric tangent, and a growing mode found there is refined with the whole equations; where the
 /// refinement does not converge, the projected mode is kept (`refined` false). Growth that needs
-/// motions beyond these modes is not seen (`tooljoint modes` lists more). The cost is linear in the
+/// motions beyond these modes, or the states of point laws, is not seen (`tooljoint modes` lists
+/// more modes). The cost is linear in the
 /// number of dofs. ModelError, ConvergenceError: the pivots could not be counted or the modes not
 /// be found.
 StateStability assess(const model::SecondOrderModel& model, double t);

@@ -196,6 +196,8 @@ def steady(program):
     near("torque of the last element at rest", run.summary["static"]["last_element_torque"], -torque, 1e-6 * torque)
     near("torque on bit at the start", run.data("transient/torque_on_bit")[0], torque, 1e-9 * torque)
     near("torque of the drive at the start", run.data("transient/top_drive_torque")[0], torque, 1e-6 * torque)
+    expect("the assessment of the static state leaves out the law of the drive, not that of the bit, which has no states",
+           run.summary["static"]["stability_without"] == ["top drive"], str(run.summary["static"]["stability_without"]))
     near("it stays", np.abs(run.nodes(THETA_Z) - run.nodes(THETA_Z)[0]).max(), 0.0, 1e-6)
 
 
@@ -324,7 +326,8 @@ def cutting(program):
     runs = {"full, generalized-alpha": string(program, "cutting_full", drive, {**short, "Transient/Step": 5e-4}, **lists),
             "full, RK4": string(program, "cutting_rk4", drive, {**short, "Transient/Integrator": "RK4", "Transient/Step": 2e-4}, **lists),
             "reduced": string(program, "cutting_reduced", drive, {**short, "Transient/Step": 5e-4}, **lists,
-                              Substructures={"Rule": "By component"}, Reduction={"Mode Selection": {"Modes": 6}})}
+                              Substructures={"Rule": "By component"},
+                              Reduction={"Mode Selection": {"Modes": 6}, "Error Estimate": "Transient"})}
     for name, run in runs.items():
         weight = 4 * 0.108 * 0.6 * 1e6 * depth
         near(f"{name}: weight at rest", run.data("transient/weight_on_bit")[0], weight[0], 1e-6 * weight[0])
@@ -333,6 +336,12 @@ def cutting(program):
             moved = run.nodes(component)[:, -1] - run.nodes(component)[0, -1]
             near(f"{name}: {what} of the bit over its change", np.abs(moved - exact_).max() / np.ptp(exact_), 0.0, 0.01)
         near(f"{name}: the ledger closes", run.motion["energy_residual"], 0.0, 2e-3)
+    estimate = runs["reduced"].summary["reduction"]["estimate"]["motion_error"]
+    expect("reduced: the error of the lateral motion, which there is none of, is estimated beside the delay", estimate == 0.0, str(estimate))
+    for name, run in runs.items():
+        without = run.summary["static"]["stability_without"]
+        expect(f"{name}: the assessment of the static state says that it holds the delay", without == ["bit", "top drive"]
+               and "chatter by the delay" in run.output, str(without))
     figures(runs["reduced"], feed)
     hook = string(program, "cutting_hook", {**drive, "Hook": "Constant Load"}, short, **lists)
     near("constant hook load: weight at rest", hook.data("transient/weight_on_bit")[0], 4 * 0.108 * 0.6 * 1e6 * depth[0], 1e-3)

@@ -71,6 +71,7 @@ class HistoryRecorder : public transient::SampleSink {
   }
 
   void states(const Vector& x) override {
+    if (estimator_ != nullptr) estimator_->states(x);
     if (sink_ != nullptr) sink_->states(x);
   }
 
@@ -197,7 +198,8 @@ ModeErrors StudyRunner::compare(const cases::Case& scene, const PreparedModel& p
                                 int frequencies) {
   auto lists = scene.list();
   for (const char* name : {"Reduction", "Transient", "Output"}) lists.remove(name, false);
-  const auto key = cases::canonicalText(lists);
+  auto key = cases::canonicalText(lists);  // of a static state: it is that of the time of the start
+  if (scene.moves()) key += formatNumber(scene.transient().get<double>("Start Time"));
   if (fullModes_.count(key) == 0) {
     FullModes fresh{prepared.rest->full(), {}};
     fresh.modes = estimate::modesToCompare(fresh.whole.model, frequencies);

@@ -6,6 +6,7 @@
 
 #include "cases/CaseKinds.hpp"
 #include "cases/ListText.hpp"
+#include "common/Text.hpp"
 #include "io/TextFile.hpp"
 #include "parts/ReducedPart.hpp"
 #include "substructures/beam/NodalDofs.hpp"
@@ -142,7 +143,7 @@ std::shared_ptr<const cases::RestingCase> DrillstringCase::solveStatic() const {
   auto lists = list();
   for (const char* name : {"Substructures", "Coupling", "Reduction", "Transient", "Output"})
     lists.remove(name, false);
-  auto& found = (*found_)[cases::canonicalText(lists)];
+  auto& found = (*found_)[cases::canonicalText(lists) + formatNumber(scene_->startTime())];
   if (!found) found = std::make_shared<const StaticStage>(findEquilibrium(*scene_));
   return std::make_shared<RestingString>(scene_, found);
 }

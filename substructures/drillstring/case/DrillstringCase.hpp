@@ -37,7 +37,8 @@ class DrillstringCase : public cases::Case {
   /// A string that nothing holds along its axis may float: only the static state tells.
   void verify() const override;
   /// Path and static state; those of an earlier case when Substructures, Coupling, Reduction,
-  /// Transient and Output alone differ.
+  /// Output and Transient without its Start Time alone differ: friction, drive and bit of the
+  /// static state are those of the time at which the motion starts.
   std::shared_ptr<const cases::RestingCase> solveStatic() const override;
 
   const Scene& scene() const { return *scene_; }

@@ -58,6 +58,10 @@ int Scene::freeDofs() const {
   return static_cast<int>(std::count(held.begin(), held.end(), char{0}));
 }
 
+double Scene::startTime() const {
+  return moves() ? list().sublist("Transient").get<double>("Start Time") : 0.0;
+}
+
 double Scene::weightOnBit() const {
   return list().isSublist("Loads") ? list().sublist("Loads").get<double>("Weight On Bit") : 0.0;
 }

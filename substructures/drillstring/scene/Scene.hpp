@@ -54,6 +54,8 @@ struct Scene {
   const Teuchos::ParameterList& list() const { return deck.list(); }
   bool reduces() const { return list().isSublist("Reduction"); }
   bool moves() const { return list().isSublist("Transient"); }
+  /// Time of the static state: that at which the motion starts [s]; 0 without one.
+  double startTime() const;
   int freeDofs() const;
   /// WOB that stands in Loads [N].
   double weightOnBit() const;

@@ -25,14 +25,6 @@ namespace tooljoint::drillstring {
 
 namespace nodal = beam::nodal;
 
-namespace {
-
-double startTime(const Scene& scene) {
-  return scene.moves() ? scene.list().sublist("Transient").get<double>("Start Time") : 0.0;
-}
-
-}  // namespace
-
 StaticFriction staticFriction(const Scene& scene) {
   constexpr double atRest = 1e-9;  // [rad/s], a phase of 180 degrees leaves 1e-16 of an amplitude
   using equilibrium::FrictionRule;
@@ -43,7 +35,7 @@ StaticFriction staticFriction(const Scene& scene) {
     return {0.0, 0.0, "no friction in the Contact list"};
   if (scene.statics.friction == FrictionRule::None)
     return {0.0, 0.0, "switched off in Static/Friction"};
-  const double start = startTime(scene);
+  const double start = scene.startTime();
   const double speed = scene.rotary.speed(start);
   const bool turns = std::abs(speed) > atRest;
   const double direction = turns ? std::copysign(1.0, speed) : scene.rotary.sense(start);
@@ -88,7 +80,7 @@ std::vector<drilling::PointOnString> bitInMotion(const Scene& scene) {
 /// Adds to F_s what the rock exerts on the bit in steady drilling at the speeds of the start.
 void addBitAtRest(const Scene& scene, PathEquations& equations) {
   for (const auto& bit : bitInMotion(scene)) {
-    const auto load = drilling::steadyLoad(bit, startTime(scene));
+    const auto load = drilling::steadyLoad(bit, scene.startTime());
     equations.load(kNodeDofs * bit.node + nodal::w) -= load.weight;
     equations.load(kNodeDofs * bit.node + nodal::thetaZ) -= load.torque;
   }
@@ -133,12 +125,12 @@ void addDrilling(const Scene& scene, StringModel& model) {
   const auto& drive = scene.topDrive;
   if (drive.constantHookLoad) {
     Vector load = Vector::Zero(kNodeDofs * model.nodes);
-    load(nodal::w) = reactionAtTop(model, startTime(scene), nodal::w);
+    load(nodal::w) = reactionAtTop(model, scene.startTime(), nodal::w);
     model.loads.push_back({"hook load", model.lawIndex(model::ScalarLaw::one()), std::move(load)});
   }
   if (drive.turnsFreely())
     model.drilling.push_back(
-        drilling::driveOnString(drive, reactionAtTop(model, startTime(scene), nodal::thetaZ)));
+        drilling::driveOnString(drive, reactionAtTop(model, scene.startTime(), nodal::thetaZ)));
 }
 
 /// A string that nothing holds has no equilibrium: its stiffness, with walls as springs where it
@@ -242,7 +234,7 @@ StaticStage findEquilibrium(const Scene& scene) {
                                 scene.damping, contactInMotion(scene, stage.path));
     addBends(input, stage.state, stage.equations);
     addDrilling(scene, stage.equations);
-    stage.stability = stability::assess(assemble(stage.equations), startTime(scene));
+    stage.stability = stability::assess(assemble(stage.equations), scene.startTime());
   };
   try {
     stage.state = equilibrium::solveStatic(input, scene.statics, solver);

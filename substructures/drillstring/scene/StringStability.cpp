@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/Error.hpp"
+#include "common/Text.hpp"
 #include "common/report/Log.hpp"
 #include "deck/PrintedUnits.hpp"
 
@@ -18,6 +19,15 @@ constexpr const char* unrefined =
 
 std::string counted(int count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+/// What the verdict leaves out.
+std::string withoutStates(const std::vector<std::string>& held) {
+  if (held.empty()) return "";
+  return " The states of " + quotedList(held) +
+         " are held here, so that growth by them (chatter by the delay of a cutting bit) is not "
+         "seen: "
+         "the motion shows it.";
 }
 
 /// "3 half waves, largest in u of node 13 (s = 6 m)".
@@ -39,13 +49,14 @@ std::string describeStability(const StaticStage& stage) {
     if (s.examined > 0)
       text +=
           ", no damped motion in the space of its " + counted(s.examined, "lowest mode") + " grows";
-    return "stable: " + text + ".";
+    return "stable: " + text + "." + withoutStates(s.held);
   }
   const std::string motion = s.diverges()
                                  ? "the string leaves it"
                                  : fmt::format("a vibration of {:.4g} Hz grows", s.frequency);
   return fmt::format("unstable: {} as exp({:.4g} t) ({}); {}.{}", motion, s.growthRate,
-                     modeText(stage), text, s.refined ? "" : unrefined);
+                     modeText(stage), text, s.refined ? "" : unrefined) +
+         withoutStates(s.held);
 }
 
 void summariseStability(const StaticStage& stage, io::Summary& summary) {
@@ -53,6 +64,7 @@ void summariseStability(const StaticStage& stage, io::Summary& summary) {
   summary.set("static.negative_pivots", s.negativePivots);
   summary.set("static.perturbations", stage.perturbations);
   summary.set("static.stable", s.stable());
+  summary.set("static.stability_without", s.held);
   if (s.stable()) return;
   summary.set("static.growth_rate", s.growthRate);
   summary.set("static.growth_hz", s.frequency);

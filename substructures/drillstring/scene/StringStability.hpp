@@ -13,8 +13,8 @@ namespace tooljoint::drillstring {
 /// What is known of the stability of the state, in words: verdict, mode and growth rate.
 std::string describeStability(const StaticStage& stage);
 
-/// The keys static.stable, .negative_pivots, .growth_rate, .growth_hz, .unstable_node,
-/// .unstable_half_waves and .perturbations.
+/// The keys static.stable, .stability_without, .negative_pivots, .growth_rate, .growth_hz,
+/// .unstable_node, .unstable_half_waves and .perturbations.
 void summariseStability(const StaticStage& stage, io::Summary& summary);
 
 /// A static state that is unstable: a warning, or a ConvergenceError where Static/Unstable State is

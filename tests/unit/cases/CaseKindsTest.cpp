@@ -103,6 +103,22 @@ TEST(CaseKinds, PartsThatAreSharedAreCheckedForEachReduction) {
                Error);
 }
 
+/// The string starts from rest: friction at rest is mu_s at 0 s, and less at the speed of 0.5 s.
+TEST(CaseKinds, StaticStatesOfDifferentStartTimesAreNotShared) {
+  const auto at = [](const cases::Case& one, const char* start) {
+    return one.with({"!Reduction", "!Substructures", "Transient/Step=0.002",
+                     std::string("Transient/Start Time=") + start, "Transient/End Time=1"});
+  };
+  const auto first = cases::readCase(ofString, {});
+  const Vector atRest = at(*first, "0")->atRest()->rest();
+  const Vector turning = at(*first, "0.5")->atRest()->rest();
+  const auto alone =
+      cases::readCase(ofString, {"Transient/Start Time=0.5", "Transient/End Time=1"});
+  EXPECT_EQ((turning - alone->atRest()->rest()).norm(), 0.0);
+  EXPECT_GT((turning - atRest).norm(), 1e-3 * atRest.norm());
+  EXPECT_EQ((at(*first, "0")->atRest()->rest() - atRest).norm(), 0.0);
+}
+
 TEST(CaseKinds, RecorderMeasuresTranslationsOfParts) {
   const auto rest = cases::readCase(ofParts, {})->atRest();
   const auto measures = rest->measures();

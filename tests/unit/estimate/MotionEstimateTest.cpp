@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "coupling/assembly/Assembler.hpp"
+#include "model/laws/DelayLine.hpp"
+#include "model/laws/FormulaLaw.hpp"
+#include "model/laws/PointLawRegistry.hpp"
 #include "tests/support/SampleParts.hpp"
 
 namespace {
@@ -23,6 +26,9 @@ class Motion : public transient::SampleSink {
   void sample(double t, const Vector& q, const Vector& v, const Vector& a) override {
     displacement.push_back(model_.recoveryOffset + model_.recovery * q);
     if (estimator_ != nullptr) estimator_->sample(t, q, v, a);
+  }
+  void states(const Vector& x) override {
+    if (estimator_ != nullptr) estimator_->states(x);
   }
   std::vector<Vector> displacement;
 
@@ -92,6 +98,70 @@ TEST(MotionEstimate, IsTheTrueErrorOfASlowMotion) {
     EXPECT_GT(e.truth, 1e-3);
     EXPECT_NEAR(e.estimated, e.truth, 0.02 * e.truth) << modes;
   }
+}
+
+/// A law of one coordinate on the displacement of a node.
+void addLaw(model::Substructure& part, int node, std::shared_ptr<const model::PointLaw> law) {
+  model::PointSet set;
+  set.name = "law";
+  set.law = std::move(law);
+  set.rows.resize(1, part.model.size());
+  set.rows.insert(0, samples::find(part.model, model::DofLabel::physical(node, 0))) = 1.0;
+  set.offset = Vector::Zero(1);
+  set.entities = {node};
+  part.model.points.push_back(set);
+}
+
+/// A force on the displacement some time ago.
+struct Echo : model::Formula<1> {
+  double b = 60.0, tau = 0.15;
+  model::DelayLine past{1, tau, 64};
+  int held() const { return past.states(); }
+  void initial(double t, const double* d, const double*, double* x) const { past.start(t, d, x); }
+  void accept(double t, const double* d, const double* v, double* x) const {
+    past.append(t, d, v, x);
+  }
+  template <class T>
+  void operator()(const model::PointAt<T>& at, T* f, T*) const {
+    double then = 0;
+    past.at(at.t - tau, at.held, &then);
+    f[0] = T(-b * then);
+  }
+  Power power(const model::PointAt<double>& at, const double*) const {
+    double f = 0;
+    (*this)(at, &f, static_cast<double*>(nullptr));
+    Power p;
+    p.drive = f * at.v[0];
+    return p;
+  }
+};
+
+std::shared_ptr<const model::PointLaw> registered(const std::string& name,
+                                                  const Teuchos::ParameterList& own) {
+  return model::PointLawRegistry::instance().make(name, own, {1, 1});
+}
+
+/// Errors of rated states (an overdamped link), of held ones that look back and of plastic slip act
+/// on the error as the states do on the motion; in the middle of a part, and where parts join.
+TEST(MotionEstimate, CarriesTheStatesOfPointLaws) {
+  Teuchos::ParameterList maxwell, plastic;
+  maxwell.set("Stiffness", 300.0).set("Damping", 30.0);
+  plastic.set("Stiffness", 200.0).set("Yield Force", 0.05);
+  const std::pair<const char*, std::shared_ptr<const model::PointLaw>> laws[] = {
+      {"Maxwell", registered("Maxwell", maxwell)},
+      {"Elastic-Plastic", registered("Elastic-Plastic", plastic)},
+      {"delay", std::make_shared<model::FormulaLaw<Echo>>(Echo(), 1)}};
+  for (const auto& [name, law] : laws)
+    for (const int node : {3, 7})
+      for (const int modes : {1, 3}) {
+        auto parts = shakenBars();
+        addLaw(parts[0], node, law);
+        const Errors e = errors(parts, modes);
+        std::printf("%s at node %d, %d modes: estimated %.3e, true %.3e\n", name, node, modes,
+                    e.estimated, e.truth);
+        EXPECT_GT(e.truth, 1e-3) << name;
+        EXPECT_NEAR(e.estimated, e.truth, 0.1 * e.truth) << name << " at node " << node;
+      }
 }
 
 /// The bars at rest but for one node.
