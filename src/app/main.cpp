@@ -14,6 +14,7 @@
 
 #include "app/commands/Commands.hpp"
 #include "app/commands/Pages.hpp"
+#include "app/commands/Scripts.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
@@ -176,6 +177,24 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
 
+/// The command `paraview` with its options.
+void addParaview(CLI::App& program, tooljoint::app::ParaviewOptions& options,
+                 std::function<void()>& command) {
+  auto* paraview = program.add_subcommand(
+      "paraview", "files of ParaView of a run: the motion in space with forces and stresses");
+  paraview->add_option("DIR", options.folder, "folder of a run")->type_name("DIR")->required();
+  paraview->add_option("--output,-o", options.output, "folder to write (default: DIR/paraview)")
+      ->type_name("DIR");
+  paraview
+      ->add_option("--magnify", options.magnify,
+                   "factor of the displacements and of the clearance (default 1)")
+      ->check(CLI::PositiveNumber);
+  paraview
+      ->add_option("--pictures", options.pictures, "pictures of the motion, at most (default 200)")
+      ->check(CLI::PositiveNumber);
+  paraview->callback([&] { command = [&] { tooljoint::app::paraview(options); }; });
+}
+
 /// The command `run`.
 void addRun(CLI::App& program, tooljoint::app::RunOptions& options,
             std::function<void()>& command) {
@@ -303,6 +322,8 @@ int run(int argc, char** argv) {
   app::CompareOptions comparison;
   addCompare(program, comparison, command);
   addReport(program, options, command);
+  app::ParaviewOptions shown;
+  addParaview(program, shown, command);
 
   auto* docCommand = program.add_subcommand(
       "doc", "print the parameter manual, or what describes the command line");
