@@ -42,7 +42,9 @@ void reportAtEnd(const std::string& folder, bool wanted) {
   std::filesystem::remove(std::filesystem::path(folder) / "report.html", ignored);
   if (!wanted || switchedOff()) return;
   const PythonScript script(kScript);
-  const auto end = script.run({folder});
+  std::vector<std::string> arguments{folder};
+  if (log::quiet()) arguments.emplace_back("--quiet");
+  const auto end = script.run(arguments);
   const auto said = without(".\n", end.errors);
   if (!end.started || end.code != 0)
     log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +
