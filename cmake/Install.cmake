@@ -22,10 +22,11 @@ install(DIRECTORY substructures DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tooljoin
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint)
 install(DIRECTORY docs examples xml DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint PATTERN ".*" EXCLUDE PATTERN "__pycache__" EXCLUDE
   PATTERN conf.py EXCLUDE PATTERN Doxyfile.in EXCLUDE)
-install(PROGRAMS tools/first_run.py tools/plot_map.py tools/plot_response.py tools/plot_results.py tools/plot_study.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
-install(DIRECTORY tools/plots tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools PATTERN "__pycache__" EXCLUDE)
+install(PROGRAMS tools/first_run.py tools/plot_bha.py tools/plot_map.py tools/plot_response.py tools/plot_results.py tools/plot_study.py DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools)
+# tools/plots is python/tooljoint/plots: the tools take it without the compiled package.
+install(DIRECTORY python/tooljoint/plots tools/paraview tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/tooljoint/tools PATTERN "__pycache__" EXCLUDE)
 # The program finds the scripts of its plots and reports beside itself, in the build tree as in the install tree.
-file(GLOB scripts RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS tools/plot_map.py tools/plot_study.py tools/plots/*.* tools/report/*.*)
+file(GLOB scripts RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS tools/plot_map.py tools/plot_study.py tools/paraview/*.* tools/plots/*.* tools/report/*.*)
 foreach(script ${scripts})
   configure_file(${script} ${PROJECT_BINARY_DIR}/share/tooljoint/${script} COPYONLY)
 endforeach()

@@ -44,6 +44,7 @@ file(GLOB modules RELATIVE ${PROJECT_SOURCE_DIR}/python/tooljoint CONFIGURE_DEPE
 foreach(module ${modules})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/tooljoint/${module} ${package_in_build}/${module} SYMBOLIC)
 endforeach()
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/tooljoint/plots ${package_in_build}/plots SYMBOLIC)
 
 # Where Debian's interpreter looks below /usr; under another prefix PYTHONPATH names the folder.
 set(TOOLJOINT_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Folder of the Python package below the prefix")
@@ -52,3 +53,4 @@ set_target_properties(tooljoint_python PROPERTIES INSTALL_RPATH $ORIGIN/${packag
 install(TARGETS tooljoint_python LIBRARY DESTINATION ${TOOLJOINT_PYTHON_DIR}/tooljoint COMPONENT python)
 list(TRANSFORM modules PREPEND python/tooljoint/)
 install(FILES ${modules} DESTINATION ${TOOLJOINT_PYTHON_DIR}/tooljoint COMPONENT python)
+install(DIRECTORY python/tooljoint/plots DESTINATION ${TOOLJOINT_PYTHON_DIR}/tooljoint COMPONENT python PATTERN "__pycache__" EXCLUDE)

@@ -138,10 +138,10 @@ def failures(study):
 
 
 def figure(study, name):
-    plot_study.plt.rcParams.update({**plots.STYLE, "svg.hashsalt": "cms"})
+    plots.use_style()
     drawn = plot_study.draw_bases(study)
     drawn.savefig(PROJECT / f"docs/figures/{name}.png", dpi=110, bbox_inches="tight")
-    plot_study.plt.close(drawn)
+    plots.plt.close(drawn)
 
 
 def frequency_ratios(run):

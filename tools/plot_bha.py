@@ -8,20 +8,21 @@ force of the bit against the weight on bit, or against inclination or tool face 
 import sys
 
 try:
-    from plots import COLOURS, GREY, MARKERS, draw_folder, np, plt
+    from plots import COLOURS, GREY, MARKERS, headline, label, np, plt
+    from report.folder import conditions, draw_folder
 except ImportError as missing:
     sys.exit(f"{missing}: plot_bha.py needs h5py, numpy and matplotlib (Debian: python3-h5py python3-matplotlib, then /usr/bin/python3).")
 
 MOST_LINES = 6  # states drawn along the string
 SIDES = {"high": ("high side", "-"), "right": ("right side", "--")}
-AXES = {"weight_on_bit": ("weight on bit [kN]", 1e-3), "inclination": ("inclination [deg]", 180 / np.pi), "tool_face": ("tool face [deg]", 180 / np.pi)}
+AXES = {"weight_on_bit": ("weight on bit", "kN", 1e-3), "inclination": ("inclination", "deg", 180 / np.pi), "tool_face": ("tool face", "deg", 180 / np.pi)}
 
 
 def columns(results, group):
     return {name: data[()] for name, data in results[group].items()}
 
 
-def label(rows, i):
+def named(rows, i):
     face = "rotating" if rows["rotating"][i] else f"tool face {np.degrees(rows['tool_face'][i]):.0f} deg"
     return f"{rows['weight_on_bit'][i] / 1e3:.0f} kN, {np.degrees(rows['inclination'][i]):.0f} deg, {face}"
 
@@ -38,15 +39,15 @@ def draw_string(axes, rows, profile, side):
     for sign in (-1, 1):
         axes.fill_between(x, sign * 1e3 * profile["clearance"][0], sign * 1e3 * profile["clearance"].max() * 1.25, step="mid", color=GREY, alpha=0.35, linewidth=0)
     for number, i in enumerate(shown(rows)):
-        axes.plot(x, 1e3 * profile[f"deflection_{side}"][i], color=COLOURS[number], linewidth=1.3, label=label(rows, i))
-    axes.set_ylabel(f"to the {SIDES[side][0]} [mm]")
+        axes.plot(x, 1e3 * profile[f"deflection_{side}"][i], color=COLOURS[number], linewidth=1.3, label=named(rows, i))
+    axes.set_ylabel(label(f"to the {SIDES[side][0]}", "mm"))
 
 
 def draw_moment(axes, rows, profile):
     for number, i in enumerate(shown(rows)):
         moment = np.hypot(profile["moment_high"][i], profile["moment_right"][i])
         axes.plot(profile["from_bit"][i], moment / 1e3, color=COLOURS[number], linewidth=1.3)
-    axes.set_ylabel("bending moment [kN m]"), axes.set_xlabel("distance from the bit [m]")
+    axes.set_ylabel(label("bending moment", "kN m"))
 
 
 def draw_forces(axes, rows):
@@ -56,13 +57,13 @@ def draw_forces(axes, rows):
     keys = sorted({tuple([rows["rotating"][i], *(rows[name][i] for name in others)]) for i in range(len(rows["rotating"])) if along != "tool_face" or not rows["rotating"][i]})
     for number, key in enumerate(keys):
         own = (rows["rotating"] == key[0]) & np.logical_and.reduce([rows[name] == value for name, value in zip(others, key[1:])])
-        values = [AXES[name][1] * value for name, value in zip(others, key[1:])]
-        words = ", ".join(f"{AXES[name][0].split(' [')[0]} {value:.0f}" for name, value in zip(others, values) if len(np.unique(rows[name])) > 1 and not (key[0] and name == "tool_face"))
+        values = [AXES[name][2] * value for name, value in zip(others, key[1:])]
+        words = ", ".join(f"{AXES[name][0]} {value:.0f}" for name, value in zip(others, values) if len(np.unique(rows[name])) > 1 and not (key[0] and name == "tool_face"))
         for side, (what, dashes) in SIDES.items():
-            axes.plot(AXES[along][1] * rows[along][own], rows[f"side_force_{side}"][own] / 1e3, dashes, marker=MARKERS[number % len(MARKERS)], markersize=4, color=COLOURS[number % len(COLOURS)],
+            axes.plot(AXES[along][2] * rows[along][own], rows[f"side_force_{side}"][own] / 1e3, dashes, marker=MARKERS[number % len(MARKERS)], markersize=4, color=COLOURS[number % len(COLOURS)],
                       linewidth=1.2, label=", ".join(part for part in (what, "rotating" if key[0] else "", words) if part))
     axes.axhline(0, color=GREY, linewidth=0.6)
-    axes.set_xlabel(AXES[along][0]), axes.set_ylabel("side force of the bit [kN]")
+    axes.set_xlabel(label(*AXES[along][:2])), axes.set_ylabel(label("side force of the bit", "kN"))
     axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
 
 
@@ -74,6 +75,9 @@ def draw_bha(results):
     draw_moment(axes[2], rows, profile)
     axes[0].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
     draw_forces(axes[3], rows)
+    for along in axes[:3]:
+        along.set_xlabel(label("distance from the bit", "m"))
+    headline(figure, "Bottom-hole assembly: deflection, bending moment, side force", conditions(results))
     return figure
 
 

@@ -21,6 +21,7 @@ import shutil
 import sys
 import time
 
+import plots
 from same_results import datasets, difference
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
@@ -196,20 +197,16 @@ def renew(chapter):
 
 
 def draw(found):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "scale", "font.size": 9, "legend.frameon": False})
     done = [(dofs, row["cpu_s"], row["memory_mb"]) for dofs, _, row in found if row["code"] == 0]
     dofs, cpu, memory = zip(*done)
-    figure, axes = plt.subplots(figsize=(5.6, 3.4))
-    axes.loglog(dofs, cpu, "o-", label="CPU time [s]", color="#0072B2")
-    axes.loglog(dofs, memory, "s--", label="peak memory [MB]", color="#D55E00")
-    axes.set(xlabel="dofs of the block", title=f"Reduction of a solid part, {MODES} modes, {3 * JOINED} kept dofs")
-    axes.grid(alpha=0.3)
-    axes.legend()
-    figure.tight_layout()
-    figure.savefig(FIGURE, metadata={"Date": None})
+    plots.use_style()
+    figure, (time, space) = plots.plt.subplots(1, 2, figsize=(7.4, 3.2), constrained_layout=True)
+    for axes, values, text, colour in ((time, cpu, plots.label("CPU time", "s"), plots.COLOURS[0]), (space, memory, plots.label("peak memory", "MB"), plots.COLOURS[1])):
+        axes.plot(dofs, values, "o-", color=colour)
+        plots.log_log(axes)
+        axes.set(xlabel="dofs of the block", ylabel=text)
+    plots.headline(figure, "Reduction of a solid part", f"{MODES} fixed-interface modes, {3 * JOINED} kept dofs; {machine()}")
+    plots.save(figure, FIGURE)
 
 
 def machine():

@@ -16,6 +16,8 @@ import re
 import subprocess
 import time
 
+import plots
+
 os.environ.setdefault("TOOLJOINT_REPORT", "off")  # reports of these runs are not needed
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
@@ -130,25 +132,21 @@ def outliers(runs, bounds):
 
 
 def figure(runs, bounds):
-    import matplotlib
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "step error"
-    import matplotlib.pyplot as plt
-    drawing, axes = plt.subplots(figsize=(7, 5))
-    for name in sorted({run.case.deck for run in runs}):
+    plots.use_style()
+    drawing, axes = plots.figure(7, 5)
+    for name, colour, marker in zip(sorted({run.case.deck for run in runs}), plots.COLOURS, plots.MARKERS):
         rows = [run for run in runs if run.case.deck == name]
-        axes.loglog([max(run.step_error, 1e-6) for run in rows], [max(run.error, 1e-6) for run in rows], ".", label=name)
+        axes.plot([max(run.step_error, 1e-6) for run in rows], [max(run.error, 1e-6) for run in rows], marker, markersize=3, color=colour, label=name)
     for bound in bounds:
-        axes.axvline(bound, color="0.5", linewidth=1)
+        axes.axvline(bound, color=plots.GREY, linewidth=1)
     low, high = 1e-5, 10
     axes.plot([low, high], [low, high], "k:", linewidth=1)
+    plots.log_log(axes, plots.percent, plots.percent)
     axes.set_xlabel("step error S")
     axes.set_ylabel("vibration error")
-    axes.grid(alpha=0.3)
-    axes.legend()
-    drawing.tight_layout()
+    plots.legend_above(axes, 3)
     FIGURE.parent.mkdir(exist_ok=True)
-    drawing.savefig(FIGURE, metadata={"Date": None})
+    plots.save(drawing, FIGURE)
 
 
 def defaults(program):

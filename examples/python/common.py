@@ -1,16 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the examples share: their options, figures, and plane beam elements."""
 import argparse
-import os
 import pathlib
 
-import matplotlib
 import numpy as np
 import scipy.sparse as sparse
-
-if not os.environ.get("DISPLAY"):
-    matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from tooljoint import plots
 
 
 def options(text):
@@ -24,12 +19,13 @@ def options(text):
 
 
 def figure(columns):
-    return plt.subplots(1, columns, figsize=(5 * columns, 4), constrained_layout=True)
+    """A figure in the style of the project, with so many axes side by side."""
+    plots.use_style()
+    return plots.plt.subplots(1, columns, figsize=(5 * columns, 4), constrained_layout=True)
 
 
 def save(made, given, name):
-    made.savefig(given.output / f"{name}.png", dpi=120)
-    plt.close(made)
+    plots.save(made, given.output / f"{name}.png")
     print(f"{given.output / name}.png")
 
 

@@ -8,6 +8,7 @@ import pathlib
 import common  # beside this script
 import numpy as np
 import tooljoint as tj
+from tooljoint import plots
 
 TEMPLATE = pathlib.Path(__file__).resolve().parents[2] / "xml/templates/well.xml"
 
@@ -37,8 +38,8 @@ def main():
         depth, force = results["model/s"], results["static/normal_force"]
         wall.plot(force / 1e3, depth, label=f"azimuth turns by {turn} deg")
         print(f"turn of {turn} deg: {force.sum() / 1e3:.1f} kN on the wall")
-    wall.set(title="At rest", xlabel="Normal force [kN]", ylabel=depth.label)
-    wall.invert_yaxis()
+    wall.set(title="At rest")
+    plots.profiles((wall, moves), ("normal force [kN]", "largest lateral displacement [mm]"), (depth[0], depth[-1]))
     wall.legend()
 
     deck = well(60)
@@ -48,8 +49,7 @@ def main():
     displacement = results["transient/displacement"]
     lateral = np.hypot(*np.moveaxis(displacement[:, :, :2] - displacement[:1, :, :2], 2, 0))
     moves.plot(1e3 * lateral.max(axis=0), results["model/s"])
-    moves.set(title=f"A bent joint, motion of {results['transient/time'][-1]:g} s", xlabel="Largest lateral displacement [mm]")
-    moves.invert_yaxis()
+    moves.set(title=f"A bent joint, motion of {results['transient/time'][-1]:g} s")
 
     speeds, weights = (["80 rpm", "120 rpm"], ["5 klbf", "15 klbf"]) if options.short else (
         [f"{speed} rpm" for speed in range(60, 181, 30)], [f"{weight} klbf" for weight in (5, 10, 15, 20)])
@@ -59,9 +59,9 @@ def main():
         "Values": {"torque": {"Key": "static.top_torque"}, "contacts": {"Key": "static.contact_nodes"}}})
     rows = deck.map(options.output / "map")
     torque = np.array([row["torque"] for row in rows]).reshape(len(speeds), len(weights))
-    image = cells.pcolormesh(abs(torque.T) / 1e3)
-    cells.set(title="Torque at the top [kN m]", xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5, xticklabels=speeds, yticklabels=weights)
-    figure.colorbar(image)
+    image = cells.pcolormesh(abs(torque.T) / 1e3, cmap=plots.MAP)
+    cells.set(title="Torque at the top", xlabel="rotary speed", ylabel="weight on bit", xticks=np.arange(len(speeds)) + 0.5, yticks=np.arange(len(weights)) + 0.5, xticklabels=speeds, yticklabels=weights)
+    figure.colorbar(image, label="torque [kN m]")
     common.save(figure, options, "string_from_survey_to_map")
 
 

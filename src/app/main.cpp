@@ -11,15 +11,19 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 
 #include "app/commands/Commands.hpp"
 #include "app/commands/Pages.hpp"
+#include "app/commands/Scripts.hpp"
 #include "common/Error.hpp"
 #include "common/Interrupt.hpp"
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
 #include "common/Version.hpp"
+#include "common/report/Detail.hpp"
 #include "common/report/Log.hpp"
+#include "common/report/Terminal.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "linalg/blocks/LargePages.hpp"
 
@@ -40,7 +44,9 @@ int guarded(const std::function<void()>& command) {
     command();
     return code(ExitCode::Done);
   } catch (const tooljoint::Error& error) {
-    say(std::cerr, std::string("tooljoint: ") + error.what() + "\n");
+    using tooljoint::terminal::Colour;
+    say(std::cerr, tooljoint::terminal::coloured("tooljoint:", Colour::Red, STDERR_FILENO) + " " +
+                       error.what() + "\n");
     return code(error.code());
   } catch (const std::bad_alloc&) {
     say(std::cerr,
@@ -56,9 +62,15 @@ int guarded(const std::function<void()>& command) {
 /// Whether a command writes no results, writes them where a folder is given, or always.
 enum class Output { None, Wanted, Always };
 
+/// Options of the commands that read a deck, and how much they say.
+struct Options : tooljoint::app::RunOptions {
+  bool quiet = false;
+  bool verbose = false;
+};
+
 /// A deck on the command line with its overrides and where results go.
 /// \param suffix of the default folder
-void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Output output,
+void addDeckOptions(CLI::App& command, Options& options, Output output,
                     const std::string& suffix = "") {
   command.add_option("DECK", options.deck, "scene in Teuchos XML")->type_name("FILE")->required();
   command
@@ -85,6 +97,8 @@ void addDeckOptions(CLI::App& command, tooljoint::app::RunOptions& options, Outp
                 ? "folder for the results (default: results/<name of the deck>" + suffix + ")"
                 : "folder for the tables (default: none are written)")
         ->type_name("DIR");
+  if (output == Output::Always)
+    command.add_flag("--quiet,-q", options.quiet, "print warnings and errors only");
 }
 
 /// What is wrong with a command line that holds words or options no command takes.
@@ -124,7 +138,7 @@ std::optional<ExitCode> parse(CLI::App& program, int argc, char** argv) {
 
 /// Options of the commands that run many rows; they exclude each other where one has no effect
 /// beside another. `row` says what a row is.
-void addRowOptions(CLI::App& command, tooljoint::app::RunOptions& options, const std::string& row) {
+void addRowOptions(CLI::App& command, Options& options, const std::string& row) {
   auto* fresh = command.add_flag("--fresh", options.fresh,
                                  "forget the rows an earlier command left in the folder");
   auto* width = command
@@ -147,8 +161,7 @@ void addRowOptions(CLI::App& command, tooljoint::app::RunOptions& options, const
 }
 
 /// The commands `study` and `map`.
-void addStudies(CLI::App& program, tooljoint::app::RunOptions& options,
-                std::function<void()>& command) {
+void addStudies(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* study = program.add_subcommand(
       "study", "speed against error: the runs of the deck's Study list against its reference run");
   addDeckOptions(*study, options, Output::Always, "_study");
@@ -168,8 +181,7 @@ void addStudies(CLI::App& program, tooljoint::app::RunOptions& options,
 }
 
 /// The command `report` with its options.
-void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
-               std::function<void()>& command) {
+void addReport(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* report = program.add_subcommand(
       "report", "one HTML file with figures, plots and a 3-D view of a results folder");
   report
@@ -184,20 +196,40 @@ void addReport(CLI::App& program, tooljoint::app::RunOptions& options,
       [&] { command = [&] { tooljoint::app::report(options.reported, options.output); }; });
 }
 
+/// The command `paraview` with its options.
+void addParaview(CLI::App& program, tooljoint::app::ParaviewOptions& options,
+                 std::function<void()>& command) {
+  auto* paraview = program.add_subcommand(
+      "paraview", "files of ParaView of a run: the motion in space with forces and stresses");
+  paraview->add_option("DIR", options.folder, "folder of a run")->type_name("DIR")->required();
+  paraview->add_option("--output,-o", options.output, "folder to write (default: DIR/paraview)")
+      ->type_name("DIR");
+  paraview
+      ->add_option("--magnify", options.magnify,
+                   "factor of the displacements and of the clearance (default 1)")
+      ->check(CLI::PositiveNumber);
+  paraview
+      ->add_option("--pictures", options.pictures, "pictures of the motion, at most (default 200)")
+      ->check(CLI::PositiveNumber);
+  paraview->callback([&] { command = [&] { tooljoint::app::paraview(options); }; });
+}
+
 /// The command `run`.
-void addRun(CLI::App& program, tooljoint::app::RunOptions& options,
-            std::function<void()>& command) {
+void addRun(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* runCommand = program.add_subcommand(
       "run", "path, static state, reduction, transient: from deck to results");
   addDeckOptions(*runCommand, options, Output::Always);
+  runCommand
+      ->add_flag("--verbose,-v", options.verbose,
+                 "print the times of the stages and the counters of the motion, too")
+      ->excludes("--quiet");
   runCommand->add_option("--restart", options.restart, "folder of an interrupted run to go on from")
       ->type_name("DIR");
   runCommand->callback([&] { command = [&] { tooljoint::app::run(options); }; });
 }
 
 /// The commands that look at a deck, and `export`.
-void addAnalyses(CLI::App& program, tooljoint::app::RunOptions& options,
-                 std::function<void()>& command) {
+void addAnalyses(CLI::App& program, Options& options, std::function<void()>& command) {
   auto* checkCommand =
       program.add_subcommand("check", "validate a deck and say what will be modelled; run nothing");
   addDeckOptions(*checkCommand, options, Output::None);
@@ -289,7 +321,8 @@ constexpr const char* firstWords =
     "  tooljoint new my_well           a deck that runs, its survey and a README\n"
     "  cd my_well\n"
     "  tooljoint check my_well.xml     what is modelled\n"
-    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n\n"
+    "  tooljoint run my_well.xml       static state and motion, into results/my_well\n"
+    "  xdg-open results/my_well/report.html    figures, plots and the motion in a browser\n\n"
     "or with a deck to edit:\n\n"
     "  tooljoint template well > mine.xml\n\n"
     "tooljoint --help lists the commands, tooljoint COMMAND --help what each takes, and\n"
@@ -304,7 +337,7 @@ int run(int argc, char** argv) {
   bool version = false;
   program.add_flag("--version", version, "print program, git, Trilinos, MPI and HDF5 versions");
 
-  app::RunOptions options;
+  Options options;
   std::string topic;
   std::string format = "md";
   std::string kind, folder;
@@ -318,6 +351,8 @@ int run(int argc, char** argv) {
   app::CompareOptions comparison;
   addCompare(program, comparison, command);
   addReport(program, options, command);
+  app::ParaviewOptions shown;
+  addParaview(program, shown, command);
 
   auto* docCommand = program.add_subcommand(
       "doc", "print the parameter manual, or what describes the command line");
@@ -366,6 +401,8 @@ int run(int argc, char** argv) {
   std::vector<std::string> edits;
   for (const auto& list : options.without) edits.push_back("!" + list);
   options.overrides.insert(options.overrides.begin(), edits.begin(), edits.end());
+  tooljoint::log::setQuiet(options.quiet);
+  tooljoint::log::setVerbose(options.verbose);
   tooljoint::installInterruptHandlers();
   return guarded([&] {
     namespace deck = tooljoint::deck;

@@ -331,7 +331,7 @@ class Run {
         integrator_->forgetHistory();
         keepCheckpoint();
       }
-      if (bar && bar->due()) bar->update(state_.t, suffix());
+      if (bar && bar->due()) bar->update(state_.t, suffix(bar->rate(state_.t)));
     }
     throwFailures();
     if (bar) bar->finish();
@@ -418,9 +418,12 @@ class Run {
     return text.str();
   }
 
-  std::string suffix() const {
+  /// \param rate simulated time over wall time
+  std::string suffix(double rate) const {
     const Counters& c = integrator_->counters();
-    std::string text = std::to_string(c.steps) + " steps";
+    std::ostringstream begin;
+    begin << c.steps << " steps, " << std::setprecision(2) << rate << " x real time";
+    std::string text = begin.str();
     if (c.rejected > 0) text += ", " + std::to_string(c.rejected) + " rejected";
     if (c.halved > 0) text += ", " + std::to_string(c.halved) + " halved";
     if (c.unconvergedSteps > 0) text += ", " + std::to_string(c.unconvergedSteps) + " unconverged";

@@ -50,8 +50,14 @@ class Blocks(unittest.TestCase):
         self.assertIn("<Modes: 3, ", modes)
         self.assertTrue(pathlib.Path("guyed.xml").is_file())
 
+    def test_figures(self):
+        run(BLOCKS[4])
+        text = pathlib.Path("torque.svg").read_text(encoding="utf-8")
+        for word in ("torque [kN m]", "measured depth [m]", "120 rpm, WOB 40 kN"):
+            self.assertIn(f">{word}<", text)
+
     def test_no_block_is_forgotten(self):
-        self.assertEqual(len(BLOCKS), 4)
+        self.assertEqual(len(BLOCKS), 5)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import sys
 import unittest
 
 import tooljoint
+import tooljoint.plots  # not part of the package without matplotlib
 
 SCENE = str(pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"]) / "xml/frame.xml")
 NAMES = sorted(name for name in sys.modules if name.startswith("tooljoint.") and name != "tooljoint._core")

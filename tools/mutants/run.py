@@ -135,9 +135,14 @@ class Tree:
     def update(self):
         """Copy what differs, remove what is gone, configure once."""
         listed = subprocess.run(["git", "-C", PROJECT, "ls-files", "-z", "-co", "--exclude-standard"], check=True, capture_output=True).stdout
-        wanted = {name for name in os.fsdecode(listed).split("\0") if name and (PROJECT / name).is_file()}
+        wanted = {name for name in os.fsdecode(listed).split("\0") if name and ((PROJECT / name).is_file() or (PROJECT / name).is_symlink())}
         for name in sorted(wanted):
             source, target = PROJECT / name, self.folder / name
+            if source.is_symlink():  # tools/plots
+                if not target.is_symlink():
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    target.symlink_to(source.readlink())
+                continue
             if target.is_file() and target.read_bytes() == source.read_bytes():
                 continue
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -71,6 +71,7 @@ def main():
     parser = Arguments(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, prog="report")
     parser.add_argument("folder", type=pathlib.Path, help="results folder")
     parser.add_argument("--output", type=pathlib.Path, help="file to write (default: DIR/report.html)")
+    parser.add_argument("--quiet", action="store_true", help="say nothing of the file that was written")
     options = parser.parse_args()
     plots.use_style()
     try:
@@ -82,7 +83,8 @@ def main():
     text = page.text()
     path = options.output or options.folder / "report.html"
     write(path, text)
-    print(f"report      {path}: {len(text.encode()) / 1e6:.1f} MB")
+    if not options.quiet:
+        print(f"report      {path}: {len(text.encode()) / 1e6:.1f} MB")
     if viewer() is None:
         print("The report has no 3-D view: three.js is not installed (Debian: libjs-three).", file=sys.stderr)
     return 0

@@ -132,18 +132,30 @@ def curvature(run, displacement):
     return np.linalg.norm(np.diff(tangent, axis=-2), axis=-1) / np.diff(run.s)
 
 
+def internal_forces(run, displacement):
+    """(effective tension [N], torque [N m]) of the elements in a displacement (... x nodes x 6); None for results without sections.
+
+        T = T_s + E S (w' - w_s'),  M = M_s + G J (theta_z' - theta_zs')
+
+    s: static state."""
+    if run.get("/model/young_modulus") is None or run.get("/static/axial_force") is None:
+        return None
+    E, G, S, J = (run.get(f"/model/{name}") for name in ("young_modulus", "shear_modulus", "area", "torsion_constant"))
+    change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:, None]
+    return run.get("/static/axial_force") + E * S * change[..., 2], run.get("/static/torque") + G * J * change[..., 5]
+
+
 def von_mises(run, displacement):
     """Largest von Mises stress of the elements [Pa] in a displacement (... x nodes x 6); None for results without sections.
 
-        T = T_s + E S (w' - w_s'),  M = M_s + G J (theta_z' - theta_zs'),  sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
+        sigma^2 = (|T|/S + E kappa R)^2 + 3 (M R/J)^2
 
-    at the outer wall, from effective tension, as for torque and drag (docs/drilling.md); s: static state."""
-    if run.get("/model/young_modulus") is None or run.get("/static/axial_force") is None:
+    at the outer wall, from effective tension, as for torque and drag (docs/drilling.md)."""
+    forces = internal_forces(run, displacement)
+    if forces is None:
         return None
-    E, G, S, J, R = (run.get(f"/model/{name}") for name in ("young_modulus", "shear_modulus", "area", "torsion_constant", "outer_radius"))
-    change = np.diff(displacement - run.get("/static/displacement"), axis=-2) / np.diff(run.s)[:, None]
-    tension = run.get("/static/axial_force") + E * S * change[..., 2]
-    torque = run.get("/static/torque") + G * J * change[..., 5]
+    E, S, J, R = (run.get(f"/model/{name}") for name in ("young_modulus", "area", "torsion_constant", "outer_radius"))
+    tension, torque = forces
     axial = np.abs(tension) / S + E * curvature(run, displacement) * R
     return np.sqrt(axial ** 2 + 3 * (torque * R / J) ** 2)
 

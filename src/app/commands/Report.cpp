@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/commands/Commands.hpp"
-#include "common/Error.hpp"
+#include "app/commands/Scripts.hpp"
 #include "common/Parallel.hpp"
 #include "common/report/Log.hpp"
 #include "common/report/PythonScript.hpp"
@@ -30,17 +30,9 @@ std::string without(const std::string& endings, std::string text) {
 }  // namespace
 
 void report(const std::string& folder, const std::string& output) {
-  parallel::agree([&] {
-    if (parallel::rank() != 0) return;
-    std::vector<std::string> arguments{folder};
-    if (!output.empty()) arguments.insert(arguments.end(), {"--output", output});
-    const auto end = PythonScript(kScript).run(arguments);
-    if (!end.started) throw FileError("The report was not written: " + end.errors + ".");
-    const auto said = without("\n", end.errors);
-    if (end.code == 0 && !said.empty()) log::warn(said);
-    if (end.code == static_cast<int>(ExitCode::Files)) throw FileError(said);
-    if (end.code != 0) throw Error(ExitCode::Internal, "The report was not written: " + said);
-  });
+  std::vector<std::string> arguments{folder};
+  if (!output.empty()) arguments.insert(arguments.end(), {"--output", output});
+  runScript(kScript, "The report was not written", arguments);
 }
 
 void reportAtEnd(const std::string& folder, bool wanted) {
@@ -50,7 +42,9 @@ void reportAtEnd(const std::string& folder, bool wanted) {
   std::filesystem::remove(std::filesystem::path(folder) / "report.html", ignored);
   if (!wanted || switchedOff()) return;
   const PythonScript script(kScript);
-  const auto end = script.run({folder});
+  std::vector<std::string> arguments{folder};
+  if (log::quiet()) arguments.emplace_back("--quiet");
+  const auto end = script.run(arguments);
   const auto said = without(".\n", end.errors);
   if (!end.started || end.code != 0)
     log::warn("The report was not written: " + said + ". Write it later with: tooljoint report " +

@@ -2,6 +2,7 @@
 #include "cases/run/Run.hpp"
 
 #include "app/commands/Commands.hpp"
+#include "app/commands/LastScreen.hpp"
 #include "cases/CaseKinds.hpp"
 
 namespace tooljoint::app {
@@ -10,6 +11,7 @@ void run(const RunOptions& options) {
   const auto one = cases::readCase(options.deck, options.overrides);
   const auto folder = cases::run(*one, {options.output, options.restart});
   reportAtEnd(folder, one->output().report);
+  lastScreen(folder, options.deck);
 }
 
 }  // namespace tooljoint::app

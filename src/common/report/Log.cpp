@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <iostream>
+#include <unistd.h>
 
 #include "common/Parallel.hpp"
 #include "common/Text.hpp"
+#include "common/report/Terminal.hpp"
 
 namespace tooljoint::log {
 namespace {
@@ -62,7 +64,9 @@ void warn(const std::string& line) {
   auto& lines = collected();
   if (std::find(lines.begin(), lines.end(), line) != lines.end()) return;
   lines.push_back(line);
-  if (parallel::rank() == 0) std::cerr << "warning: " << line << std::endl;
+  if (parallel::rank() == 0)
+    std::cerr << terminal::coloured("warning:", terminal::Colour::Yellow, STDERR_FILENO) << " "
+              << line << std::endl;
 }
 
 const std::vector<std::string>& warnings() { return collected(); }

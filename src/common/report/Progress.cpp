@@ -15,6 +15,21 @@ namespace {
 
 constexpr int barWidth = 30;
 constexpr std::chrono::milliseconds redraw(100);
+constexpr double leastShare = 0.01;  ///< done, before the remaining time is told
+constexpr double minute = 60.0;
+constexpr double hour = 3600.0;
+
+/// "37 s", "12 min", "3.4 h".
+std::string duration(double seconds) {
+  char text[32];
+  if (seconds < 2 * minute)
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  else if (seconds < 2 * hour)
+    std::snprintf(text, sizeof text, "%.0f min", seconds / minute);
+  else
+    std::snprintf(text, sizeof text, "%.1f h", seconds / hour);
+  return text;
+}
 
 }  // namespace
 
@@ -56,22 +71,29 @@ void Progress::update(double now, const std::string& suffix) {
     drawBar(done, suffix);
     return;
   }
-  std::fprintf(stderr, "%s: %3d %% (%.1f s)%s%s\n", title_.c_str(), static_cast<int>(100.0 * done),
-               elapsed(), suffix.empty() ? "" : " ", suffix.c_str());
+  std::fprintf(stderr, "%s: %3d %% (%.1f s%s)%s%s\n", title_.c_str(),
+               static_cast<int>(100.0 * done), elapsed(), left(done).c_str(),
+               suffix.empty() ? "" : " ", suffix.c_str());
   std::fflush(stderr);
+}
+
+std::string Progress::left(double done) const {
+  if (done <= leastShare || done >= 1.0) return "";
+  return ", " + duration(elapsed() * (1.0 - done) / done) + " left";
+}
+
+double Progress::rate(double now) const {
+  const double seconds = elapsed();
+  return seconds > 0.0 ? (now - begin_) / seconds : 0.0;
 }
 
 void Progress::drawBar(double done, const std::string& suffix) {
   const int filled = static_cast<int>(std::lround(done * barWidth));
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(barWidth - filled), '.');
-  const double soFar = elapsed();
-  std::string left;
-  if (done > 0.01 && done < 1.0)
-    left = ", " + std::to_string(std::lround(soFar * (1.0 - done) / done)) + " s left";
   std::fprintf(stderr, "\r\033[K%s [%s] %3d %% (%.1f s%s)%s%s", title_.c_str(), bar.c_str(),
-               static_cast<int>(100.0 * done), soFar, left.c_str(), suffix.empty() ? "" : " ",
-               suffix.c_str());
+               static_cast<int>(100.0 * done), elapsed(), left(done).c_str(),
+               suffix.empty() ? "" : " ", suffix.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -28,6 +28,9 @@ class Progress {
   /// True when update() would print something: lets a caller skip the work of composing a suffix.
   bool due() const;
 
+  /// What update() counts, per second of wall time since the construction.
+  double rate(double now) const;
+
   /// Ends the bar at 100 %. Destroyed before that (an error, an interrupt), it leaves the bar as it
   /// is.
   void finish();
@@ -36,6 +39,8 @@ class Progress {
   double fraction(double now) const;
   void drawBar(double fraction, const std::string& suffix);
   double elapsed() const;
+  /// ", 37 s left" at the rate so far; empty at the begin and at the end.
+  std::string left(double done) const;
 
   std::string title_;
   double begin_ = 0.0;

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes docs/hard-cases.md and its figures from the rows of the cases."""
 import math
+import pathlib
 import platform
 import re
+import sys
 
 from rows import CASES
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tools"))
+import plots  # noqa: E402
 
 ORDER = ("met", "warned", "off", "refused", "WRONG", "open")
 LONGEST_NOTE = 150  # characters of a sentence in the tables
@@ -78,38 +83,35 @@ def deviation(row):
     return f"{row.deviation:.2g} / {row.bound:.2g}" if math.isfinite(row.deviation) else ""
 
 
-def details(case, rows, plots):
+def details(case, rows, drawn):
     lines = [(row.variant, row.parameter, row.truth, row.found, deviation(row), row.verdict,
               f"{row.cost:.2g}" if math.isfinite(row.cost) else "", shortened(row.note)) for row in rows]
     head = ("variant", "parameter", "truth", "found", "deviation / bound", "verdict",
             "cost", "what the program says")
     keep = [i for i in range(len(head)) if i < 2 or any(line[i] != "" for line in lines)]
-    pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in plots)
+    pictures = "".join(f"\n![{plot.title}](figures/hard_{plot.name}.svg)\n" for plot in drawn)
     return (f"## {case.number}. {case.title}\n\n{case.must[0].upper()}{case.must[1:]}. Sweep: {case.sweep}." +
             (f" Easy variant: {case.easy}." if case.easy else "") + "\n" + pictures + "\n" +
             table([head[i] for i in keep], [[line[i] for i in keep] for line in lines]))
 
 
 def draw(plot, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": plot.name, "font.size": 9,
-                         "legend.frameon": False})
-    figure, axes = plt.subplots(figsize=(5.6, 3.4))
+    plots.use_style()
+    made, axes = plots.figure(5.6, 3.4)
     for i, (label, points) in enumerate(plot.series.items()):
         points = [(x, y) for x, y in points if y is not None and math.isfinite(y)]
         if points:
             line = label.startswith("truth")
-            axes.plot(*zip(*points), "-" if line else "osD^v<>px*"[i % 10], label=label, markersize=4,
-                      linewidth=1, color="black" if line else None)
-    axes.set(xlabel=plot.x, ylabel=plot.y, title=plot.title,
-             xscale="log" if "x" in plot.log else "linear", yscale="log" if "y" in plot.log else "linear")
-    axes.grid(alpha=0.3)
-    axes.legend(fontsize=7)
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
-    plt.close(figure)
+            axes.plot(*zip(*points), "-" if line else plots.MARKERS[i % len(plots.MARKERS)], label=label,
+                      markersize=4, linewidth=1, color="black" if line else plots.COLOURS[i % len(plots.COLOURS)])
+    axes.set(xlabel=plot.x, ylabel=plot.y)
+    for axis, name in ((axes.xaxis, "x"), (axes.yaxis, "y")):
+        if name in plot.log:
+            getattr(axes, f"set_{name}scale")("log")
+            plots.logarithmic(axis)
+    plots.legend_above(axes, 2)
+    plots.headline(made, plot.title)
+    plots.save(made, path)
 
 
 def numbers(cases):
@@ -141,8 +143,8 @@ def write(path, results):
     """`results`: case number -> (rows, plots, whether they are the short version)."""
     figures = path.parent / "figures"
     figures.mkdir(exist_ok=True)
-    for _, plots, _ in results.values():
-        for plot in plots:
+    for _, drawn, _ in results.values():
+        for plot in drawn:
             draw(plot, figures / f"hard_{plot.name}.svg")
     overview = []
     for n, (rows, _, _) in sorted(results.items()):

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Axes in space: north, east, depth, of one scale."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib import ticker
+
+from .style import label
+
+LEAST_SHARE = 0.25  # of the longest axis that each axis has, so that a vertical well has room for its numbers
+SHORT = 0.5  # share of the longest axis below which an axis has room for one number
+ZOOM = 0.85  # leaves room for the labels
+
+
+def space_axes(made: Any, place: Any, names: tuple[str, str, str] = ("north", "east", "depth")) -> Any:
+    """Three-dimensional axes at a place of a grid (or 111), in metres; an axis "depth" is drawn downwards by equal_axes()."""
+    axes = made.add_subplot(place, projection="3d")
+    axes.set_xlabel(label(names[0], "m")), axes.set_ylabel(label(names[1], "m")), axes.set_zlabel(label(names[2], "m"))
+    axes.view_init(elev=18, azim=-150)
+    axes.tick_params(labelsize=7, pad=0)
+    axes.zaxis.labelpad = 8
+    return axes
+
+
+def equal_axes(axes: Any, points: Any) -> None:
+    """Limits around `points` (n x 3) in which a metre has one length along all three axes."""
+    points = np.asarray(points, float)
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, span = 0.5 * (low + high), high - low
+    span = np.maximum(span, LEAST_SHARE * (span.max() or 1.0))
+    first, last = middle - 0.5 * span, middle + 0.5 * span
+    axes.set_xlim(first[0], last[0]), axes.set_ylim(first[1], last[1])
+    down = axes.get_zlabel().startswith("depth")
+    axes.set_zlim(*((last[2], first[2]) if down else (first[2], last[2])))
+    axes.set_box_aspect(span, zoom=ZOOM)
+    for axis, share, at in zip((axes.xaxis, axes.yaxis, axes.zaxis), span / span.max(), middle):
+        few = share < SHORT
+        axis.set_major_locator(ticker.FixedLocator([float(f"{at:.2g}")]) if few else ticker.MaxNLocator(round(5 * share)))

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/commands/LastScreen.hpp"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <unistd.h>
+#include <vector>
+
+#include "common/Parallel.hpp"
+#include "common/report/Detail.hpp"
+#include "common/report/Log.hpp"
+#include "common/report/StageTimes.hpp"
+#include "common/report/Terminal.hpp"
+#include "io/ResultsReader.hpp"
+#include "io/TextFile.hpp"
+
+namespace tooljoint::app {
+
+namespace {
+
+using Json = nlohmann::json;
+using terminal::Colour;
+
+constexpr double kilo = 1e3;
+constexpr std::size_t column = 20;  ///< width of the names and of the values
+
+/// A number with so many decimals.
+std::string fixed(double value, int decimals) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(decimals) << value;
+  return out.str();
+}
+
+/// A number with so many significant digits.
+std::string brief(double value, int digits) {
+  std::ostringstream out;
+  out << std::setprecision(digits) << value;
+  return out.str();
+}
+
+std::string padded(const std::string& text) {
+  return text + std::string(text.size() < column ? column - text.size() : 1, ' ');
+}
+
+/// A number of the summary by its JSON pointer; none where a stage did not run.
+std::optional<double> number(const Json& summary, const char* path) {
+  const Json::json_pointer pointer(path);
+  if (!summary.contains(pointer)) return std::nullopt;
+  const auto& value = summary.at(pointer);
+  if (!value.is_number()) return std::nullopt;
+  return value.get<double>();
+}
+
+/// What a run is checked for, and the bound; tools/report/checks.py has the same (tests/terminal).
+struct Check {
+  const char* name;
+  const char* value;
+  const char* scale;  ///< null: the value is a share already
+  double bound;
+  const char* advice;
+};
+
+constexpr std::array checks{
+    Check{"balance of torque", "/static/torque_balance_defect", "/static/torque_scale", 1e-2,
+          "--set \"Path/Pre-stress=Full tangent\""},
+    Check{"residual of the static state", "/static/residual", nullptr, 1e-8, nullptr},
+    Check{"balance of energy", "/transient/energy_residual", nullptr, 1e-2,
+          "half of Transient/Step"},
+    Check{"step error", "/transient/step_error", nullptr, 5e-2, "half of Transient/Step"},
+    Check{"share of steps that did not converge", "/transient/unconverged_steps",
+          "/transient/steps", 1e-3, "half of Transient/Step"},
+};
+
+struct Worst {
+  const Check* check = nullptr;
+  double value = 0.0;
+};
+
+/// The check that comes closest to its bound; none of a run without any.
+Worst worstCheck(const Json& summary) {
+  Worst worst;
+  for (const auto& check : checks) {
+    auto value = number(summary, check.value);
+    if (!value) continue;
+    if (check.scale != nullptr) {
+      const auto scale = number(summary, check.scale);
+      if (!scale || *scale == 0.0) continue;
+      *value /= *scale;
+    }
+    const double share = std::abs(*value);
+    if (worst.check == nullptr || share / check.bound > worst.value / worst.check->bound)
+      worst = {&check, share};
+  }
+  return worst;
+}
+
+void line(const std::string& name, const std::string& value, const std::string& remark = "") {
+  log::info(terminal::coloured(padded(name), Colour::Bold, STDOUT_FILENO) +
+            (remark.empty() ? value : padded(value) + remark));
+}
+
+/// Hook load, surface torque and the largest side force of a string at rest.
+void ofString(const Json& summary, const std::string& folder) {
+  line("hook load", fixed(*number(summary, "/static/top_axial_force") / kilo, 1) + " kN",
+       "effective tension at the surface");
+  if (const auto torque = number(summary, "/static/top_torque"))
+    line("surface torque", fixed(-*torque / kilo, 2) + " kN m", "at rest, against the rotation");
+  const auto force = number(summary, "/static/max_normal_force");
+  const auto node = number(summary, "/static/max_normal_force_node");
+  if (!force || !node || *node < 1.0) return;  // nothing touches
+  const io::ResultsReader results(folder + "/results.h5");
+  const auto depth = results.rows("/model/s", static_cast<std::size_t>(*node) - 1, 1).front();
+  line("largest side force", fixed(*force / kilo, 2) + " kN",
+       "at a measured depth of " + fixed(depth, 1) + " m");
+}
+
+void ofMotion(const Json& summary) {
+  const auto mean = number(summary, "/transient/bit_speed_rpm/mean");
+  const auto least = number(summary, "/transient/bit_speed_rpm/min");
+  const auto most = number(summary, "/transient/bit_speed_rpm/max");
+  if (mean && least && most)
+    line("bit speed", fixed(*mean, 1) + " rpm",
+         fixed(*least, 1) + " to " + fixed(*most, 1) + " rpm");
+  const auto largest = number(summary, "/transient/max_displacement");
+  if (!largest) return;
+  line("displacement", brief(*largest, 3), "m or rad, the largest of all nodes");
+  if (const auto energy = number(summary, "/transient/energy_residual"))
+    line("energy balance", brief(100.0 * *energy, 2) + " %",
+         "of the energy exchanged, lost (> 0) or made (< 0)");
+}
+
+/// "807 of 972 dofs", or "972 dofs".
+std::string dofs(const Json& summary) {
+  const auto all = number(summary, "/model/free_dofs");
+  const auto reduced = number(summary, "/reduction/reduced_dofs");
+  if (!all) return "";
+  return (reduced ? fixed(*reduced, 0) + " of " : "") + fixed(*all, 0) + " dofs";
+}
+
+void ofChecks(const Json& summary) {
+  const auto worst = worstCheck(summary);
+  if (worst.check == nullptr) return;
+  const bool met = worst.value <= worst.check->bound;
+  line("worst check", terminal::coloured(padded(met ? "met" : "NOT MET"),
+                                         met ? Colour::Green : Colour::Red, STDOUT_FILENO) +
+                          worst.check->name + " " + brief(worst.value, 2) + ", bound " +
+                          brief(worst.check->bound, 6));
+}
+
+/// What to try next, a line each: what mends a check that is not met, else what shows more.
+std::vector<std::string> next(const Json& summary, const std::string& folder,
+                              const std::string& deck) {
+  const auto worst = worstCheck(summary);
+  if (worst.check != nullptr && worst.value > worst.check->bound && worst.check->advice != nullptr)
+    return {"the run again with " + std::string(worst.check->advice) + " (" + worst.check->name +
+            ")"};
+  if (!number(summary, "/transient/steps"))
+    return {"tooljoint " +
+            std::string(number(summary, "/static/top_torque") ? "torque-drag " : "modes ") + deck};
+  const auto ratio = number(summary, "/reduction/cost_ratio");
+  if (ratio && *ratio < 1.0)
+    return {"tooljoint run " + deck + " --output " + folder + "_full \\",
+            "  --without Reduction --without Substructures",
+            "tooljoint compare " + folder + " " + folder + "_full"};
+  return {"tooljoint paraview " + folder};
+}
+
+/// Times of the stages and counters of the motion, of --verbose.
+void details(const Json& summary) {
+  const auto times = stageTimes(0.0);
+  if (!times.empty()) log::detail("stages      " + times);
+  std::string counters;
+  for (const char* name : {"steps", "newton_iterations", "factorisations", "right_hand_sides",
+                           "halved", "rejected", "unconverged_steps"}) {
+    if (const auto count = number(summary, (std::string("/transient/") + name).c_str()))
+      counters += (counters.empty() ? "" : ", ") + std::string(name) + " " + fixed(*count, 0);
+  }
+  if (!counters.empty()) log::detail("counters    " + counters);
+  if (const auto memory = number(summary, "/peak_memory_mb"))
+    log::detail("memory      " + fixed(*memory, 0) + " MB at most");
+}
+
+}  // namespace
+
+void lastScreen(const std::string& folder, const std::string& deck) {
+  if (log::quiet() || parallel::rank() != 0) return;
+  const auto summary = Json::parse(io::readText(folder + "/summary.json"));
+  details(summary);
+  log::info("");
+  if (number(summary, "/static/top_axial_force")) ofString(summary, folder);
+  ofMotion(summary);
+  ofChecks(summary);
+  if (const auto factor = number(summary, "/transient/real_time_factor"))
+    line("speed", brief(*factor, 3) + " x real time", dofs(summary));
+  else
+    line("model", dofs(summary),
+         "wall time " + fixed(number(summary, "/wall_s").value_or(0.0), 2) + " s");
+  if (const auto count = summary.at("warnings").size(); count > 0)
+    line("warnings", terminal::coloured(std::to_string(count), Colour::Yellow, STDOUT_FILENO) +
+                         ", above and in the report");
+  const auto report = std::filesystem::path(folder) / "report.html";
+  log::info("");
+  log::info(std::filesystem::exists(report)
+                ? "open        " + report.string() + " in a browser"
+                : "report      none was written: tooljoint report " + folder);
+  const char* label = "next        ";
+  for (const auto& command : next(summary, folder, deck)) {
+    std::cout << label << command << std::endl;  // whole, to be copied
+    label = "            ";
+  }
+}
+
+}  // namespace tooljoint::app

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// What a run says last.
+#pragma once
+
+#include <string>
+
+namespace tooljoint::app {
+
+/// The six numbers that matter of the run in `folder`, where its report is, and what to try next;
+/// with log::verbose() also the times of the stages and the counters of the motion. Reads
+/// summary.json; silent with log::quiet(). Rank 0 prints.
+/// \param deck for the commands to try next
+void lastScreen(const std::string& folder, const std::string& deck);
+
+}  // namespace tooljoint::app

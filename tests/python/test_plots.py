@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""tooljoint.plots, and the figures of tools/plot_results.py and tools/plot_study.py: labels with units, depth downwards, one scale in space,
+titles with conditions, no text on another one."""
+import os
+import pathlib
+import re
+import sys
+import unittest
+from unittest import mock
+
+import h5py
+import numpy as np
+from PIL import Image
+from tooljoint import plots
+
+SOURCE = pathlib.Path(os.environ["TOOLJOINT_SOURCE_DIR"])
+sys.path.insert(0, str(SOURCE / "tools"))
+import plot_results  # noqa: E402
+import plot_study  # noqa: E402
+
+DECK = """<ParameterList name="well"><ParameterList name="Loads"><Parameter name="Weight On Bit" type="double" value="40000"/></ParameterList></ParameterList>"""
+# Machado, Oliveira and Fernandes (2009), severity 1, on linear RGB.
+DEUTERANOPE = np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]])
+PROTANOPE = np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]])
+XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+WHITE = XYZ.sum(axis=1)
+JUST_NOTICEABLE = 2.3  # in CIE Lab (Mahy et al. 1994)
+
+
+def string(file, nodes=21, moves=True):
+    """Results of a string in a well that builds to the north, in an open HDF5 file."""
+    s = np.linspace(0, 1000, nodes)
+    middle = 0.5 * (s[1:] + s[:-1])
+    angle = 1e-3 * s
+    file.attrs["deck_text"], file.attrs["deck_file"], file.attrs["overrides"] = DECK, "well.xml", ""
+    file["/model/s"], file["/model/clearance"] = s, np.full(nodes, 0.03)
+    file["/model/position"] = 1000 * np.column_stack([1 - np.cos(angle), np.zeros(nodes), np.sin(angle)])
+    file["/static/displacement"] = np.full((nodes, 6), 0.01)
+    file["/static/normal_force"] = 1e3 * (1 + np.cos(0.02 * s))
+    file["/static/axial_force"], file["/static/torque"] = 1e3 * (200 - 0.2 * middle), np.full(nodes - 1, -4e3)
+    if moves:
+        time = np.linspace(0, 1, 12)
+        file["/transient/time"], file["/transient/speed"] = time, np.full(12, 4 * np.pi)
+        file["/transient/velocity"] = np.tile(np.sin(20 * time)[:, None, None], (1, nodes, 6))
+        file["/transient/displacement"] = 0.01 * np.tile(np.cos(20 * time)[:, None, None], (1, nodes, 6))
+    return file
+
+
+def memory():
+    return h5py.File("plots.h5", "w", driver="core", backing_store=False)
+
+
+class Style(unittest.TestCase):
+    def setUp(self):
+        plots.use_style()
+        self.addCleanup(plots.plt.close, "all")
+
+    def check(self, made):
+        """What holds for every figure."""
+        self.assertEqual(plots.overlaps(made), [])
+        for axes in made.axes:
+            for axis in (axes.xaxis, axes.yaxis):
+                text = axis.get_label_text()
+                if axes.axison and "depth" in text or "time" in text:
+                    self.assertRegex(text, r"\[.+\]$")
+
+
+class Axes(Style):
+    def test_labels_have_units(self):
+        self.assertEqual([plots.label(*pair) for pair in (("torque", "kN m"), ("modes",), ("share", "1"))], ["torque [kN m]", "modes", "share"])
+
+    def test_depth_points_downwards(self):
+        made, axes = plots.profile(plots.label("torque", "kN m"), (0, 1500))
+        self.assertEqual(axes.get_ylim(), (1500, 0))
+        self.assertEqual(axes.get_ylabel(), "measured depth [m]")
+        self.check(made)
+
+    def test_space_has_one_scale(self):
+        for points in ([[0, 0, 0], [100, 30, 800]], [[5, 5, 0], [5, 5, 1000]]):
+            made = plots.plt.figure()
+            axes = plots.space_axes(made, 111)
+            plots.equal_axes(axes, points)
+            spans = np.abs([np.subtract(*axes.get_xlim()), np.subtract(*axes.get_ylim()), np.subtract(*axes.get_zlim())])
+            np.testing.assert_allclose(axes._box_aspect / spans, (axes._box_aspect / spans)[0])
+            self.assertGreater(axes.get_zlim()[0], axes.get_zlim()[1], "depth does not point downwards")
+            self.assertEqual([axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()], ["north [m]", "east [m]", "depth [m]"])
+
+    def test_logarithmic_ticks_are_plain_numbers(self):
+        made, axes = plots.figure()
+        axes.plot([0.01, 100], [1e-6, 1])
+        plots.error_band(axes, [0.01, 100], [5e-7, 0.5], [2e-6, 1.0])
+        plots.log_log(axes, y=plots.percent)
+        made.canvas.draw()
+        self.assertIn("0.1", [text.get_text() for text in axes.get_xticklabels()])
+        self.assertIn("10 %", [text.get_text() for text in axes.get_yticklabels()])
+        self.assertEqual(len(axes.collections), 1)
+        self.check(made)
+
+    def test_a_title_says_the_conditions(self):
+        made, axes = plots.figure()
+        axes.plot([0, 1]), axes.set_xlabel("time [s]")
+        plots.headline(made, "A string", "120 rpm, WOB 40 kN; " * 20)
+        self.check(made)
+        texts = [text.get_text() for text in made.texts]
+        self.assertEqual(texts[0].split("\n")[0], "A string")
+        self.assertIn("WOB 40 kN", texts[1])
+
+    def test_colours_differ_for_all_eyes(self):
+        def lab(name, seen):
+            rgb = np.array(plots.plt.matplotlib.colors.to_rgb(name))
+            linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+            x, y, z = np.cbrt(np.maximum(XYZ @ np.clip(seen @ linear, 0, 1) / WHITE, 0.008856))
+            return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+        for seen in (np.eye(3), DEUTERANOPE, PROTANOPE):
+            found = [lab(name, seen) for name in plots.COLOURS[:6]]
+            distances = [np.linalg.norm(a - b) for i, a in enumerate(found) for b in found[:i]]
+            self.assertGreater(min(distances), 3 * JUST_NOTICEABLE)
+
+
+class Names(Style):
+    def lines(self, count, apart):
+        made, axes = plots.plt.subplots(figsize=(7, 5), constrained_layout=True)
+        lines = {f"a method with a long name, number {i}": axes.plot([0, 1, 2], [i * apart, i * apart + 0.1, i * apart])[0] for i in range(count)}
+        axes.set_ylim(-1, max(4, 1.2 * count * apart)), axes.set_xlim(0, 2.5)
+        labels = plots.Labels(axes)
+        for line in lines.values():
+            labels.occupy(*line.get_data())
+        return made, axes, plots.name_lines(labels, lines)
+
+    def test_names_stand_beside_lines_with_room(self):
+        made, axes, beside = self.lines(3, 2)
+        self.assertTrue(beside)
+        self.assertEqual(len(axes.texts), 3)
+        self.check(made)
+
+    def test_names_of_crowded_lines_stand_in_a_legend(self):
+        made, axes, beside = self.lines(14, 0.02)
+        self.assertFalse(beside)
+        self.assertEqual(len(axes.get_legend().get_texts()), 14)
+        self.check(made)
+
+    def test_overlaps_are_found(self):
+        made, axes = plots.figure()
+        axes.text(0.5, 0.5, "one"), axes.text(0.51, 0.5, "two"), axes.text(3.0, 0.5, "out")
+        self.assertEqual(len(plots.overlaps(made)), 2)
+
+
+class Results(Style):
+    def test_the_picture_of_a_string(self):
+        with memory() as file:
+            made = plot_results.draw(string(file))
+        self.check(made)
+        space, radial, contact, axial, torque, speed = [axes for axes in made.axes if axes.get_label() != "<colorbar>"]
+        self.assertEqual(space.get_zlabel(), "depth [m]")
+        for axes, text in ((radial, "lateral displacement [mm]"), (contact, "contact force [kN]"), (axial, "axial force [kN]"), (torque, "torque [kN m]")):
+            self.assertEqual(axes.get_xlabel(), text)
+            self.assertGreater(*axes.get_ylim())
+        self.assertLess(np.ptp(torque.get_xlim()), 5, "the torque is drawn on the scale of the axial force")
+        self.assertEqual((speed.get_xlabel(), speed.get_ylabel()), ("time [s]", "speed [rpm]"))
+        self.assertIn("WOB 40 kN", made.texts[1].get_text())
+
+    def test_a_static_state_alone(self):
+        with memory() as file:
+            self.check(plot_results.draw(string(file, moves=False)))
+
+    def test_animations(self):
+        with memory() as file:
+            plot_results.animate(string(file), pathlib.Path("motion.gif"))
+        with Image.open("motion.gif") as shown:
+            self.assertEqual(shown.n_frames, 12)
+        made, axes = plots.figure()
+        for name, said in (("motion.avi", r"\.gif or \.mp4"), ("motion", r"\.gif or \.mp4")):
+            with self.assertRaisesRegex(ValueError, said):
+                plots.animate(name, made, lambda number: None, 2)
+        with self.assertRaisesRegex(ValueError, "at least 1"):
+            plots.animate("motion.gif", made, lambda number: None, 0)
+        with mock.patch.object(plots.plt.matplotlib.animation.FFMpegWriter, "isAvailable", return_value=False), self.assertRaisesRegex(ValueError, "ffmpeg"):
+            plots.animate("motion.mp4", made, lambda number: None, 2)
+
+
+class Studies(Style):
+    def study(self, count):
+        """A study of `count` methods of nearly the same speed and error."""
+        folder = pathlib.Path(f"study_{count}")
+        folder.mkdir(exist_ok=True)
+        head = "line,label,kind,model,sweep,status,vibration_error,cpu_per_simulated_s [s],reduced_dofs,modes,frequency_error,setup_cpu [s]"
+        rows = [f'"method {i}, with a long name","method {i}, with a long name, Step {step} ms",method,full,,done,{step ** 2 * (1e-3 + 1e-5 * i)},{0.1 / step},100,,,' for i in range(count) for step in (1, 2)]
+        (folder / "study.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
+        with h5py.File(folder / "study.h5", "w") as file:
+            file.attrs.update({"machine": "a machine", "deck_name": "well", "self_error": 1e-5, "window_begin": 0.0, "window_end": 2.0})
+            whole = string(file, moves=False)
+            file["profile/s"], file["profile/radius"], file["profile/clearance"] = whole["/model/s"][:], np.full(21, 0.01), np.full(21, 0.03)
+            for name in ("normal_force", "axial_force", "torque"):
+                file[f"profile/{name}"] = whole[f"/static/{name}"][:]
+        return plot_study.Study(folder)
+
+    def test_speed_against_error_of_few_and_of_crowded_lines(self):
+        for count, legend in ((2, False), (30, True)):
+            made = plot_study.draw_speed(self.study(count))
+            self.check(made)
+            self.assertEqual(made.axes[0].get_legend() is not None, legend)
+            self.assertTrue(re.search(r"a machine", made.texts[1].get_text()))
+
+    def test_profiles_of_the_static_state(self):
+        made = plot_study.draw_static(self.study(2))
+        self.check(made)
+        self.assertEqual([axes.get_xlabel() for axes in made.axes], ["lateral displacement [mm]", "contact force [kN]", "axial force [kN]", "torque [kN m]"])
+        self.assertGreater(*made.axes[0].get_ylim())
+
+
+if __name__ == "__main__":
+    unittest.main()

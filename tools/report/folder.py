@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The main of the tools that draw the folder a command has left, and what stands above their figures."""
+import argparse
+import pathlib
+import sys
+
+import h5py
+
+import plots
+from report import deck
+
+
+def conditions(results):
+    """What the deck in an HDF5 file of results says of the scene, for the second line of a title."""
+    text, overrides = (results.attrs.get(name, "") for name in ("deck_text", "overrides"))
+    lists = deck.read(text, overrides)
+    name = pathlib.PurePath(results.attrs.get("deck_file", "")).stem
+    changed = ", ".join(line for line in overrides.splitlines() if line)
+    return "; ".join(part for part in (name, deck.conditions(lists), changed) if part)
+
+
+def parser(description, kind, files):
+    options = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("folder", type=pathlib.Path, help=kind)
+    options.add_argument("--output", type=pathlib.Path, help=f"picture (default: {' or '.join(pathlib.Path(f).stem + '.png' for f in files)} in the folder)")
+    return options
+
+
+def opened(folder, kind, files):
+    """(name, open file) of the first of `files` in the folder; ends with a sentence where none is there."""
+    found = next((name for name in files if (folder / name).is_file()), None)
+    if found is None:
+        missing = f"neither {' nor '.join(files)}" if len(files) > 1 else f"no {next(iter(files))}"
+        sys.exit(f"{folder} holds {missing}. Give the {kind}.")
+    return found, h5py.File(folder / found, "r")
+
+
+def draw_folder(description, kind, files):
+    """The main of a tool: the first of `files` (name.h5 -> function of the open file that makes a figure) in the folder gives name.png there, or the picture of --output. `kind`: the folder, in words."""
+    options = parser(description, kind, files).parse_args()
+    plots.use_style()
+    found, results = opened(options.folder, kind, files)
+    with results:
+        made = files[found](results)
+    output = options.output or (options.folder / found).with_suffix(".png")
+    plots.save(made, output)
+    print(f"drawn {output}")
