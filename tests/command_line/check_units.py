@@ -88,6 +88,7 @@ def of_strings():
          "--set", "Top Drive/Torque Limit=40 kN m", "--set", "Supports/Top=u v w", at_least=12)
     both("run", SCENE, "--set", "Transient/End Time=0.1", at_least=20, files=["motion.csv", "static_nodes.csv", "static_elements.csv", "figures_nodes.csv"])
     expect("run: the numbers of summary.json stay SI", figures("usual") == figures("field"))
+    both("run", str(SOURCES / "tests/effects/log.xml"), at_least=4, files=["measured.csv", "measured_peaks.csv"], begin="measured    ", end="results ")
     both("modes", SCENE, "--set", "Reduction/Mode Selection/Modes=2", "--count", "3", at_least=10)
     # the heading of the table, and numbers that a file has in SI
     out = both("torque-drag", str(SOURCES / "xml/build_hold_1400m.xml"), "--set", "Torque and Drag/Count=1", "--set", "Torque and Drag/Stiff String=None", at_least=10,

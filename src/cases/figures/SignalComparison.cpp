@@ -16,6 +16,8 @@ constexpr double rounding = 1e-9;
 constexpr double jitter = 1e-3;
 /// Of the median distance: what lies further apart has a gap between.
 constexpr double gap = 2.5;
+/// Of the largest value: a signal that changes by less is constant but for rounding.
+constexpr double constant = 1e-12;
 
 SampledSignal within(const SampledSignal& signal, double begin, double end) {
   const double slack = rounding * std::max(1.0, std::abs(end) + std::abs(begin));
@@ -65,7 +67,10 @@ ComparedSignal describe(SampledSignal samples, const SpectrumSettings& settings)
   const auto even = evenly(samples);
   out.spectrum =
       spectrumOf(even.value, even.interval, longSegments(even.value.size(), settings.segments));
-  out.peaks = largestPeaks(out.spectrum, settings.peaks);
+  const auto& figures = out.figures;
+  const double size = std::max(std::abs(figures.min()), std::abs(figures.max()));
+  if (figures.max() - figures.min() > constant * size)
+    out.peaks = largestPeaks(out.spectrum, settings.peaks);
   out.samples = std::move(samples);
   return out;
 }

@@ -19,10 +19,10 @@ struct SampledSignal {
 
 /// One signal of a comparison over the common window.
 struct ComparedSignal {
-  SampledSignal samples;  ///< of the window
-  SignalFigures figures;  ///< fluctuationIndex() of a speed is the stick-slip index
-  Spectrum spectrum;      ///< empty for fewer than 16 samples a segment
-  std::vector<SpectralPeak> peaks;
+  SampledSignal samples;            ///< of the window
+  SignalFigures figures;            ///< fluctuationIndex() of a speed is the stick-slip index
+  Spectrum spectrum;                ///< empty for fewer than 16 samples a segment
+  std::vector<SpectralPeak> peaks;  ///< none of a constant signal
 };
 
 struct SignalComparison {

@@ -24,9 +24,9 @@ std::string firstPeak(const ComparedSignal& signal) {
 std::string line(const MeasuredColumn& column, const SignalComparison& found) {
   const auto& usual = column.quantity.usual;
   return fmt::format(
-      "  {:<20} difference {}, {} rms\n"
-      "  {:<20} {} {:.3g} computed, {:.3g} measured; largest peak {} computed, {} measured",
-      column.name, deck::printed(found.mean, usual, 4), deck::printed(found.rms, usual, 4), "",
+      "  {}: difference {}, {} rms\n"
+      "    {} {:.3g} (measured {:.3g}), largest peak {} (measured {})",
+      column.name, deck::printed(found.mean, usual, 4), deck::printed(found.rms, usual, 4),
       indexName(column.quantity), found.computed.figures.fluctuationIndex(),
       found.measured.figures.fluctuationIndex(), firstPeak(found.computed),
       firstPeak(found.measured));

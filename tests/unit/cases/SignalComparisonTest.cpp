@@ -104,6 +104,15 @@ TEST(SignalComparison, OfStraightLines) {
   EXPECT_NEAR(found.measured.figures.fluctuationIndex(), (6.0 - 3.0) / (2 * 4.5), 1e-12);
 }
 
+TEST(SignalComparison, RoundingHasNoPeaks) {
+  auto constant = sampled(0, interval, 400, 0.0);
+  for (std::size_t i = 0; i < constant.value.size(); ++i)
+    constant.value[i] = 1e5 + (i % 2 == 0 ? 1e-10 : 0.0);
+  const auto found = compareSignals(constant, sampled(0, interval, 400, 1.0), 0, 10, {});
+  EXPECT_TRUE(found.computed.peaks.empty());
+  EXPECT_FALSE(found.computed.spectrum.frequency.empty());
+}
+
 TEST(SignalComparison, NeedsTwoSamplesOfEither) {
   EXPECT_THROW(compareSignals(sampled(0, 0.1, 5, 1), sampled(2, 0.1, 5, 1), 0, 10, {}), Error);
 }
