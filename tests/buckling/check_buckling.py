@@ -184,7 +184,9 @@ def refusals():
             "--set", "Buckling/At A Limit=Follow")
     expect("what was found is in the tables", len(rows("out_short")) > 1 and summary("out_short")["end"] == "steps")
     done = tooljoint("check", good)
-    expect("check takes the list", done.returncode == 0, done.stderr)
+    expect("check says what would be done", done.returncode == 0 and "grow to 100 kN" in " ".join(done.stdout.split()), done.stdout + done.stderr)
+    done = tooljoint("check", good, "--set", "Buckling/First Step=1")
+    expect("and refuses what buckling would", done.returncode == 2 and "has to lie between" in done.stderr, done.stderr)
 
 
 euler()
