@@ -222,7 +222,7 @@ def add_buckling(page, folder):
     rows = read_table(folder / "buckling.csv")
     found = [against_weight("buckling-path", "displacement [mm]", "Displacement of the bit down the hole, and the share of bending in it, up the hole; gaps are jumps.", rows,
                             (("bit_advance", "bit"), ("shortening", "shortening by bending")), 1e3),
-             against_weight("buckling-contact", "contact force [N/m]", "Contact force per length of the middle half of the string, beside that of a helix, r F^2/(4 E I).", rows,
+             against_weight("buckling-contact", "contact force [N/m]", "Contact force per length of the middle half of the compressed part, beside that of a helix, r F^2/(4 E I).", rows,
                             (("contact_force", "contact force"), ("helical_contact_force", "helix")), 1.0),
              buckled_shape(read_table(folder / "buckling_profile.csv"))]
     shown = rows[::max(1, len(rows) // BUCKLING_ROWS)]

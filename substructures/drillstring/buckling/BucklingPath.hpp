@@ -32,7 +32,8 @@ struct BucklingTheory {
   int finiteHalfWaves = 0;
 };
 
-/// Contact and shape of the middle half of the string, which its ends do not reach, beside the
+/// Contact and shape of the middle half of the compressed part above the bit (of the whole string
+/// without one), which its ends do not reach, beside the
 /// helix of Lubinski, Althouse and Logan (1962) with the compression F there: N = r F^2/(4 E I),
 /// pitch sqrt(8 pi^2 E I/F), shortening r^2 F/(4 E I).
 struct BucklingMiddle {

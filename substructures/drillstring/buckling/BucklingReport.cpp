@@ -177,8 +177,9 @@ class Report {
 
   void printStates() const {
     log::info(
-        "contact force and shortening per length are those of the middle half, beside those of a "
-        "helix");
+        "contact force and shortening per length are those of the middle half of the compressed "
+        "part, "
+        "beside those of a helix");
     log::info(fmt::format("{:>8} {:>10} {:>9} {:>6} {:>8} {:>7} {:>6} {:>15} {:>17}", "WOB", "bit",
                           "deflected", "walls", "largest", "pivots", "waves", "contact, helix",
                           "strain, helix"));

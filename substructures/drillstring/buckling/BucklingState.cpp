@@ -26,7 +26,7 @@ constexpr double straight = 0.05;
 constexpr double offAxis = 0.5;
 /// Share of all turning that goes one way in a helix.
 constexpr double oneWay = 0.9;
-/// The middle half of the string, as parts of its length.
+/// The middle half of the compressed part, as parts of its length.
 constexpr double middleBegin = 0.25, middleEnd = 0.75;
 /// Largest compression of a sinusoidal state over that where it begins (Mitchell 1997).
 constexpr double lateralLimit = 2.8;
@@ -156,14 +156,22 @@ void BucklingMeasure::addShape(BucklingState& state) const {
   state.turns = turned / constants::twoPi;
 }
 
+double BucklingMeasure::neutralDepth(const BucklingState& state) const {
+  const int last = scene_.string.elementCount() - 1;
+  if (!(state.compression(last) > 0.0)) return 0.0;
+  int e = last;
+  while (e > 0 && state.compression(e - 1) > 0.0) --e;
+  return depth_[at(e)];
+}
+
 void BucklingMeasure::addMiddle(const Vector& displacement, BucklingState& state) const {
   auto& middle = state.middle;
-  const double L = depth_.back();
+  const double top = neutralDepth(state), L = depth_.back() - top;
   double length = 0.0, net = 0.0, all = 0.0;
   bool winds = true;
   for (int e = 0; e < scene_.string.elementCount(); ++e) {
     const double centre = 0.5 * (depth_[at(e)] + depth_[at(e + 1)]);
-    if (centre < middleBegin * L || centre > middleEnd * L) continue;
+    if (centre < top + middleBegin * L || centre > top + middleEnd * L) continue;
     const double l = scene_.string.elements[at(e)].length();
     const double F = std::max(0.0, state.compression(e)), r = clearance_[at(e)],
                  EI = rigidity_[at(e)];

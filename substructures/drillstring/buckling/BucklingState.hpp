@@ -31,6 +31,8 @@ class BucklingMeasure {
   Matrix toSides(const Vector& displacement) const;
   double shortening(int element, const Vector& displacement) const;
   void addShape(BucklingState& state) const;
+  /// Where the compressed part above the bit begins; 0 without compression there [m].
+  double neutralDepth(const BucklingState& state) const;
   void addMiddle(const Vector& displacement, BucklingState& state) const;
 
   const Scene& scene_;

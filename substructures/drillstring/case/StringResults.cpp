@@ -12,6 +12,7 @@
 #include "common/Text.hpp"
 #include "deck/PrintedUnits.hpp"
 #include "io/Csv.hpp"
+#include "substructures/drillstring/scene/BucklingParameters.hpp"
 #include "substructures/drillstring/scene/StringStability.hpp"
 
 namespace tooljoint::drillstring {
@@ -254,6 +255,20 @@ std::string describeString(const Scene& scene) {
   return text;
 }
 
+/// What `tooljoint buckling` would do, where the deck has its list.
+std::string describeBuckling(const Scene& scene) {
+  if (!scene.list().isSublist("Buckling")) return "";
+  const auto settings = readBuckling(scene.list().sublist("Buckling"));
+  const double last = settings.lastWeight.value_or(scene.weightOnBit());
+  return fmt::sprintf(
+      "\nbuckling    `tooljoint buckling` lets the weight on bit grow to %.4g kN: crookedness %.3g "
+      "of "
+      "the clearance, %s",
+      last / 1e3, settings.crookedness,
+      settings.atLimit == LimitRule::Jump ? "jumps where states become unstable"
+                                          : "through unstable states too");
+}
+
 }  // namespace
 
 std::string describeScene(const Scene& scene) {
@@ -267,7 +282,7 @@ std::string describeScene(const Scene& scene) {
   if (scene.contact && scene.contact->law->atRest(scene.contactPoints)->largestPull() > 0.0)
     text += "\ncontact     the law " + inQuotes(scene.contact->lawName) +
             " attracts points to the wall, on rebound and when open; Clamped never does";
-  return text;
+  return text + describeBuckling(scene);
 }
 
 std::string describeStatic(const StaticStage& stage) {

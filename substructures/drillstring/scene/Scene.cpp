@@ -312,6 +312,7 @@ Scene readScene(const deck::Deck& deck) {
     faults.attempt([&] { supports = readSupports(list.sublist("Supports")); });
   std::optional<drilling::BitSettings> bit;
   drilling::TopDrive topDrive;
+  if (list.isSublist("Buckling")) faults.attempt([&] { readBuckling(list.sublist("Buckling")); });
   if (list.isSublist("Bit")) faults.attempt([&] { bit = drilling::readBit(list.sublist("Bit")); });
   if (list.isSublist("Top Drive"))
     faults.attempt([&] { topDrive = drilling::readTopDrive(list.sublist("Top Drive")); });
