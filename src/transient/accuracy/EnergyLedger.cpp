@@ -36,8 +36,7 @@ void EnergyLedger::allocate(CompiledModel& model) {
 }
 
 template <class Power>
-EnergyLedger::Powers EnergyLedger::sumPowers(CompiledModel& model, const Power& power) {
-  Powers sum;
+EnergyLedger::Powers EnergyLedger::sumPowers(CompiledModel& model, const Power& power, Powers sum) {
   for (auto& batch : model.points()) {
     const auto each = power(batch);
     sum.stored += each.stored;
@@ -64,9 +63,11 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
   longest_ = 0;
   strain_ = 0.5 * model.dot(state.q, internal_);
   model.bindStates(state.x.data());
-  stored_ = sumPowers(model, [&](auto& batch) {
-              return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
-            }).stored;
+  const auto everyPoint = [&](auto& batch) {
+    return batch.power(state.t, state.q.data(), state.v.data(), batch.everyPoint());
+  };
+  stored_ = sumPowers(model, everyPoint, {}).stored;
+  sliding_.start(model, state);
   EnergyAccount now = account(model, state);
   now.contact = stored_;
   account_.initial = now.kinetic + now.strain + now.contact;
@@ -76,6 +77,7 @@ void EnergyLedger::start(CompiledModel& model, const State& state, int stride) {
 void EnergyLedger::book(CompiledModel& model, const State& to) {
   constexpr double equal = 0.75;
   ++unwatched_;
+  sliding_.step(model, to);
   const double h = to.t - reached_;
   reached_ = to.t;
   longest_ = std::max(longest_, h);
@@ -144,12 +146,18 @@ void EnergyLedger::enter(CompiledModel& model, const State& to) {
   for (std::size_t i = 0; i < dissipative_.size(); ++i)
     entry(account_.damping[i], model.damping().factor(dissipative_[i]) * sums_[fewestSums + i] / h);
   // point laws: power at the middle of the chord, with its velocity dq/h, times h (the velocity at
-  // the end of a step that meets a wall is not what it went in with)
+  // the end of a step that meets a wall is not what it went in with); friction by its own forces
   if (!model.points().empty()) {
     if (model.stateSize() > 0) bindChord(model, to, h);
-    const Powers mean = sumPowers(model, [&](auto& batch) {
-      return batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
-    });
+    const auto chord = [&](auto& batch) {
+      auto power = batch.chordPower(to.t - 0.5 * h, h, to.q.data(), step_.data(), batch.acted());
+      if (sliding_.has(static_cast<std::size_t>(&batch - model.points().data())))
+        power.friction = power.drive = 0;
+      return power;
+    };
+    const Powers mean =
+        sumPowers(model, chord, {0, 0, sliding_.friction() / h, sliding_.drive() / h});
+    sliding_.forget();
     entry(account_.friction, h * mean.friction);
     entry(account_.contactDamping, h * mean.damping);
     entry(account_.drive, h * mean.drive);
@@ -173,11 +181,10 @@ void EnergyLedger::bindChord(CompiledModel& model, const State& to, double h) {
 /// Points that are not active store nothing.
 double EnergyLedger::storedNow(CompiledModel& model, const State& state) {
   model.bindStates(state.x.data());
-  return sumPowers(model,
-                   [&](auto& batch) {
-                     return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
-                   })
-      .stored;
+  const auto active = [&](auto& batch) {
+    return batch.power(state.t, state.q.data(), state.v.data(), batch.active());
+  };
+  return sumPowers(model, active, {}).stored;
 }
 
 const EnergyAccount& EnergyLedger::look(CompiledModel& model, const State& state) {
@@ -207,6 +214,7 @@ void EnergyLedger::save(std::vector<double>& memory) const {
   memory.insert(memory.end(), account_.damping.begin(), account_.damping.end());
   for (const Vector* x : {&q_, &internal_, &load_, &x_})
     memory.insert(memory.end(), x->begin(), x->end());
+  sliding_.save(memory);
 }
 
 void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memory) {
@@ -224,6 +232,7 @@ void EnergyLedger::restore(CompiledModel& model, int stride, const double*& memo
   middle_ = rate_ = x_;
   for (Vector* vector : {&q_, &internal_, &load_, &x_})
     for (double& x : *vector) x = *memory++;
+  sliding_.restore(model, memory);
 }
 
 }  // namespace tooljoint::transient

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "transient/accuracy/FrictionWork.hpp"
 #include "transient/compiled/CompiledModel.hpp"
 
 namespace tooljoint::transient {
@@ -68,13 +69,14 @@ class EnergyLedger {
   };
   void allocate(CompiledModel& model);
   void formWorks(const CompiledModel& model, const State& to, double loads);
-  /// Sum of power(batch) over all batches.
+  /// `sum` of this rank and power(batch) over all batches.
   template <class Power>
-  static Powers sumPowers(CompiledModel& model, const Power& power);
+  static Powers sumPowers(CompiledModel& model, const Power& power, Powers sum);
   static double storedNow(CompiledModel& model, const State& state);
   void bindChord(CompiledModel& model, const State& to, double h);
 
   EnergyAccount account_;
+  FrictionWork sliding_;
   std::vector<std::size_t> dissipative_;  ///< damping terms that can do work
   static constexpr std::size_t fewestSums = 3;
   std::vector<double> sums_;   ///< work of the loads, q'K q / 2, work of stiffness, dq' C_i dq of

@@ -9,12 +9,14 @@
 ///
 /// Both choose their steps; samples are interpolated. Held states of point laws change where a step
 /// ends; where that changes a force, the method begins anew.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
 
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "transient/Integrator.hpp"
 #include "transient/schemes/SundialsStepper.hpp"
 
@@ -27,6 +29,12 @@ constexpr const char* cvode = "SUNDIALS CVODE";
 /// Motion smaller than this is not resolved to the relative tolerance [m], [m/s].
 constexpr double usualLength = 0.01;
 constexpr double usualVelocity = 1.0;
+
+/// A motion that is larger than this many tolerances in the norm of the error is followed: the
+/// errors of a thousand steps add up to some per cent of it (`stability.hard_cases`, case 30).
+constexpr double resolvedMotion = 1e3;
+/// One that is smaller than this is rest.
+constexpr double restingMotion = 1e-2;
 
 void addCommon(deck::ListSpec& spec) {
   spec.real("Relative Tolerance", "", 1e-4, deck::Range::positive(),
@@ -124,6 +132,8 @@ class Sundials final : public Integrator {
     if (!(options_.firstStep > 0)) options_.firstStep = window.step;
     form_.setStates(state.x);
     y_.setZero(form_.size());
+    form_.pack(state, y_.data());
+    start_ = y_;
     stepper_ = makeStepper();
     firstStep_ = options_.firstStep;
     restart(state);
@@ -145,14 +155,17 @@ class Sundials final : public Integrator {
     if (ended_ && form_.accept(to, options_.relative) && to.t < window_.end)
       beginsAnew_ = true, firstStep_ = 0.0;
     count();
+    if (ended_) largest_ = std::max(largest_, motion());
+    if (!(to.t < window_.end)) warnOfTolerances();
   }
 
   void save(std::vector<double>& memory) const override {
-    memory.insert(memory.end(), {firstStep_, ended_ ? 1.0 : 0.0});
+    memory.insert(memory.end(), {firstStep_, ended_ ? 1.0 : 0.0, largest_});
   }
   void restore(const double*& memory) override {
     firstStep_ = *memory++;
     ended_ = *memory++ != 0.0;
+    largest_ = *memory++;
     beginsAnew_ = true;
   }
 
@@ -215,6 +228,31 @@ class Sundials final : public Integrator {
     if (trouble != SundialsTrouble::None) giveUp(from, trouble);
     if (!(stepper_->time() > before)) giveUp(from, SundialsTrouble::Accuracy);
     counters_.accept(stepper_->lastStep());
+  }
+
+  /// sqrt(1/2n sum ((y_i - y_i(0)) / (rtol |y_i| + atol_i))^2) over q and v: the motion in the norm
+  /// of the error.
+  double motion() const {
+    const auto n = static_cast<Eigen::Index>(form_.dofs());
+    double sum = 0;
+    for (Eigen::Index i = 0; i < 2 * n; ++i) {
+      const double allowed =
+          options_.relative * std::abs(y_[i]) + (i < n ? options_.positions : options_.velocities);
+      sum += std::pow((y_[i] - start_[i]) / allowed, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(2 * n));
+  }
+
+  void warnOfTolerances() const {
+    if (largest_ >= resolvedMotion || largest_ <= restingMotion) return;
+    std::ostringstream text;
+    text.precision(2);
+    text << "The tolerances of " << name_ << " are coarse for this motion, which is only "
+         << largest_
+         << " times as large as the error they allow in a step; the errors of steps add up. Lower "
+         << "Transient/" << name_
+         << "/Relative Tolerance, or Absolute Tolerance and Absolute Velocity Tolerance there.";
+    log::warn(text.str());
   }
 
   double nextSample(double t) const {
@@ -286,7 +324,8 @@ class Sundials final : public Integrator {
   FirstOrderForm form_;
   Window window_;
   std::unique_ptr<SundialsStepper> stepper_;
-  Vector y_;
+  Vector y_, start_;    ///< first-order form: now, and at the start
+  double largest_ = 0;  ///< motion() so far
   SundialsCounts seen_;
   long evaluations_ = 0, factorisations_ = 0;
   double firstStep_ = 0;     ///< of the next start; 0: chosen by SUNDIALS

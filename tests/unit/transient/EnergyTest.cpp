@@ -108,6 +108,42 @@ TEST(Energy, bouncingBallsBalance) {
   EXPECT_LT(std::abs(report.energy.residual()), 2e-3);
 }
 
+/// A body of 10 kg that flies against a hard wall and slides along it slowly: friction stops the
+/// sliding in the first steps of the impact and takes m u'^2/2 at most. The law in the middle of
+/// such a step, at half of the speed, would take mu F_n u'/2: up to twenty times as much.
+TEST(Energy, frictionThatStopsAPointWithinAStepTakesWhatItHad) {
+  const double mass = 10.0, sliding = 0.01, had = 0.5 * mass * sliding * sliding;
+  contact::ContactPoint wall;
+  wall.node = 1;
+  wall.clearance = 0.03;
+  wall.contactRadius = 0.08;
+  wall.muStatic = wall.muDynamic = 0.5;
+  wall.regularisationVelocity = 1e-6;
+  auto model = denseModel(Vector3(mass, mass, 1e3).asDiagonal(), Matrix(), Matrix(), 3);
+  model.initialDisplacement << 0.0, -0.0295, 0.0;  // half a millimetre from the wall
+  model.initialVelocity << sliding, -1.0, 0.0;
+  for (const double stiffness : {1e8, 1e9}) {
+    wall.stiffness = stiffness;
+    contact::ContactPoints points;
+    points.add(wall);
+    model::PointSet set;
+    set.name = "wall";
+    set.law = contact::makeLaw("Clamped")->inMotion(points, [](double /*t*/) { return 0.0; });
+    set.rows = Matrix(Matrix::Identity(3, 3)).sparseView();
+    set.offset = Vector::Zero(3);
+    set.entities = {1};
+    model.points = {set};
+    Keep samples;
+    auto o = options("Generalized-alpha", 0.03, 1e-3, 0.01);
+    acceptCoarseSteps(o);
+    const auto report = integrate(model, o, samples);
+    EXPECT_LT(report.energy.friction, 1.1 * had) << stiffness;
+    if (stiffness > 1e8) continue;  // harder ones let it go before it is at rest
+    EXPECT_LT(std::abs(samples.v.back()[0]), 0.1 * sliding);
+    EXPECT_NEAR(report.energy.friction, had, 0.3 * had);
+  }
+}
+
 /// A floor that gives back more than it gets and keeps silent about it: what a step that makes
 /// energy looks like.
 class Trampoline final : public model::PointLaw {

@@ -7,6 +7,7 @@
 
 #include "StatefulModels.hpp"
 #include "common/Error.hpp"
+#include "common/report/Log.hpp"
 #include "tests/support/ErrorText.hpp"
 #include "transient/schemes/FirstOrderForm.hpp"
 
@@ -67,6 +68,28 @@ class Sundials : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Transient, Sundials, ::testing::Values(arkode, cvode),
                          [](const auto& each) { return each.param.substr(9); });
+
+/// A micron is as large as what a step may be wrong by: the vibration is lost, and it is said.
+TEST_P(Sundials, warnOfAMotionAsSmallAsTheirTolerances) {
+  for (const double amplitude : {1e-6, 0.5}) {
+    log::clearWarnings();
+    Keep samples;
+    auto o = options(GetParam(), 3.0, 0, 0.01);
+    o.ledger = false;
+    integrate(oscillator(1.0, 0.0, 400.0, amplitude, 0.0), o, samples);
+    const auto& warnings = log::warnings();
+    const bool warned = std::any_of(warnings.begin(), warnings.end(), [](const auto& text) {
+      return text.find("are coarse for this motion") != std::string::npos;
+    });
+    double error = 0;
+    for (std::size_t i = 0; i < samples.time.size(); ++i)
+      error =
+          std::max(error, std::abs(samples.q[i][0] / amplitude - std::cos(20.0 * samples.time[i])));
+    EXPECT_EQ(warned, amplitude < 1e-3) << amplitude << ": error " << error;
+    EXPECT_EQ(error > 0.5, amplitude < 1e-3) << amplitude;
+  }
+  log::clearWarnings();
+}
 
 /// Largest error of the samples of a damped free vibration of 0.3 m: m 2, zeta 0.05, omega 10.
 double freeVibrationError(const std::string& integrator, const Teuchos::ParameterList& own) {
