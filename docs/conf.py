@@ -26,8 +26,8 @@ highlight_language = "none"
 
 # KaTeX of the distribution (libjs-katex) draws the formulas, so that the site needs no network; sphinx.ext.mathjax only writes their markup.
 KATEX = "/usr/share/javascript/katex"
-html_static_path = [KATEX]
-html_css_files = ["katex.min.css"]
+html_static_path = [KATEX, "site.css"]
+html_css_files = ["katex.min.css", "site.css"]
 html_js_files = [("katex.min.js", {"defer": "defer"}),
                  ("contrib/auto-render.js", {"defer": "defer", "onload": "renderMathInElement(document.body)"})]
 mathjax_path = "katex.min.js"
@@ -55,5 +55,33 @@ def write_entry(app, exception):
         (pathlib.Path(app.outdir) / "index.html").write_text(entry, encoding="utf-8")
 
 
+def join_scripts(app, exception):
+    """Debian's furo ships the source of its script, an ES module that imports another file; pages load it as a plain script, in which `import` is a
+    syntax error: no theme switch, no scroll spy. Both files become one plain script. (Modules would not help: browsers refuse them from file://.)"""
+    script = pathlib.Path(app.outdir) / "_static/scripts/furo.js"
+    if exception is not None or app.builder.name != "html" or not script.is_file():
+        return
+    text = script.read_text(encoding="utf-8")
+    imported = re.match(r'import Gumshoe from "\./(.+?)";\n', text)
+    if imported:  # other packages of furo bring a joined one
+        gumshoe = script.with_name(imported.group(1)).read_text(encoding="utf-8")
+        script.write_text(gumshoe + "\n" + text[imported.end():], encoding="utf-8")
+
+
+def inline_normalize(app, exception):
+    """Debian's furo imports normalize.css by a path of a web server; its text takes the place of the import."""
+    style = pathlib.Path(app.outdir) / "_static/styles/furo.css"
+    if exception is not None or app.builder.name != "html" or not style.is_file():
+        return
+    text = style.read_text(encoding="utf-8")
+    normalize = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")
+    own = normalize.read_text(encoding="utf-8") if normalize.is_file() else ""
+    changed = re.sub(r'@import\s*(?:url\()?["\']?/javascript/normalize\.css/normalize\.css["\']?\)?;', lambda _: own, text)
+    if changed != text:
+        style.write_text(changed, encoding="utf-8")
+
+
 def setup(app):
+    app.connect("build-finished", inline_normalize)
     app.connect("build-finished", write_entry)
+    app.connect("build-finished", join_scripts)

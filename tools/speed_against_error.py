@@ -23,6 +23,8 @@ import sys
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 DOCUMENT = PROJECT / "docs/speed-against-error.md"
 FIGURES = PROJECT / "docs/figures"
+TABLES = PROJECT / "docs/tables"
+COLUMNS = ["run", "dofs", "vibration_error", "eps_n_max", "cpu_per_simulated_s [s]", "cpu_spread", "speedup_baseline", "speedup_best_full", "steps", "remarks"]
 STUDIES = {
     "helical": ("study_helical_170m", "Reference scene: 170 m in a helical well"),
     "stress": ("stress_170m", "Stress scene: the same string with lively whirl and impacts"),
@@ -180,31 +182,36 @@ def benchmark_targets(results):
 
 
 def study_section(name, study, folder):
+    """Pictures first, then what was run, and a file with all runs."""
     deck, title = STUDIES[name]
     reference = study.reference
-    text = [f"## {title}\n", f"`tooljoint study xml/{deck}.xml`. "
-            f"Reference: {reference['integrator']} with steps of {1e6 * reference['max_step']:.3g} us ({reference['cpu_s']:.3g} s CPU); another method at a tight step differs from it by "
-            f"vibration error {reference['self_error']['vibration_error']:.2g} over {reference['window_begin']:g} to {reference['window_end']:g} s, and a start moved by {reference['sensitivity']['perturbation']:g} m changes it by "
-            f"vibration error {reference['sensitivity']['vibration_error']:.2g} there and by {reference['sensitivity']['at_end']:.2g} m at {reference['end']:g} s.\n"]
+    text = [f"## {title}\n"]
     for figure in ("speed", "modes"):
         source = folder / f"study_{figure}.svg"
         if source.exists():
             FIGURES.mkdir(exist_ok=True)
             shutil.copyfile(source, FIGURES / f"{figure}_{name}.svg")
             text.append(f"![{'Error against CPU time' if figure == 'speed' else 'Error against the number of modes'}](figures/{figure}_{name}.svg)\n")
-    lines = []
-    for row in study.rows:
-        if row["kind"] != "method":
-            continue
-        if row["status"] != "done":
-            lines.append([row["label"], row["reduced_dofs"], "", "", "", "", "", "", "", f"{row['status']}: {row['reason']}"])
-            continue
-        troubles = [f"{row[key]} {key.split('_')[0]}" for key in ("halved", "rejected", "unconverged_steps", "missed_nodes") if row[key] not in ("", "0")]
-        lines.append([row["label"], row["reduced_dofs"], percent(row["vibration_error"]) if row["vibration_error"] else "", percent(row["eps_n_max"]) if row["eps_n_max"] else "", f"{float(row['cpu_per_simulated_s']):.3g}",
-                      f"{100 * float(row['cpu_spread']):.0f} %", f"{float(row['speedup_baseline']):.3g}" if row["speedup_baseline"] else "",
-                      f"{float(row['speedup_best_full']):.2f}" if row["speedup_best_full"] else "", row["steps"], "; ".join(troubles)])
-    text.append(table(["run", "dofs", "vibration_error", "eps_n max", "CPU s per simulated s", "spread", "against the baseline", "against the best full run of its vibration_error", "steps", "remarks"], lines))
+    text.append(f"`tooljoint study xml/{deck}.xml`. "
+                f"Reference: {reference['integrator']} with steps of {1e6 * reference['max_step']:.3g} us ({reference['cpu_s']:.3g} s CPU); another method at a tight step differs from it by a "
+                f"vibration error of {reference['self_error']['vibration_error']:.2g} over {reference['window_begin']:g} to {reference['window_end']:g} s, and a start moved by "
+                f"{reference['sensitivity']['perturbation']:g} m changes it by a vibration error of {reference['sensitivity']['vibration_error']:.2g} there and by "
+                f"{reference['sensitivity']['at_end']:.2g} m at {reference['end']:g} s.\n")
+    rows = list(map(table_row, (row for row in study.rows if row["kind"] == "method")))
+    TABLES.mkdir(exist_ok=True)
+    with open(TABLES / f"speed_{name}.csv", "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([COLUMNS, *rows])
+    text.append(f"All {len(rows)} runs: [tables/speed_{name}.csv](tables/speed_{name}.csv).\n")
     return "\n".join(text)
+
+
+def table_row(row):
+    """A run as a row of its table; of one that failed the reason stands in the last column."""
+    if row["status"] != "done":
+        return [row["label"], row["reduced_dofs"], *[""] * 7, f"{row['status']}: {row['reason']}"]
+    troubles = [f"{row[key]} {key.split('_')[0]}" for key in ("halved", "rejected", "unconverged_steps", "missed_nodes") if row[key] not in ("", "0")]
+    numbers = [f"{float(row[key]):.3g}" if row[key] else "" for key in ("vibration_error", "eps_n_max", "cpu_per_simulated_s", "cpu_spread", "speedup_baseline", "speedup_best_full")]
+    return [row["label"], row["reduced_dofs"], *numbers, row["steps"], "; ".join(troubles)]
 
 
 def machine():
@@ -216,7 +223,7 @@ def document(studies, work, results):
     lines = [[what, target, measured] for what, target, measured in speed_targets(studies) + benchmark_targets(results)]
     missing = [STUDIES[name][0] for name in STUDIES if name not in studies]
     text = ["# Speed against error\n",
-            "Written by `tools/speed_against_error.py`, which reruns all of it. Every time stands beside its error; a run that failed stays in its table with the reason. vibration error is the largest error of the lateral "
+            "Written by `tools/speed_against_error.py`, which reruns all of it. Every time stands beside its error; a run that failed stays in its table with the reason. The vibration error is the largest error of the lateral "
             "displacements over the stated window, relative to how far the string moved ([file formats](file-formats.md)); beyond the window, where neighbouring motions part, the studies compare statistics. "
             "Times are CPU seconds of the time integration on one core, the shortest of interleaved repeats; \"spread\" is how much longer the longest was. The baseline is "
             f"`{BASELINE}` on the full model, which is as block-tridiagonal, and whose matrices and contact kernels are as fast, as those of the implicit runs.\n",

@@ -174,6 +174,8 @@ class Mesher {
     const Segment& cut = *segments_[at(first)];
     out_.elements[at(first)].formulation = cut.element.make(cut.section, left(first));
 
+    // A rest too short for an element is part of the next one; the node between them goes.
+    const double joined = std::max(0.0, out_.nodes[at(first)].s - above);
     out_.elements.erase(out_.elements.begin(), out_.elements.begin() + first);
     out_.nodes.erase(out_.nodes.begin(), out_.nodes.begin() + first);
     for (Node& node : out_.nodes) node.s -= above;
@@ -181,17 +183,18 @@ class Mesher {
     const auto gone = cutInstances(out_.instances, first);
     for (Element& element : out_.elements) element.instance -= gone;
     cutInstances(out_.nested, first);
-    for (auto* places : {&gauges_, &bends_, &pads_}) cutPlaces(*places, above, first);
+    for (auto* places : {&gauges_, &bends_, &pads_}) cutPlaces(*places, above, first, joined);
   }
 
-  static void cutPlaces(std::vector<Place>& places, double above, int removed) {
+  /// Places down to `joined` [m] have lost their node.
+  static void cutPlaces(std::vector<Place>& places, double above, int removed, double joined) {
     for (Place& place : places) {
       place.s -= above;
       place.firstNode = std::max(0, place.firstNode - removed);
       place.lastNode -= removed;
     }
     places.erase(std::remove_if(places.begin(), places.end(),
-                                [](const Place& place) { return place.s < samePlace; }),
+                                [&](const Place& place) { return place.s < joined + samePlace; }),
                  places.end());
   }
 

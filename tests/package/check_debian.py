@@ -3,7 +3,7 @@
 """The Debian packages of a build: check_debian.py CPACK BUILD VERSION CMAKE
 
 Packs what is built, unpacks the packages into an empty root, and uses them from there: the program makes a folder and runs its deck, the
-installed report answers, a client is configured with the headers, Python imports its package and computes. The libraries of the distribution are those of this machine. Lintian, where
+commands of docs/first-report.md lead to a report, the installed report answers, a client is configured with the headers, Python imports its package and computes. The libraries of the distribution are those of this machine. Lintian, where
 it is installed, finds no error.
 """
 import gzip
@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import stranger  # noqa: E402
 from checks import expect, finish, of_ranks  # noqa: E402
 
 CPACK, BUILD, VERSION, CMAKE = sys.argv[1:5]
@@ -96,6 +97,8 @@ def use():
     done = command(program, "run", "my_well.xml", "--without", "Transient", env=environment, cwd="my_well") if made.returncode == 0 else made
     expect("a new deck runs", done.returncode == 0 and json.loads(pathlib.Path("my_well/results/my_well/summary.json").read_text(encoding="utf-8"))["status"] == "finished",
            done.stderr[-400:])
+    reported = {name: value for name, value in environment.items() if name != "TOOLJOINT_REPORT"}
+    stranger.on_files({**reported, "PATH": f"{program.parent}:{os.environ['PATH']}"}, pathlib.Path("stranger").resolve())
     told = command(program, "report", "nowhere", env=environment)
     expect("the report of the package answers", told.returncode == 5 and '"nowhere" is no folder' in told.stderr, told.stderr)
 

@@ -3,7 +3,7 @@
 """Builds the documentation site and checks it: check_site.py CMAKE BUILD PROJECT
 
 Every link within the site leads to a file and an anchor that are there, every picture exists, every page of docs/ has become one, and every page
-stands in the navigation of the first. Links to other hosts are not opened (target `docs-linkcheck`).
+stands in the navigation of the first. In Chromium, where it is installed, a page has no errors and its theme switch works. Links to other hosts are not opened (target `docs-linkcheck`).
 """
 import html.parser
 import pathlib
@@ -12,11 +12,13 @@ import subprocess
 import sys
 import urllib.parse
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "support"), str(TESTS / "report")]
+import browser  # noqa: E402
 from checks import expect, finish  # noqa: E402
 
 GENERATED = {"index.html", "genindex.html", "search.html"}  # of Sphinx, or the way to the first page
-LARGEST_PICTURE = 200_000  # bytes; pictures are read over slow lines and stay in the repository for good
+LARGEST_PICTURE = 150_000  # bytes; pictures are read over slow lines and stay in the repository for good
 
 
 class Page(html.parser.HTMLParser):
@@ -105,9 +107,23 @@ def main():
     expect(f"the {sum(len(page.links) for page in pages.values())} links of {len(pages)} pages lead somewhere", not wrong, "\n".join(wrong))
     outside = unlisted(pages, site / "docs/index.html")
     expect("every page stands in the navigation", not outside, ", ".join(outside))
-    tutorials = [path for path in (project / "docs/figures").glob("tutorial_*") if path.stat().st_size > LARGEST_PICTURE]
-    expect("pictures of tutorials are small", not tutorials, ", ".join(path.name for path in tutorials))
+    large = [path for kind in ("tutorial_*", "report_*") for path in (project / "docs/figures").glob(kind) if path.stat().st_size > LARGEST_PICTURE]
+    expect("pictures of reports are small", not large, ", ".join(path.name for path in large))
+    if browser.program():
+        clicked(site / "docs/index.html")
     return finish()
+
+
+def clicked(page):
+    """In Chromium: no error on the console, and the switch changes the theme."""
+    with browser.Browser() as shown:
+        shown.open(page, 1400)
+        expect("a page is without errors in Chromium", not shown.faults(), "; ".join(shown.faults()))
+        themes = [shown.value("document.body.dataset.theme")]
+        for _ in range(2):
+            shown.value("[...document.querySelectorAll('.theme-toggle')].find(button => button.offsetParent)?.click()")
+            themes.append(shown.value("document.body.dataset.theme"))
+        expect("its switch changes the theme", len(set(themes)) == 3, str(themes))
 
 
 if __name__ == "__main__":

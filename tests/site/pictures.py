@@ -1,23 +1,41 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the tutorials (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
+"""Pictures of reports for the documents (target `docs-pictures`): pictures.py PROGRAM WORK FIGURES
 
-Runs the decks of the tutorials and photographs their reports in a headless Chromium.
+Runs five scenes and photographs the tops of their reports in a headless Chromium.
 """
 import os
 import pathlib
 import subprocess
 import sys
 
+from PIL import Image
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 from browser import Browser  # noqa: E402
 
 PROGRAM, WORK, FIGURES = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-WIDTH, HEIGHT = 900, 1100  # pixels: readable on the page, and small
+XML = pathlib.Path(__file__).resolve().parents[2] / "xml"
+TALL, WIDE = (900, 1100), (1280, 1130)  # pixels: readable on the page, and small
+# Folder -> (command, deck beside the work folder or of the project, picture, its size)
+SCENES = {
+    "string": ("run", "first/first.xml", "tutorial_report.png", TALL),
+    "parts": ("run", "parts.xml", "tutorial_parts.png", TALL),
+    "build_hold": ("run", XML / "build_hold_1400m.xml", "report_string.png", WIDE),
+    "frame": ("run", XML / "frame.xml", "report_parts.png", WIDE),
+    "bha_motor_1500m": ("bha", XML / "bha_motor_1500m.xml", "report_bha.png", WIDE),
+}
+COLOURS = 256
 
 
 def run(*arguments):
     subprocess.run([PROGRAM, *arguments], cwd=WORK, check=True, stdout=subprocess.DEVNULL, env={**os.environ, "TOOLJOINT_REPORT": "off"})
+
+
+def small(path):
+    """The picture with a palette, which halves it and keeps the colours of lines apart."""
+    with Image.open(path) as shot:
+        shot.convert("RGB").quantize(COLOURS).save(path, optimize=True)
 
 
 def template(name, file):
@@ -29,14 +47,15 @@ def main():
     WORK.mkdir(parents=True, exist_ok=True)
     if not (WORK / "first").exists():
         run("new", "first")
-    run("run", "first/first.xml", "--output", "string")
     template("parts", "parts.xml")
     template("part", "bar.json")
-    run("run", "parts.xml", "--output", "parts")
+    for folder, (command, deck, _, _) in SCENES.items():
+        run(command, str(deck), "--output", folder)
     with Browser() as browser:
-        for folder, picture in (("string", "tutorial_report.png"), ("parts", "tutorial_parts.png")):
+        for folder, (_, _, picture, size) in SCENES.items():
             run("report", folder)
-            browser.open(WORK / folder / "report.html", WIDTH, HEIGHT).picture(FIGURES / picture)
+            browser.open(WORK / folder / "report.html", *size).picture(FIGURES / picture)
+            small(FIGURES / picture)
             print(f"{FIGURES / picture}: {(FIGURES / picture).stat().st_size} bytes")
 
 

@@ -116,6 +116,19 @@ TEST(Mesh, FillsTheStringUpToTheSurface) {
   EXPECT_NEAR(build(filling("5*stand, bit", "33.5")).length(), 33.5, 1e-12) << "cut without a fill";
 }
 
+TEST(Mesh, DropsAGaugeWhoseNodeTheCutRemoves) {
+  const std::string gauge = real("Gauge Position", "9") + real("Gauge Radius", "0.1");
+  const std::string assembly =
+      list("Components", tube("pipe", 9.0, 3, 0.06, 0.05, gauge)) + array("Assembly", "fill*pipe");
+  const DrillString string =
+      build(assembly + real("Bit Depth", "27.2"));  // 0.2 m of an element of 3 m join the next one
+  EXPECT_NEAR(string.elements[0].length(), 3.2, 1e-12);
+  EXPECT_FALSE(string.nodes[0].gauge);
+  for (std::size_t i = 1; i < string.nodes.size(); ++i)
+    EXPECT_EQ(string.nodes[i].gauge, i % 3 == 0) << i;
+  EXPECT_TRUE(build(assembly + real("Bit Depth", "27.4")).nodes[1].gauge) << "long enough to stay";
+}
+
 TEST(Mesh, RefusesAFillThatCannotBe) {
   const auto refused = [](const std::string& assembly, const std::string& depth,
                           const std::string& words) {

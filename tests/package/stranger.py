@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The commands of docs/first-report.md, word for word: from the packages to a report of a well of one's own.
+
+    stranger.py PACKAGES      in an empty Debian 12 (target `clean-root`): made by mmdebstrap, the packages of the folder PACKAGES installed by apt. Needs root and the network.
+
+check_debian.py runs the commands behind the installation on the unpacked packages.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "support"))
+from checks import expect, finish  # noqa: E402
+
+PAGE = HERE.parents[1] / "docs/first-report.md"
+MOST = 10  # commands
+SUITE = "bookworm"
+INSTALL, OPEN = "sudo apt install", "xdg-open"
+
+
+def page():
+    """(commands, survey) of the page."""
+    text = PAGE.read_text(encoding="utf-8")
+    block = lambda kind: re.search(rf"^```{kind}\n(.*?)^```", text, re.M | re.S).group(1)  # noqa: E731
+    return block("sh").splitlines(), block("text")
+
+
+def script(commands):
+    """A shell script that ends with the first command that fails; the page is opened by looking whether it is there."""
+    lines = [command.replace(OPEN, "test -s") for command in commands]
+    return "set -eu\n" + "".join(f"echo '@@ {line}'\n{line}\n" for line in lines)
+
+
+def behind_installation():
+    """Commands behind the installation, and the survey; the page keeps its promise of ten."""
+    commands, survey = page()
+    expect(f"the page has at most {MOST} commands", len(commands) <= MOST, str(len(commands)))
+    first = next(i for i, command in enumerate(commands) if command.startswith(INSTALL))
+    return commands[first + 1:], survey
+
+
+def judge(done, home):
+    """What a stranger sees at the end."""
+    expect("every command of the page succeeds", done.returncode == 0, done.stdout[-600:] + done.stderr[-600:])
+    if done.returncode:
+        return
+    folder = home / "my_well/results/my_well"
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    expect("the run is finished", summary["status"] == "finished")
+    deepest = [line for line in page()[1].splitlines() if line][-1].split(",")[0]
+    expect("the string hangs in the well of the survey", abs(summary["model"]["length"] - float(deepest)) < 0.01, f"{summary['model']['length']} {deepest}")
+    report = (folder / "report.html").read_text(encoding="utf-8")
+    expect("the report shows it", "<svg" in report and "Hook load" in report)
+    screen = done.stdout.split("@@ tooljoint run")[-1]
+    expect("the last screen says where the report is", "\nhook load" in screen and "open        results/my_well/report.html" in screen, screen[-800:])
+
+
+def on_files(environment, home):
+    """The commands with the programs that `environment` finds, in the folder `home`."""
+    commands, survey = behind_installation()
+    shutil.rmtree(home, ignore_errors=True)
+    home.mkdir()
+    (home / "survey.csv").write_text(survey, encoding="utf-8")
+    done = subprocess.run(["bash", "-c", script(commands)], cwd=home, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=240,
+                          env={**environment, "HOME": str(home)})
+    judge(done, home)
+
+
+def in_clean_root(packages):
+    """The same in an empty Debian, the packages installed by its apt with all they depend on and recommend."""
+    if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
+        sys.exit("The clean root needs root and mmdebstrap (Debian: mmdebstrap).")
+    program = sorted(pathlib.Path(packages).glob("tooljoint_*.deb"))
+    if not program:
+        sys.exit(f"{packages} holds no tooljoint_*.deb. Make it with: cpack --config build/release/CPackConfig.cmake -B {packages}")
+    root = pathlib.Path("clean_root").resolve()
+    if not (root / "etc/debian_version").is_file():
+        shutil.rmtree(root, ignore_errors=True)
+        done = subprocess.run(["mmdebstrap", "--variant=minbase", "--mode=root", SUITE, root], check=False)
+        expect("an empty Debian 12", done.returncode == 0)
+    (root / "tmp" / program[-1].name).write_bytes(program[-1].read_bytes())
+
+    def inside(text, **options):
+        within = f"mount --bind /proc {root}/proc && mount --bind /dev {root}/dev && exec chroot {root} /bin/bash -c \"$0\""
+        return subprocess.run(["unshare", "-m", "--propagation", "private", "bash", "-c", within, text], text=True, check=False, **options)
+
+    done = inside(f"apt-get update && DEBIAN_FRONTEND=noninteractive apt-get install -y /tmp/{program[-1].name}")
+    expect("apt installs the package", done.returncode == 0)
+    commands, survey = behind_installation()
+    home = root / "root/stranger"
+    shutil.rmtree(home, ignore_errors=True)
+    home.mkdir(parents=True)
+    (home / "survey.csv").write_text(survey, encoding="utf-8")
+    environment = "export HOME=/root/stranger OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; cd; "
+    judge(inside(environment + script(commands), stdout=subprocess.PIPE, stderr=subprocess.PIPE), home)
+
+
+if __name__ == "__main__":
+    in_clean_root(sys.argv[1])
+    sys.exit(finish())
