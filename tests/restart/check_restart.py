@@ -204,7 +204,7 @@ def full_disk():
         expect(f"{title}: with room again it goes on to the same numbers", not wrong, "; ".join(wrong[:6]))
 
     fresh("full")
-    table = (*settings("Generalized-alpha", 70, 20), "--set", "Transient/Sampling Interval=0.001", "--set", "Output/Fields={}", "--set", "Output/XDMF=false")
+    table = (*settings("Generalized-alpha", 70, 20), "--set", "Transient/Sampling Interval=0.001", "--set", "Output/Fields={}", "--set", "Output/XDMF=false", "--set", "Output/Compression=1")
     whole = whole_run(STRING, table)
     sizes = [pathlib.Path(whole, name).stat().st_size for name in ("results.h5", "motion.csv")]
     expect("a table larger than the results", sizes[1] > 1.2 * sizes[0], str(sizes))

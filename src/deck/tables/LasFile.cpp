@@ -72,10 +72,11 @@ class Parser {
       fail(line_, "found " + inQuotes(content) +
                       " before the first section; a LAS file begins with \"~Version\".");
     if (section_ == 'A') return data(content);
-    if (section_ != 'V' && section_ != 'W' && section_ != 'C') return;
+    const bool isNull = section_ == 'W' && upper(content).rfind("NULL", 0) == 0;
+    if (section_ != 'V' && section_ != 'C' && !isNull) return;
     const HeaderLine found = header(content);
     if (section_ == 'V') version(found);
-    if (section_ == 'W' && upper(found.name) == "NULL") null(found);
+    if (isNull) null(found);
     if (section_ == 'C') las_.curves.push_back({found.name, found.unit});
   }
 

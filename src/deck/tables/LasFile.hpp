@@ -22,10 +22,10 @@ struct LasFile {
 /// True for a text that begins, after comments and empty lines, with a section ("~").
 bool looksLikeLas(const std::string& text);
 
-/// Sections ~V, ~W, ~C and ~A; others are not read. Versions 1.2 and 2.0, which differ in texts
-/// that are not read. DeckError, a line for each fault, with `file`, line, what was found and what
-/// is expected: no ~V at the begin, another version, no WRAP, a line without ".", no ~C or ~A, a
-/// row with another number of values than there are curves.
+/// Sections ~V, ~C and ~A, and NULL of ~W; the others are not read. Versions 1.2 and 2.0, which
+/// differ in texts that are not read. DeckError, a line for each fault, with `file`, line, what was
+/// found and what is expected: no ~V at the begin, another version, no WRAP, a line without ".", no
+/// ~C or ~A, a row with another number of values than there are curves.
 LasFile parseLas(const std::string& text, const std::string& file);
 
 }  // namespace tooljoint::deck

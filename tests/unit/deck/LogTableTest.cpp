@@ -51,7 +51,8 @@ TEST(LogTable, UnitsOfTheDeckFillIn) {
 }
 
 constexpr const char* head =
-    "~Version\nVERS. 2.0 : x\nWRAP. YES : x\n~Well\nNULL. -999.25 : x\n~Curve\nTIME.S : t\n"
+    "~Version\nVERS. 2.0 : x\nWRAP. YES : x\n~Well\nUWI 100091604920W300\nNULL. -999.25 : "
+    "x\n~Curve\nTIME.S : t\n"
     "A.M  00 1 : first: of two\nB.KN : second\n~A TIME A B\n";
 
 TEST(LasFile, WrappedLinesAreJoined) {
@@ -62,7 +63,7 @@ TEST(LasFile, WrappedLinesAreJoined) {
   EXPECT_EQ(*las.null, -999.25);
   ASSERT_EQ(las.rows.size(), 2U);
   EXPECT_EQ(las.rows[1].cells, (std::vector<std::string>{"1", "-999.25", "4"}));
-  EXPECT_EQ(las.rows[1].line, 13);
+  EXPECT_EQ(las.rows[1].line, 14);
   const auto found =
       read(std::string(head) + "0\n1 2\n1\n-999.25 4\n2\n5 6\n", {{"a", "m", ""}, {"B", "N", ""}});
   EXPECT_EQ(found[0].time, (std::vector<double>{0, 2}));
@@ -75,7 +76,7 @@ TEST(LasFile, FaultsNameTheirLine) {
     FAIL();
   } catch (const tooljoint::DeckError& error) {
     EXPECT_STREQ(error.what(),
-                 "log.las:12: found 4 values where ~C names 3 curves (values are separated by "
+                 "log.las:13: found 4 values where ~C names 3 curves (values are separated by "
                  "blanks; a value not measured is NULL).");
   }
 }
