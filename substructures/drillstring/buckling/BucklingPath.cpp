@@ -10,6 +10,7 @@
 #include "common/Constants.hpp"
 #include "common/Error.hpp"
 #include "common/Index.hpp"
+#include "common/Interrupt.hpp"
 #include "common/Text.hpp"
 #include "common/report/StageTimes.hpp"
 #include "deck/Defaults.hpp"
@@ -273,6 +274,7 @@ class Branches {
   /// Whether the path goes on: a string that jumps does so where the weight would have to shrink,
   /// or where more pivots are negative than before.
   bool add(const statics::PathPoint& point) {
+    if (interruptRequested()) throw InterruptedError("Interrupted. No table was written.");
     const bool jumps = settings_.atLimit == LimitRule::Jump && point.step > 0;
     before_ = point.step == 0 ? point.x : x_;
     x_ = point.x;

@@ -36,7 +36,8 @@ deck::ListSpec bucklingParameters() {
   list.real("Smallest Step", "", 1e-8, Range::positive(),
             "Where a step of this length does not converge, the path ends.")
       .expert();
-  list.integer("Max Steps", 2000, Range::atLeast(1), "Steps tried, those halved included.")
+  list.integer("Max Steps", 2000, Range::atLeast(1),
+               "Steps tried between two jumps, those halved included.")
       .expert();
   list.integer("Max Iterations", 12, Range::atLeast(2),
                "Newton iterations after which a step is halved.")
