@@ -145,6 +145,18 @@ struct Upper {
   }
 };
 
+/// The largest of the lowest `wanted` |s|: of a singular mass the largest that vibrates. What has
+/// damping alone relaxes at -k/c, as far out as its damping is small, and beside that all others
+/// would seem to be rigid-body motions.
+double farWanted(const ScaledPencil& pencil, const Upper& found, std::size_t wanted) {
+  const auto last = std::min(found.s.size(), wanted);
+  double far = 0;
+  if (pencil.singularMass)
+    for (std::size_t j = 0; j < last; ++j)
+      if (found.s[j].imag() != 0.0) far = std::max(far, std::abs(found.s[j]));
+  return far > 0 ? far : std::abs(found.s[last - 1]);
+}
+
 /// About the lowest |s| that is no rigid-body motion: there (L - sigma)^-1 tells the wanted values
 /// apart and Jordan chains at zero do not swamp them.
 double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer& name) {
@@ -162,7 +174,7 @@ double goodShift(const ScaledPencil& pencil, std::size_t wanted, const DofNamer&
     const Upper found(ritz, inverse->shift(),
                       pencil.singularMass ? infiniteNu(ritz, inverse->shift()) : 0.0);
     if (found.s.empty()) return shift;
-    const double far = std::abs(found.s[std::min(found.s.size(), wanted) - 1]);
+    const double far = farWanted(pencil, found, wanted);
     double near = far;
     for (const Complex& s : found.s)
       if (std::abs(s) > 1e-3 * far) near = std::min(near, std::abs(s));
